@@ -1,0 +1,39 @@
+#pragma once
+// Position and orientation of a rigid body, and how they move.
+
+#include <Eigen/Dense>
+
+namespace ballast {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;
+
+/// Pose of a body frame B in the world frame W: x_W = position + rotation * x_B.
+/// The body frame of every grain sits at its centre of mass, along its principal axes of inertia.
+struct Pose {
+  Vec3 position = Vec3::Zero();      ///< centre of mass in W [m]
+  Quat rotation = Quat::Identity();  ///< R_WB as a unit quaternion
+
+  Vec3 operator*(const Vec3& p_B) const { return position + rotation * p_B; }
+};
+
+/// exp(phi/2): the rotation by |phi| [rad] around phi, exact to rounding at every size of phi.
+inline Quat rotation_by(const Vec3& phi) {
+  const double angle_sq = phi.squaredNorm();
+  const double half = 0.5 * std::sqrt(angle_sq);
+  // sin(half)/(2 half) by its series below 1e-4 rad, where the quotient would lose digits
+  const double s = half < 1e-4 ? 0.5 * (1.0 - half * half / 6.0) : 0.5 * std::sin(half) / half;
+  return Quat(std::cos(half), s * phi.x(), s * phi.y(), s * phi.z());
+}
+
+/// Moves a pose for `dt` [s] at velocity v_W [m/s] (world frame) and angular velocity w_B [rad/s] (body frame):
+/// the exponential map, then normalised, so that the quaternion's length does not drift.
+inline Pose moved(const Pose& pose, const Vec3& v_W, const Vec3& w_B, double dt) {
+  Pose next;
+  next.position = pose.position + dt * v_W;
+  next.rotation = (pose.rotation * rotation_by(dt * w_B)).normalized();
+  return next;
+}
+
+}  // namespace ballast

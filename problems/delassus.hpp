@@ -1,0 +1,19 @@
+#pragma once
+// The Delassus operator W = H M^-1 H^T: built only when someone asks for it.
+
+#include <vector>
+
+#include "problems/friction_problem.hpp"
+
+namespace ballast {
+
+/// Diagonal blocks W_cc of every contact, as 3 x 3 (a one-row contact uses only entry 0,0; the rest is zero).
+void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks);
+
+/// The whole operator, assembled block by block from contacts that share a body (or the stored one).
+SparseRows delassus_matrix(const FrictionProblem& problem);
+
+/// Adds the Delassus form to a problem that has only the dynamics form. The one conversion in the project.
+void add_delassus_form(FrictionProblem& problem);
+
+}  // namespace ballast

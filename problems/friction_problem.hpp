@@ -1,0 +1,94 @@
+#pragma once
+// The friction problem: what every solver is handed, whether it comes from a time step or from a file.
+//
+//   M (v - v_free) = H^T r,    u = H v + bias,    W = H M^-1 H^T,    q = H v_free + bias
+//   Coulomb-Signorini:  K_mu ∋ r  ⟂  u + mu |u_T| n  ∈ K_mu*          (De Saxce 1998)
+//
+// Contact frame normal first (N, T1, T2). u: relative velocity of b against a [m/s], r: impulse on b [N s], u_N > 0 opens.
+// A contact with friction has three rows, a frictionless one has one.
+
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+
+namespace ballast {
+
+/// Stacked contact impulses (or relative velocities), one segment of 1 or 3 rows per contact.
+using Impulses = Eigen::VectorXd;
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// A problem that no solver may see; what() names the array, the index and the value.
+class InvalidProblem : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The problem as the dynamics gives it: bodies with up to 6 unknowns each, contacts between at most two of them.
+struct DynamicsForm {
+  /// Bodies. Body b has unknowns dof_begin[b] .. dof_begin[b+1]; only bodies that can move are listed. Size bodies + 1.
+  std::vector<int> dof_begin{0};
+  /// Mass blocks, dense d x d (column-major) per body, one after the other: mass_begin[b] .. . Symmetric positive definite
+  /// [kg, kg m^2].
+  std::vector<int> mass_begin{0};
+  std::vector<double> mass;
+
+  /// Contacts. The two bodies of contact c (-1: nothing that moves); body_a[c] != body_b[c] unless both are -1.
+  std::vector<int> body_a, body_b;
+  /// H by blocks: for contact c, column-major rows x dof(a), then rows x dof(b), from h_begin[c]. Size contacts + 1.
+  std::vector<int> h_begin{0};
+  std::vector<double> h;
+
+  Eigen::VectorXd v_free;  ///< velocity without contact impulses, one entry per unknown [m/s, rad/s]
+  Eigen::VectorXd bias;    ///< one entry per contact row [m/s]: walls that move, gaps still open, restitution
+
+  int body_count() const { return static_cast<int>(dof_begin.size()) - 1; }
+  int dof_count() const { return dof_begin.back(); }
+  int body_dofs(int body) const { return body < 0 ? 0 : dof_begin[body + 1] - dof_begin[body]; }
+  void clear();
+};
+
+/// The problem as files often give it: W (rows x rows) and q.
+struct DelassusForm {
+  SparseRows w;       ///< symmetric positive semidefinite [1/kg]
+  Eigen::VectorXd q;  ///< [m/s]
+};
+
+/// Either form, or both (they must then agree; validate() does not check that). Refilled every step without allocation.
+struct FrictionProblem {
+  /// Contact c has rows row_begin[c] .. row_begin[c+1]: 1 (frictionless) or 3. Size contacts + 1.
+  std::vector<int> row_begin{0};
+  std::vector<double> friction;  ///< mu >= 0 per contact; 0 for one-row contacts
+
+  bool has_dynamics = false;
+  bool has_delassus = false;
+  DynamicsForm dynamics;
+  DelassusForm delassus;
+
+  int contact_count() const { return static_cast<int>(friction.size()); }
+  int row_count() const { return row_begin.back(); }
+  int contact_rows(int c) const { return row_begin[c + 1] - row_begin[c]; }
+
+  void clear();
+
+  /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range, NaN or infinity, mu < 0,
+  /// a mass block that is not symmetric positive definite, a Delassus diagonal block that is not positive
+  /// semidefinite. O(entries).
+  void validate() const;
+};
+
+/// q = H v_free + bias (dynamics) or the stored q. `q` is resized.
+void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q);
+
+/// u = W r + q, matrix-free for the dynamics form. Throws InvalidProblem when r has the wrong size.
+void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::VectorXd& u);
+
+/// v = v_free + M^-1 H^T r (dynamics form only).
+void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r, Eigen::VectorXd& v);
+
+/// M and H as sparse matrices, for backends that factorise: built only when asked for (dynamics form only).
+Eigen::SparseMatrix<double> sparse_mass(const DynamicsForm& dynamics);
+SparseRows sparse_h(const FrictionProblem& problem);
+
+}  // namespace ballast

@@ -1,0 +1,17 @@
+#pragma once
+// Projected (nonsmooth) Gauss-Seidel: contact after contact, each solved exactly. Jean 1999; Siconos' NSGS.
+
+#include <memory>
+
+#include "solvers/solver.hpp"
+
+namespace ballast {
+
+struct GaussSeidelSettings {
+  int first_check = 4;        ///< sweep of the first evaluation of the error
+  double check_growth = 1.25; ///< next evaluation after this factor more sweeps: the cost of checks stays below ~15 %
+};
+
+std::unique_ptr<Solver> make_gauss_seidel(const GaussSeidelSettings& settings = {});
+
+}  // namespace ballast

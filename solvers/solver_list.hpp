@@ -1,0 +1,36 @@
+#pragma once
+// The one register of backends. Tests, bench, figures and help enumerate it.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "solvers/solver.hpp"
+
+namespace ballast {
+
+struct SolverEntry {
+  const char* name;         ///< as on the command line
+  const char* description;  ///< one line, with the source
+  ContactLaw law;
+  std::unique_ptr<Solver> (*make)();  ///< null: built without the library it needs
+  const char* missing;      ///< what to install when make is null
+};
+
+std::span<const SolverEntry> solver_list();
+
+/// An unknown name, or a backend whose library is absent; what() lists what there is.
+class UnknownSolver : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+class MissingSolver : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+const SolverEntry& find_solver(std::string_view name);       ///< throws UnknownSolver
+std::unique_ptr<Solver> make_solver(std::string_view name);  ///< throws UnknownSolver, MissingSolver
+
+}  // namespace ballast
