@@ -1,0 +1,17 @@
+# Compile options shared by every target: one interface library, one place.
+add_library(ballast_options INTERFACE)
+target_include_directories(ballast_options INTERFACE ${CMAKE_SOURCE_DIR})
+# Same bits on every machine: no fused multiply-add chosen by the compiler, no reassociation.
+target_compile_options(ballast_options INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+# Eigen's asserts stay out of release builds; -O3 vectorises the sweep.
+target_compile_options(ballast_options INTERFACE $<$<CONFIG:Release>:-O3>)
+if(BALLAST_WARNINGS_AS_ERRORS)
+  target_compile_options(ballast_options INTERFACE -Werror)
+endif()
+if(BALLAST_NATIVE)
+  target_compile_options(ballast_options INTERFACE -march=native)
+endif()
+if(BALLAST_SANITIZE)
+  target_compile_options(ballast_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(ballast_options INTERFACE -fsanitize=address,undefined)
+endif()
