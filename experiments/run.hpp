@@ -1,0 +1,37 @@
+#pragma once
+// One run: a scene to a folder of results, resumable after any kind of death.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ballast {
+
+/// Exit codes of the ballast program.
+enum class ExitCode { ok = 0, failure = 1, usage = 2, time_limit = 3, backend_missing = 4 };
+
+struct RunOptions {
+  std::string scene;                   ///< name or path
+  std::vector<std::string> overrides;  ///< "dotted.key=value"
+  std::filesystem::path output;        ///< the run's folder; empty: results/<scene name>
+  std::filesystem::path packing_cache; ///< where deposited packings are kept; empty: <output>/../packings
+  bool resume = false;                 ///< continue the run found in the folder; without it an existing run is an error
+  bool overwrite = false;              ///< replace a run found in the folder
+  bool new_packing = false;            ///< deposit again even if the cache has the packing
+  bool report = true;                  ///< figures and page at the end
+  double max_seconds = 1e30;           ///< wall clock: checkpoint and exit code 3 after this
+};
+
+/// Runs to the end, to the time limit, or to SIGINT/SIGTERM (checkpoint, then ExitCode::failure with the line that resumes).
+/// Throws SceneFileError, InvalidProblem, MissingSolver, UnknownSolver, RunError: each with a one-line what().
+///
+/// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5, checkpoint.bin, log/ (append-only raw
+/// rows from which the two records are made), figures/*.svg, report.html.
+ExitCode run(const RunOptions& options);
+
+class RunError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace ballast
