@@ -125,6 +125,12 @@ struct RecordSpec {
   bool paraview = false;          ///< .vtp + .pvd beside the record, at pose_rate
 };
 
+/// Where the solid fraction of the vibrated box is taken: a box at rest inside the cell, under the initial gap, this far from the
+/// walls and from the top of the packing [m]. It must stay clear of the driven wall.
+struct ControlVolumeSpec {
+  double margin_x = 0.08, margin_y = 0.0, margin_floor = 0.0, margin_top = 0.0;
+};
+
 struct Scene {
   std::string name, title;
   double step = 2e-4;      ///< h [s]
@@ -142,6 +148,7 @@ struct Scene {
   CorrectionSpec correction;
   DetectionSettings detection;
   RecordSpec record;
+  ControlVolumeSpec control_volume;
 
   long step_count() const { return std::lround(duration / step); }
 };
