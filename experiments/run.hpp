@@ -2,8 +2,11 @@
 // One run: a scene to a folder of results, resumable after any kind of death.
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "problems/mechanical_system.hpp"
 
 namespace ballast {
 
@@ -28,6 +31,9 @@ struct RunOptions {
 /// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5, checkpoint.bin, log/ (append-only raw
 /// rows from which the two records are made), figures/*.svg, report.html.
 ExitCode run(const RunOptions& options);
+
+/// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest checkpointed state. Throws RunError.
+MechanicalSystem system_of_run(const std::filesystem::path& folder, MotionState& state);
 
 class RunError : public std::runtime_error {
  public:
