@@ -30,8 +30,12 @@ class Polyhedron {
   /// `faces`: vertex loops, counter-clockwise seen from outside, any length >= 3 (coplanar polygons stay polygons).
   /// Throws InvalidPolyhedron unless the mesh is closed (each directed edge once, its reverse once), one piece
   /// (Euler), flat-faced, convex, outward, without zero-area faces, unused or repeated vertices, NaN or infinity.
-  /// Tolerance: 1e-9 of the circumradius for flatness and convexity.
-  Polyhedron(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces);
+  /// Neighbouring faces may be coplanar, but a face's corners must be strictly convex: only then does walking uphill
+  /// along edges always end at the support vertex.
+  /// `tolerance`, relative to the size (largest distance of a vertex from the vertices' mean): how far a vertex may lie
+  /// off its face's plane or in front of another's, and below which edges and the heights of faces count as zero. Very
+  /// thin faces are granted, on top, what the rounding of coordinates does to their plane.
+  Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces, double tolerance = 1e-9);
 
   int vertex_count() const { return static_cast<int>(vertices_.size()); }
   int face_count() const { return static_cast<int>(normals_.size()); }
@@ -74,11 +78,17 @@ class Polyhedron {
   int support(const Vec3& d) const;
 
  private:
-  void build_topology(const std::vector<std::vector<int>>& faces);
-  void build_geometry();
-  void check_convex() const;
+  void check_input(const std::vector<std::vector<int>>& faces, double tolerance) const;
+  void build_faces(const std::vector<std::vector<int>>& faces);
+  void build_edges();
+  void build_vertex_lists();
+  void check_one_piece() const;
+  void build_planes(double tolerance);
+  void check_face(int f, double tolerance) const;
+  void check_convex(double tolerance) const;
 
   std::vector<Vec3> vertices_;
+  double size_ = 0.0;  // largest distance of a vertex from the vertices' mean: the scale of the tolerances
   std::vector<int> face_begin_, face_vertices_, face_neighbours_;
   std::vector<Vec3> normals_;
   std::vector<double> offsets_;
