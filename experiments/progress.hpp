@@ -1,0 +1,54 @@
+#pragma once
+// How far a run is: one line that rewrites itself on a terminal, a line every ten seconds elsewhere, nothing when quiet.
+
+#include <functional>
+#include <iosfwd>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "experiments/step_record.hpp"
+
+namespace ballast {
+
+class Progress {
+ public:
+  enum class Style { quiet, lines, bar };
+
+  /// To stderr: a bar if that is a terminal, else lines.
+  explicit Progress(bool quiet = false);
+  /// `clock`: seconds from anywhere, increasing.
+  Progress(Style style, std::ostream& out, std::function<double()> clock);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// After each step: `time` of `total` [s] in the phase `label`. Steps are counted by the calls; rate and time left are those
+  /// since the first call. `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is time to write.
+  void show(std::string_view label, double time, double total, const StepRecord& record,
+            double rms_velocity = std::numeric_limits<double>::quiet_NaN());
+
+  /// Ends the line, if one is being rewritten, with what was shown last. To be called before anything else is printed.
+  void finish();
+  /// finish(), then counts and clock from anew: for the next phase.
+  void restart();
+
+ private:
+  std::string line(double now) const;
+  void write(double now);
+
+  Style style_;
+  std::ostream& out_;
+  std::function<double()> clock_;
+  // of the phase
+  long steps_ = 0;                    // calls after the first
+  double first_clock_ = 0.0, first_time_ = 0.0;
+  double last_written_ = 0.0;         // on the clock
+  bool line_open_ = false, stale_ = false;  // stale: shown later than written
+  size_t line_length_ = 0;
+  // what was shown last
+  std::string label_;
+  double time_ = 0.0, total_ = 0.0, error_ = 0.0, contacts_ = 0.0, velocity_ = 0.0;
+};
+
+}  // namespace ballast
