@@ -2,24 +2,26 @@
 // The one judge: every error figure in the project comes from here, from the returned impulses only.
 
 #include "problems/friction_problem.hpp"
+#include "problems/mass_root.hpp"
 
 namespace ballast {
 
 /// All measures of one answer r, in double, from u = W r + q recomputed.
 struct ContactError {
-  /// |r - P_K(r - rho (u + mu|u_T|n))| / rho with rho = 1 / lambda_max(W_cc): a velocity [m/s]. Root mean square and maximum
-  /// over the contacts; contacts with W_cc = 0 are left out of it.
+  /// |r - P_K(r - rho (u + mu|u_T|n))| / rho with rho = 1 / lambda_max(W_cc): a velocity [m/s]. Root mean square and
+  /// maximum over the contacts; contacts with W_cc = 0 are left out of it.
   double natural_map_rms = 0.0;
   double natural_map_max = 0.0;
-  int worst_contact = -1;          ///< the contact of natural_map_max; -1 without contacts
+  int worst_contact = -1;  ///< the contact of natural_map_max; -1 without contacts
 
   /// What Siconos' fc3d_compute_error prints: natural map with rho = 1 divided by max(|q|, |r|, |u|). Depends on units.
   double fclib = 0.0;
 
-  double cone_violation = 0.0;     ///< max over contacts of |r - P_K(r)| [N s]
-  double min_normal_velocity = 0.0;///< min u_N [m/s]; >= 0 when nothing sinks in
-  double complementarity = 0.0;    ///< max |r . (u + mu|u_T|n)| [J]
-  double power = 0.0;              ///< r . (u - bias) summed [J]: of the impulses on the end-of-step velocity
+  double cone_violation = 0.0;       ///< max over contacts of |r - P_K(r)| [N s]
+  double min_normal_velocity = 0.0;  ///< min u_N [m/s]; >= 0 when nothing sinks in
+  double complementarity = 0.0;      ///< max |r . (u + mu|u_T|n)| [J]
+  double power =
+      0.0;  ///< r . (u - bias) summed [J]: of the impulses on the end-of-step velocity; bias = 0 without dynamics
   double momentum_residual = 0.0;  ///< |M (v - v_free) - H^T r|_inf with v recomputed (dynamics form) [N s]
   double velocity_scale = 0.0;     ///< |q| rms over rows [m/s]: to quote relative errors of stored problems
   bool finite = true;              ///< false: r or u holds NaN or infinity; all measures are then infinite
@@ -30,11 +32,15 @@ class ContactJudge {
  public:
   ContactError judge(const FrictionProblem& problem, const Impulses& r);
 
-  /// The scaled natural map of one contact (rows 1 or 3) [m/s]: the summand of natural_map_rms. `lambda_max` of W_cc.
+  /// The scaled natural map of one contact [m/s]: the summand of natural_map_rms. `lambda_max` of W_cc, > 0. A one-row
+  /// contact is padded with zeros.
   static double scaled_natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu, double lambda_max);
 
  private:
+  void recompute_velocities(const FrictionProblem& problem, const Impulses& r);
+
   Eigen::VectorXd u_, q_, v_, hr_;
+  std::vector<MassRoot> roots_;
   std::vector<Eigen::Matrix3d> diagonal_;
 };
 

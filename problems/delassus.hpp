@@ -4,11 +4,19 @@
 #include <vector>
 
 #include "problems/friction_problem.hpp"
+#include "problems/mass_root.hpp"
 
 namespace ballast {
 
+/// Factors every mass block. Throws InvalidProblem for one that is not positive definite.
+void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots);
+
 /// Diagonal blocks W_cc of every contact, as 3 x 3 (a one-row contact uses only entry 0,0; the rest is zero).
 void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks);
+
+/// The same with the workspace of a caller that comes every step; `roots` holds the factored masses afterwards.
+void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
+                       std::vector<Eigen::Matrix3d>& blocks);
 
 /// The whole operator, assembled block by block from contacts that share a body (or the stored one).
 SparseRows delassus_matrix(const FrictionProblem& problem);

@@ -4,8 +4,8 @@
 //   M (v - v_free) = H^T r,    u = H v + bias,    W = H M^-1 H^T,    q = H v_free + bias
 //   Coulomb-Signorini:  K_mu ∋ r  ⟂  u + mu |u_T| n  ∈ K_mu*          (De Saxce 1998)
 //
-// Contact frame normal first (N, T1, T2). u: relative velocity of b against a [m/s], r: impulse on b [N s], u_N > 0 opens.
-// A contact with friction has three rows, a frictionless one has one.
+// Contact frame normal first (N, T1, T2). u: relative velocity of b against a [m/s], r: impulse on b [N s], u_N > 0
+// opens. A contact with friction has three rows, a frictionless one has one.
 
 #include <stdexcept>
 #include <vector>
@@ -29,8 +29,8 @@ class InvalidProblem : public std::runtime_error {
 struct DynamicsForm {
   /// Bodies. Body b has unknowns dof_begin[b] .. dof_begin[b+1]; only bodies that can move are listed. Size bodies + 1.
   std::vector<int> dof_begin{0};
-  /// Mass blocks, dense d x d (column-major) per body, one after the other: mass_begin[b] .. . Symmetric positive definite
-  /// [kg, kg m^2].
+  /// Mass blocks, dense d x d (column-major) per body, one after the other: mass_begin[b] .. . Symmetric positive
+  /// definite [kg, kg m^2].
   std::vector<int> mass_begin{0};
   std::vector<double> mass;
 
@@ -46,6 +46,9 @@ struct DynamicsForm {
   int body_count() const { return static_cast<int>(dof_begin.size()) - 1; }
   int dof_count() const { return dof_begin.back(); }
   int body_dofs(int body) const { return body < 0 ? 0 : dof_begin[body + 1] - dof_begin[body]; }
+
+  /// No bodies, no contacts. v_free and bias keep their storage: whoever refills the problem resizes them, and nothing
+  /// is allocated while the sizes stay.
   void clear();
 };
 
@@ -70,10 +73,10 @@ struct FrictionProblem {
   int row_count() const { return row_begin.back(); }
   int contact_rows(int c) const { return row_begin[c + 1] - row_begin[c]; }
 
-  void clear();
+  void clear();  ///< no contacts, neither form; storage is kept (see DynamicsForm::clear)
 
-  /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range, NaN or infinity, mu < 0,
-  /// a mass block that is not symmetric positive definite, a Delassus diagonal block that is not positive
+  /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range, NaN or infinity, mu
+  /// < 0, a mass block that is not symmetric positive definite, a Delassus diagonal block that is not positive
   /// semidefinite. O(entries).
   void validate() const;
 };
@@ -85,7 +88,16 @@ void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q);
 void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::VectorXd& u);
 
 /// v = v_free + M^-1 H^T r (dynamics form only).
-void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r, Eigen::VectorXd& v);
+void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r,
+                   Eigen::VectorXd& v);
+
+/// u = H v + bias (dynamics form only).
+void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
+                              Eigen::VectorXd& u);
+
+/// p = H^T r: what the contacts give to each unknown [N s, N m s] (dynamics form only).
+void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r,
+                             Eigen::VectorXd& p);
 
 /// M and H as sparse matrices, for backends that factorise: built only when asked for (dynamics form only).
 Eigen::SparseMatrix<double> sparse_mass(const DynamicsForm& dynamics);

@@ -1,5 +1,6 @@
 #pragma once
-// Stored problems: FCLIB's HDF5 layout (local: W, q, mu; global: M, H, f, w, mu), read and written; Siconos' text format read.
+// Stored problems: FCLIB's HDF5 layout (local: W, q, mu; global: M, H, f, w, mu), read and written; Siconos' text
+// format read.
 
 #include <filesystem>
 

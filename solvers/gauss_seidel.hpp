@@ -8,8 +8,8 @@
 namespace ballast {
 
 struct GaussSeidelSettings {
-  int first_check = 4;        ///< sweep of the first evaluation of the error
-  double check_growth = 1.25; ///< next evaluation after this factor more sweeps: the cost of checks stays below ~15 %
+  int first_check = 4;         ///< sweep of the first evaluation of the error
+  double check_growth = 1.25;  ///< next evaluation after this factor more sweeps: the cost of checks stays below ~15 %
 };
 
 std::unique_ptr<Solver> make_gauss_seidel(const GaussSeidelSettings& settings = {});

@@ -11,14 +11,14 @@ struct SolverRun {
   ContactError error;          ///< the judge's, never the backend's
   double prepare_seconds = 0;  ///< wall clock of prepare() and solve() alone
   double solve_seconds = 0;
-  bool success = false;        ///< the backend says reached_tolerance *and* the judge agrees
+  bool success = false;  ///< the backend says reached_tolerance *and* the judge agrees
 };
 
 /// Keeps the judge's workspace between calls.
 class SolverRunner {
  public:
-  /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem. A start of the wrong size is an InvalidProblem; an empty
-  /// one means zero. Other exceptions of a backend become reason = numerical_failure.
+  /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem. A start of the wrong size is an
+  /// InvalidProblem; an empty one means zero. Other exceptions of a backend become reason = numerical_failure.
   SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget);
 
  private:

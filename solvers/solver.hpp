@@ -52,8 +52,8 @@ class Solver {
   virtual ~Solver() = default;
   /// Allocation, ordering, symbolic and numeric factorisation: timed apart from solve(). Throws UnsupportedProblem.
   virtual void prepare(const FrictionProblem& problem) = 0;
-  /// `start` is the first iterate (zero: cold) and is moved through: its storage comes back as Solved::impulses, so that a
-  /// run of many steps does not allocate. `problem` is the one given to prepare().
+  /// `start` is the first iterate (zero: cold) and is moved through: its storage comes back as Solved::impulses, so
+  /// that a run of many steps does not allocate. `problem` is the one given to prepare().
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
 };
 

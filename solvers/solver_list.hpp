@@ -15,7 +15,7 @@ struct SolverEntry {
   const char* description;  ///< one line, with the source
   ContactLaw law;
   std::unique_ptr<Solver> (*make)();  ///< null: built without the library it needs
-  const char* missing;      ///< what to install when make is null
+  const char* missing;                ///< what to install when make is null
 };
 
 std::span<const SolverEntry> solver_list();

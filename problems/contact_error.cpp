@@ -1,0 +1,130 @@
+#include "problems/contact_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "problems/delassus.hpp"
+#include "problems/friction_cone.hpp"
+
+namespace ballast {
+namespace {
+
+/// Rows of one contact as 3-vector, zero-padded: a one-row contact is a frictionless one without tangential motion.
+Eigen::Vector3d segment(const Eigen::VectorXd& x, int first, int rows) {
+  return rows == 3 ? Eigen::Vector3d(x[first], x[first + 1], x[first + 2]) : Eigen::Vector3d(x[first], 0.0, 0.0);
+}
+
+ContactError not_finite() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  ContactError error;
+  error.natural_map_rms = error.natural_map_max = error.fclib = infinity;
+  error.cone_violation = error.complementarity = error.power = infinity;
+  error.min_normal_velocity = -infinity;
+  error.momentum_residual = infinity;
+  error.finite = false;
+  return error;
+}
+
+/// max |M (v - v_free) - H^T r| with p = H^T r.
+double momentum_residual(const DynamicsForm& dynamics, const Eigen::VectorXd& v, const Eigen::VectorXd& p) {
+  double worst = 0.0;
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    const int dofs = dynamics.body_dofs(b), first = dynamics.dof_begin[b];
+    const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
+    for (int i = 0; i < dofs; ++i) {
+      double sum = -p[first + i];
+      for (int k = 0; k < dofs; ++k) sum += block[k * dofs + i] * (v[first + k] - dynamics.v_free[first + k]);
+      worst = std::max(worst, std::abs(sum));
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+double ContactJudge::scaled_natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu,
+                                        double lambda_max) {
+  return natural_map(r, u, mu, 1.0 / lambda_max).norm() * lambda_max;
+}
+
+// The trigonometric root of the characteristic cubic (Smith 1961). The largest root is the one that loses no digits.
+double largest_eigenvalue(const Eigen::Matrix3d& block) {
+  const double off = block(1, 0) * block(1, 0) + block(2, 0) * block(2, 0) + block(2, 1) * block(2, 1);
+  if (off == 0.0) return block.diagonal().maxCoeff();
+  const double mean = block.trace() / 3.0;
+  const double d0 = block(0, 0) - mean, d1 = block(1, 1) - mean, d2 = block(2, 2) - mean;
+  const double spread = std::sqrt((d0 * d0 + d1 * d1 + d2 * d2 + 2.0 * off) / 6.0);
+  const double scale = 1.0 / spread;  // before the cubes: they would overflow for extreme units
+  const double x = d0 * scale, y = d1 * scale, z = d2 * scale;
+  const double a = block(1, 0) * scale, b = block(2, 0) * scale, c = block(2, 1) * scale;
+  const double determinant = x * (y * z - c * c) - a * (a * z - c * b) + b * (a * c - y * b);
+  const double cosine = std::clamp(0.5 * determinant, -1.0, 1.0);
+  return mean + 2.0 * spread * std::cos(std::acos(cosine) / 3.0);
+}
+
+void ContactJudge::recompute_velocities(const FrictionProblem& problem, const Impulses& r) {
+  delassus_diagonal(problem, roots_, diagonal_);
+  free_contact_velocity(problem, q_);
+  if (!problem.has_dynamics) return contact_velocity(problem, r, u_);
+  const DynamicsForm& dynamics = problem.dynamics;
+  contact_to_body_impulse(dynamics, problem.row_begin, r, hr_);
+  v_ = hr_;
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    roots_[b].solve_lower(v_.data() + dynamics.dof_begin[b]);
+    roots_[b].solve_upper(v_.data() + dynamics.dof_begin[b]);
+  }
+  v_ += dynamics.v_free;
+  body_to_contact_velocity(dynamics, problem.row_begin, v_, u_);
+}
+
+ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses& r) {
+  if (r.size() != problem.row_count())
+    throw InvalidProblem("impulses has " + std::to_string(r.size()) + " entries, the contacts have " +
+                         std::to_string(problem.row_count()) + " rows");
+  ContactError error;
+  const int contacts = problem.contact_count();
+  if (contacts == 0) return error;
+  recompute_velocities(problem, r);
+  if (!r.allFinite() || !u_.allFinite()) return not_finite();
+
+  double sum = 0.0, unscaled_sum = 0.0;
+  int counted = 0;
+  error.min_normal_velocity = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < contacts; ++c) {
+    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+    const double mu = problem.friction[c];
+    const Eigen::Vector3d rc = segment(r, first, rows), uc = segment(u_, first, rows);
+    const double lambda_max = largest_eigenvalue(diagonal_[c]);
+    if (lambda_max > 0.0) {
+      const double value = scaled_natural_map(rc, uc, mu, lambda_max);
+      sum += value * value;
+      ++counted;
+      if (error.worst_contact < 0 || value > error.natural_map_max) {
+        error.natural_map_max = value;
+        error.worst_contact = c;
+      }
+    }
+    unscaled_sum += natural_map(rc, uc, mu, 1.0).squaredNorm();
+    error.cone_violation = std::max(error.cone_violation, (rc - project_cone(rc, mu)).norm());
+    error.min_normal_velocity = std::min(error.min_normal_velocity, uc[0]);
+    error.complementarity = std::max(error.complementarity, std::abs(rc.dot(modified_velocity(uc, mu))));
+  }
+  error.natural_map_rms = counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  const double scale = std::max({q_.norm(), r.norm(), u_.norm()});
+  error.fclib = std::sqrt(unscaled_sum);
+  if (scale > std::numeric_limits<double>::epsilon()) error.fclib /= scale;
+  error.velocity_scale = q_.norm() / std::sqrt(static_cast<double>(q_.size()));
+  error.power = r.dot(u_);
+  if (problem.has_dynamics) {
+    error.power -= r.dot(problem.dynamics.bias);
+    error.momentum_residual = momentum_residual(problem.dynamics, v_, hr_);
+  }
+  return error;
+}
+
+ContactError contact_error(const FrictionProblem& problem, const Impulses& r) {
+  return ContactJudge().judge(problem, r);
+}
+
+}  // namespace ballast

@@ -1,0 +1,147 @@
+#include "problems/delassus.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "problems/mass_root.hpp"
+
+namespace ballast {
+namespace {
+
+using SideRows = Eigen::Matrix<double, 3, MassRoot::max_dofs>;
+
+/// G = H L^-T for one side of one contact: W = G G^T summed over the sides. Unused rows and columns are zero.
+void mass_scaled_rows(const double* block, int rows, const MassRoot& root, SideRows& g) {
+  if (root.dofs != MassRoot::max_dofs || rows != 3) g.setZero();
+  if (root.diagonal) {
+    for (int k = 0; k < root.dofs; ++k)
+      for (int i = 0; i < rows; ++i) g(i, k) = block[k * rows + i] * root.inverse[k];
+    return;
+  }
+  double row[MassRoot::max_dofs];
+  for (int i = 0; i < rows; ++i) {
+    for (int k = 0; k < root.dofs; ++k) row[k] = block[k * rows + i];
+    root.solve_lower(row);
+    for (int k = 0; k < root.dofs; ++k) g(i, k) = row[k];
+  }
+}
+
+/// W_cc += G G^T, symmetric to the last bit.
+void add_gram(const SideRows& g, Eigen::Matrix3d& block) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j) {
+      double sum = 0.0;
+      for (int k = 0; k < MassRoot::max_dofs; ++k) sum += g(i, k) * g(j, k);
+      block(i, j) += sum;
+      if (i != j) block(j, i) = block(i, j);
+    }
+}
+
+void stored_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks) {
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+    for (int i = 0; i < rows; ++i)
+      for (SparseRows::InnerIterator entry(problem.delassus.w, first + i); entry; ++entry) {
+        const int j = static_cast<int>(entry.col()) - first;
+        if (j >= 0 && j < rows) block(i, j) = entry.value();
+      }
+    blocks[c] = 0.5 * (block + block.transpose());
+  }
+}
+
+/// One body of one contact.
+struct Side {
+  int contact;
+  int body;
+  SideRows g;
+};
+
+/// Sides of contact c are 2c and 2c + 1; a side that does not move has body -1.
+std::vector<Side> all_sides(const FrictionProblem& problem, const std::vector<MassRoot>& roots) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  std::vector<Side> sides(2 * problem.contact_count());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const double* block = dynamics.h.data() + dynamics.h_begin[c];
+    for (int s = 0; s < 2; ++s) {
+      Side& side = sides[2 * c + s];
+      side = {c, s == 0 ? dynamics.body_a[c] : dynamics.body_b[c], SideRows::Zero()};
+      if (side.body < 0) continue;
+      mass_scaled_rows(block, problem.contact_rows(c), roots[side.body], side.g);
+      block += problem.contact_rows(c) * roots[side.body].dofs;
+    }
+  }
+  return sides;
+}
+
+SparseRows assemble(const FrictionProblem& problem) {
+  std::vector<MassRoot> roots;
+  factor_masses(problem.dynamics, roots);
+  const std::vector<Side> sides = all_sides(problem, roots);
+  std::vector<std::vector<int>> sides_of_body(problem.dynamics.body_count());
+  for (int s = 0; s < static_cast<int>(sides.size()); ++s)
+    if (sides[s].body >= 0) sides_of_body[sides[s].body].push_back(s);
+
+  // Contacts that share two bodies give the same entry twice; setFromTriplets adds them.
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Side& side : sides) {
+    if (side.body < 0) continue;
+    for (const int other_side : sides_of_body[side.body]) {
+      const Side& other = sides[other_side];
+      const Eigen::Matrix3d block = side.g * other.g.transpose();
+      for (int i = 0; i < problem.contact_rows(side.contact); ++i)
+        for (int j = 0; j < problem.contact_rows(other.contact); ++j)
+          entries.emplace_back(problem.row_begin[side.contact] + i, problem.row_begin[other.contact] + j, block(i, j));
+    }
+  }
+  SparseRows w(problem.row_count(), problem.row_count());
+  w.setFromTriplets(entries.begin(), entries.end());
+  return w;
+}
+
+}  // namespace
+
+void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
+  roots.resize(dynamics.body_count());
+  for (int b = 0; b < dynamics.body_count(); ++b)
+    if (!roots[b].factor(dynamics.mass.data() + dynamics.mass_begin[b], dynamics.body_dofs(b)))
+      throw InvalidProblem("dynamics.mass: the block of body " + std::to_string(b) + " is not positive definite");
+}
+
+void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
+                       std::vector<Eigen::Matrix3d>& blocks) {
+  blocks.resize(problem.contact_count());
+  if (!problem.has_dynamics) return stored_diagonal(problem, blocks);
+  const DynamicsForm& dynamics = problem.dynamics;
+  factor_masses(dynamics, roots);
+  SideRows g;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int rows = problem.contact_rows(c);
+    const double* block = dynamics.h.data() + dynamics.h_begin[c];
+    blocks[c].setZero();
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+      if (body < 0) continue;
+      mass_scaled_rows(block, rows, roots[body], g);
+      add_gram(g, blocks[c]);
+      block += rows * roots[body].dofs;
+    }
+  }
+}
+
+void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks) {
+  std::vector<MassRoot> roots;
+  delassus_diagonal(problem, roots, blocks);
+}
+
+SparseRows delassus_matrix(const FrictionProblem& problem) {
+  return problem.has_delassus ? problem.delassus.w : assemble(problem);
+}
+
+void add_delassus_form(FrictionProblem& problem) {
+  if (problem.has_delassus) return;
+  problem.delassus.w = assemble(problem);
+  free_contact_velocity(problem, problem.delassus.q);
+  problem.has_delassus = true;
+}
+
+}  // namespace ballast

@@ -1,0 +1,40 @@
+#pragma once
+// One Gauss-Seidel sweep on the Delassus form: u_c = sum_j W_cj r_j + q_c by 3 x 3 blocks in rows (block CSR).
+
+#include <vector>
+
+#include "problems/friction_problem.hpp"
+#include "solvers/one_contact.hpp"
+
+namespace ballast {
+
+class DelassusSweep {
+ public:
+  void prepare(const FrictionProblem& problem);
+  void load(const FrictionProblem& problem, const Impulses& r);
+  void store(const FrictionProblem& problem, Impulses& r) const;
+
+  /// Every contact once, in the given order.
+  void sweep();
+  /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
+  double error() const;
+
+ private:
+  struct Contact {
+    PrincipalContact local;
+    TangentTurn turn;
+    double lambda_max = 0.0;
+    double slip = 0.0;  ///< the last slip root
+  };
+
+  /// u_c = W_c r + q_c, in the given tangents.
+  void velocity(int c, double* u) const;
+
+  std::vector<int> block_begin_;    ///< contacts + 1
+  std::vector<int> block_contact_;  ///< ascending in a row
+  std::vector<double> blocks_;      ///< 3 x 3, column-major; one-row contacts are padded with zeros
+  std::vector<double> q_, r_;       ///< three per contact
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace ballast

@@ -1,0 +1,64 @@
+#include "solvers/gauss_seidel.hpp"
+
+#include <utility>
+
+#include "solvers/body_sweep.hpp"
+#include "solvers/delassus_sweep.hpp"
+#include "solvers/iteration.hpp"
+
+namespace ballast {
+namespace {
+
+class GaussSeidel final : public Solver {
+ public:
+  explicit GaussSeidel(const GaussSeidelSettings& settings) : schedule_{settings.first_check, settings.check_growth} {}
+
+  void prepare(const FrictionProblem& problem) override {
+    if (problem.has_delassus && !problem.has_dynamics)
+      delassus_.prepare(problem);
+    else
+      bodies_.prepare(problem);
+  }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    return problem.has_delassus && !problem.has_dynamics ? iterate(delassus_, problem, std::move(start), budget)
+                                                         : iterate(bodies_, problem, std::move(start), budget);
+  }
+
+ private:
+  template <typename Sweep>
+  Solved iterate(Sweep& sweep, const FrictionProblem& problem, Impulses r, const Budget& budget) {
+    Iteration iteration(budget, schedule_);
+    sweep.load(problem, r);
+    sweep.store(problem, r);
+    iteration.evaluated(sweep.error());
+    while (iteration.next()) {
+      sweep.sweep();
+      if (!iteration.error_due()) continue;
+      double error = sweep.error();
+      sweep.store(problem, r);
+      if (iteration.reached(
+              error)) {  // once more from the impulses alone, without what thousands of updates have rounded
+        sweep.load(problem, r);
+        error = sweep.error();
+      }
+      iteration.evaluated(error);
+    }
+    Solved solved;
+    iteration.finish(solved);
+    solved.impulses = std::move(r);
+    return solved;
+  }
+
+  CheckSchedule schedule_;
+  BodySweep bodies_;
+  DelassusSweep delassus_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_gauss_seidel(const GaussSeidelSettings& settings) {
+  return std::make_unique<GaussSeidel>(settings);
+}
+
+}  // namespace ballast

@@ -1,0 +1,37 @@
+#include "solvers/solver_list.hpp"
+
+#include "solvers/gauss_seidel.hpp"
+
+namespace ballast {
+namespace {
+
+constexpr SolverEntry entries[] = {
+    {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)", ContactLaw::coulomb,
+     [] { return make_gauss_seidel(); }, ""},
+};
+
+std::string all_names() {
+  std::string names;
+  for (const SolverEntry& entry : entries) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  return names;
+}
+
+}  // namespace
+
+std::span<const SolverEntry> solver_list() { return entries; }
+
+const SolverEntry& find_solver(std::string_view name) {
+  for (const SolverEntry& entry : entries)
+    if (name == entry.name) return entry;
+  throw UnknownSolver("no solver is called '" + std::string(name) + "'; there are: " + all_names());
+}
+
+std::unique_ptr<Solver> make_solver(std::string_view name) {
+  const SolverEntry& entry = find_solver(name);
+  if (!entry.make)
+    throw MissingSolver("solver '" + std::string(name) + "' was built without its library; install " + entry.missing +
+                        " and build again. There are: " + all_names());
+  return entry.make();
+}
+
+}  // namespace ballast
