@@ -14,11 +14,19 @@ namespace ballast {
 
 namespace {
 
-/// Points closer than this are one point; thinner sets are flat. Relative to the largest extent.
+// Lengths below are relative to half the largest extent.
+
+/// Points closer than this are one point.
 constexpr double kWeld = 1e-9;
+/// Thinner sets are flat: they would not outlive the tolerances that follow.
+constexpr double kFlat = 1e-8;
 /// qhull's own error bound, option 'E': it merges facets that are coplanar within a few of these. A tenth of
-/// Polyhedron's tolerance, as a merged facet is flat only to several of them.
-constexpr double kMerge = 1e-10;
+/// Polyhedron's tolerance, as a merged facet is flat only to several of them. The second is for the rare sets whose
+/// detail is of just the first's size, where qhull's merging goes too far or gives up: they are resolved instead.
+constexpr double kMerge[] = {1e-10, 1e-14};
+/// Corners of faces that rise less than this over the chord of their neighbours are dropped: they would make needles,
+/// whose planes mean nothing. Above Polyhedron's tolerance of 1e-9 of a size that is at most 2 sqrt(3) half-extents.
+constexpr double kCorner = 4e-9;
 
 using Loops = std::vector<std::vector<int>>;
 
@@ -50,17 +58,17 @@ class Messages {
 /// One qhull run and its memory.
 class QhullRun {
  public:
-  explicit QhullRun(std::vector<double>& coordinates) {
+  QhullRun(std::vector<double>& coordinates, double merge) {
     qh_zero(&qh_, messages_.file());
     std::ostringstream command;
-    command << "qhull Pp E" << kMerge;  // Pp: no warnings about precision
-    std::string text = command.str();   // qhull wants it writable
+    command << "qhull Pp E" << merge;  // Pp: no warnings about precision
+    std::string text = command.str();  // qhull wants it writable
     const int code = qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False,
                                   text.data(), nullptr, messages_.file());
     if (code != qh_ERRnone) {
       const std::string reason = messages_.first_line();
       release();
-      throw InvalidPolyhedron("no convex hull: " + reason);
+      throw InvalidPolyhedron(reason);
     }
   }
   ~QhullRun() { release(); }
@@ -104,7 +112,7 @@ class QhullRun {
         return (link.first == at && link.second != previous) || (link.second == at && link.first != previous);
       });
       if (next == links.end() || chain.size() > links.size()) {
-        throw InvalidPolyhedron("no convex hull: the points are degenerate (a face of the hull is no simple loop)");
+        throw InvalidPolyhedron("a face of the hull is no simple loop");
       }
       at = next->first == at ? next->second : next->first;
     }
@@ -136,7 +144,7 @@ std::vector<Vec3> normalised(std::span<const Vec3> points) {
   return scaled;
 }
 
-/// Throws when the points lie on a line or in a plane: thickness below kWeld.
+/// Throws when the points lie on a line or in a plane: thickness below kFlat.
 void check_spatial(const std::vector<Vec3>& points) {
   const auto farthest = [&](auto distance) {
     return *std::max_element(points.begin(), points.end(),
@@ -146,23 +154,25 @@ void check_spatial(const std::vector<Vec3>& points) {
   const Vec3 along = (farthest([&](const Vec3& p) { return (p - a).norm(); }) - a).normalized();
   const auto from_line = [&](const Vec3& p) { return (p - a - along * along.dot(p - a)).norm(); };
   const Vec3 c = farthest(from_line);
-  if (!(from_line(c) > kWeld)) throw InvalidPolyhedron("no convex hull: all points lie on one line");
+  if (!(from_line(c) > kFlat)) throw InvalidPolyhedron("no convex hull: all points lie on one line");
   const Vec3 normal = along.cross(c - a).normalized();
   const auto from_plane = [&](const Vec3& p) { return std::abs(normal.dot(p - a)); };
-  if (!(from_plane(farthest(from_plane)) > kWeld))
+  if (!(from_plane(farthest(from_plane)) > kFlat))
     throw InvalidPolyhedron("no convex hull: all points lie in one plane");
 }
 
-/// Ascending indices of the points, without those within kWeld of one that stays (the smaller index stays).
+/// Ascending indices of the points, without those within kWeld of one that stays (the smaller index stays). A sweep
+/// along a direction in which no usual set has many equal heights.
 std::vector<int> distinct(const std::vector<Vec3>& points) {
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return std::pair(points[a].x(), a) < std::pair(points[b].x(), b); });
+  const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
+  std::vector<std::pair<double, int>> order;
+  for (size_t i = 0; i < points.size(); ++i) order.emplace_back(direction.dot(points[i]), static_cast<int>(i));
+  std::sort(order.begin(), order.end());
   std::vector<bool> dropped(points.size(), false);
   for (size_t i = 0; i < order.size(); ++i) {
-    for (size_t j = i + 1; j < order.size() && points[order[j]].x() - points[order[i]].x() <= kWeld; ++j) {
-      if ((points[order[j]] - points[order[i]]).norm() <= kWeld) dropped[std::max(order[i], order[j])] = true;
+    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * kWeld; ++j) {
+      const int a = order[i].second, b = order[j].second;
+      if ((points[a] - points[b]).norm() <= kWeld) dropped[std::max(a, b)] = true;
     }
   }
   std::vector<int> kept;
@@ -177,6 +187,30 @@ Vec3 area_vector(const std::vector<int>& loop, const std::vector<Vec3>& points) 
   for (size_t k = 2; k < loop.size(); ++k)
     sum += (points[loop[k - 1]] - points[loop[0]]).cross(points[loop[k]] - points[loop[0]]);
   return sum;
+}
+
+/// The flattest corner of each face where it is flatter than kCorner; at most one per face and none beside another, as
+/// the hull of what stays may well keep the neighbour.
+std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points) {
+  std::vector<int> flat;
+  const auto listed = [&](int v) { return std::find(flat.begin(), flat.end(), v) != flat.end(); };
+  for (const auto& loop : loops) {
+    const size_t n = loop.size();
+    const Vec3 normal = area_vector(loop, points).normalized();
+    double lowest = kCorner;
+    int corner = -1;
+    for (size_t k = 0; k < n; ++k) {
+      const Vec3 in = points[loop[k]] - points[loop[(k + n - 1) % n]];
+      const Vec3 out = points[loop[(k + 1) % n]] - points[loop[k]];
+      const double height = normal.dot(in.cross(out)) / (in + out).norm();  // negative: re-entrant after merging
+      if (height < lowest) {
+        lowest = height;
+        corner = loop[k];
+      }
+    }
+    if (corner >= 0 && std::none_of(loop.begin(), loop.end(), listed)) flat.push_back(corner);
+  }
+  return flat;
 }
 
 /// Vertices where only two faces meet lie on an edge between others: merging facets leaves them behind.
@@ -204,22 +238,27 @@ void make_canonical(Loops& loops, const std::vector<Vec3>& points) {
   std::sort(loops.begin(), loops.end());
 }
 
-}  // namespace
+/// Faces of the hull as canonical loops of point indices. Each round drops the corners that are too flat and starts
+/// again without them: one round for almost all inputs.
+Loops hull_loops(const std::vector<Vec3>& points, double merge) {
+  std::vector<int> kept = distinct(points);
+  while (kept.size() >= 4) {
+    std::vector<double> coordinates;
+    for (const int i : kept) coordinates.insert(coordinates.end(), points[i].begin(), points[i].end());
+    Loops loops = QhullRun(coordinates, merge).loops();
+    for (auto& loop : loops)
+      for (int& v : loop) v = kept[v];
+    drop_edge_vertices(loops, points.size());
+    make_canonical(loops, points);
+    const std::vector<int> flat = flat_corners(loops, points);
+    if (flat.empty()) return loops;
+    std::erase_if(kept, [&](int i) { return std::find(flat.begin(), flat.end(), i) != flat.end(); });
+  }
+  throw InvalidPolyhedron("fewer than 4 distinct corners");
+}
 
-Polyhedron convex_hull(std::span<const Vec3> points) {
-  const std::vector<Vec3> scaled = normalised(points);
-  check_spatial(scaled);
-  const std::vector<int> kept = distinct(scaled);
-  std::vector<double> coordinates;
-  for (const int i : kept) coordinates.insert(coordinates.end(), scaled[i].begin(), scaled[i].end());
-  Loops loops = QhullRun(coordinates).loops();
-
-  for (auto& loop : loops)
-    for (int& v : loop) v = kept[v];
-  drop_edge_vertices(loops, scaled.size());
-  make_canonical(loops, scaled);
-
-  // hull vertices keep the order of the points
+/// The solid of these loops; vertices keep the order of the points.
+Polyhedron assembled(std::span<const Vec3> points, Loops loops) {
   std::vector<int> index(points.size(), -1);
   for (const auto& loop : loops)
     for (const int v : loop) index[v] = 0;
@@ -232,6 +271,22 @@ Polyhedron convex_hull(std::span<const Vec3> points) {
   for (auto& loop : loops)
     for (int& v : loop) v = index[v];
   return Polyhedron(std::move(vertices), loops);
+}
+
+}  // namespace
+
+Polyhedron convex_hull(std::span<const Vec3> points) {
+  const std::vector<Vec3> scaled = normalised(points);
+  check_spatial(scaled);
+  try {
+    return assembled(points, hull_loops(scaled, kMerge[0]));
+  } catch (const InvalidPolyhedron&) {
+  }
+  try {
+    return assembled(points, hull_loops(scaled, kMerge[1]));
+  } catch (const InvalidPolyhedron& error) {
+    throw InvalidPolyhedron(std::string("no convex hull: the points are almost flat or degenerate: ") + error.what());
+  }
 }
 
 }  // namespace ballast

@@ -77,17 +77,18 @@ void Polyhedron::check_input(const std::vector<std::vector<int>>& faces, double 
   for (int v = 0; v < vertex_count(); ++v) {
     if (!used[v]) invalid("vertex ", v, " belongs to no face");
   }
-  // sweep along x: only vertices within the tolerance in x can coincide
-  std::vector<int> order(vertices_.size());
-  for (int v = 0; v < vertex_count(); ++v) order[v] = v;
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return std::pair(vertices_[a].x(), a) < std::pair(vertices_[b].x(), b); });
+  // sweep along a direction in which no usual mesh has many equal heights: only close heights can coincide
+  const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
+  std::vector<std::pair<double, int>> order;
+  for (int v = 0; v < vertex_count(); ++v) order.emplace_back(direction.dot(vertices_[v] - vertices_[0]), v);
+  std::sort(order.begin(), order.end());
   const double reach = tolerance * size_;
   for (size_t i = 0; i < order.size(); ++i) {
-    for (size_t j = i + 1; j < order.size(); ++j) {
-      if (vertices_[order[j]].x() - vertices_[order[i]].x() > reach) break;
-      if ((vertices_[order[j]] - vertices_[order[i]]).norm() <= reach)
-        invalid("vertices ", std::min(order[i], order[j]), " and ", std::max(order[i], order[j]), " coincide");
+    // twice the reach: the heights are rounded
+    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * reach; ++j) {
+      const int a = order[i].second, b = order[j].second;
+      if ((vertices_[a] - vertices_[b]).norm() <= reach)
+        invalid("vertices ", std::min(a, b), " and ", std::max(a, b), " coincide");
     }
   }
 }
@@ -210,7 +211,7 @@ void Polyhedron::check_face(int f, double tolerance) const {
   for (const int v : loop) {
     const double height = normals_[f].dot(vertices_[v]) - offsets_[f];
     if (std::abs(height) > tolerance * size_)
-      invalid("face ", f, " is not flat: vertex ", v, " lies ", std::abs(height), " off its plane");
+      invalid("face ", f, " is not flat: vertex ", v, " lies ", std::abs(height) / size_, " of the size off its plane");
   }
   double turning = 0.0;
   for (size_t k = 0; k < n; ++k) {
@@ -244,7 +245,8 @@ void Polyhedron::check_convex(double tolerance) const {
     const double allowed = tolerance * size_ + coordinate_error + 2.0 * size_ * tilt;
     for (int v = 0; v < vertex_count(); ++v) {
       const double height = normals_[f].dot(vertices_[v] - first);
-      if (height > allowed) invalid("not convex: vertex ", v, " lies ", height, " in front of face ", f);
+      if (height > allowed)
+        invalid("not convex: vertex ", v, " lies ", height / size_, " of the size in front of face ", f);
     }
   }
 }
