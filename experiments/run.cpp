@@ -1,0 +1,265 @@
+#include "experiments/run.hpp"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <iostream>
+
+#include "experiments/checkpoint.hpp"
+#include "experiments/content_key.hpp"
+#include "experiments/interrupt.hpp"
+#include "experiments/manifest.hpp"
+#include "experiments/paraview.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/recorder.hpp"
+#include "experiments/report.hpp"
+#include "experiments/run_folder.hpp"
+#include "experiments/simulation.hpp"
+#include "experiments/vibrated_box.hpp"
+#include "problems/scene_file.hpp"
+#include "problems/solid_fraction.hpp"
+#include "solvers/solver_list.hpp"
+
+namespace ballast {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+/// The run as its loop needs it.
+struct Prepared {
+  MechanicalSystem system;
+  MotionState state;
+  StepMemory memory;
+  int driven_wall = -1;
+  std::optional<ControlVolume> control_volume;  ///< of the vibrated box
+};
+
+int first_driven_wall(const MechanicalSystem& system) {
+  for (size_t b = 0; b < system.bodies.size(); ++b)
+    if (system.bodies[b].is_wall() && system.bodies[b].wall.motion == WallMotion::driven) return static_cast<int>(b);
+  return -1;
+}
+
+/// From the floor to the packing's top before the lid was raised, clear of the driven wall.
+ControlVolume control_volume_of(const Scene& scene, double top) {
+  const ControlVolumeSpec& margin = scene.control_volume;
+  return {Vec3(margin.margin_x, margin.margin_y, margin.margin_floor),
+          Vec3(scene.box.length - margin.margin_x, scene.box.width - margin.margin_y, top - margin.margin_top)};
+}
+
+class Run {
+ public:
+  Run(const RunOptions& options)
+      : options_(options),
+        scene_(read_scene(find_scene(options.scene), options.overrides)),
+        text_(resolved_scene_text(find_scene(options.scene), options.overrides)),
+        key_(content_key(text_)),
+        folder_(RunFolder::of(options, scene_.name)),
+        manifest_(scene_.name, options.overrides, key_) {
+    make_solver(scene_.solver.name);  // a backend that is missing is said before anything is written
+  }
+
+  ExitCode execute() {
+    open_folder();
+    if (!prepare()) return stopped(InterruptGuard::requested() ? LoopEnd::interrupted : LoopEnd::time_limit);
+    const LoopEnd end = loop();
+    manifest_.write(folder_.manifest());
+    if (end != LoopEnd::finished) return stopped(end);
+    if (options_.report) write_report(folder_.path());
+    say_where();
+    return ExitCode::ok;
+  }
+
+ private:
+  double seconds_left() const { return options_.max_seconds - seconds_since(begin_); }
+
+  void open_folder() {
+    if (!options_.resume) {
+      folder_.begin(text_, options_.overwrite);
+    } else {
+      folder_.reopen(text_);
+      if (std::filesystem::exists(folder_.manifest())) manifest_ = Manifest::read(folder_.manifest());
+    }
+    manifest_.write(folder_.manifest());
+  }
+
+  /// System, state and warm start: from the scene, the packing, or the checkpoint. False: stopped while depositing.
+  bool prepare() {
+    if (scene_.grains) {
+      const Rain rain = make_rain(scene_);
+      Packing packing;
+      if (!take_packing(rain, packing)) return false;
+      run_.system = drive_system(scene_, rain, packing, run_.state);
+      run_.memory = packing.memory;
+      run_.control_volume = control_volume_of(scene_, packing.top);
+      describe_box(packing);
+    } else {
+      run_.system = make_system(scene_, run_.state);
+    }
+    run_.driven_wall = first_driven_wall(run_.system);
+    if (options_.resume && std::filesystem::exists(folder_.checkpoint())) {
+      Checkpoint found = read_checkpoint(folder_.checkpoint());
+      if (found.key != key_) throw RunError(folder_.checkpoint().string() + ": belongs to another scene");
+      run_.state = std::move(found.state);
+      run_.memory = {std::move(found.contacts), std::move(found.impulses)};
+      manifest_.resumed(run_.state.step);
+    }
+    return true;
+  }
+
+  /// Takes the packing from the cache, or deposits it.
+  bool take_packing(const Rain& rain, Packing& packing) {
+    const std::filesystem::path cache =
+        options_.packing_cache.empty() ? folder_.path() / ".." / "packings" : options_.packing_cache;
+    const std::string key = packing_key(scene_);
+    const std::filesystem::path file = (cache / ("packing-" + key + ".bin")).lexically_normal();
+    const std::filesystem::path part = file.string() + ".part";
+    if (options_.new_packing && !options_.resume) {
+      std::filesystem::remove(file);
+      std::filesystem::remove(part);
+    }
+    if (read_packing(file, key, packing)) {
+      std::cout << "packing from the cache: " << file.string() << std::endl;
+      return true;
+    }
+    make_folder(cache);
+    std::cout << "depositing " << rain.grains.size() << " grains (kept in " << file.string() << ")" << std::endl;
+    const auto begin = Clock::now();
+    Progress progress;
+    BoxStage last = BoxStage::rain;
+    const auto show = [&](BoxStage stage, double time, double velocity, const StepRecord& record) {
+      if (stage != last) progress.restart();
+      last = stage;
+      const DepositSpec& deposit = scene_.deposit;
+      const double most[] = {deposit.max_time, deposit.lid_time, deposit.settle_time};
+      progress.show(name_of(stage), time, most[static_cast<int>(stage)], record, velocity);
+      return !InterruptGuard::requested() && seconds_left() > 0.0;
+    };
+    if (!deposit(scene_, rain, part, show, packing)) return false;
+    progress.finish();
+    write_packing(file, key, packing);
+    std::filesystem::remove(part);
+    manifest_.summary("deposit_seconds", seconds_since(begin));
+    return true;
+  }
+
+  void describe_box(const Packing& packing) {
+    const double mass = run_.system.mass_of_grains(), g = scene_.gravity.norm();
+    manifest_.summary("grains", run_.system.grain_count);
+    manifest_.summary("grain_mass_kg", mass);
+    manifest_.summary("weight_N", mass * g);
+    manifest_.summary("f_max_N", scene_.drive.f_max_over_weight * mass * g);
+    manifest_.summary("wall_mass_kg", scene_.drive.wall_mass_over_grains * mass);
+    manifest_.summary("frequency_Hz", scene_.drive.frequency);
+    manifest_.summary("rain_time_s", packing.rain_time);
+    manifest_.summary("packing_top_m", packing.top);
+    manifest_.summary("lid_m", packing.lid);
+    manifest_.summary("rest_velocity_m_s", packing.rest_velocity);
+    manifest_.summary("solid_fraction_initial", run_.control_volume->solid_fraction(run_.system, run_.state));
+    double smallest = 1e300;
+    for (const SizeClass& size : scene_.grains->distribution) smallest = std::min(smallest, size.size);
+    manifest_.summary("d_min_m", smallest);
+  }
+
+  LoopEnd loop() {
+    const StepSettings settings = step_settings(scene_);
+    manifest_.summary("step_s", settings.h);
+    manifest_.summary("velocity_scale_m_s", settings.velocity_scale());
+    TimeStepper stepper(run_.system, settings, run_.driven_wall);
+    Recorder recorder(folder_.path(), run_.system, run_.state.step);
+    std::optional<ParaviewSeries> paraview;
+    if (scene_.record.paraview) paraview.emplace(folder_.path(), run_.system, run_.state.step);
+    const long pose_every = std::max(1L, std::lround(1.0 / (scene_.record.pose_rate * settings.h)));
+    const auto store_pose = [&] {
+      recorder.add_poses(run_.state);
+      if (paraview) paraview->add(run_.state, run_.memory.contacts, run_.memory.impulses, settings.h);
+    };
+    if (run_.state.step == 0) store_pose();
+
+    Progress progress;
+    SimulationLoop loop;
+    loop.last_step = scene_.step_count();
+    loop.checkpoint_seconds = scene_.record.checkpoint_seconds;
+    loop.max_seconds = seconds_left();
+    loop.checkpoint = folder_.checkpoint();
+    loop.key = key_;
+    loop.phase = "drive";
+    loop.before_checkpoint = [&] { recorder.flush(); };
+    loop.observe = [&](const MotionState& state, StepRecord& record) {
+      if (run_.control_volume) {
+        const auto begin = Clock::now();
+        record.solid_fraction = run_.control_volume->solid_fraction(run_.system, state);
+        record.seconds_other += seconds_since(begin);
+      }
+      recorder.add_step(record);
+      if (state.step % pose_every == 0) store_pose();
+      progress.show(scene_.name, state.time, scene_.duration, record);
+    };
+    const auto begin = Clock::now();
+    const long first = run_.state.step;
+    const LoopEnd end = run_loop(loop, stepper, run_.state, run_.memory);
+    progress.finish();
+    if (run_.state.step > first)
+      manifest_.summary("ms_per_step", 1e3 * seconds_since(begin) / static_cast<double>(run_.state.step - first));
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    manifest_.summary("peak_memory_MB", usage.ru_maxrss / 1024.0);
+    recorder.finish(text_, manifest_.text());
+    return end;
+  }
+
+  /// What a stopped run tells its user: how to go on.
+  ExitCode stopped(LoopEnd end) const {
+    std::string command = "ballast run " + options_.scene;
+    for (const std::string& set : options_.overrides) command += " --set '" + set + "'";
+    if (!options_.output.empty()) command += " --output " + options_.output.string();
+    const std::string why = end == LoopEnd::time_limit ? "time limit reached" : "interrupted";
+    std::cout << why << " at t = " << run_.state.time << " s; nothing is lost. Continue with:\n  " << command << " --resume"
+              << std::endl;
+    return end == LoopEnd::time_limit ? ExitCode::time_limit : ExitCode::failure;
+  }
+
+  void say_where() const {
+    const std::string folder = folder_.path().string();
+    std::cout << "\nresults in " << folder << "\n";
+    if (options_.report) std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
+    std::cout << "  steps.csv     every step's scalars\n"
+              << "  record.h5     the same and the poses (HDF5)\n"
+              << "  manifest.json machine, commit, parameters, summary" << std::endl;
+  }
+
+  RunOptions options_;
+  Clock::time_point begin_ = Clock::now();
+  Scene scene_;
+  std::string text_, key_;
+  RunFolder folder_;
+  Manifest manifest_;
+  Prepared run_;
+};
+
+}  // namespace
+
+ExitCode run(const RunOptions& options) {
+  InterruptGuard guard;
+  return Run(options).execute();
+}
+
+MechanicalSystem system_of_run(const std::filesystem::path& path, MotionState& state) {
+  const RunFolder folder(path);
+  if (!folder.has_run()) throw RunError(path.string() + ": no run here: scene.toml is missing");
+  const Scene scene = read_scene(folder.scene());
+  const bool started = std::filesystem::exists(folder.checkpoint());
+  if (!scene.grains) {
+    MechanicalSystem system = make_system(scene, state);
+    if (started) state = read_checkpoint(folder.checkpoint()).state;
+    return system;
+  }
+  if (!started) throw RunError(folder.checkpoint().string() + ": missing: the run has no state yet");
+  state = read_checkpoint(folder.checkpoint()).state;
+  const Rain rain = make_rain(scene);
+  return box_system(scene, rain, BoxStage::drive, state.pose[rain.grains.size() + wall_lid].position.z());
+}
+
+}  // namespace ballast

@@ -1,0 +1,38 @@
+#pragma once
+// The folder of one run: what is where, and who may write into it.
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/run.hpp"
+
+namespace ballast {
+
+/// Creates a folder with its parents; throws RunError naming it.
+void make_folder(const std::filesystem::path& folder);
+
+/// Writes text beside and renames; throws RunError naming the file.
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+class RunFolder {
+ public:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  /// Where the options put the run of this scene: options.output or results/<scene name>.
+  static RunFolder of(const RunOptions& options, const std::string& scene_name);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path scene() const { return path_ / "scene.toml"; }
+  std::filesystem::path manifest() const { return path_ / "manifest.json"; }
+  std::filesystem::path checkpoint() const { return path_ / "checkpoint.bin"; }
+  bool has_run() const { return std::filesystem::exists(scene()); }
+
+  /// A fresh run: refuses a folder that holds one (unless `overwrite`, which clears what a run writes), writes scene.toml.
+  void begin(const std::string& scene_text, bool overwrite) const;
+  /// A run to continue: refuses a folder without one, or with another scene than `scene_text`.
+  void reopen(const std::string& scene_text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace ballast
