@@ -12,11 +12,16 @@ namespace ballast {
 
 namespace {
 
+/// Where a defect lies: a face, a vertex, or neither.
+struct At {
+  int face = -1, vertex = -1;
+};
+
 template <class... Parts>
-[[noreturn]] void invalid(const Parts&... parts) {
+[[noreturn]] void invalid(At at, const Parts&... parts) {
   std::ostringstream message;
   (message << ... << parts);
-  throw InvalidPolyhedron(message.str());
+  throw InvalidPolyhedron(message.str(), at.face, at.vertex);
 }
 
 Vec3 mean(std::span<const Vec3> points) {
@@ -43,16 +48,16 @@ void fill_buckets(std::vector<std::pair<int, int>> pairs, int buckets, std::vect
 Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces, double tolerance)
     : vertices_(std::move(vertices)) {
   for (int v = 0; v < vertex_count(); ++v) {
-    if (!vertices_[v].allFinite()) invalid("vertex ", v, " has a coordinate that is NaN or infinite");
+    if (!vertices_[v].allFinite()) invalid(At{.vertex = v}, "vertex ", v, " has a coordinate that is NaN or infinite");
   }
-  if (vertices_.size() < 4) invalid("a polyhedron needs at least 4 vertices, got ", vertices_.size());
+  if (vertices_.size() < 4) invalid(At{}, "a polyhedron needs at least 4 vertices, got ", vertices_.size());
   const Vec3 centre = mean(vertices_);
   for (const Vec3& p : vertices_) {
     size_ = std::max(size_, (p - centre).norm());
     circumradius_ = std::max(circumradius_, p.norm());
   }
-  if (!(size_ > 0.0)) invalid("all vertices coincide");
-  if (!std::isfinite(size_ * size_ * size_)) invalid("coordinates are too large: the volume overflows");
+  if (!(size_ > 0.0)) invalid(At{}, "all vertices coincide");
+  if (!std::isfinite(size_ * size_ * size_)) invalid(At{}, "coordinates are too large: the volume overflows");
   check_input(faces, tolerance);
   build_faces(faces);
   build_edges();
@@ -66,16 +71,20 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
 void Polyhedron::check_input(const std::vector<std::vector<int>>& faces, double tolerance) const {
   std::vector<bool> used(vertices_.size(), false);
   for (size_t f = 0; f < faces.size(); ++f) {
-    if (faces[f].size() < 3) invalid("face ", f, " has ", faces[f].size(), " vertices: at least 3 are needed");
+    if (faces[f].size() < 3)
+      invalid(At{.face = static_cast<int>(f)}, "face ", f, " has ", faces[f].size(),
+              " vertices: at least 3 are needed");
     std::set<int> seen;
     for (const int v : faces[f]) {
-      if (v < 0 || v >= vertex_count()) invalid("face ", f, " names vertex ", v, " of ", vertex_count());
-      if (!seen.insert(v).second) invalid("face ", f, " passes through vertex ", v, " twice");
+      if (v < 0 || v >= vertex_count())
+        invalid(At{.face = static_cast<int>(f)}, "face ", f, " names vertex ", v, " of ", vertex_count());
+      if (!seen.insert(v).second)
+        invalid(At{.face = static_cast<int>(f)}, "face ", f, " passes through vertex ", v, " twice");
       used[v] = true;
     }
   }
   for (int v = 0; v < vertex_count(); ++v) {
-    if (!used[v]) invalid("vertex ", v, " belongs to no face");
+    if (!used[v]) invalid(At{.vertex = v}, "vertex ", v, " belongs to no face");
   }
   // sweep along a direction in which no usual mesh has many equal heights: only close heights can coincide
   const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
@@ -88,7 +97,7 @@ void Polyhedron::check_input(const std::vector<std::vector<int>>& faces, double 
     for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * reach; ++j) {
       const int a = order[i].second, b = order[j].second;
       if ((vertices_[a] - vertices_[b]).norm() <= reach)
-        invalid("vertices ", std::min(a, b), " and ", std::max(a, b), " coincide");
+        invalid(At{.vertex = std::max(a, b)}, "vertices ", std::min(a, b), " and ", std::max(a, b), " coincide");
     }
   }
 }
@@ -125,11 +134,14 @@ void Polyhedron::build_edges() {
     size_t end = i;
     while (end < halves.size() && halves[end].low == halves[i].low && halves[end].high == halves[i].high) ++end;
     const HalfEdge &up = halves[i], &down = halves[end - 1];
-    if (end - i == 1) invalid("the mesh is open at edge ", up.low, "-", up.high, ": only face ", up.face, " has it");
-    if (end - i > 2) invalid("edge ", up.low, "-", up.high, " is shared by ", end - i, " faces (non-manifold)");
+    if (end - i == 1)
+      invalid(At{.face = up.face}, "the mesh is open at edge ", up.low, "-", up.high, ": only face ", up.face,
+              " has it");
+    if (end - i > 2)
+      invalid(At{.face = down.face}, "edge ", up.low, "-", up.high, " is shared by ", end - i, " faces (non-manifold)");
     if (up.downwards == down.downwards)
-      invalid("faces ", up.face, " and ", down.face, " run along edge ", up.low, "-", up.high,
-              " in the same direction: one of them is turned over");
+      invalid(At{.face = std::max(up.face, down.face)}, "faces ", up.face, " and ", down.face, " run along edge ",
+              up.low, "-", up.high, " in the same direction: one of them is turned over");
     edges_.push_back({up.low, up.high, up.face, down.face});
     face_neighbours_[up.slot] = down.face;
     face_neighbours_[down.slot] = up.face;
@@ -165,11 +177,12 @@ void Polyhedron::check_one_piece() const {
   }
   if (static_cast<int>(reached.size()) != face_count()) {
     const auto missed = std::find(seen.begin(), seen.end(), false) - seen.begin();
-    invalid("the mesh has several pieces: face ", missed, " cannot be reached from face 0");
+    invalid(At{.face = static_cast<int>(missed)}, "the mesh has several pieces: face ", missed,
+            " cannot be reached from face 0");
   }
   const int euler = vertex_count() - edge_count() + face_count();
   if (euler != 2) {
-    invalid("not a sphere: vertices - edges + faces = ", euler,
+    invalid(At{}, "not a sphere: vertices - edges + faces = ", euler,
             " instead of 2 (a handle, or a vertex where the surface touches itself)");
   }
 }
@@ -192,14 +205,15 @@ void Polyhedron::build_planes(double tolerance) {
     // height over the longest extent: what makes the area zero, whatever the shape of the face
     double extent = 0.0;
     for (const int v : loop) extent = std::max(extent, (vertices_[v] - first).norm());
-    if (!(length > tolerance * size_ * extent)) invalid("face ", f, " has no area (a needle or folded face)");
+    if (!(length > tolerance * size_ * extent))
+      invalid(At{.face = f}, "face ", f, " has no area (a needle or folded face)");
     normals_[f] = area2 / length;
     offsets_[f] = normals_[f].dot(centre);
     inradius_ = std::min(inradius_, offsets_[f]);
     volume6 += area2.dot(centre - inside);
     check_face(f, tolerance);
   }
-  if (volume6 < 0.0) invalid("all faces are turned inward: the enclosed volume is negative");
+  if (volume6 < 0.0) invalid(At{}, "all faces are turned inward: the enclosed volume is negative");
 }
 
 /// Flat, and strictly convex at each corner. Corners that all turn left by less than pi, once around, make the loop a
@@ -211,7 +225,8 @@ void Polyhedron::check_face(int f, double tolerance) const {
   for (const int v : loop) {
     const double height = normals_[f].dot(vertices_[v]) - offsets_[f];
     if (std::abs(height) > tolerance * size_)
-      invalid("face ", f, " is not flat: vertex ", v, " lies ", std::abs(height) / size_, " of the size off its plane");
+      invalid(At{.face = f}, "face ", f, " is not flat: vertex ", v, " lies ", std::abs(height) / size_,
+              " of the size off its plane");
   }
   double turning = 0.0;
   for (size_t k = 0; k < n; ++k) {
@@ -219,11 +234,12 @@ void Polyhedron::check_face(int f, double tolerance) const {
     const Vec3 out = vertices_[loop[(k + 1) % n]] - vertices_[loop[k]];
     const double sine = normals_[f].dot(in.cross(out)) / (in.norm() * out.norm());
     if (!(sine > 1e-12))
-      invalid("face ", f, " is not strictly convex at vertex ", loop[k], " (straight or re-entrant corner)");
+      invalid(At{.face = f}, "face ", f, " is not strictly convex at vertex ", loop[k],
+              " (straight or re-entrant corner)");
     turning += std::atan2(sine, in.normalized().dot(out.normalized()));
   }
   constexpr double pi = 3.14159265358979323846;
-  if (turning > 3.0 * pi) invalid("face ", f, " winds around itself more than once");
+  if (turning > 3.0 * pi) invalid(At{.face = f}, "face ", f, " winds around itself more than once");
 }
 
 /// Every vertex behind every face. With distinct vertices, convex faces and one sphere this is enough: a surface that
@@ -246,7 +262,7 @@ void Polyhedron::check_convex(double tolerance) const {
     for (int v = 0; v < vertex_count(); ++v) {
       const double height = normals_[f].dot(vertices_[v] - first);
       if (height > allowed)
-        invalid("not convex: vertex ", v, " lies ", height / size_, " of the size in front of face ", f);
+        invalid(At{.face = f}, "not convex: vertex ", v, " lies ", height / size_, " of the size in front of face ", f);
     }
   }
 }
@@ -265,7 +281,7 @@ int Polyhedron::support(const Vec3& d) const {
 }
 
 Polyhedron make_box(const Vec3& size) {
-  if (!(size.minCoeff() > 0.0)) invalid("a box needs positive side lengths, got ", size.transpose());
+  if (!(size.minCoeff() > 0.0)) invalid(At{}, "a box needs positive side lengths, got ", size.transpose());
   std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i) {  // bit 0: +x, bit 1: +y, bit 2: +z
     corners.push_back(0.5 *

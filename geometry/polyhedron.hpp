@@ -14,7 +14,10 @@ namespace ballast {
 /// A mesh that is not a closed convex outward non-degenerate polyhedron; what() names the face, edge or vertex.
 class InvalidPolyhedron : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InvalidPolyhedron(const std::string& what, int at_face = -1, int at_vertex = -1)
+      : std::runtime_error(what), face(at_face), vertex(at_vertex) {}
+
+  int face, vertex;  ///< where, for readers that know the line; -1 when it is no single face or vertex
 };
 
 /// Convex polyhedron, immutable, in its own frame [m]. Built once, shared by all bodies of its shape.
