@@ -17,7 +17,7 @@ Vec3 direction(TomlTable& table, const char* key, const Vec3& fallback) {
   return v.normalized();
 }
 
-HarmonicLoad read_load(TomlTable wall) {
+HarmonicLoad read_load(TomlTable& wall) {
   TomlTable table = wall.section("load");
   HarmonicLoad load;
   load.f_max = table.number("f_max", not_negative, "N");
@@ -107,7 +107,8 @@ PrincipalShape read_shape(TomlTable& table, const std::filesystem::path& folder)
 
 /// Either `mass` or `density`; a body that cannot move needs neither.
 double read_mass(TomlTable& table, double volume, bool can_move) {
-  if (table.has("mass") && table.has("density")) table.fail("mass", "given together with density, expected one of the two");
+  if (table.has("mass") && table.has("density"))
+    table.fail("mass", "given together with density, expected one of the two");
   if (table.has("mass")) return table.number("mass", positive, "kg");
   if (!can_move && !table.has("density")) return 0.0;
   return volume * table.number("density", positive, "kg/m^3");

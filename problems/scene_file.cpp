@@ -52,7 +52,8 @@ void read_contact(TomlTable table, Scene& scene) {
 std::vector<SizeClass> read_distribution(TomlTable& grains) {
   if (!grains.has("distribution")) {
     toml::array kept;
-    for (const SizeClass& c : paper_size_distribution()) kept.push_back(toml::table{{"fraction", c.fraction}, {"size", c.size}});
+    for (const SizeClass& c : paper_size_distribution())
+      kept.push_back(toml::table{{"fraction", c.fraction}, {"size", c.size}});
     grains.sections("distribution");  // known
     grains.replace_resolved("distribution", kept);
     return paper_size_distribution();
@@ -73,7 +74,8 @@ GrainShapeSettings read_grain_shape(TomlTable table) {
   GrainShapeSettings shape;
   shape.min_vertices = static_cast<int>(table.whole("min_vertices", 4, 200, shape.min_vertices));
   shape.max_vertices = static_cast<int>(table.whole("max_vertices", 4, 200, shape.max_vertices));
-  if (shape.min_vertices > shape.max_vertices) table.fail("min_vertices", "larger than max_vertices, expected at most that");
+  if (shape.min_vertices > shape.max_vertices)
+    table.fail("min_vertices", "larger than max_vertices, expected at most that");
   shape.elongation_min = table.number("elongation_min", axis_ratio, "", shape.elongation_min);
   shape.elongation_max = table.number("elongation_max", axis_ratio, "", shape.elongation_max);
   if (shape.elongation_min > shape.elongation_max) table.fail("elongation_min", "larger than elongation_max");
@@ -118,8 +120,8 @@ BoxSpec read_box(TomlTable table, const GrainsSpec& grains) {
   double widest = 0.0;
   for (const SizeClass& c : grains.distribution)
     widest = std::max(widest, grains.size_convention == SizeConvention::radius ? 2.0 * c.size : c.size);
-  const std::string expected = "narrower than the largest grain, expected at least " +
-                               toml_value_text(toml::value<double>(widest), 30) + " [m]";
+  const std::string expected =
+      "narrower than the largest grain, expected at least " + toml_value_text(toml::value<double>(widest), 30) + " [m]";
   if (box.length < widest) table.fail("length", expected);
   if (box.width < widest) table.fail("width", expected);
   table.finish();
@@ -133,7 +135,8 @@ DepositSpec read_deposit(TomlTable table) {
   deposit.fill_fraction = table.number("fill_fraction", fill_range, "of the bounding spheres", deposit.fill_fraction);
   deposit.max_time = table.number("max_time", positive, "s", deposit.max_time);
   deposit.rest_velocity = table.number("rest_velocity", positive, "m/s", deposit.rest_velocity);
-  deposit.lid_pressure_weight = table.number("lid_pressure_weight", not_negative, "grain weights", deposit.lid_pressure_weight);
+  deposit.lid_pressure_weight =
+      table.number("lid_pressure_weight", not_negative, "grain weights", deposit.lid_pressure_weight);
   deposit.lid_time = table.number("lid_time", not_negative, "s", deposit.lid_time);
   deposit.settle_time = table.number("settle_time", not_negative, "s", deposit.settle_time);
   deposit.tolerance = table.number("tolerance", not_negative, "g h", deposit.tolerance);
@@ -149,7 +152,8 @@ DriveSpec read_drive(TomlTable table) {
   drive.f_min_over_weight = table.number("f_min_over_weight", not_negative, "grain weights", drive.f_min_over_weight);
   if (drive.f_min_over_weight > drive.f_max_over_weight)
     table.fail("f_min_over_weight", "larger than f_max_over_weight, expected at most that");
-  drive.wall_mass_over_grains = table.number("wall_mass_over_grains", positive, "grain masses", drive.wall_mass_over_grains);
+  drive.wall_mass_over_grains =
+      table.number("wall_mass_over_grains", positive, "grain masses", drive.wall_mass_over_grains);
   drive.lid_raise = table.number("lid_raise", not_negative, "m", drive.lid_raise);
   table.finish();
   return drive;
@@ -161,8 +165,10 @@ ControlVolumeSpec read_control_volume(TomlTable table, const BoxSpec& box) {
   volume.margin_y = table.number("margin_y", not_negative, "m", volume.margin_y);
   volume.margin_floor = table.number("margin_floor", not_negative, "m", volume.margin_floor);
   volume.margin_top = table.number("margin_top", not_negative, "m", volume.margin_top);
-  if (2.0 * volume.margin_x >= box.length) table.fail("margin_x", "leaves nothing, expected less than half of box.length");
-  if (2.0 * volume.margin_y >= box.width) table.fail("margin_y", "leaves nothing, expected less than half of box.width");
+  if (2.0 * volume.margin_x >= box.length)
+    table.fail("margin_x", "leaves nothing, expected less than half of box.length");
+  if (2.0 * volume.margin_y >= box.width)
+    table.fail("margin_y", "leaves nothing, expected less than half of box.width");
   table.finish();
   return volume;
 }

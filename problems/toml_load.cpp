@@ -18,7 +18,8 @@ struct Override {
 };
 
 [[noreturn]] void fail(const std::filesystem::path& file, const Override& o, const std::string& what) {
-  throw SceneFileError(file.string() + " (--set): " + o.text + ": " + what);
+  const std::string first_line = o.text.substr(0, o.text.find_first_of("\r\n"));
+  throw SceneFileError(file.string() + " (--set): " + first_line + ": " + what);
 }
 
 std::vector<std::string> split_at_dots(const std::string& text) {
@@ -56,7 +57,8 @@ Override parse_override(const std::filesystem::path& file, const std::string& te
   return o;
 }
 
-toml::table& element(const std::filesystem::path& file, const Override& o, toml::array& array, const std::string& index) {
+toml::table& element(const std::filesystem::path& file, const Override& o, toml::array& array,
+                     const std::string& index) {
   const std::string range = "expected an index below " + std::to_string(array.size());
   const bool digits = index.find_first_not_of("0123456789") == std::string::npos && index.size() < 10;
   const size_t i = digits ? std::stoul(index) : array.size();
@@ -86,7 +88,8 @@ void apply(const std::filesystem::path& file, Override o, toml::table& root) {
 }  // namespace
 
 toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  if (std::filesystem::is_directory(file)) throw SceneFileError(file.string() + ": is a folder, expected a scene in TOML");
+  if (std::filesystem::is_directory(file))
+    throw SceneFileError(file.string() + ": is a folder, expected a scene in TOML");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw SceneFileError(file.string() + ": cannot be read: " + std::strerror(errno));

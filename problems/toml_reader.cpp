@@ -46,7 +46,8 @@ bool NumberRange::contains(double x) const {
 TomlTable::TomlTable(std::string file, const toml::table& table, toml::table& resolved, std::string path)
     : file_(std::move(file)), path_(std::move(path)), table_(&table), resolved_(&resolved) {}
 
-double TomlTable::number(std::string_view key, const NumberRange& range, const char* unit, std::optional<double> fallback) {
+double TomlTable::number(std::string_view key, const NumberRange& range, const char* unit,
+                         std::optional<double> fallback) {
   const std::string expected = range.words + unit_text(unit);
   double x = fallback.value_or(0.0);
   if (const toml::node* node = find(key)) {
@@ -61,7 +62,8 @@ double TomlTable::number(std::string_view key, const NumberRange& range, const c
   return x;
 }
 
-std::int64_t TomlTable::whole(std::string_view key, std::int64_t low, std::int64_t high, std::optional<std::int64_t> fallback) {
+std::int64_t TomlTable::whole(std::string_view key, std::int64_t low, std::int64_t high,
+                              std::optional<std::int64_t> fallback) {
   std::string expected = "a whole number";
   if (high == std::numeric_limits<std::int64_t>::max())
     expected += " >= " + std::to_string(low);
@@ -125,7 +127,8 @@ Vec3 TomlTable::vector(std::string_view key, const char* unit, std::optional<Vec
     for (int i = 0; i < 3; ++i) {
       const toml::node& entry = (*read)[static_cast<size_t>(i)];
       const auto x = entry.is_number() ? entry.value<double>() : std::nullopt;
-      if (!x || !std::isfinite(*x)) fail(key, "entry " + std::to_string(i) + " is no finite number, expected " + expected);
+      if (!x || !std::isfinite(*x))
+        fail(key, "entry " + std::to_string(i) + " is no finite number, expected " + expected);
       v[i] = *x;
     }
   } else if (!fallback) {
@@ -168,7 +171,8 @@ std::vector<TomlTable> TomlTable::sections(std::string_view key) {
   for (size_t i = 0; i < read->size(); ++i) {
     if (!(*read)[i].is_table()) fail(key, "expected a list of tables [[" + full_key(key) + "]]");
     kept.push_back(toml::table{});
-    tables.emplace_back(file_, *(*read)[i].as_table(), *kept.back().as_table(), full_key(key) + '.' + std::to_string(i));
+    tables.emplace_back(file_, *(*read)[i].as_table(), *kept.back().as_table(),
+                        full_key(key) + '.' + std::to_string(i));
   }
   return tables;
 }
@@ -181,9 +185,9 @@ void TomlTable::finish() const {
   for (const auto& [key, value] : *table_) {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    const auto nearest = std::min_element(known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
-      return edit_distance(name, a) < edit_distance(name, b);
-    });
+    const auto nearest = std::min_element(
+        known_.begin(), known_.end(),
+        [&](const std::string& a, const std::string& b) { return edit_distance(name, a) < edit_distance(name, b); });
     std::vector<std::string> sorted = known_;
     std::sort(sorted.begin(), sorted.end());
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());

@@ -38,8 +38,9 @@ std::string string_text(const std::string& s) {
 }
 
 std::string key_text(std::string_view key) {
-  const bool bare = !key.empty() && key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
-                                        std::string_view::npos;
+  const bool bare =
+      !key.empty() && key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+                          std::string_view::npos;
   return bare ? std::string(key) : string_text(std::string(key));
 }
 
@@ -54,7 +55,8 @@ std::string inline_text(const toml::node& node) {
     return "[" + text + "]";
   }
   if (const auto* table = node.as_table()) {
-    for (const auto& [key, value] : *table) text += (text.empty() ? "" : ", ") + key_text(key.str()) + " = " + inline_text(value);
+    for (const auto& [key, value] : *table)
+      text += (text.empty() ? "" : ", ") + key_text(key.str()) + " = " + inline_text(value);
     return "{" + text + "}";
   }
   std::ostringstream date;  // dates and times: in no scene, but a wrong type must be printable
@@ -95,7 +97,7 @@ void write_table(const toml::table& table, const std::string& path, std::string&
 std::string toml_text(const toml::table& table) {
   std::string out;
   write_table(table, "", out);
-  return out;
+  return out.starts_with('\n') ? out.substr(1) : out;
 }
 
 std::string toml_value_text(const toml::node& node, size_t limit) {
