@@ -1,6 +1,7 @@
 #pragma once
 // The one judge: every error figure in the project comes from here, from the returned impulses only.
 
+#include "problems/friction_cone.hpp"
 #include "problems/friction_problem.hpp"
 #include "problems/mass_root.hpp"
 
@@ -34,7 +35,9 @@ class ContactJudge {
 
   /// The scaled natural map of one contact [m/s]: the summand of natural_map_rms. `lambda_max` of W_cc, > 0. A one-row
   /// contact is padded with zeros.
-  static double scaled_natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu, double lambda_max);
+  static double scaled_natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu, double lambda_max) {
+    return natural_map(r, u, mu, 1.0 / lambda_max).norm() * lambda_max;
+  }
 
  private:
   void recompute_velocities(const FrictionProblem& problem, const Impulses& r);

@@ -11,31 +11,34 @@ namespace {
 using SideRows = Eigen::Matrix<double, 3, MassRoot::max_dofs>;
 
 /// G = H L^-T for one side of one contact: W = G G^T summed over the sides. Unused rows and columns are zero.
-void mass_scaled_rows(const double* block, int rows, const MassRoot& root, SideRows& g) {
-  if (root.dofs != MassRoot::max_dofs || rows != 3) g.setZero();
-  if (root.diagonal) {
-    for (int k = 0; k < root.dofs; ++k)
-      for (int i = 0; i < rows; ++i) g(i, k) = block[k * rows + i] * root.inverse[k];
-    return;
-  }
-  double row[MassRoot::max_dofs];
-  for (int i = 0; i < rows; ++i) {
-    for (int k = 0; k < root.dofs; ++k) row[k] = block[k * rows + i];
-    root.solve_lower(row);
-    for (int k = 0; k < root.dofs; ++k) g(i, k) = row[k];
-  }
+SideRows mass_scaled_rows(const double* block, int rows, const MassRoot& root) {
+  SideRows g = SideRows::Zero();
+  if (rows == 3)
+    root.scaled_columns<3>(block, [&](int k, const double* column) { g.col(k) << column[0], column[1], column[2]; });
+  else
+    root.scaled_columns<1>(block, [&](int k, const double* column) { g(0, k) = column[0]; });
+  return g;
 }
 
-/// W_cc += G G^T, symmetric to the last bit.
-void add_gram(const SideRows& g, Eigen::Matrix3d& block) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j) {
-      double sum = 0.0;
-      for (int k = 0; k < MassRoot::max_dofs; ++k) sum += g(i, k) * g(j, k);
-      block(i, j) += sum;
-      if (i != j) block(j, i) = block(i, j);
-    }
-}
+/// The lower triangle of G G^T, summed over columns and sides.
+struct Gram {
+  double nn = 0.0, tn = 0.0, sn = 0.0, tt = 0.0, st = 0.0, ss = 0.0;
+
+  template <int Rows>
+  [[gnu::always_inline]] inline void add_side(const double* block, const MassRoot& root) {
+    root.scaled_columns<Rows>(
+        block, [this](int, const double* g) __attribute__((always_inline)) {
+          nn += g[0] * g[0];
+          if constexpr (Rows == 3) {
+            tn += g[1] * g[0];
+            sn += g[2] * g[0];
+            tt += g[1] * g[1];
+            st += g[2] * g[1];
+            ss += g[2] * g[2];
+          }
+        });
+  }
+};
 
 void stored_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks) {
   for (int c = 0; c < problem.contact_count(); ++c) {
@@ -67,7 +70,7 @@ std::vector<Side> all_sides(const FrictionProblem& problem, const std::vector<Ma
       Side& side = sides[2 * c + s];
       side = {c, s == 0 ? dynamics.body_a[c] : dynamics.body_b[c], SideRows::Zero()};
       if (side.body < 0) continue;
-      mass_scaled_rows(block, problem.contact_rows(c), roots[side.body], side.g);
+      side.g = mass_scaled_rows(block, problem.contact_rows(c), roots[side.body]);
       block += problem.contact_rows(c) * roots[side.body].dofs;
     }
   }
@@ -114,17 +117,16 @@ void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& ro
   if (!problem.has_dynamics) return stored_diagonal(problem, blocks);
   const DynamicsForm& dynamics = problem.dynamics;
   factor_masses(dynamics, roots);
-  SideRows g;
   for (int c = 0; c < problem.contact_count(); ++c) {
     const int rows = problem.contact_rows(c);
     const double* block = dynamics.h.data() + dynamics.h_begin[c];
-    blocks[c].setZero();
+    Gram w;
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
       if (body < 0) continue;
-      mass_scaled_rows(block, rows, roots[body], g);
-      add_gram(g, blocks[c]);
+      rows == 3 ? w.add_side<3>(block, roots[body]) : w.add_side<1>(block, roots[body]);
       block += rows * roots[body].dofs;
     }
+    blocks[c] << w.nn, w.tn, w.sn, w.tn, w.tt, w.st, w.sn, w.st, w.ss;
   }
 }
 

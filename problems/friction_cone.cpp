@@ -1,23 +1,6 @@
 #include "problems/friction_cone.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace ballast {
-namespace {
-
-double tangential_norm(const Eigen::Vector3d& x) { return std::sqrt(x[1] * x[1] + x[2] * x[2]); }
-
-}  // namespace
-
-Eigen::Vector3d project_cone(const Eigen::Vector3d& x, double mu) {
-  const double t = tangential_norm(x);
-  if (mu * t <= -x[0]) return Eigen::Vector3d::Zero();  // in the polar cone
-  if (t <= mu * x[0]) return x;
-  const double n = (mu * t + x[0]) / (1.0 + mu * mu);
-  const double scale = mu * n / t;
-  return {n, scale * x[1], scale * x[2]};
-}
 
 Eigen::Vector3d project_dual_cone(const Eigen::Vector3d& x, double mu) {
   const double t = tangential_norm(x);
@@ -38,14 +21,6 @@ Eigen::Matrix3d project_cone_jacobian(const Eigen::Vector3d& x, double mu) {
   const Eigen::Vector3d side(1.0, mu * x[1] / t, mu * x[2] / t);  // the cone's generator towards x
   const Eigen::Vector3d turn(0.0, -x[2] / t, x[1] / t);           // around the cone
   return weight * side * side.transpose() + (mu * n / t) * turn * turn.transpose();
-}
-
-Eigen::Vector3d modified_velocity(const Eigen::Vector3d& u, double mu) {
-  return {u[0] + mu * tangential_norm(u), u[1], u[2]};
-}
-
-Eigen::Vector3d natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu, double rho) {
-  return r - project_cone(r - rho * modified_velocity(u, mu), mu);
 }
 
 }  // namespace ballast

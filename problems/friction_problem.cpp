@@ -7,19 +7,24 @@
 namespace ballast {
 namespace {
 
-/// u += B v for a column-major block of Rows x dofs.
+/// u += B v for a column-major block of Rows x dofs. The sums are local: the compiler cannot know that u is not part of B.
 template <int Rows>
-inline void multiply_add(const double* block, int dofs, const double* v, double* u) {
+[[gnu::always_inline]] inline void multiply_add(const double* block, int dofs, const double* v, double* u) {
+  double sum[Rows];
+  for (int i = 0; i < Rows; ++i) sum[i] = u[i];
   for (int k = 0; k < dofs; ++k)
-    for (int i = 0; i < Rows; ++i) u[i] += block[k * Rows + i] * v[k];
+    for (int i = 0; i < Rows; ++i) sum[i] += block[k * Rows + i] * v[k];
+  for (int i = 0; i < Rows; ++i) u[i] = sum[i];
 }
 
 /// v += B^T r.
 template <int Rows>
-inline void transposed_multiply_add(const double* block, int dofs, const double* r, double* v) {
+[[gnu::always_inline]] inline void transposed_multiply_add(const double* block, int dofs, const double* r, double* v) {
+  double weight[Rows];
+  for (int i = 0; i < Rows; ++i) weight[i] = r[i];
   for (int k = 0; k < dofs; ++k) {
     double sum = 0.0;
-    for (int i = 0; i < Rows; ++i) sum += block[k * Rows + i] * r[i];
+    for (int i = 0; i < Rows; ++i) sum += block[k * Rows + i] * weight[i];
     v[k] += sum;
   }
 }

@@ -5,14 +5,16 @@
 
 namespace ballast {
 
-/// At most 6 x 6, on the stack. Masses are usually diagonal; then every operation is a scaling.
-struct MassRoot {
+/// At most 6 x 6, inline. Masses are usually diagonal; then every operation is a scaling, and one cache line is all it
+/// reads.
+struct alignas(64) MassRoot {
   static constexpr int max_dofs = 6;
 
+  double inverse[max_dofs];  ///< 1 / L_ii
   int dofs = 0;
   bool diagonal = true;
-  double l[max_dofs * max_dofs];  ///< column-major, lower triangle; only its diagonal is set when `diagonal`
-  double inverse[max_dofs];       ///< 1 / L_ii
+  double l[max_dofs *
+           max_dofs];  ///< column-major, stride max_dofs, lower triangle; only its diagonal is set when `diagonal`
 
   /// `mass` is dofs x dofs, column-major; its lower triangle is read. False: not positive definite.
   bool factor(const double* mass, int dof_count);
@@ -20,6 +22,39 @@ struct MassRoot {
   void solve_lower(double* x) const;     ///< x := L^-1 x
   void solve_upper(double* x) const;     ///< x := L^-T x
   void multiply_upper(double* x) const;  ///< x := L^T x
+
+  /// Calls visit(k, column) for the columns of G = H L^-T, where H is a column-major block of Rows x dofs and `column`
+  /// has Rows entries. Inlined where it is hot: with the usual six unknowns known, the compiler unrolls it into
+  /// registers.
+  template <int Rows, typename Visit>
+  [[gnu::always_inline]] inline void scaled_columns(const double* h, const Visit& visit) const {
+    if (dofs == max_dofs)
+      scaled_columns<Rows>(h, max_dofs, visit);
+    else
+      scaled_columns<Rows>(h, dofs, visit);
+  }
+
+ private:
+  template <int Rows, typename Visit>
+  [[gnu::always_inline]] inline void scaled_columns(const double* h, int columns, const Visit& visit) const {
+    double g[max_dofs][Rows];
+    if (diagonal) {
+      for (int j = 0; j < columns; ++j) {
+        for (int i = 0; i < Rows; ++i) g[j][i] = h[j * Rows + i] * inverse[j];
+        visit(j, g[j]);
+      }
+      return;
+    }
+#pragma GCC unroll 6
+    for (int j = 0; j < columns; ++j) {
+      for (int i = 0; i < Rows; ++i) g[j][i] = h[j * Rows + i];
+#pragma GCC unroll 6
+      for (int k = 0; k < j; ++k)
+        for (int i = 0; i < Rows; ++i) g[j][i] -= l[k * max_dofs + j] * g[k][i];
+      for (int i = 0; i < Rows; ++i) g[j][i] *= inverse[j];
+      visit(j, g[j]);
+    }
+  }
 };
 
 inline bool MassRoot::factor(const double* mass, int dof_count) {
@@ -30,16 +65,16 @@ inline bool MassRoot::factor(const double* mass, int dof_count) {
   for (int j = 0; j < dofs; ++j) {
     double pivot = mass[j * dofs + j];
     if (!diagonal)
-      for (int k = 0; k < j; ++k) pivot -= l[k * dofs + j] * l[k * dofs + j];
+      for (int k = 0; k < j; ++k) pivot -= l[k * max_dofs + j] * l[k * max_dofs + j];
     if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
     const double root = std::sqrt(pivot);
-    l[j * dofs + j] = root;
+    l[j * max_dofs + j] = root;
     inverse[j] = 1.0 / root;
     if (diagonal) continue;
     for (int i = j + 1; i < dofs; ++i) {
       double entry = mass[j * dofs + i];
-      for (int k = 0; k < j; ++k) entry -= l[k * dofs + i] * l[k * dofs + j];
-      l[j * dofs + i] = entry * inverse[j];
+      for (int k = 0; k < j; ++k) entry -= l[k * max_dofs + i] * l[k * max_dofs + j];
+      l[j * max_dofs + i] = entry * inverse[j];
     }
   }
   return true;
@@ -49,23 +84,23 @@ inline void MassRoot::solve_lower(double* x) const {
   for (int j = 0; j < dofs; ++j) {
     x[j] *= inverse[j];
     if (!diagonal)
-      for (int i = j + 1; i < dofs; ++i) x[i] -= l[j * dofs + i] * x[j];
+      for (int i = j + 1; i < dofs; ++i) x[i] -= l[j * max_dofs + i] * x[j];
   }
 }
 
 inline void MassRoot::solve_upper(double* x) const {
   for (int j = dofs - 1; j >= 0; --j) {
     if (!diagonal)
-      for (int i = j + 1; i < dofs; ++i) x[j] -= l[j * dofs + i] * x[i];
+      for (int i = j + 1; i < dofs; ++i) x[j] -= l[j * max_dofs + i] * x[i];
     x[j] *= inverse[j];
   }
 }
 
 inline void MassRoot::multiply_upper(double* x) const {
   for (int j = 0; j < dofs; ++j) {
-    x[j] *= l[j * dofs + j];
+    x[j] *= l[j * max_dofs + j];
     if (!diagonal)
-      for (int i = j + 1; i < dofs; ++i) x[j] += l[j * dofs + i] * x[i];
+      for (int i = j + 1; i < dofs; ++i) x[j] += l[j * max_dofs + i] * x[i];
   }
 }
 

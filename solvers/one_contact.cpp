@@ -20,22 +20,17 @@ void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& conta
   const double c1 = w(1, 0) * contact.inverse_normal, c2 = w(2, 0) * contact.inverse_normal;
   const double a = w(1, 1) - c1 * w(1, 0), b = w(2, 1) - c1 * w(2, 0), d = w(2, 2) - c2 * w(2, 0);
 
-  // Jacobi's rotation, the smaller eigenvalue first.
-  if (b != 0.0) {
-    const double theta = 0.5 * (d - a) / b;
-    const double tangent = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(1.0 + theta * theta));
-    turn.cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
-    turn.sine = -tangent * turn.cosine;
-    contact.s1 = a - tangent * b;
-    contact.s2 = d + tangent * b;
-  } else {
-    contact.s1 = a;
-    contact.s2 = d;
+  // Eigenvalues middle -+ h; the eigenvector of the larger one is along (delta + h, b) or, the same, (b, h - delta): whichever
+  // does not cancel. Selects, not branches: the order of the two is a coin's toss.
+  const double middle = 0.5 * (a + d), delta = 0.5 * (a - d), h = std::sqrt(delta * delta + b * b);
+  if (h > 0.0) {
+    const double inverse_h = 1.0 / h;
+    const double large = std::sqrt(0.5 + 0.5 * std::abs(delta) * inverse_h), small = 0.5 * b * inverse_h / large;
+    turn.cosine = delta < 0.0 ? large : small;
+    turn.sine = delta < 0.0 ? -small : -large;
   }
-  if (contact.s1 > contact.s2) {  // a further quarter turn
-    std::swap(contact.s1, contact.s2);
-    turn = {-turn.sine, turn.cosine};
-  }
+  contact.s1 = middle - h;
+  contact.s2 = middle + h;
   // Where S is singular, or negative by rounding, a W nearer to the given one than its own rounding is solved instead.
   contact.s1 = std::max(contact.s1, rounding * trace);
   contact.s2 = std::max(contact.s2, rounding * trace);

@@ -1,0 +1,163 @@
+#include "solvers/sweep_kernels.hpp"
+
+#include "problems/contact_error.hpp"
+
+// Vectors never cross a call boundary that the linker sees, so GCC's note about their calling convention does not
+// apply.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace ballast {
+namespace {
+
+// GCC's vector extensions: the same element-wise operations in the same order on every instruction set, hence the same
+// bits
+// (-ffp-contract=off keeps multiplications and additions apart).
+using Vector8 = double __attribute__((vector_size(64)));
+using Vector4 = double __attribute__((vector_size(32)));
+
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
+#define BALLAST_FOR_EACH_CPU __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define BALLAST_FOR_EACH_CPU
+#endif
+
+#define BALLAST_INLINE inline __attribute__((always_inline))
+
+BALLAST_INLINE Vector8 load8(const double* x) { return *reinterpret_cast<const Vector8*>(x); }
+BALLAST_INLINE void store8(double* x, Vector8 value) { *reinterpret_cast<Vector8*>(x) = value; }
+
+BALLAST_INLINE Vector4 halves(Vector8 x) {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
+}
+
+/// The sums of three vectors' entries.
+BALLAST_INLINE Vector4 three_sums(Vector8 x, Vector8 y, Vector8 z) {
+  const Vector4 p = halves(x), q = halves(y), s = halves(z);
+  const Vector4 pq = __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
+  const Vector4 ss = __builtin_shufflevector(s, s, 0, 0, 2, 2) + __builtin_shufflevector(s, s, 1, 1, 3, 3);
+  return __builtin_shufflevector(pq, ss, 0, 1, 4, 5) + __builtin_shufflevector(pq, ss, 2, 3, 6, 7);
+}
+
+/// G w over both sides.
+BALLAST_INLINE Vector4 relative_velocity(const FrictionRecord& k, Vector8 wa, Vector8 wb) {
+  return three_sums(load8(k.rows[0][0]) * wa + load8(k.rows[1][0]) * wb,
+                    load8(k.rows[0][1]) * wa + load8(k.rows[1][1]) * wb,
+                    load8(k.rows[0][2]) * wa + load8(k.rows[1][2]) * wb);
+}
+
+/// Row i times row j, lane by lane, over both sides.
+BALLAST_INLINE Vector8 row_product(const FrictionRecord& k, int i, int j) {
+  return load8(k.rows[0][i]) * load8(k.rows[0][j]) + load8(k.rows[1][i]) * load8(k.rows[1][j]);
+}
+
+}  // namespace
+
+BALLAST_FOR_EACH_CPU
+void sweep_friction(FrictionRecord* records, int count, BodyVelocity* velocity) {
+  for (int c = 0; c < count; ++c) {
+    FrictionRecord& k = records[c];
+    double* va = velocity[k.body[0]].w;
+    double* vb = velocity[k.body[1]].w;
+    const Vector8 wa = load8(va), wb = load8(vb);
+    const Vector4 u = relative_velocity(k, wa, wb);
+    double y = k.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
+    double t1 = k.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
+    double t2 = k.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
+    apply_coulomb(k.local, y, t1, t2, k.slip);
+    const double dy = y - k.y[0], d1 = t1 - k.y[1], d2 = t2 - k.y[2];
+    k.y[0] = y;
+    k.y[1] = t1;
+    k.y[2] = t2;
+    store8(va, wa + (load8(k.rows[0][0]) * dy + load8(k.rows[0][1]) * d1 + load8(k.rows[0][2]) * d2));
+    store8(vb, wb + (load8(k.rows[1][0]) * dy + load8(k.rows[1][1]) * d1 + load8(k.rows[1][2]) * d2));
+  }
+}
+
+BALLAST_FOR_EACH_CPU
+void sweep_one_row(OneRowRecord* records, int count, BodyVelocity* velocity) {
+  for (int c = 0; c < count; ++c) {
+    OneRowRecord& k = records[c];
+    double* va = velocity[k.body[0]].w;
+    double* vb = velocity[k.body[1]].w;
+    const Vector8 wa = load8(va), wb = load8(vb);
+    const Vector4 p = halves(load8(k.rows[0]) * wa + load8(k.rows[1]) * wb);
+    const double candidate = k.y - ((p[0] + p[1]) + (p[2] + p[3]) + k.bias) * k.inverse_normal;
+    const double y = candidate <= 0.0 ? 0.0 : candidate;
+    const double dy = y - k.y;
+    k.y = y;
+    store8(va, wa + load8(k.rows[0]) * dy);
+    store8(vb, wb + load8(k.rows[1]) * dy);
+  }
+}
+
+BALLAST_FOR_EACH_CPU
+void make_principal(FrictionRecord& k, double mu, TangentTurn& turn, double& lambda_max) {
+  const Vector4 first = three_sums(row_product(k, 0, 0), row_product(k, 1, 0), row_product(k, 2, 0));
+  const Vector4 rest = three_sums(row_product(k, 1, 1), row_product(k, 2, 1), row_product(k, 2, 2));
+  Eigen::Matrix3d w;
+  w << first[0], first[1], first[2], first[1], rest[0], rest[1], first[2], rest[1], rest[2];
+  make_principal(w, mu, k.local, turn);
+  lambda_max = largest_eigenvalue(w);
+  k.slip = 0.0;
+
+  turn.to_principal(k.bias[1], k.bias[2]);
+  k.bias[1] -= k.local.c1 * k.bias[0];
+  k.bias[2] -= k.local.c2 * k.bias[0];
+  for (auto& rows : k.rows) {
+    const Vector8 n = load8(rows[0]), t1 = load8(rows[1]), t2 = load8(rows[2]);
+    store8(rows[1], turn.cosine * t1 + turn.sine * t2 - k.local.c1 * n);
+    store8(rows[2], turn.cosine * t2 - turn.sine * t1 - k.local.c2 * n);
+  }
+}
+
+void make_principal(OneRowRecord& k, double& lambda_max) {
+  const Vector4 p = halves(load8(k.rows[0]) * load8(k.rows[0]) + load8(k.rows[1]) * load8(k.rows[1]));
+  lambda_max = (p[0] + p[1]) + (p[2] + p[3]);
+  k.inverse_normal = lambda_max > 0.0 ? 1.0 / lambda_max : 0.0;
+}
+
+void load_impulse(FrictionRecord& k, const TangentTurn& turn, const double* r, BodyVelocity* velocity) {
+  const double weight = k.local.inverse_normal > 0.0 ? 1.0 : 0.0;
+  double t1 = weight * r[1], t2 = weight * r[2];
+  turn.to_principal(t1, t2);
+  k.y[0] = weight * r[0] + k.local.c1 * t1 + k.local.c2 * t2;
+  k.y[1] = t1;
+  k.y[2] = t2;
+  for (int s = 0; s < 2; ++s) {
+    double* w = velocity[k.body[s]].w;
+    const auto& rows = k.rows[s];
+    for (int i = 0; i < body_width; ++i) w[i] += rows[0][i] * k.y[0] + rows[1][i] * k.y[1] + rows[2][i] * k.y[2];
+  }
+}
+
+void load_impulse(OneRowRecord& k, const double* r, BodyVelocity* velocity) {
+  k.y = k.inverse_normal > 0.0 ? r[0] : 0.0;
+  for (int s = 0; s < 2; ++s)
+    for (int i = 0; i < body_width; ++i) velocity[k.body[s]].w[i] += k.rows[s][i] * k.y;
+}
+
+BALLAST_FOR_EACH_CPU
+double natural_map(const FrictionRecord& k, double lambda_max, const BodyVelocity* velocity) {
+  const Vector4 moved = relative_velocity(k, load8(velocity[k.body[0]].w), load8(velocity[k.body[1]].w));
+  const double un = moved[0] + k.bias[0];
+  const Eigen::Vector3d u(un, moved[1] + k.bias[1] + k.local.c1 * un, moved[2] + k.bias[2] + k.local.c2 * un);
+  const Eigen::Vector3d r(k.y[0] - k.local.c1 * k.y[1] - k.local.c2 * k.y[2], k.y[1], k.y[2]);
+  return ContactJudge::scaled_natural_map(r, u, k.local.mu, lambda_max);
+}
+
+double natural_map(const OneRowRecord& k, double lambda_max, const BodyVelocity* velocity) {
+  double u = k.bias;
+  for (int s = 0; s < 2; ++s)
+    for (int i = 0; i < body_width; ++i) u += k.rows[s][i] * velocity[k.body[s]].w[i];
+  return ContactJudge::scaled_natural_map({k.y, 0.0, 0.0}, {u, 0.0, 0.0}, 0.0, lambda_max);
+}
+
+void FrictionRecord::impulse(const TangentTurn& turn, double* r) const {
+  double t1 = y[1], t2 = y[2];
+  r[0] = y[0] - local.c1 * t1 - local.c2 * t2;
+  turn.from_principal(t1, t2);
+  r[1] = t1;
+  r[2] = t2;
+}
+
+}  // namespace ballast
