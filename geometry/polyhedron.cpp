@@ -189,7 +189,8 @@ void Polyhedron::check_one_piece() const {
 
 void Polyhedron::build_planes(double tolerance) {
   inradius_ = std::numeric_limits<double>::infinity();
-  double volume6 = 0.0;  // 6 x signed volume, about a point inside so that far meshes lose no digits
+  double volume6 = 0.0;   // 6 x signed volume, about a point inside so that far meshes lose no digits
+  double surface2 = 0.0;  // 2 x surface
   const Vec3 inside = mean(vertices_);
   for (int f = 0; f < face_count(); ++f) {
     // Newell's normal: the area vector, twice; about the first vertex against cancellation
@@ -211,9 +212,12 @@ void Polyhedron::build_planes(double tolerance) {
     offsets_[f] = normals_[f].dot(centre);
     inradius_ = std::min(inradius_, offsets_[f]);
     volume6 += area2.dot(centre - inside);
+    surface2 += length;
     check_face(f, tolerance);
   }
-  if (volume6 < 0.0) invalid(At{}, "all faces are turned inward: the enclosed volume is negative");
+  const double thickness = 2.0 / 3.0 * volume6 / surface2;  // of a plate: volume over half the surface
+  if (thickness < -tolerance * size_) invalid(At{}, "all faces are turned inward: the enclosed volume is negative");
+  if (!(thickness > tolerance * size_)) invalid(At{}, "the mesh is flat: it encloses no volume");
 }
 
 /// Flat, and strictly convex at each corner. Corners that all turn left by less than pi, once around, make the loop a
