@@ -196,7 +196,7 @@ void read_numerics(TomlTable& root, Scene& scene) {
   detection.finish();
 
   TomlTable record = root.section("record");
-  scene.record.pose_rate = record.number("pose_rate", not_negative, "1/s", scene.record.pose_rate);
+  scene.record.pose_rate = record.number("pose_rate", positive, "1/s", scene.record.pose_rate);
   scene.record.checkpoint_seconds = record.number("checkpoint_seconds", positive, "s", scene.record.checkpoint_seconds);
   scene.record.paraview = record.flag("paraview", scene.record.paraview);
   record.finish();
