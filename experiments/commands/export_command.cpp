@@ -1,0 +1,82 @@
+// One state of a run as a file for other programs.
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "experiments/checkpoint.hpp"
+#include "experiments/commands/command.hpp"
+#include "experiments/recorder.hpp"
+#include "experiments/state_export.hpp"
+
+namespace ballast {
+namespace {
+
+struct ExportOptions {
+  std::filesystem::path source;
+  std::string format = "obj";
+  std::filesystem::path output;
+  double time = std::numeric_limits<double>::quiet_NaN();
+  bool last = false;
+};
+
+/// The stored frame nearest in time.
+void state_at(const std::filesystem::path& folder, double time, MotionState& state) {
+  const std::vector<PoseFrame> frames = read_poses(folder);
+  if (frames.empty()) throw RunError(folder.string() + ": no poses are stored there");
+  const PoseFrame* nearest = &frames.front();
+  for (const PoseFrame& frame : frames)
+    if (std::abs(frame.time - time) < std::abs(nearest->time - time)) nearest = &frame;
+  state = {nearest->time, nearest->step, nearest->pose, nearest->velocity, nearest->spin};
+}
+
+ExitCode export_run(const ExportOptions& options) {
+  ExportFormat format;
+  try {
+    format = export_format(options.format);
+  } catch (const RunError& error) {
+    throw UsageError("export: --format: " + std::string(error.what()));
+  }
+  if (!std::filesystem::exists(options.source))
+    throw RunError(options.source.string() + ": no such run folder or checkpoint");
+  const bool is_folder = std::filesystem::is_directory(options.source);
+  const std::filesystem::path folder =
+      is_folder ? options.source : std::filesystem::absolute(options.source).parent_path();
+  MotionState state;
+  const MechanicalSystem system = system_of_run(folder, state);
+  if (!is_folder) {
+    state = read_checkpoint(options.source).state;
+  } else if (!std::isnan(options.time)) {
+    state_at(folder, options.time, state);
+  }
+  if (state.pose.size() != system.bodies.size())
+    throw RunError(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
+                   " bodies, the scene beside it " + std::to_string(system.bodies.size()));
+  export_state(system, state, format, options.output);
+  std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step << '\n';
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("export", "Writes one state of a run for other programs");
+  auto options = std::make_shared<ExportOptions>();
+  command->add_option("source", options->source, "A run's folder, or a checkpoint in it")->required();
+  command
+      ->add_option("--format", options->format,
+                   "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two files for other "
+                   "engines' benches")
+      ->capture_default_str();
+  command->add_option("--output", options->output, "The file to write")->required()->type_name("FILE");
+  CLI::Option* time = command->add_option("--time", options->time, "The stored frame nearest to this time [s]");
+  command->add_flag("--last", options->last, "The latest checkpoint (default)")->excludes(time);
+  command->footer(
+      "Examples:\n  ballast export results/vibrated_box --format vtp --time 0.25 --output quarter.vtp\n"
+      "  ballast export results/vibrated_box/checkpoint.bin --format text --output state.txt");
+  command->callback([options, &action] { action = [options] { return export_run(*options); }; });
+}
+
+}  // namespace ballast

@@ -1,0 +1,126 @@
+// What there is: solvers, scenes, version.
+
+#include <CLI/CLI.hpp>
+
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/build_info.hpp"
+#include "experiments/commands/command.hpp"
+#include "problems/scene_file.hpp"
+#include "solvers/solver_list.hpp"
+
+namespace ballast {
+namespace {
+
+void print_solvers() {
+  std::cout << std::left << std::setw(14) << "name" << std::setw(19) << "law" << std::setw(10) << "built"
+            << "what it is\n";
+  for (const SolverEntry& entry : solver_list()) {
+    std::cout << std::setw(14) << entry.name << std::setw(19) << name_of(entry.law) << std::setw(10)
+              << (entry.make ? "yes" : "no") << entry.description;
+    if (!entry.make) std::cout << " [install " << entry.missing << "]";
+    std::cout << '\n';
+  }
+}
+
+void print_solvers_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SolverEntry& entry : solver_list())
+    list.push_back({{"name", entry.name},
+                    {"law", name_of(entry.law)},
+                    {"built", entry.make != nullptr},
+                    {"missing", entry.make ? "" : entry.missing},
+                    {"description", entry.description}});
+  std::cout << list.dump(2) << '\n';
+}
+
+void print_scenes() {
+  std::cout << "in " << scene_folder().string() << ":\n" << std::left;
+  for (const auto& [name, title] : list_scenes()) std::cout << std::setw(22) << name << title << '\n';
+}
+
+void print_scene(const std::string& name, const std::vector<std::string>& overrides, bool resolved) {
+  const std::filesystem::path file = find_scene(name);
+  if (resolved || !overrides.empty()) {
+    std::cout << resolved_scene_text(file, overrides);
+    return;
+  }
+  std::cout << std::ifstream(file).rdbuf();
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+void print_version() {
+  const BuildInfo& info = build_info();
+  std::cout << "ballast " << info.version << '\n'
+            << "commit      " << info.commit << (info.modified ? "-dirty" : "") << '\n'
+            << "compiler    " << info.compiler << '\n'
+            << "build type  " << info.build_type << '\n'
+            << "flags       " << info.flags << '\n';
+  for (const auto& [name, version] : info.libraries) std::cout << std::left << std::setw(12) << name << version << '\n';
+  std::cout << "processor   " << processor() << '\n';
+}
+
+}  // namespace
+
+void add_solvers_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("solvers", "Lists the solvers: name, law, whether built, what it is");
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "As JSON");
+  command->callback([json, &action] {
+    action = [json] {
+      *json ? print_solvers_json() : print_solvers();
+      return ExitCode::ok;
+    };
+  });
+}
+
+void add_scenes_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("scenes", "Lists the scenes, or prints one");
+  struct Options {
+    std::string name;
+    std::vector<std::string> overrides;
+    bool resolved = false;
+  };
+  auto options = std::make_shared<Options>();
+  command->add_option("name", options->name, "The scene to print: a start for one of your own");
+  command->add_flag("--resolved", options->resolved, "With every default filled in, as runs keep it")->needs("name");
+  command->add_option("--set", options->overrides, "With this override, resolved: dotted.key=value")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1)
+      ->needs("name");
+  command->footer(
+      "Examples:\n  ballast scenes\n  ballast scenes incline > mine.toml\n  ballast scenes vibrated_box --resolved");
+  command->callback([options, &action] {
+    action = [options] {
+      if (options->name.empty())
+        print_scenes();
+      else
+        print_scene(options->name, options->overrides, options->resolved);
+      return ExitCode::ok;
+    };
+  });
+}
+
+void add_version_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("version", "Version, commit, compiler, libraries, processor");
+  command->callback([&action] {
+    action = [] {
+      print_version();
+      return ExitCode::ok;
+    };
+  });
+}
+
+}  // namespace ballast

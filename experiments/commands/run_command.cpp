@@ -1,0 +1,43 @@
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <memory>
+
+#include "experiments/commands/command.hpp"
+
+namespace ballast {
+
+void add_run_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("run", "Runs a scene into a folder of results");
+  auto options = std::make_shared<RunOptions>();
+  command->add_option("scene", options->scene, "A scene's name (ballast scenes) or a TOML file")->required();
+  command->add_option("--set", options->overrides, "Overrides one value of the scene: dotted.key=value, body.0.mass=2")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  command->add_option("--output", options->output, "The run's folder (results/<scene>)")->type_name("DIR");
+  CLI::Option* resume = command->add_flag("--resume", options->resume, "Continues the run found in the folder");
+  command->add_flag("--overwrite", options->overwrite, "Replaces the run found in the folder")->excludes(resume);
+  command->add_flag("--new-packing", options->new_packing, "Deposits the grains again, whatever the cache has");
+  command
+      ->add_option("--packing-cache", options->packing_cache,
+                   "Where deposited packings are kept (<output>/../packings)")
+      ->type_name("DIR");
+  command->add_flag("!--no-report", options->report, "No figures and no page at the end");
+  command
+      ->add_option("--max-seconds", options->max_seconds,
+                   "Wall clock after which to write a checkpoint and exit with 3")
+      ->type_name("S");
+  command->footer(
+      "Examples:\n  ballast run vibrated_box\n"
+      "  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 --output results/fine\n"
+      "  ballast run incline --set 'gravity.direction=[0.3, 0, -1]'");
+  command->callback([options, &action] {
+    action = [options] {
+      if (!(options->max_seconds > 0.0)) throw UsageError("run: --max-seconds: expected a number > 0");
+      return run(*options);
+    };
+  });
+}
+
+}  // namespace ballast

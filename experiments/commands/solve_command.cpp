@@ -1,0 +1,189 @@
+// Stored problems through one solver, with every measure of the judge.
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands/command.hpp"
+#include "problems/problem_file.hpp"
+#include "solvers/run_solver.hpp"
+#include "solvers/solver_list.hpp"
+
+namespace ballast {
+namespace {
+
+struct SolveOptions {
+  std::vector<std::string> files;
+  std::string solver = "pgs";
+  double tolerance = 1e-8;
+  bool absolute = false;
+  int max_iterations = 10000;
+  double max_seconds = 1e30;
+  bool json = false;
+};
+
+struct SolvedFile {
+  std::string file;
+  int contacts = 0, rows = 0;
+  double tolerance = 0.0;  ///< [m/s]
+  SolverRun run;
+};
+
+/// One number of the table: its heading, its JSON name, where it is.
+struct Measure {
+  const char* heading;
+  const char* name;
+  double (*value)(const SolvedFile&);
+};
+
+// What the headings mean is said in the command's help.
+constexpr std::array measures{
+    Measure{"rms", "natural_map_rms", [](const SolvedFile& s) { return s.run.error.natural_map_rms; }},
+    Measure{"max", "natural_map_max", [](const SolvedFile& s) { return s.run.error.natural_map_max; }},
+    Measure{"scale", "velocity_scale", [](const SolvedFile& s) { return s.run.error.velocity_scale; }},
+    Measure{"fclib", "fclib", [](const SolvedFile& s) { return s.run.error.fclib; }},
+    Measure{"cone", "cone_violation", [](const SolvedFile& s) { return s.run.error.cone_violation; }},
+    Measure{"min_uN", "min_normal_velocity", [](const SolvedFile& s) { return s.run.error.min_normal_velocity; }},
+    Measure{"compl", "complementarity", [](const SolvedFile& s) { return s.run.error.complementarity; }},
+    Measure{"power", "power", [](const SolvedFile& s) { return s.run.error.power; }},
+    Measure{"momentum", "momentum_residual", [](const SolvedFile& s) { return s.run.error.momentum_residual; }},
+    Measure{"own", "own_residual", [](const SolvedFile& s) { return s.run.solved.own_residual; }},
+    Measure{"prepare_s", "prepare_seconds", [](const SolvedFile& s) { return s.run.prepare_seconds; }},
+    Measure{"solve_s", "solve_seconds", [](const SolvedFile& s) { return s.run.solve_seconds; }},
+};
+
+SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner) {
+  const FrictionProblem problem = read_problem(file);
+  SolvedFile solved{file, problem.contact_count(), problem.row_count(), options.tolerance, {}};
+  if (!options.absolute) {
+    problem.validate();
+    const double scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
+    solved.tolerance *= scale;
+  }
+  const auto solver = make_solver(options.solver);  // a new one for each: nothing is carried over
+  solved.run = runner.run(*solver, problem, {}, {solved.tolerance, options.max_iterations, options.max_seconds, false});
+  return solved;
+}
+
+void print_heading(size_t width) {
+  std::cout << std::left << std::setw(static_cast<int>(width)) << "problem" << std::right << std::setw(9) << "contacts"
+            << std::setw(8) << "rows"
+            << "  " << std::left << std::setw(18) << "stopped" << std::right << std::setw(8) << "iter" << std::setw(4)
+            << "ok";
+  for (const Measure& m : measures) std::cout << std::setw(10) << m.heading;
+  std::cout << std::setw(8) << "worst" << '\n';
+}
+
+void print_row(const SolvedFile& s, size_t width) {
+  std::cout << std::left << std::setw(static_cast<int>(width)) << std::filesystem::path(s.file).filename().string()
+            << std::right << std::setw(9) << s.contacts << std::setw(8) << s.rows << "  " << std::left << std::setw(18)
+            << name_of(s.run.solved.reason) << std::right << std::setw(8) << s.run.solved.iterations << std::setw(4)
+            << (s.run.success ? "yes" : "no") << std::scientific << std::setprecision(2);
+  for (const Measure& m : measures) std::cout << std::setw(10) << m.value(s);
+  std::cout << std::setw(8) << s.run.error.worst_contact << std::endl;
+}
+
+nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options) {
+  nlohmann::ordered_json row{{"file", s.file},
+                             {"solver", options.solver},
+                             {"contacts", s.contacts},
+                             {"rows", s.rows},
+                             {"tolerance", s.tolerance},
+                             {"reason", name_of(s.run.solved.reason)},
+                             {"success", s.run.success},
+                             {"iterations", s.run.solved.iterations},
+                             {"worst_contact", s.run.error.worst_contact},
+                             {"finite", s.run.error.finite}};
+  for (const Measure& m : measures) row[m.name] = m.value(s);
+  return row;
+}
+
+/// Every file solved: ok. Otherwise one line, and time_limit when nothing but the clock was in the way.
+ExitCode verdict(const std::vector<SolvedFile>& solved) {
+  std::string failures;
+  size_t count = 0;
+  bool only_time = true;
+  for (const SolvedFile& s : solved) {
+    if (s.run.success) continue;
+    ++count;
+    only_time = only_time && s.run.solved.reason == StopReason::time_limit;
+    failures += (failures.empty() ? "" : ", ") + s.file + " (" + name_of(s.run.solved.reason) + ")";
+  }
+  if (count == 0) return ExitCode::ok;
+  std::cerr << "ballast: " << count << " of " << solved.size() << " problems did not reach the tolerance: " << failures
+            << '\n';
+  return only_time ? ExitCode::time_limit : ExitCode::failure;
+}
+
+ExitCode solve(const SolveOptions& options) {
+  if (!(options.tolerance >= 0.0) || !std::isfinite(options.tolerance))
+    throw UsageError("solve: --tolerance: expected a number >= 0");
+  if (options.max_iterations < 1) throw UsageError("solve: --max-iterations: expected a number >= 1");
+  if (!(options.max_seconds > 0.0)) throw UsageError("solve: --max-seconds: expected a number > 0");
+  try {
+    make_solver(options.solver);  // before any file is read
+  } catch (const UnknownSolver& error) {
+    throw UsageError(error.what());
+  }
+  size_t width = 7;
+  for (const std::string& file : options.files)
+    width = std::max(width, std::filesystem::path(file).filename().string().size());
+  SolverRunner runner;
+  std::vector<SolvedFile> solved;
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  if (!options.json) print_heading(width);
+  for (const std::string& file : options.files) {
+    solved.push_back(solve_file(file, options, runner));
+    if (options.json)
+      rows.push_back(as_json(solved.back(), options));
+    else
+      print_row(solved.back(), width);
+  }
+  if (options.json) std::cout << rows.dump(2) << '\n';
+  return verdict(solved);
+}
+
+constexpr const char* footer =
+    R"(The tolerance is on the judge's scaled natural map, rms over contacts, relative to the problem's velocity scale, the rms of q
+over rows; with --absolute it is in m/s.
+
+Columns: rms, max    scaled natural map [m/s], of the contact `worst` the largest
+         scale       velocity scale [m/s]: rms/scale is what the tolerance bounds
+         fclib       what Siconos prints as error: natural map with rho = 1 over max(|q|, |r|, |u|)
+         cone        largest distance of an impulse from its cone [N s]
+         min_uN      smallest normal velocity [m/s]: negative sinks in
+         compl       largest |r . (u + mu |u_T| n)| [J]
+         power       r . u summed [J]: must not be positive
+         momentum    |M (v - v_free) - H^T r|, largest entry [N s]
+         own         the solver's own residual: never used as evidence
+         ok          the solver says that it is done and the judge agrees
+
+Examples:
+  ballast solve Capsules.hdf5 --tolerance 1e-6
+  ballast solve problems/*.hdf5 --solver pgs --max-seconds 10 --json > rows.json)";
+
+}  // namespace
+
+void add_solve_command(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("solve", "Solves stored problems and prints every measure of their errors");
+  auto options = std::make_shared<SolveOptions>();
+  command->add_option("files", options->files, "Problems: FCLIB .hdf5, Siconos .dat")->required();
+  command->add_option("--solver", options->solver, "As listed by ballast solvers")->capture_default_str();
+  command->add_option("--tolerance", options->tolerance, "Relative to the velocity scale")->capture_default_str();
+  command->add_flag("--absolute", options->absolute, "The tolerance is in m/s");
+  command->add_option("--max-iterations", options->max_iterations, "Sweeps, Newton steps, ...")->capture_default_str();
+  command->add_option("--max-seconds", options->max_seconds, "Wall clock per problem");
+  command->add_flag("--json", options->json, "Rows as JSON instead of a table");
+  command->footer(footer);
+  command->callback([options, &action] { action = [options] { return solve(*options); }; });
+}
+
+}  // namespace ballast
