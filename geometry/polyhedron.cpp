@@ -63,8 +63,8 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   build_edges();
   build_vertex_lists();
   check_one_piece();
-  build_planes(tolerance);
-  check_convex(tolerance);
+  const std::vector<double> thinness = build_planes(tolerance);
+  check_convex(tolerance, thinness);
 }
 
 /// Indices in range, no vertex twice in a face, none unused, none twice in space.
@@ -137,8 +137,12 @@ void Polyhedron::build_edges() {
     if (end - i == 1)
       invalid(At{.face = up.face}, "the mesh is open at edge ", up.low, "-", up.high, ": only face ", up.face,
               " has it");
-    if (end - i > 2)
-      invalid(At{.face = down.face}, "edge ", up.low, "-", up.high, " is shared by ", end - i, " faces (non-manifold)");
+    if (end - i > 2) {
+      int latest = 0;
+      for (size_t k = i; k < end; ++k) latest = std::max(latest, halves[k].face);
+      invalid(At{.face = latest}, "edge ", up.low, "-", up.high, " is shared by ", end - i,
+              " faces (non-manifold), the last of them face ", latest);
+    }
     if (up.downwards == down.downwards)
       invalid(At{.face = std::max(up.face, down.face)}, "faces ", up.face, " and ", down.face, " run along edge ",
               up.low, "-", up.high, " in the same direction: one of them is turned over");
@@ -187,7 +191,9 @@ void Polyhedron::check_one_piece() const {
   }
 }
 
-void Polyhedron::build_planes(double tolerance) {
+/// Returns for each face its extent over its double area: one over a height, large for thin faces.
+std::vector<double> Polyhedron::build_planes(double tolerance) {
+  std::vector<double> thinness;
   inradius_ = std::numeric_limits<double>::infinity();
   double volume6 = 0.0;   // 6 x signed volume, about a point inside so that far meshes lose no digits
   double surface2 = 0.0;  // 2 x surface
@@ -213,11 +219,13 @@ void Polyhedron::build_planes(double tolerance) {
     inradius_ = std::min(inradius_, offsets_[f]);
     volume6 += area2.dot(centre - inside);
     surface2 += length;
+    thinness.push_back(extent / length);
     check_face(f, tolerance);
   }
   const double thickness = 2.0 / 3.0 * volume6 / surface2;  // of a plate: volume over half the surface
   if (thickness < -tolerance * size_) invalid(At{}, "all faces are turned inward: the enclosed volume is negative");
   if (!(thickness > tolerance * size_)) invalid(At{}, "the mesh is flat: it encloses no volume");
+  return thinness;
 }
 
 /// Flat, and strictly convex at each corner. Corners that all turn left by less than pi, once around, make the loop a
@@ -248,21 +256,12 @@ void Polyhedron::check_face(int f, double tolerance) const {
 
 /// Every vertex behind every face. With distinct vertices, convex faces and one sphere this is enough: a surface that
 /// covered the hull more than once would need each corner of the hull twice.
-void Polyhedron::check_convex(double tolerance) const {
-  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-  const double coordinate_error = rounding * (circumradius_ + size_);
+void Polyhedron::check_convex(double tolerance, const std::vector<double>& thinness) const {
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (circumradius_ + size_);
   for (int f = 0; f < face_count(); ++f) {
-    const std::span<const int> loop = face(f);
     // Thin faces know their plane badly: an error of one rounding over the height of the face tilts it by that angle.
-    double area2 = 0.0, extent = 0.0;
-    const Vec3& first = vertices_[loop[0]];
-    for (size_t k = 1; k < loop.size(); ++k) {
-      const Vec3 chord = vertices_[loop[k]] - first;
-      extent = std::max(extent, chord.norm());
-      if (k + 1 < loop.size()) area2 += normals_[f].dot(chord.cross(vertices_[loop[k + 1]] - first));
-    }
-    const double tilt = coordinate_error * extent / area2;
-    const double allowed = tolerance * size_ + coordinate_error + 2.0 * size_ * tilt;
+    const double allowed = tolerance * size_ + rounding * (1.0 + 2.0 * size_ * thinness[f]);
+    const Vec3& first = vertices_[face(f)[0]];
     for (int v = 0; v < vertex_count(); ++v) {
       const double height = normals_[f].dot(vertices_[v] - first);
       if (height > allowed)

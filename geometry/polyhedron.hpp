@@ -86,9 +86,9 @@ class Polyhedron {
   void build_edges();
   void build_vertex_lists();
   void check_one_piece() const;
-  void build_planes(double tolerance);
+  std::vector<double> build_planes(double tolerance);
   void check_face(int f, double tolerance) const;
-  void check_convex(double tolerance) const;
+  void check_convex(double tolerance, const std::vector<double>& thinness) const;
 
   std::vector<Vec3> vertices_;
   double size_ = 0.0;  // largest distance of a vertex from the vertices' mean: the scale of the tolerances
