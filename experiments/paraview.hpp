@@ -11,8 +11,9 @@
 
 namespace ballast {
 
-/// A time series that is whole after every call: each file is written beside and renamed, then its .pvd. A series found in the
-/// folder is continued: frames with step > `last_step` are deleted (0: all of them), the .pvd is rebuilt from the rest.
+/// A time series that is whole after every call: each file is written beside and renamed, then its .pvd. A series found
+/// in the folder is continued: frames with step > `last_step` are deleted (0: all of them), the .pvd is rebuilt from
+/// the rest.
 class ParaviewSeries {
  public:
   /// Writes into `folder`/paraview. `system` must outlive the series. Throws RunError naming the file.

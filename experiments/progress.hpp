@@ -1,5 +1,6 @@
 #pragma once
-// How far a run is: one line that rewrites itself on a terminal, a line every ten seconds elsewhere, nothing when quiet.
+// How far a run is: one line that rewrites itself on a terminal, a line every ten seconds elsewhere, nothing when
+// quiet.
 
 #include <functional>
 #include <iosfwd>
@@ -23,8 +24,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// After each step: `time` of `total` [s] in the phase `label`. Steps are counted by the calls; rate and time left are those
-  /// since the first call. `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is time to write.
+  /// After each step: `time` of `total` [s] in the phase `label`. Steps are counted by the calls; rate and time left
+  /// are those since the first call. `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is
+  /// time to write.
   void show(std::string_view label, double time, double total, const StepRecord& record,
             double rms_velocity = std::numeric_limits<double>::quiet_NaN());
 
@@ -41,9 +43,10 @@ class Progress {
   std::ostream& out_;
   std::function<double()> clock_;
   // of the phase
-  long steps_ = 0;                    // calls after the first
+  bool started_ = false;
+  long steps_ = 0;  // calls after the first
   double first_clock_ = 0.0, first_time_ = 0.0;
-  double last_written_ = 0.0;         // on the clock
+  double last_written_ = 0.0;               // on the clock
   bool line_open_ = false, stale_ = false;  // stale: shown later than written
   size_t line_length_ = 0;
   // what was shown last

@@ -1,0 +1,49 @@
+#pragma once
+// Files that are there whole or not at all.
+
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+namespace ballast {
+
+/// A file written as `<target>.tmp` beside its target; commit() makes it safe on disk and renames it over the target.
+/// Without commit() the target stays as it was and the neighbour is removed. Every failure is a RunError that names the
+/// target and the reason.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path target);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(const void* data, size_t bytes);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  void print(const char* format, ...) __attribute__((format(printf, 2, 3)));
+
+  void commit();
+
+ private:
+  void close();
+  std::filesystem::path target_, neighbour_;
+  std::FILE* file_ = nullptr;
+};
+
+/// Writes all of `text` through an AtomicFile.
+void write_whole_file(const std::filesystem::path& target, std::string_view text);
+
+/// The whole file. Throws RunError: missing, a folder, unreadable.
+std::string read_whole_file(const std::filesystem::path& file);
+
+/// Makes a folder and its parents. Throws RunError.
+void create_folder(const std::filesystem::path& folder);
+
+/// Throws RunError "<file>: cannot <action>: <errno's text>".
+[[noreturn]] void throw_file_error(const std::filesystem::path& file, std::string_view action);
+
+/// Flush to the disk, not only to the kernel. Throws RunError naming `file`.
+void sync_to_disk(std::FILE* stream, const std::filesystem::path& file);
+/// The same for the entries of a folder: after a file was created or renamed in it.
+void sync_folder(const std::filesystem::path& folder);
+
+}  // namespace ballast

@@ -1,0 +1,84 @@
+#pragma once
+// Append-only file of fixed-size rows of doubles: what a run that may be killed at any moment writes into.
+//
+//   magic "BALLROWS", u32 version, u32 byte order, u64 doubles per row, u64 owner, u64 length of text,
+//   u64 safe, u64 checksum of safe, text, u64 checksum of all of this without safe,
+//   then rows: doubles, u64 checksum of the row's number and its doubles.
+//
+// The first `safe` rows have been made safe on disk: that one of them is cut off or damaged is an error. What follows
+// them is taken as long as it is whole: the end of a log after a power cut may be anything.
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ballast {
+
+struct RowLogHeader {
+  std::string text;         ///< what the rows are: names of columns
+  std::uint64_t owner = 0;  ///< key of what the rows belong to
+  size_t row_size = 0;      ///< doubles per row
+};
+
+namespace row_log {
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+}  // namespace row_log
+
+/// Reads rows from the first. Every defect is a RunError that names the file.
+class RowReader {
+ public:
+  explicit RowReader(const std::filesystem::path& file);
+
+  const RowLogHeader& header() const { return header_; }
+  /// Rows that must be there.
+  long safe_count() const { return safe_count_; }
+  /// Bytes before the first row.
+  size_t header_bytes() const { return header_bytes_; }
+
+  /// The next row, valid until the next call; empty after the last. Throws RunError when a safe row is damaged.
+  std::span<const double> next();
+  void rewind();
+
+ private:
+  void read_header();
+  void read(void* data, size_t bytes);
+
+  std::filesystem::path path_;
+  row_log::File file_;
+  RowLogHeader header_;
+  size_t header_bytes_ = 0;
+  long row_count_ = 0, safe_count_ = 0, row_ = 0;  // row_count_: by the file's length
+  std::vector<double> values_;
+};
+
+/// Appends rows. Buffered: rows are safe after flush().
+class RowWriter {
+ public:
+  /// Creates the file, or replaces it.
+  RowWriter(const std::filesystem::path& file, const RowLogHeader& header);
+  /// Continues a file after its first `kept` rows; what follows them is cut off. `reader` has read that file so far.
+  RowWriter(const std::filesystem::path& file, const RowReader& reader, long kept);
+
+  void append(std::span<const double> row);
+  /// Everything so far on disk.
+  void flush();
+  long row_count() const { return row_count_; }
+
+ private:
+  void write(const void* data, size_t bytes);
+  void mark_safe(long rows);
+
+  std::filesystem::path path_;
+  row_log::File file_;
+  size_t row_size_ = 0;
+  long row_count_ = 0;
+};
+
+}  // namespace ballast
