@@ -4,6 +4,7 @@
 #include <new>
 #include <ostream>
 
+#include "experiments/build_info.hpp"
 #include "experiments/commands/command.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -62,6 +63,7 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
                    "ballast");
   program.footer(examples);
   program.require_subcommand(1);
+  program.set_version_flag("--version", build_line());
   Action action;
   add_run_command(program, action);
   add_solve_command(program, action);

@@ -63,12 +63,12 @@ std::string processor() {
 void print_version() {
   const BuildInfo& info = build_info();
   std::cout << "ballast " << info.version << '\n'
-            << "commit      " << info.commit << (info.modified ? "-dirty" : "") << '\n'
-            << "compiler    " << info.compiler << '\n'
-            << "build type  " << info.build_type << '\n'
-            << "flags       " << info.flags << '\n';
-  for (const auto& [name, version] : info.libraries) std::cout << std::left << std::setw(12) << name << version << '\n';
-  std::cout << "processor   " << processor() << '\n';
+            << "commit        " << info.commit << (info.modified ? "-dirty" : "") << '\n'
+            << "compiler      " << info.compiler << '\n'
+            << "build type    " << info.build_type << '\n'
+            << "flags         " << info.flags << '\n';
+  for (const auto& [name, version] : info.libraries) std::cout << std::left << std::setw(14) << name << version << '\n';
+  std::cout << "processor     " << processor() << '\n';
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <CLI/CLI.hpp>
 
-#include <cmath>
+#include <iostream>
 #include <memory>
 
 #include "experiments/commands/command.hpp"
@@ -35,7 +35,10 @@ void add_run_command(CLI::App& program, Action& action) {
   command->callback([options, &action] {
     action = [options] {
       if (!(options->max_seconds > 0.0)) throw UsageError("run: --max-seconds: expected a number > 0");
-      return run(*options);
+      const ExitCode code = run(*options);
+      if (code != ExitCode::ok)
+        std::cerr << "ballast: " << options->scene << ": stopped before its end; --resume continues it" << std::endl;
+      return code;
     };
   });
 }

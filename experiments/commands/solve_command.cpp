@@ -160,7 +160,7 @@ Columns: rms, max    scaled natural map [m/s], of the contact `worst` the larges
          cone        largest distance of an impulse from its cone [N s]
          min_uN      smallest normal velocity [m/s]: negative sinks in
          compl       largest |r . (u + mu |u_T| n)| [J]
-         power       r . u summed [J]: must not be positive
+         power       r . (u - bias) summed [J]: what the impulses do to the bodies at their end-of-step velocities
          momentum    |M (v - v_free) - H^T r|, largest entry [N s]
          own         the solver's own residual: never used as evidence
          ok          the solver says that it is done and the judge agrees
