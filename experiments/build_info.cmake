@@ -1,5 +1,5 @@
 # Run at every build (cmake -P): asks git which commit this is and writes OUTPUT from build_info.cpp.in if that changed.
-# Takes SOURCE, OUTPUT, VERSION, COMPILER, BUILD_TYPE, FLAGS.
+# Takes SOURCE, OUTPUT, VERSION, COMPILER, BUILD_TYPE, FLAGS, LIBRARIES (name=version;...).
 set(COMMIT unknown)
 set(MODIFIED false)
 string(STRIP "${FLAGS}" FLAGS)
@@ -17,4 +17,6 @@ if(GIT AND EXISTS ${SOURCE}/.git)
     endif()
   endif()
 endif()
+list(TRANSFORM LIBRARIES REPLACE "(.*)=(.*)" "{\"\\1\", \"\\2\"}")
+list(JOIN LIBRARIES ", " LIBRARIES)
 configure_file(${SOURCE}/experiments/build_info.cpp.in ${OUTPUT} @ONLY)
