@@ -1,0 +1,172 @@
+#include "geometry/collision_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ballast {
+namespace {
+
+constexpr int kLanes = 8;        // one AVX-512 register, two AVX, four SSE2
+constexpr double kFar = 1e100;   // [m]; finite, so that sums of padding stay finite
+
+int rounded_up(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
+
+/// The boundary of a patch of faces as one loop, counter-clockwise from outside, from its smallest vertex on.
+std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<int>& patch, int id) {
+  std::vector<std::pair<int, int>> next;  // (corner, the corner after it)
+  for (int f = 0; f < polyhedron.face_count(); ++f) {
+    if (patch[f] != id) continue;
+    const std::span<const int> loop = polyhedron.face(f), across = polyhedron.face_neighbours(f);
+    for (size_t k = 0; k < loop.size(); ++k) {
+      if (patch[across[k]] != id) next.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
+    }
+  }
+  std::sort(next.begin(), next.end());
+  std::vector<int> loop{next.front().first};
+  while (loop.size() < next.size()) {
+    loop.push_back(std::lower_bound(next.begin(), next.end(), std::pair(loop.back(), -1))->second);
+  }
+  return loop;
+}
+
+Vec3 newell_normal(const Polyhedron& polyhedron, std::span<const int> loop) {
+  const Vec3& first = polyhedron.vertex(loop[0]);
+  Vec3 area2 = Vec3::Zero();
+  for (size_t k = 2; k < loop.size(); ++k)
+    area2 += (polyhedron.vertex(loop[k - 1]) - first).cross(polyhedron.vertex(loop[k]) - first);
+  return area2.normalized();
+}
+
+}  // namespace
+
+AffineRows::AffineRows(int count, double padding) : count_(count), padded_(rounded_up(count)) {
+  table_.assign(4 * static_cast<size_t>(padded_), 0.0);
+  std::fill(table_.end() - padded_, table_.end(), padding);
+}
+
+void AffineRows::set(int row, const Vec3& xyz, double w) {
+  for (int axis = 0; axis < 3; ++axis) table_[axis * static_cast<size_t>(padded_) + row] = xyz[axis];
+  table_[3 * static_cast<size_t>(padded_) + row] = w;
+}
+
+void AffineRows::evaluate(const Vec3& d, double* __restrict values) const {
+  const double dx = d.x(), dy = d.y(), dz = d.z();
+  const double* __restrict x = table_.data();
+  const double* __restrict y = x + padded_;
+  const double* __restrict z = y + padded_;
+  const double* __restrict w = z + padded_;
+  for (int i = 0; i < padded_; ++i) values[i] = ((dx * x[i] + dy * y[i]) + dz * z[i]) + w[i];
+}
+
+CollisionShape::CollisionShape(const Polyhedron& polyhedron) : circumradius_(polyhedron.circumradius()) {
+  vertices_ = AffineRows(polyhedron.vertex_count(), kFar);
+  for (int v = 0; v < polyhedron.vertex_count(); ++v) vertices_.set(v, polyhedron.vertex(v), 0.0);
+  const std::vector<int> patch = merge_coplanar(polyhedron);
+  build_faces(polyhedron, patch);
+  build_sides(polyhedron, patch);
+  build_vertex_faces(polyhedron, patch);
+  build_ball(polyhedron);
+}
+
+/// Number of the patch that each face belongs to; patches are numbered by their first face. A face joins when it is
+/// parallel to the patch's first face, so that slow curvature does not add up.
+std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
+  std::vector<int> patch(polyhedron.normals().size(), -1), queue;
+  int count = 0;
+  for (int first = 0; first < polyhedron.face_count(); ++first) {
+    if (patch[first] >= 0) continue;
+    patch[first] = count;
+    queue.assign(1, first);
+    for (size_t i = 0; i < queue.size(); ++i) {
+      for (const int g : polyhedron.face_neighbours(queue[i])) {
+        if (patch[g] >= 0 || polyhedron.normal(g).dot(polyhedron.normal(first)) < 0.0) continue;
+        if (polyhedron.normal(g).cross(polyhedron.normal(first)).norm() > coplanar_angle) continue;
+        patch[g] = count;
+        queue.push_back(g);
+      }
+    }
+    ++count;
+  }
+  return patch;
+}
+
+void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+  const int count = 1 + *std::max_element(patch.begin(), patch.end());
+  std::vector<int> members(count, 0), seed(count, 0);
+  for (int f = polyhedron.face_count() - 1; f >= 0; --f) {
+    ++members[patch[f]];
+    seed[patch[f]] = f;
+  }
+  faces_ = AffineRows(count, -kFar);
+  face_begin_.assign(1, 0);
+  std::vector<double> heights(vertices_.padded());
+  for (int p = 0; p < count; ++p) {
+    std::vector<int> loop(polyhedron.face(seed[p]).begin(), polyhedron.face(seed[p]).end());
+    Vec3 normal = polyhedron.normal(seed[p]);
+    if (members[p] > 1) {
+      loop = boundary_loop(polyhedron, patch, p);
+      normal = newell_normal(polyhedron, loop);
+    }
+    corners_.insert(corners_.end(), loop.begin(), loop.end());
+    face_begin_.push_back(static_cast<int>(corners_.size()));
+    max_corners_ = std::max(max_corners_, static_cast<int>(loop.size()));
+    vertices_.evaluate(normal, heights.data());
+    faces_.set(p, normal, -*std::max_element(heights.begin(), heights.begin() + vertices_.count()));
+    for (const int v : loop) unevenness_ = std::max(unevenness_, -faces_.w(p) - heights[v]);
+  }
+  isolation_.assign(count, 1.0);
+  for (int f = 0; f < count; ++f) {
+    for (int g = 0; g < count; ++g) {
+      if (g == f || faces_.xyz(f).dot(faces_.xyz(g)) < 0.5) continue;
+      isolation_[f] = std::min(isolation_[f], faces_.xyz(f).cross(faces_.xyz(g)).norm());  // sine <= angle
+    }
+  }
+}
+
+void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+  sides_.resize(corners_.size());
+  const auto add_side = [&](int f, int from, int to) {
+    const int k = static_cast<int>(std::find(corners_.begin() + face_begin_[f], corners_.begin() + face_begin_[f + 1], from) -
+                                   corners_.begin());
+    const Vec3 outward = (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_.xyz(f)).normalized();
+    const double offset = std::max(outward.dot(polyhedron.vertex(from)), outward.dot(polyhedron.vertex(to)));
+    sides_[k] = {static_cast<int>(edges_.size()), offset, outward};
+  };
+  for (const Polyhedron::Edge& edge : polyhedron.edges()) {
+    const int left = patch[edge.left], right = patch[edge.right];
+    if (left == right) continue;
+    add_side(left, edge.tail, edge.head);
+    add_side(right, edge.head, edge.tail);
+    edges_.push_back({edge.tail, edge.head, left, right, polyhedron.vertex(edge.head) - polyhedron.vertex(edge.tail)});
+  }
+}
+
+void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+  vertex_begin_.assign(1, 0);
+  for (int v = 0; v < polyhedron.vertex_count(); ++v) {
+    for (const int f : polyhedron.vertex_faces(v)) vertex_faces_.push_back(patch[f]);
+    const auto begin = vertex_faces_.begin() + vertex_begin_.back();
+    std::sort(begin, vertex_faces_.end());
+    vertex_faces_.erase(std::unique(begin, vertex_faces_.end()), vertex_faces_.end());
+    vertex_begin_.push_back(static_cast<int>(vertex_faces_.size()));
+  }
+}
+
+/// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is larger: the mean is always
+/// strictly inside, the origin of a user's frame need not be.
+void CollisionShape::build_ball(const Polyhedron& polyhedron) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : polyhedron.vertices()) mean += p;
+  mean /= static_cast<double>(polyhedron.vertex_count());
+  const auto radius_about = [&](const Vec3& centre) {
+    double nearest = kFar;
+    for (int f = 0; f < faces_.count(); ++f)
+      nearest = std::min(nearest, -(faces_.xyz(f).dot(centre) + faces_.w(f)));
+    return nearest;
+  };
+  if (radius_about(mean) > radius_about(Vec3::Zero())) ball_centre_ = mean;
+  ball_radius_ = radius_about(ball_centre_);
+}
+
+}  // namespace ballast

@@ -1,0 +1,104 @@
+#pragma once
+// A convex polyhedron laid out for contact detection: tables that the compiler sweeps with vector instructions.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "geometry/polyhedron.hpp"
+
+namespace ballast {
+
+/// Rows (x, y, z, w) stored column by column, padded to a multiple of 8 rows. A row stands for the affine function
+/// d -> (x, y, z).d + w.
+class AffineRows {
+ public:
+  AffineRows() = default;
+  /// `padding`: w of the rows that fill up, chosen so that they never win the minimum or maximum that is sought.
+  AffineRows(int count, double padding);
+
+  int count() const { return count_; }
+  int padded() const { return padded_; }
+  void set(int row, const Vec3& xyz, double w);
+  Vec3 xyz(int row) const {
+    return Vec3(table_[row], table_[padded_ + row], table_[2 * static_cast<size_t>(padded_) + row]);
+  }
+  double w(int row) const { return table_[3 * static_cast<size_t>(padded_) + row]; }
+
+  /// values[i] = xyz(i).d + w(i) for all padded() rows.
+  void evaluate(const Vec3& d, double* values) const;
+
+ private:
+  int count_ = 0, padded_ = 0;
+  std::vector<double> table_;
+};
+
+/// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated boxes) are one face here,
+/// so that a contact patch does not end at a diagonal. Frame: that of the polyhedron [m].
+class CollisionShape {
+ public:
+  /// Two faces whose normals differ by less than this angle [rad] are one.
+  static constexpr double coplanar_angle = 1e-9;
+
+  struct Edge {
+    int tail, head;
+    int left, right;  ///< faces: seen from outside, `left` runs tail -> head
+    Vec3 along;       ///< head - tail
+  };
+  /// One side of a face: the edge from corner k to corner k+1 of its loop, and the plane through it that stands on the
+  /// face: inside the face outward.x <= offset.
+  struct Side {
+    int edge;
+    double offset;
+    Vec3 outward;  ///< unit, in the plane of the face
+  };
+
+  explicit CollisionShape(const Polyhedron& polyhedron);
+
+  /// Rows (position, 0); padding is far above every height.
+  const AffineRows& vertices() const { return vertices_; }
+  /// Rows (outward unit normal, -offset): the signed distance of a point to each face's plane. The offset is the support of
+  /// the whole polyhedron along the normal. Padding is far inside.
+  const AffineRows& faces() const { return faces_; }
+  std::span<const Edge> edges() const { return edges_; }
+
+  int corner_count(int f) const { return face_begin_[f + 1] - face_begin_[f]; }
+  std::span<const int> corners(int f) const { return {corners_.data() + face_begin_[f], corner_span(f)}; }
+  std::span<const Side> sides(int f) const { return {sides_.data() + face_begin_[f], corner_span(f)}; }
+  /// Faces that have v in their plane, ascending.
+  std::span<const int> vertex_faces(int v) const {
+    return {vertex_faces_.data() + vertex_begin_[v], static_cast<size_t>(vertex_begin_[v + 1] - vertex_begin_[v])};
+  }
+  int max_corners() const { return max_corners_; }
+
+  /// Smallest angle between face f's normal and any other face's, up to 1 [rad].
+  double face_isolation(int f) const { return isolation_[f]; }
+
+  /// Largest distance of a corner from its face's plane [m]: rounding, or what the polyhedron's tolerance allowed.
+  double unevenness() const { return unevenness_; }
+  /// A ball inside the solid.
+  const Vec3& ball_centre() const { return ball_centre_; }
+  double ball_radius() const { return ball_radius_; }
+  /// Largest distance of a vertex from the frame's origin.
+  double circumradius() const { return circumradius_; }
+
+ private:
+  size_t corner_span(int f) const { return static_cast<size_t>(corner_count(f)); }
+  std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
+  void build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  void build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  void build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  void build_ball(const Polyhedron& polyhedron);
+
+  AffineRows vertices_, faces_;
+  std::vector<Edge> edges_;
+  std::vector<int> face_begin_, corners_;
+  std::vector<Side> sides_;
+  std::vector<int> vertex_begin_, vertex_faces_;
+  std::vector<double> isolation_;
+  int max_corners_ = 0;
+  Vec3 ball_centre_ = Vec3::Zero();
+  double unevenness_ = 0.0, ball_radius_ = 0.0, circumradius_ = 0.0;
+};
+
+}  // namespace ballast

@@ -1,0 +1,182 @@
+#include "geometry/contact_detector.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "geometry/axis_search.hpp"
+#include "geometry/broad_phase.hpp"
+#include "geometry/contact_manifold.hpp"
+
+namespace ballast {
+namespace {
+
+/// One table per distinct polyhedron, in the order of first use; `index[i]`: that of body i, -1 for planes.
+struct ShapeTables {
+  explicit ShapeTables(std::span<const ContactShape> bodies) {
+    std::vector<const Polyhedron*> polyhedra;
+    for (const ContactShape& body : bodies) {
+      if (body.polyhedron) polyhedra.push_back(body.polyhedron);
+    }
+    std::vector<const Polyhedron*> distinct = polyhedra;
+    std::sort(distinct.begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    std::vector<int> table_of(distinct.size(), -1);
+    tables.reserve(distinct.size());
+    for (const ContactShape& body : bodies) {
+      index.push_back(-1);
+      if (!body.polyhedron) continue;
+      int& table = table_of[std::lower_bound(distinct.begin(), distinct.end(), body.polyhedron) - distinct.begin()];
+      if (table < 0) {
+        table = static_cast<int>(tables.size());
+        tables.emplace_back(*body.polyhedron);
+      }
+      index.back() = table;
+    }
+  }
+  std::vector<CollisionShape> tables;
+  std::vector<int> index;
+};
+
+double chosen_skin(double skin, std::span<const CollisionShape> shapes) {
+  if (skin > 0.0 || shapes.empty()) return skin;
+  double sum = 0.0;
+  for (const CollisionShape& shape : shapes) sum += shape.circumradius();
+  return 0.05 * sum / static_cast<double>(shapes.size());
+}
+
+}  // namespace
+
+struct ContactDetector::State {
+  State(std::vector<ContactShape> bodies, const DetectionSettings& detection)
+      : shapes(std::move(bodies)),
+        settings(detection),
+        tables(shapes),
+        broad_phase(broad_phase_bodies(), chosen_skin(settings.skin, tables.tables)),
+        search(tables.tables),
+        rotations(shapes.size()) {
+    size_t vertices = 0;
+    for (const CollisionShape& shape : tables.tables)
+      vertices = std::max(vertices, static_cast<size_t>(shape.vertices().padded()));
+    heights.resize(vertices);
+  }
+
+  std::vector<BroadPhase::Body> broad_phase_bodies() const {
+    std::vector<BroadPhase::Body> bodies;
+    for (size_t i = 0; i < shapes.size(); ++i) bodies.push_back({shape(static_cast<int>(i)), shapes[i].fixed});
+    return bodies;
+  }
+  const CollisionShape* shape(int body) const {
+    return tables.index[body] < 0 ? nullptr : &tables.tables[tables.index[body]];
+  }
+
+  void check(std::span<const Pose> poses, std::span<const double> reach) const;
+  void detect_plane(int plane, std::span<const Pose> poses, std::span<const double> reach,
+                    std::vector<ContactPoint>& contacts);
+  void detect_pair(CandidatePair& pair, std::span<const Pose> poses, std::span<const double> reach,
+                   std::vector<ContactPoint>& contacts);
+  bool boxes_within_reach(const CandidatePair& pair, std::span<const Pose> poses, double alert) const;
+
+  std::vector<ContactShape> shapes;
+  DetectionSettings settings;
+  ShapeTables tables;
+  BroadPhase broad_phase;
+  AxisSearch search;
+  ContactManifold manifold;
+  std::vector<Mat3> rotations;  // R_WB at the poses of this call
+  Heights heights;
+  DetectionCounters counters;
+};
+
+ContactDetector::ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings)
+    : state_(std::make_unique<State>(std::move(shapes), settings)) {}
+ContactDetector::~ContactDetector() = default;
+ContactDetector::ContactDetector(ContactDetector&&) noexcept = default;
+ContactDetector& ContactDetector::operator=(ContactDetector&&) noexcept = default;
+const DetectionCounters& ContactDetector::counters() const { return state_->counters; }
+
+void ContactDetector::detect(std::span<const Pose> poses, std::span<const double> reach,
+                             std::vector<ContactPoint>& contacts) {
+  State& s = *state_;
+  s.check(poses, reach);
+  contacts.clear();
+  for (size_t i = 0; i < poses.size(); ++i) s.rotations[i] = poses[i].rotation.toRotationMatrix();
+  s.broad_phase.update(poses, s.rotations, reach);
+  s.counters = DetectionCounters{};
+  s.counters.candidate_pairs = static_cast<long>(s.broad_phase.pairs().size());
+  s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
+  for (int a = 0; a < static_cast<int>(s.shapes.size()); ++a) {
+    if (!s.shape(a)) s.detect_plane(a, poses, reach, contacts);
+    for (int k = s.broad_phase.first(a); k < s.broad_phase.first(a + 1); ++k)
+      s.detect_pair(s.broad_phase.pairs()[k], poses, reach, contacts);
+  }
+}
+
+void ContactDetector::State::check(std::span<const Pose> poses, std::span<const double> reach) const {
+  if (poses.size() != shapes.size() || reach.size() != shapes.size())
+    throw std::invalid_argument("detect: " + std::to_string(shapes.size()) + " bodies, but " +
+                                std::to_string(poses.size()) + " poses and " + std::to_string(reach.size()) + " reaches");
+  for (size_t i = 0; i < poses.size(); ++i) {
+    if (!poses[i].position.allFinite() || !poses[i].rotation.coeffs().allFinite() || !(reach[i] >= 0.0))
+      throw std::invalid_argument("detect: pose or reach of body " + std::to_string(i) + " is not a finite number");
+  }
+}
+
+/// Every vertex within reach is a point.
+void ContactDetector::State::detect_plane(int plane, std::span<const Pose> poses, std::span<const double> reach,
+                                          std::vector<ContactPoint>& contacts) {
+  const Vec3 normal = rotations[plane] * shapes[plane].plane.normal;
+  const Vec3& origin = poses[plane].position;
+  for (int b = 0; b < static_cast<int>(shapes.size()); ++b) {
+    const CollisionShape* body = shape(b);
+    if (!body || (shapes[plane].fixed && shapes[b].fixed)) continue;
+    const double alert = reach[plane] + reach[b];
+    const double height = normal.dot(poses[b].position - origin);
+    if (height > body->circumradius() + alert) continue;
+    body->vertices().evaluate(rotations[b].transpose() * normal, heights.data());
+    const size_t before = contacts.size();
+    for (int v = 0; v < body->vertices().count(); ++v) {
+      const double gap = height + heights[v];
+      if (gap > alert) continue;
+      const Vec3 vertex = poses[b].position + rotations[b] * body->vertices().xyz(v);
+      contacts.push_back({plane, b, feature_key(PointKind::vertex_of_b, 0, v), normal, vertex - 0.5 * gap * normal, gap});
+    }
+    if (contacts.size() > before) ++counters.manifolds;
+  }
+}
+
+void ContactDetector::State::detect_pair(CandidatePair& candidate, std::span<const Pose> poses,
+                                         std::span<const double> reach, std::vector<ContactPoint>& contacts) {
+  const int a = candidate.a, b = candidate.b;
+  const CollisionShape &shape_a = *shape(a), &shape_b = *shape(b);
+  const double alert = reach[a] + reach[b];
+  const Vec3 between = poses[b].position - poses[a].position;
+  const double touching = shape_a.circumradius() + shape_b.circumradius() + alert;
+  if (between.squaredNorm() > touching * touching) return;
+
+  const Mat3& rotation = rotations[a];
+  const ShapePair pair(shape_a, shape_b, {rotation.transpose() * rotations[b], rotation.transpose() * between});
+  if (!settings.use_cache) candidate.axis = {};
+  SeparatingAxis axis;
+  const AxisOutcome outcome = search.find(pair, alert, candidate.axis, axis);
+  if (outcome == AxisOutcome::separated_by_hint) ++counters.cached_separations;
+  if (outcome == AxisOutcome::separated || outcome == AxisOutcome::found) ++counters.full_tests;
+  if (is_separated(outcome)) return;
+  // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says. Which of them count must
+  // not depend on which the broad phase happened to list: those that it lists with no margin at all.
+  if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, poses, alert)) return;
+
+  ++counters.manifolds;
+  const Vec3 normal = rotation * axis.normal;
+  for (const ManifoldPoint& point : manifold.points(pair, axis, alert, settings.max_points))
+    contacts.push_back({a, b, point.key, normal, poses[a].position + rotation * point.position, point.gap});
+}
+
+bool ContactDetector::State::boxes_within_reach(const CandidatePair& pair, std::span<const Pose> poses,
+                                                double alert) const {
+  const Box box_a = bounding_box(*shape(pair.a), rotations[pair.a], poses[pair.a].position);
+  const Box box_b = bounding_box(*shape(pair.b), rotations[pair.b], poses[pair.b].position);
+  return (box_b.low - box_a.high).maxCoeff() <= alert && (box_a.low - box_b.high).maxCoeff() <= alert;
+}
+
+}  // namespace ballast

@@ -1,0 +1,141 @@
+#include "geometry/contact_manifold.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+namespace {
+
+/// The face of the other body, among those at its touching vertex, that opposes the reference face most. Near-ties go to
+/// the smallest index: rounding must not choose.
+int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
+  const CollisionShape& other = *pair.shape[1 - reference];
+  const Vec3 direction = pair.other[reference].rotation.transpose() * pair.shape[reference]->faces().xyz(face);
+  int incident = -1;
+  double most_opposed = 2.0;
+  for (const int f : other.vertex_faces(vertex)) {
+    const double cosine = other.faces().xyz(f).dot(direction);
+    if (cosine >= most_opposed - 1e-12) continue;
+    most_opposed = cosine;
+    incident = f;
+  }
+  return incident;
+}
+
+ClippedPoint touching_vertex(const ShapePair& pair, int reference, int face, int vertex) {
+  const AffineRows& faces = pair.shape[reference]->faces();
+  ClippedPoint point;
+  point.position = pair.other[reference] * pair.shape[1 - reference]->vertices().xyz(vertex);
+  point.height = faces.xyz(face).dot(point.position) + faces.w(face);
+  point.key = reference == 0 ? feature_key(PointKind::vertex_of_b, 0, vertex)
+                             : feature_key(PointKind::vertex_of_a, vertex, 0);
+  point.next_edge = -1;
+  return point;
+}
+
+double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const ClippedPoint& r) {
+  return 0.5 * (q.position - p.position).cross(r.position - p.position).norm();
+}
+
+}  // namespace
+
+std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair, const SeparatingAxis& axis, double alert,
+                                                       int max_points) {
+  points_.clear();
+  if (axis.feature.kind == AxisKind::edges)
+    points_.push_back(edge_point(pair, axis));
+  else
+    face_points(pair, axis, alert, max_points);
+  if (points_.size() > 1)
+    std::sort(points_.begin(), points_.end(), [](const auto& p, const auto& q) { return p.key < q.key; });
+  return points_;
+}
+
+/// The lines' closest points; those of bodies apart may lie beyond the edges' ends and are held there.
+ManifoldPoint ContactManifold::edge_point(const ShapePair& pair, const SeparatingAxis& axis) const {
+  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
+  const CollisionShape::Edge &edge_a = a.edges()[axis.feature.a], &edge_b = b.edges()[axis.feature.b];
+  const LineParameters at = closest_on_lines(pair, axis.feature.a, axis.feature.b);
+  const Vec3 on_a = a.vertices().xyz(edge_a.tail) + std::clamp(at.a, 0.0, 1.0) * edge_a.along;
+  const Vec3 on_b = pair.other[0] * (b.vertices().xyz(edge_b.tail) + std::clamp(at.b, 0.0, 1.0) * edge_b.along);
+  return {feature_key(PointKind::edges, axis.feature.a, axis.feature.b), 0.5 * (on_a + on_b), axis.separation};
+}
+
+ManifoldPoint ContactManifold::on_reference(const ShapePair& pair, int reference, int face,
+                                            const ClippedPoint& point) const {
+  const Vec3 midway = point.position - 0.5 * point.height * pair.shape[reference]->faces().xyz(face);
+  return {point.key, reference == 0 ? midway : pair.other[0] * midway, point.height};
+}
+
+void ContactManifold::face_points(const ShapePair& pair, const SeparatingAxis& axis, double alert, int max_points) {
+  const int reference = axis.feature.kind == AxisKind::face_of_a ? 0 : 1;
+  const int face = reference == 0 ? axis.feature.a : axis.feature.b;
+  const double size = pair.size(), thickness = 1e-9 * size;
+  const ClippedPoint touching = touching_vertex(pair, reference, face, axis.support);
+
+  // Most contacts are one vertex on a face. All else of the other body rises from the vertex at `slope` at least, so nothing
+  // within reach gets to the sides or to another vertex: what clipping would return is known.
+  const double slope = axis.clearance / (2.0 * pair.shape[1 - reference]->circumradius());
+  if (axis.inside > thickness && axis.separation + slope * axis.inside > alert + thickness &&
+      axis.separation + axis.clearance > alert + thickness) {
+    points_.push_back(on_reference(pair, reference, face, touching));
+    return;
+  }
+
+  candidates_.clear();
+  double deepest = alert + size;
+  const int incident = incident_face(pair, reference, face, axis.support);
+  for (const ClippedPoint& point : clipper_.clip(pair, reference, face, incident, thickness)) {
+    deepest = std::min(deepest, point.height);
+    if (point.height <= alert) candidates_.push_back(point);
+  }
+  if (deepest > axis.separation + proof_margin(pair)) {
+    std::erase_if(candidates_, [&](const ClippedPoint& point) { return point.key == touching.key; });
+    candidates_.push_back(touching);
+  }
+  reduce(max_points, size);
+  for (const ClippedPoint& point : candidates_) points_.push_back(on_reference(pair, reference, face, point));
+}
+
+/// Keeps the deepest point, then the one farthest from it, then again and again the one that adds most area to the polygon of
+/// those kept. The candidates are corners of a convex polygon in order, so that the area added is that of the triangle
+/// with the two neighbours kept. Near-ties go to the smallest key: rounding must not choose.
+void ContactManifold::reduce(int max_points, double size) {
+  const int count = static_cast<int>(candidates_.size());
+  if (count <= max_points) return;
+  by_key_.resize(count);
+  for (int i = 0; i < count; ++i) by_key_[i] = i;
+  std::sort(by_key_.begin(), by_key_.end(), [&](int i, int j) { return candidates_[i].key < candidates_[j].key; });
+  chosen_.assign(count, 0);
+  int deepest = by_key_[0];
+  for (const int i : by_key_) {
+    if (candidates_[i].height < candidates_[deepest].height - 1e-13 * size) deepest = i;
+  }
+  chosen_[deepest] = 1;
+  const auto kept_beside = [&](int i, int step) {
+    do i = (i + step + count) % count;
+    while (!chosen_[i]);
+    return i;
+  };
+  for (int kept = 1; kept < max_points; ++kept) {
+    int best = -1;
+    double best_gain = -1.0;
+    for (const int i : by_key_) {
+      if (chosen_[i]) continue;
+      const ClippedPoint &before = candidates_[kept_beside(i, -1)], &after = candidates_[kept_beside(i, 1)];
+      const double gain = kept == 1 ? (candidates_[i].position - before.position).norm() / size
+                                    : triangle_area(before, candidates_[i], after) / (size * size);
+      if (gain <= best_gain + 1e-9) continue;
+      best_gain = gain;
+      best = i;
+    }
+    chosen_[best] = 1;
+  }
+  int next = 0;
+  for (int i = 0; i < count; ++i) {
+    if (chosen_[i]) candidates_[next++] = candidates_[i];
+  }
+  candidates_.erase(candidates_.begin() + next, candidates_.end());
+}
+
+}  // namespace ballast

@@ -1,0 +1,74 @@
+#include "geometry/face_clipping.hpp"
+
+namespace ballast {
+
+std::span<const ClippedPoint> FaceClipper::clip(const ShapePair& pair, int reference, int face, int incident,
+                                                double thickness) {
+  start(pair, reference, incident);
+  const int sides = pair.shape[reference]->corner_count(face);
+  for (int k = 0; k < sides && !polygon_.empty(); ++k) clip_by_side(pair, reference, face, k, thickness);
+  const Vec3 normal = pair.shape[reference]->faces().xyz(face);
+  const double minus_offset = pair.shape[reference]->faces().w(face);
+  for (ClippedPoint& p : polygon_) p.height = normal.dot(p.position) + minus_offset;
+  return polygon_;
+}
+
+void FaceClipper::start(const ShapePair& pair, int reference, int incident) {
+  const CollisionShape& other = *pair.shape[1 - reference];
+  const std::span<const int> corners = other.corners(incident);
+  const std::span<const CollisionShape::Side> sides = other.sides(incident);
+  polygon_.clear();
+  for (size_t k = 0; k < corners.size(); ++k) {
+    const std::uint64_t key = reference == 0 ? feature_key(PointKind::vertex_of_b, 0, corners[k])
+                                             : feature_key(PointKind::vertex_of_a, corners[k], 0);
+    polygon_.push_back({pair.other[reference] * other.vertices().xyz(corners[k]), 0.0, key, sides[k].edge});
+  }
+}
+
+void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, int k, double thickness) {
+  const CollisionShape::Side& side = pair.shape[reference]->sides(face)[k];
+  distance_.clear();
+  bool all_inside = true;
+  for (const ClippedPoint& p : polygon_) {
+    distance_.push_back(side.outward.dot(p.position) - side.offset);
+    all_inside &= distance_.back() <= thickness;
+  }
+  if (all_inside) return;
+  clipped_.clear();
+  for (size_t i = 0; i < polygon_.size(); ++i) {
+    const size_t next = i + 1 < polygon_.size() ? i + 1 : 0;
+    const ClippedPoint& p = polygon_[i];
+    const double here = distance_[i], there = distance_[next];
+    if (here <= thickness) {
+      clipped_.push_back(p);
+      // a corner in the plane whose edge leaves: the polygon goes on along the side
+      if (here >= -thickness && there > thickness) clipped_.back().next_edge = ~k;
+    }
+    const bool leaves = here < -thickness && there > thickness, enters = here > thickness && there < -thickness;
+    if (!leaves && !enters) continue;
+    ClippedPoint crossing;
+    crossing.position = p.position + (polygon_[next].position - p.position) * (here / (here - there));
+    crossing.height = 0.0;
+    crossing.key = crossing_key(pair, reference, face, k, p.next_edge);
+    crossing.next_edge = leaves ? ~k : p.next_edge;
+    clipped_.push_back(crossing);
+  }
+  polygon_.swap(clipped_);
+}
+
+/// Side k of the reference face meets an edge of the incident face, or one of the face's own sides at their common corner.
+std::uint64_t FaceClipper::crossing_key(const ShapePair& pair, int reference, int face, int k, int edge) const {
+  const CollisionShape& shape = *pair.shape[reference];
+  const int own_edge = shape.sides(face)[k].edge;
+  if (edge >= 0) {
+    return reference == 0 ? feature_key(PointKind::edges, own_edge, edge) : feature_key(PointKind::edges, edge, own_edge);
+  }
+  const int other_side = ~edge, count = shape.corner_count(face);
+  int corner = -1;
+  if ((other_side + 1) % count == k) corner = shape.corners(face)[k];
+  if ((k + 1) % count == other_side) corner = shape.corners(face)[other_side];
+  if (corner < 0) return feature_key(PointKind::sides, own_edge, shape.sides(face)[other_side].edge);
+  return reference == 0 ? feature_key(PointKind::vertex_of_a, corner, 0) : feature_key(PointKind::vertex_of_b, 0, corner);
+}
+
+}  // namespace ballast

@@ -1,0 +1,180 @@
+#include "geometry/separating_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+namespace {
+
+using Lanes = Eigen::Array<double, 8, 1>;
+
+struct Lowest {
+  int row;             // smallest index among equals
+  double value, next;  // lowest value, and lowest of the other rows
+};
+
+Lowest lowest(const double* values, int padded) {
+  Lanes least = Eigen::Map<const Lanes>(values);
+  Lanes second = Lanes::Constant(1e200);
+  for (int i = 8; i < padded; i += 8) {
+    const Lanes v = Eigen::Map<const Lanes>(values + i);
+    second = second.min(least.max(v));
+    least = least.min(v);
+  }
+  Lowest result{0, least[0], second[0]};
+  for (int lane = 1; lane < 8; ++lane) {
+    result.next = std::min({result.next, second[lane], std::max(result.value, least[lane])});
+    result.value = std::min(result.value, least[lane]);
+  }
+  while (values[result.row] != result.value) ++result.row;
+  return result;
+}
+
+/// How far all vertices but the two ends of an edge lie above `level` along d.
+double clearance_of_edge(const CollisionShape& shape, const CollisionShape::Edge& edge, const Vec3& d, Heights& heights) {
+  shape.vertices().evaluate(d, heights.data());
+  const double level = std::min(heights[edge.tail], heights[edge.head]);
+  heights[edge.tail] = heights[edge.head] = 1e200;
+  return lowest(heights.data(), shape.vertices().padded()).value - level;
+}
+
+/// Cross product of two edges, freed of its components along them: of nearly parallel edges these are all its error that
+/// matters, as the edges are long in that direction.
+Vec3 refined_cross(const Vec3& u, const Vec3& v) {
+  Vec3 n = u.cross(v);
+  n -= u * (n.dot(u) / u.squaredNorm());
+  n -= v * (n.dot(v) / v.squaredNorm());
+  return n;
+}
+
+SeparatingAxis face_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights) {
+  const int own = feature.kind == AxisKind::face_of_a ? 0 : 1;
+  const int f = own == 0 ? feature.a : feature.b;
+  const CollisionShape &shape = *pair.shape[own], &other = *pair.shape[1 - own];
+  const FaceSeparation found = face_separation(pair, own, f, heights);
+  SeparatingAxis axis;
+  axis.feature = feature;
+  axis.separation = found.separation;
+  axis.support = found.support;
+  axis.clearance = found.clearance;
+  const Vec3 normal = shape.faces().xyz(f);
+  axis.normal = own == 0 ? normal : Vec3(-(pair.other[0].rotation * normal));
+  const Vec3 support = pair.other[own] * other.vertices().xyz(found.support);
+  axis.inside = pair.size();
+  for (const CollisionShape::Side& side : shape.sides(f))
+    axis.inside = std::min(axis.inside, side.offset - side.outward.dot(support));
+  return axis;
+}
+
+std::optional<SeparatingAxis> edge_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights) {
+  const std::optional<EdgeSeparation> found = edge_separation(pair, feature.a, feature.b, heights);
+  if (!found) return std::nullopt;
+  SeparatingAxis axis;
+  axis.feature = feature;
+  axis.normal = found->normal;
+  axis.separation = found->separation;
+  const CollisionShape::Edge &edge_a = pair.shape[0]->edges()[feature.a], &edge_b = pair.shape[1]->edges()[feature.b];
+  const LineParameters at = closest_on_lines(pair, feature.a, feature.b);
+  // the facet is the parallelogram of the two edges: its corner-to-side distances are lengths times the sine
+  const double length_a = edge_a.along.norm(), length_b = edge_b.along.norm();
+  const double sine = edge_a.along.cross(pair.other[0].rotation * edge_b.along).norm() / (length_a * length_b);
+  axis.inside = sine * std::min(length_a * std::min(at.a, 1.0 - at.a), length_b * std::min(at.b, 1.0 - at.b));
+  axis.clearance = std::min(
+      clearance_of_edge(*pair.shape[0], edge_a, -axis.normal, heights),
+      clearance_of_edge(*pair.shape[1], edge_b, pair.other[0].rotation.transpose() * axis.normal, heights));
+  return axis;
+}
+
+}  // namespace
+
+FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& heights) {
+  const AffineRows& faces = pair.shape[own]->faces();
+  const AffineRows& vertices = pair.shape[1 - own]->vertices();
+  const RelativePose& other = pair.other[own];
+  const Vec3 normal = faces.xyz(f);
+  vertices.evaluate(other.rotation.transpose() * normal, heights.data());
+  const Lowest low = lowest(heights.data(), vertices.padded());
+  return {low.value + (normal.dot(other.position) + faces.w(f)), low.row, low.next - low.value};
+}
+
+std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb, Heights& heights) {
+  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
+  const RelativePose& b_in_a = pair.other[0];
+  const CollisionShape::Edge &edge_a = a.edges()[ea], &edge_b = b.edges()[eb];
+  const Vec3 along_a = edge_a.along, along_b = b_in_a.rotation * edge_b.along;
+  // The arc left -> right of an edge turns around `along`. The arc of a and the reversed arc of b cross where both are
+  // perpendicular to both edges: each edge must separate the ends of the other's arc, on the same half of the sphere.
+  const double left_a = a.faces().xyz(edge_a.left).dot(along_b), right_a = a.faces().xyz(edge_a.right).dot(along_b);
+  if (!(left_a * right_a < 0.0)) return std::nullopt;
+  const Vec3 along_a_in_b = b_in_a.rotation.transpose() * along_a;
+  const double left_b = -b.faces().xyz(edge_b.left).dot(along_a_in_b);
+  const double right_b = -b.faces().xyz(edge_b.right).dot(along_a_in_b);
+  if (!(left_b * right_b < 0.0) || !(left_a * right_b > 0.0)) return std::nullopt;
+
+  Vec3 normal = along_a.cross(along_b);
+  const double sine_sq = normal.squaredNorm() / (along_a.squaredNorm() * along_b.squaredNorm());
+  if (sine_sq < kParallelSine * kParallelSine) return std::nullopt;
+  if (left_a < 0.0) normal = -normal;
+  if (sine_sq > 1e-6) {
+    normal /= normal.norm();
+    const Vec3 from_a_to_b = b_in_a * b.vertices().xyz(edge_b.tail) - a.vertices().xyz(edge_a.tail);
+    return EdgeSeparation{normal.dot(from_a_to_b), normal};
+  }
+  // Nearly parallel: the arcs' crossing is uncertain by rounding / sine, so the supports are asked.
+  normal = refined_cross(along_a, left_a < 0.0 ? Vec3(-along_b) : along_b).normalized();
+  a.vertices().evaluate(-normal, heights.data());
+  const double top_a = -lowest(heights.data(), a.vertices().padded()).value;
+  b.vertices().evaluate(b_in_a.rotation.transpose() * normal, heights.data());
+  const double bottom_b = lowest(heights.data(), b.vertices().padded()).value + normal.dot(b_in_a.position);
+  return EdgeSeparation{bottom_b - top_a, normal};
+}
+
+LineParameters closest_on_lines(const ShapePair& pair, int ea, int eb) {
+  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
+  const CollisionShape::Edge &edge_a = a.edges()[ea], &edge_b = b.edges()[eb];
+  const Vec3 along_b = pair.other[0].rotation * edge_b.along;
+  const Vec3 cross = edge_a.along.cross(along_b);
+  const Vec3 between = pair.other[0] * b.vertices().xyz(edge_b.tail) - a.vertices().xyz(edge_a.tail);
+  const double scale = 1.0 / cross.squaredNorm();
+  return {between.cross(along_b).dot(cross) * scale, between.cross(edge_a.along).dot(cross) * scale};
+}
+
+std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights) {
+  if (feature.kind == AxisKind::none) return std::nullopt;
+  if (feature.kind == AxisKind::edges) return edge_axis(pair, feature, heights);
+  return face_axis(pair, feature, heights);
+}
+
+/// Let n0 be the axis, s0 its separation, and n = n0 cos t + e sin t another unit vector, e perpendicular to n0. The facet's
+/// corners x_i lie in n0.x = s0, and around the origin's projection out to r = `inside` at least, so some corner has
+/// e.x_i <= -r, and s(n) <= min_i n.x_i <= s0 cos t - r sin t. That is below s0 - margin where
+///     f(t) = r sin t + s0 (1 - cos t) - margin > 0,
+/// and as f > 0 is an interval of t, two ends prove all between. The lower end: within `isolation` of n0 the supports are
+/// only the facet's own vertices, so there is no other facet. The upper end: both bodies contain balls, so with c the ball
+/// centres' difference s(n) <= n.c - r_a - r_b, and n must lie in a cap around c.
+bool is_proved_best(const ShapePair& pair, const SeparatingAxis& axis) {
+  constexpr double isolation = 1e-8;  // [rad]
+  const double size = pair.size();
+  const double margin = proof_margin(pair) + pair.shape[0]->unevenness() + pair.shape[1]->unevenness();
+  const double s0 = axis.separation, r = axis.inside;
+  if (!(axis.clearance > 4.0 * size * isolation)) return false;
+  if (axis.feature.kind == AxisKind::face_of_a && pair.shape[0]->face_isolation(axis.feature.a) < 2.0 * isolation)
+    return false;
+  if (axis.feature.kind == AxisKind::face_of_b && pair.shape[1]->face_isolation(axis.feature.b) < 2.0 * isolation)
+    return false;
+  if (!(r * isolation - std::abs(s0) * isolation * isolation > margin)) return false;
+
+  const Vec3 c = pair.other[0] * pair.shape[1]->ball_centre() - pair.shape[0]->ball_centre();
+  const double distance = c.norm();
+  const double needed = s0 - margin + pair.shape[0]->ball_radius() + pair.shape[1]->ball_radius();
+  if (!(needed > -distance)) return false;
+  // largest angle from n0 within the cap: the angle n0-c plus the cap's half angle
+  const double cos_c = std::clamp(axis.normal.dot(c) / distance, -1.0, 1.0);
+  const double cos_cap = std::clamp(needed / distance, -1.0, 1.0);
+  const double sin_c = std::sqrt(1.0 - cos_c * cos_c), sin_cap = std::sqrt(1.0 - cos_cap * cos_cap);
+  const double cos_t = cos_c * cos_cap - sin_c * sin_cap, sin_t = sin_c * cos_cap + cos_c * sin_cap;
+  // 1e-7: a cosine near 1 knows its angle to 1.5e-8 only
+  return sin_t > 0.0 && r * sin_t + s0 * (1.0 - cos_t) > margin + 1e-7 * size;
+}
+
+}  // namespace ballast
