@@ -43,10 +43,11 @@ double momentum_residual(const DynamicsForm& dynamics, const Eigen::VectorXd& v,
 
 }  // namespace
 
-// Smith 1961: with B = (W - mean I) / spread, spread^2 = |W - mean I|^2 / 6, the eigenvalues of B are 2 cos(...), the largest
-// 1 + 2 s w where s^2 = (1 + det B / 2) / 2 and w in [1/2, 1/sqrt(3)] is the root of w^2 (3 + 2 s w) = 1. That equation is well
-// conditioned for every s in [0, 1]: from a cubic fit (error 6e-5) two Newton steps reach rounding, without an arc cosine. Where
-// the two largest eigenvalues coincide (s = 0) the determinant's own rounding leaves 1e-8, relative: enough for a scale.
+// Smith 1961: with B = (W - mean I) / spread, spread^2 = |W - mean I|^2 / 6, the eigenvalues of B are 2 cos(...), the
+// largest 1 + 2 s w where s^2 = (1 + det B / 2) / 2 and w in [1/2, 1/sqrt(3)] is the root of w^2 (3 + 2 s w) = 1. That
+// equation is well conditioned for every s in [0, 1]: from a cubic fit (error 6e-5) two Newton steps reach rounding,
+// without an arc cosine. Where the two largest eigenvalues coincide (s = 0) the determinant's own rounding leaves 1e-8,
+// relative: enough for a scale.
 double largest_eigenvalue(const Eigen::Matrix3d& block) {
   const double a = block(1, 0), b = block(2, 0), c = block(2, 1);
   const double off = a * a + b * b + c * c;

@@ -7,7 +7,8 @@
 namespace ballast {
 namespace {
 
-/// u += B v for a column-major block of Rows x dofs. The sums are local: the compiler cannot know that u is not part of B.
+/// u += B v for a column-major block of Rows x dofs. The sums are local: the compiler cannot know that u is not part of
+/// B.
 template <int Rows>
 [[gnu::always_inline]] inline void multiply_add(const double* block, int dofs, const double* v, double* u) {
   double sum[Rows];

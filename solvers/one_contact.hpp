@@ -3,6 +3,7 @@
 // Coulomb's law.
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 
@@ -23,6 +24,8 @@ struct PrincipalContact {
   double inverse_s1 = 0.0, inverse_s2 = 0.0;
   double c1 = 0.0, c2 = 0.0;
   double mu = 0.0;
+
+  double coupling_square() const { return c1 * c1 + c2 * c2; }
 };
 
 /// The turn from the given tangents to the principal ones.
@@ -45,8 +48,64 @@ struct TangentTurn {
 void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& contact, TangentTurn& turn);
 
 /// The slip branch: from the stick solution (y, t1, t2) outside the cone to |r_T| = mu r_N, y unchanged. `x` = s1 +
-/// lambda: in, a guess (0: none); out, the root.
-void slide(const PrincipalContact& contact, double y, double& t1, double& t2, double& x);
+/// lambda: in, a guess (0: none); out, the root. Here, and not in the .cpp, because the sweeps compile it for several
+/// instruction sets.
+//
+// Slip: u_N = 0 and u_T = -lambda r_T give (S + lambda) r_T = -b and r_N = y - c . r_T. With x = s1 + lambda, x1 = x,
+// x2 = x + s2 - s1 and d = -b (so r_T,i = d_i / x_i), the unknown is the root of
+//
+//   psi(x) = mu r_N / |r_T| - 1 = mu N / R - 1,   N = y x1 x2 - c1 d1 x2 - c2 d2 x1,   R = |(d1 x2, d2 x1)|.
+//
+// psi is linear in x when s1 = s2, and nearly so otherwise: Newton needs few steps.
+//
+// Bracket. At x = s1 (lambda = 0) the solution is the stick one, which is outside the cone: psi < 0. For larger x,
+// |r_T| <= |d| / x, hence r_N >= y - |c| |r_T|, and mu r_N >= |r_T| as soon as |r_T| (1 + mu |c|) <= mu y, that is from
+// x = |d| (1 + mu |c|) / (mu y) on: psi >= 0. psi is continuous for x >= s1 > 0 (R = 0 means b = 0, which sticks), so a
+// root lies between. With much friction there may be several; each of them obeys Coulomb's law.
+inline void slide(const PrincipalContact& contact, double y, double& t1, double& t2, double& x) {
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double mu = contact.mu;
+  if (!(mu > 0.0)) {
+    t1 = t2 = 0.0;
+    return;
+  }
+  const double d1 = contact.s1 * t1, d2 = contact.s2 * t2, spread = contact.s2 - contact.s1;
+  const double square1 = d1 * d1, square2 = d2 * d2, square = square1 + square2;
+  const double coupling1 = contact.c1 * d1, coupling2 = contact.c2 * d2, coupling = coupling1 + coupling2;
+
+  double low = contact.s1, high = infinity;  // high: the bracket's end, once Newton needs one
+  if (!(x > low)) x = (std::sqrt(square) / mu + coupling) / y - spread * square2 / square;  // exact when s1 = s2
+  if (!(x > low)) x = low * (1.0 + 8.0 * rounding);
+  double x2 = x + spread;
+  for (int step = 0; step < 200; ++step) {
+    const double n = y * x * x2 - coupling1 * x2 - coupling2 * x;
+    const double r_square = square1 * x2 * x2 + square2 * x * x;
+    const double slope = (y * (x + x2) - coupling) * r_square - n * (square1 * x2 + square2 * x);
+    const double gap = std::sqrt(r_square) - mu * n;  // > 0: lambda is too small
+    if (gap > 0.0)
+      low = x;
+    else
+      high = x;
+    double next = x + gap * (r_square / (mu * slope));
+    // Newton's error is squared: after so short a step the next one would be below rounding.
+    const bool last = std::abs(next - x) <= 1e-9 * x;
+    if (!last && !(next > low && next < high)) {
+      if (high == infinity) high = 2.0 * std::sqrt(square * (1.0 + mu * mu * contact.coupling_square())) / (mu * y);
+      if (high == infinity) {  // y is next to nothing: so is the friction
+        t1 = t2 = x = 0.0;
+        return;
+      }
+      next = std::sqrt(low * high);
+    }
+    x = next;
+    x2 = x + spread;
+    if (last || !(low * (1.0 + 4.0 * rounding) < high)) break;
+  }
+  const double scale = 1.0 / (x * x2);
+  t1 = d1 * x2 * scale;
+  t2 = d2 * x * scale;
+}
 
 /// The three cases, in order. In: the impulse (y, r_T) that would stop all motion; out: the solution. Inlined into the
 /// sweeps.
@@ -61,7 +120,7 @@ inline ContactStatus apply_coulomb(const PrincipalContact& contact, double& y, d
   return ContactStatus::slip;
 }
 
-/// Take-off, stick, or slip by a bracketed one-dimensional root; see one_contact.cpp for the bracket's proof.
+/// Take-off, stick, or slip by a bracketed one-dimensional root; see slide() for the bracket's proof.
 ///   open : q_N >= 0                        -> r = 0
 ///   stick: r = -W^-1 q lies in K_mu        -> u = 0
 ///   slip : u_N = 0, u_T = -lambda r_T, |r_T| = mu r_N, lambda > 0

@@ -136,13 +136,18 @@ void load_impulse(OneRowRecord& k, const double* r, BodyVelocity* velocity) {
     for (int i = 0; i < body_width; ++i) velocity[k.body[s]].w[i] += k.rows[s][i] * k.y;
 }
 
+/// Arguments in registers: through memory, the vectors that the caller's clone makes of them would not be forwarded.
+[[gnu::noinline]] double judged(double rn, double r1, double r2, double un, double u1, double u2, double mu,
+                                double lambda_max) {
+  return ContactJudge::scaled_natural_map({rn, r1, r2}, {un, u1, u2}, mu, lambda_max);
+}
+
 BALLAST_FOR_EACH_CPU
 double natural_map(const FrictionRecord& k, double lambda_max, const BodyVelocity* velocity) {
   const Vector4 moved = relative_velocity(k, load8(velocity[k.body[0]].w), load8(velocity[k.body[1]].w));
   const double un = moved[0] + k.bias[0];
-  const Eigen::Vector3d u(un, moved[1] + k.bias[1] + k.local.c1 * un, moved[2] + k.bias[2] + k.local.c2 * un);
-  const Eigen::Vector3d r(k.y[0] - k.local.c1 * k.y[1] - k.local.c2 * k.y[2], k.y[1], k.y[2]);
-  return ContactJudge::scaled_natural_map(r, u, k.local.mu, lambda_max);
+  return judged(k.y[0] - k.local.c1 * k.y[1] - k.local.c2 * k.y[2], k.y[1], k.y[2], un,
+                moved[1] + k.bias[1] + k.local.c1 * un, moved[2] + k.bias[2] + k.local.c2 * un, k.local.mu, lambda_max);
 }
 
 double natural_map(const OneRowRecord& k, double lambda_max, const BodyVelocity* velocity) {
