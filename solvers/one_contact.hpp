@@ -2,6 +2,7 @@
 // The exact solution of one contact: given W (3 x 3, symmetric positive definite) and q, find r with u = W r + q and
 // Coulomb's law.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -65,6 +66,7 @@ void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& conta
 inline void slide(const PrincipalContact& contact, double y, double& t1, double& t2, double& x) {
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double beyond = 1e80;  // where d / x is nothing: y is next to nothing; larger powers would overflow
   const double mu = contact.mu;
   if (!(mu > 0.0)) {
     t1 = t2 = 0.0;
@@ -77,6 +79,10 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
   double low = contact.s1, high = infinity;  // high: the bracket's end, once Newton needs one
   if (!(x > low)) x = (std::sqrt(square) / mu + coupling) / y - spread * square2 / square;  // exact when s1 = s2
   if (!(x > low)) x = low * (1.0 + 8.0 * rounding);
+  if (x >= beyond) {
+    t1 = t2 = x = 0.0;
+    return;
+  }
   double x2 = x + spread;
   for (int step = 0; step < 200; ++step) {
     const double n = y * x * x2 - coupling1 * x2 - coupling2 * x;
@@ -91,11 +97,8 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
     // Newton's error is squared: after so short a step the next one would be below rounding.
     const bool last = std::abs(next - x) <= 1e-9 * x;
     if (!last && !(next > low && next < high)) {
-      if (high == infinity) high = 2.0 * std::sqrt(square * (1.0 + mu * mu * contact.coupling_square())) / (mu * y);
-      if (high == infinity) {  // y is next to nothing: so is the friction
-        t1 = t2 = x = 0.0;
-        return;
-      }
+      if (high == infinity)
+        high = std::min(beyond, 2.0 * std::sqrt(square * (1.0 + mu * mu * contact.coupling_square())) / (mu * y));
       next = std::sqrt(low * high);
     }
     x = next;

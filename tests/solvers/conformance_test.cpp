@@ -1,0 +1,241 @@
+// What every registered backend must do. Adding a row to solver_list.cpp is enough to be tested here.
+
+#include <limits>
+#include <optional>
+
+#include "problems/delassus.hpp"
+#include "problems/known_solutions.hpp"
+#include "solvers/run_solver.hpp"
+#include "solvers/solver_list.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// Runs `check(entry)` for every backend that was built; the failing one is named.
+template <typename Check>
+void for_each_backend(const Check& check) {
+  for (const SolverEntry& entry : solver_list()) {
+    if (!entry.make) continue;
+    CAPTURE(entry.name);
+    check(entry);
+  }
+}
+
+/// Nothing when the backend declines the problem's form.
+std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget,
+                             const Impulses& start = {}) {
+  try {
+    const auto solver = entry.make();
+    return SolverRunner().run(*solver, problem, start, budget);
+  } catch (const UnsupportedProblem&) {
+    return std::nullopt;
+  }
+}
+
+FrictionProblem only_delassus(FrictionProblem problem) {
+  add_delassus_form(problem);
+  problem.has_dynamics = false;
+  return problem;
+}
+
+/// The dynamics form, or W for a backend that takes only that; every backend takes one of them.
+SolverRun run_either(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget,
+                     const Impulses& start = {}) {
+  std::optional<SolverRun> result = run(entry, problem, budget, start);
+  if (!result) result = run(entry, only_delassus(problem), budget, start);
+  REQUIRE(result);
+  return *result;
+}
+
+KnownSolution known(int bodies, int contacts, double friction, double mass_ratio, std::uint64_t seed = 1) {
+  KnownSolutionSettings settings;
+  settings.bodies = bodies;
+  settings.contacts = contacts;
+  settings.friction_max = friction;
+  settings.mass_ratio = mass_ratio;
+  settings.seed = seed;
+  return make_known_solution(settings);
+}
+
+const Budget patient{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 20.0};
+const Budget hurried{.tolerance = 1e-8, .max_iterations = 2000, .max_seconds = 0.5};
+
+/// Frictionless problems are the same under every law.
+bool solves_coulomb(const SolverEntry& entry) { return entry.law == ContactLaw::coulomb; }
+
+}  // namespace
+
+TEST_CASE("problems with a known solution are solved, whatever their size and rank") {
+  struct Size {
+    int bodies, contacts;
+  };
+  for_each_backend([](const SolverEntry& entry) {
+    for (const Size size : {Size{1, 1}, {2, 1}, {3, 2}, {10, 8}, {50, 40}, {200, 150}, {20, 40}, {30, 60}})
+      for (const double friction : {0.0, 0.3, 0.8}) {
+        if (friction > 0.0 && !solves_coulomb(entry)) continue;
+        CAPTURE(size.bodies, size.contacts, friction);
+        const KnownSolution exact = known(size.bodies, size.contacts, friction, 1.0);
+        const SolverRun result = run_either(entry, exact.problem, patient);
+        CAPTURE(name_of(result.solved.reason), result.error.natural_map_rms);
+        CHECK(result.success);
+        // Impulses need not be unique, velocities near the solution are.
+        Eigen::VectorXd u;
+        contact_velocity(exact.problem, result.solved.impulses, u);
+        CHECK((u - exact.u).lpNorm<Eigen::Infinity>() < 1e-5);
+      }
+  });
+}
+
+TEST_CASE("hard problems may not be solved, but no claim is false") {
+  for_each_backend([](const SolverEntry& entry) {
+    int claims = 0;
+    for (const double friction : {0.0, 1.0, 3.0, 10.0})
+      for (const double mass_ratio : {1.0, 1e3, 1e6})
+        for (const int contacts : {2, 40, 60}) {
+          CAPTURE(friction, mass_ratio, contacts);
+          const SolverRun result =
+              run_either(entry, known(contacts == 60 ? 10 : 30, contacts, friction, mass_ratio).problem, hurried);
+          CHECK(result.error.finite);
+          if (result.solved.reason == StopReason::reached_tolerance && solves_coulomb(entry)) {
+            ++claims;
+            CAPTURE(result.solved.own_residual, result.error.natural_map_rms);
+            CHECK(result.success);
+          }
+          CHECK(result.success == (result.solved.reason == StopReason::reached_tolerance &&
+                                   result.error.natural_map_rms <= hurried.tolerance));
+        }
+    if (solves_coulomb(entry)) CHECK(claims > 5);
+  });
+}
+
+TEST_CASE("contacts without friction, of one row or three") {
+  for_each_backend([](const SolverEntry& entry) {
+    KnownSolutionSettings settings;
+    settings.frictionless_fraction = 1.0;
+    const SolverRun one_row = run_either(entry, make_known_solution(settings).problem, patient);
+    CHECK(one_row.success);
+    settings.frictionless_fraction = 0.0;
+    settings.friction_max = 0.0;
+    const KnownSolution three = make_known_solution(settings);
+    const SolverRun three_rows = run_either(entry, three.problem, patient);
+    CHECK(three_rows.success);
+    for (int c = 0; c < three.problem.contact_count(); ++c)
+      CHECK(three_rows.solved.impulses.segment<2>(three.problem.row_begin[c] + 1).norm() <= 1e-8);
+  });
+}
+
+TEST_CASE("no contacts, no bodies, and contacts that nothing moves") {
+  for_each_backend([](const SolverEntry& entry) {
+    const SolverRun none = run_either(entry, known(5, 0, 0.5, 1.0).problem, patient);
+    CHECK(none.success);
+    CHECK(none.solved.impulses.size() == 0);
+
+    FrictionProblem fixed = known(5, 4, 0.5, 1.0).problem;  // one more contact, between two things that do not move
+    fixed.row_begin.push_back(fixed.row_begin.back() + 3);
+    fixed.friction.push_back(0.5);
+    fixed.dynamics.body_a.push_back(-1);
+    fixed.dynamics.body_b.push_back(-1);
+    fixed.dynamics.h_begin.push_back(fixed.dynamics.h_begin.back());
+    fixed.dynamics.bias.conservativeResize(fixed.row_count());
+    fixed.dynamics.bias.tail<3>() << -1.0, 0.5, 0.5;
+    const SolverRun result = run_either(entry, fixed, patient);
+    CHECK(result.error.finite);
+    if (solves_coulomb(entry)) CHECK(result.error.natural_map_rms <= patient.tolerance);
+  });
+}
+
+TEST_CASE("contacts that all open take no impulse") {
+  for_each_backend([](const SolverEntry& entry) {
+    KnownSolutionSettings settings;
+    settings.open_fraction = 1.0;
+    const KnownSolution open = make_known_solution(settings);
+    // Without impulses every contact leaves: u = H v_free + bias is the solution's.
+    const SolverRun cold = run_either(entry, open.problem, patient);
+    CHECK(cold.success);
+    CHECK(cold.solved.impulses.lpNorm<Eigen::Infinity>() < 1e-7);
+    const SolverRun misled =
+        run_either(entry, open.problem, patient, Impulses::Constant(open.problem.row_count(), 1.0));
+    if (solves_coulomb(entry)) CHECK(misled.success);
+  });
+}
+
+TEST_CASE("a start that is no start never reaches the backend") {
+  for_each_backend([](const SolverEntry& entry) {
+    const FrictionProblem problem = known(10, 8, 0.3, 1.0).problem;
+    CHECK_THROWS_AS(run(entry, problem, patient, Impulses::Zero(problem.row_count() - 1)), InvalidProblem);
+    Impulses start = Impulses::Zero(problem.row_count());
+    start[0] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(run(entry, problem, patient, start), InvalidProblem);
+    FrictionProblem broken = problem;
+    broken.dynamics.h[0] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(run(entry, broken, patient), InvalidProblem);
+  });
+}
+
+TEST_CASE("limits of iterations and of time are kept") {
+  for_each_backend([](const SolverEntry& entry) {
+    const FrictionProblem problem = known(200, 600, 0.8, 1e4).problem;
+    for (const int limit : {0, 1, 3}) {
+      Budget budget{.tolerance = 0.0, .max_iterations = limit};
+      const SolverRun result = run_either(entry, problem, budget);
+      CHECK(result.solved.iterations <= limit);
+      CHECK(result.error.finite);
+    }
+    Budget budget{.tolerance = 0.0, .max_iterations = std::numeric_limits<int>::max(), .max_seconds = 0.05};
+    const SolverRun result = run_either(entry, problem, budget);
+    CHECK(result.solve_seconds < 2.0);
+    CHECK(result.solved.reason != StopReason::iteration_limit);
+  });
+}
+
+TEST_CASE("a start from the solution stops at once") {
+  for_each_backend([](const SolverEntry& entry) {
+    const FrictionProblem problem = known(50, 40, solves_coulomb(entry) ? 0.5 : 0.0, 1.0).problem;
+    const SolverRun cold = run_either(entry, problem, patient);
+    REQUIRE(cold.success);
+    const SolverRun warm = run_either(entry, problem, patient, cold.solved.impulses);
+    CHECK(warm.success);
+    CHECK(warm.solved.iterations <= 1);
+  });
+}
+
+TEST_CASE("both forms of a problem give the same answer") {
+  for_each_backend([](const SolverEntry& entry) {
+    const FrictionProblem problem = known(50, 40, 0.5, 1.0).problem;
+    const Budget budget{.tolerance = 1e-10, .max_iterations = 100000, .max_seconds = 20.0};
+    const auto dynamics = run(entry, problem, budget), delassus = run(entry, only_delassus(problem), budget);
+    REQUIRE((dynamics || delassus));
+    if (!dynamics || !delassus) return;
+    Eigen::VectorXd u, w;
+    contact_velocity(problem, dynamics->solved.impulses, u);
+    contact_velocity(problem, delassus->solved.impulses, w);
+    CHECK((u - w).norm() < 1e-7 * u.norm());
+  });
+}
+
+TEST_CASE("the same problem gives the same bits") {
+  for_each_backend([](const SolverEntry& entry) {
+    const FrictionProblem problem = known(30, 60, 0.5, 10.0).problem;
+    const Budget budget{.tolerance = 1e-6, .max_iterations = 200};
+    CHECK(run_either(entry, problem, budget).solved.impulses == run_either(entry, problem, budget).solved.impulses);
+  });
+}
+
+TEST_CASE("history is kept on request, and ends with what is returned") {
+  for_each_backend([](const SolverEntry& entry) {
+    const FrictionProblem problem = known(50, 40, solves_coulomb(entry) ? 0.5 : 0.0, 1.0).problem;
+    Budget budget = patient;
+    CHECK(run_either(entry, problem, budget).solved.history.empty());
+    budget.keep_history = true;
+    const SolverRun result = run_either(entry, problem, budget);
+    REQUIRE_FALSE(result.solved.history.empty());
+    CHECK(result.solved.history.back().iteration == result.solved.iterations);
+    CHECK(result.solved.history.back().error == Approx(result.error.natural_map_rms).epsilon(1e-3).margin(1e-14));
+    for (std::size_t i = 1; i < result.solved.history.size(); ++i) {
+      CHECK(result.solved.history[i].iteration > result.solved.history[i - 1].iteration);
+      CHECK(result.solved.history[i].seconds >= result.solved.history[i - 1].seconds);
+    }
+  });
+}
