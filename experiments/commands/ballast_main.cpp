@@ -62,9 +62,8 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
   CLI::App program("Nonsmooth contact dynamics of polyhedral grains, and a bench of frictional-contact solvers",
                    "ballast");
   program.footer(examples);
-  program.require_subcommand(1);
   program.set_version_flag("--version", build_line());
-  Action action;
+  Action action = []() -> ExitCode { throw UsageError("a subcommand is required (ballast --help)"); };
   add_run_command(program, action);
   add_solve_command(program, action);
   add_solvers_command(program, action);

@@ -23,7 +23,8 @@ void add_run_command(CLI::App& program, Action& action) {
       ->add_option("--packing-cache", options->packing_cache,
                    "Where deposited packings are kept (<output>/../packings)")
       ->type_name("DIR");
-  command->add_flag("!--no-report", options->report, "No figures and no page at the end");
+  command->add_flag_callback(
+      "--no-report", [options] { options->report = false; }, "No figures and no page at the end");
   command
       ->add_option("--max-seconds", options->max_seconds,
                    "Wall clock after which to write a checkpoint and exit with 3")
