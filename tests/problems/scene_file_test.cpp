@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 #include "geometry/mesh_file.hpp"
 #include "tests/catch.hpp"
@@ -214,4 +215,27 @@ TEST_CASE("scenes are found by path, by name, and in the folder that BALLAST_SCE
   REQUIRE(list_scenes().size() == 1);
   CHECK(list_scenes()[0] == std::pair<std::string, std::string>("mine", "my own"));
   unsetenv("BALLAST_SCENES");
+}
+
+TEST_CASE("docs/scenes.md describes every key that a scene can have") {
+  std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/scenes.md");
+  const std::string docs((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  REQUIRE(docs.size() > 1000);
+  int keys = 0;
+  for (const char* name : {"vibrated_box", "rolling_sphere", "shaken_plate", "empty_driven_wall", "overhang"}) {
+    std::istringstream resolved(resolved_scene_text(find_scene(name)));
+    std::string section;
+    for (std::string line; std::getline(resolved, line);) {
+      if (line.starts_with('['))
+        section = line.substr(line.find_last_of("[.") + 1, line.find(']') - line.find_last_of("[.") - 1);
+      if (line.find(" = ") == std::string::npos) continue;
+      ++keys;
+      const std::string key = line.substr(0, line.find(" = "));
+      INFO(name << ": " << section << "." << key);
+      // written `section.key`, or `key` alone in the tables of bodies and walls and in pairs of keys
+      CHECK((docs.find(section + "." + key + "`") != std::string::npos ||
+             docs.find("`" + key + "`") != std::string::npos));
+    }
+  }
+  CHECK(keys > 100);
 }
