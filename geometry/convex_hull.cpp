@@ -189,8 +189,8 @@ Vec3 area_vector(const std::vector<int>& loop, const std::vector<Vec3>& points) 
   return sum;
 }
 
-/// The flattest corner of each face where it is flatter than kCorner; at most one per face and none beside another, as
-/// the hull of what stays may well keep the neighbour.
+/// The flattest corner of each face where it is flatter than kCorner, straight or re-entrant: merging leaves such
+/// behind too. At most one per face and none beside another, as the hull of what stays may well keep the neighbour.
 std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points) {
   std::vector<int> flat;
   const auto listed = [&](int v) { return std::find(flat.begin(), flat.end(), v) != flat.end(); };
@@ -211,15 +211,6 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
     if (corner >= 0 && std::none_of(loop.begin(), loop.end(), listed)) flat.push_back(corner);
   }
   return flat;
-}
-
-/// Vertices where only two faces meet lie on an edge between others: merging facets leaves them behind.
-void drop_edge_vertices(Loops& loops, size_t point_count) {
-  std::vector<int> uses(point_count, 0);
-  for (const auto& loop : loops)
-    for (const int v : loop) ++uses[v];
-  for (auto& loop : loops) std::erase_if(loop, [&](int v) { return uses[v] < 3; });
-  std::erase_if(loops, [](const auto& loop) { return loop.size() < 3; });
 }
 
 /// Outward, starting at the smallest index, faces in ascending order: independent of how qhull listed them.
@@ -248,7 +239,6 @@ Loops hull_loops(const std::vector<Vec3>& points, double merge) {
     Loops loops = QhullRun(coordinates, merge).loops();
     for (auto& loop : loops)
       for (int& v : loop) v = kept[v];
-    drop_edge_vertices(loops, points.size());
     make_canonical(loops, points);
     const std::vector<int> flat = flat_corners(loops, points);
     if (flat.empty()) return loops;
