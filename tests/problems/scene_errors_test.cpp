@@ -1,6 +1,10 @@
 // Scenes that are wrong: the error names file, line, key and value, and what was expected.
 
 #include "problems/scene_file.hpp"
+
+#include <cstdint>
+#include <fstream>
+
 #include "tests/catch.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -170,4 +174,44 @@ TEST_CASE("an override that is wrong is refused and blamed") {
     CHECK_THAT(message, Catch::Contains(part));
     CHECK(message.find('\n') == std::string::npos);
   }
+}
+
+TEST_CASE("mutilated scenes are read or refused in one line, and nothing else happens") {
+  const TemporaryFolder folder;
+  std::uint64_t state = 12345;
+  const auto below = [&](std::size_t n) {  // Knuth's MMIX generator: its high bits are good
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::size_t>((state >> 33) % n);
+  };
+  int refused = 0;
+  for (const char* name : {"vibrated_box", "overhang", "empty_driven_wall"}) {
+    std::ifstream stream(find_scene(name));
+    const std::string sound((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    for (int k = 0; k < 500; ++k) {
+      std::string text = sound;
+      const std::size_t at = below(text.size()), length = std::min(below(20), text.size() - at);
+      switch (below(4)) {
+        case 0:
+          text.erase(at, length);
+          break;
+        case 1:
+          text[at] = static_cast<char>(below(256));
+          break;
+        case 2:
+          text.insert(below(text.size()), text.substr(at, length));
+          break;
+        default:
+          text.resize(at);
+          break;
+      }
+      try {
+        read_scene(folder.write("scene.toml", text));
+      } catch (const SceneFileError& error) {
+        ++refused;
+        CHECK_THAT(error.what(), Catch::StartsWith((folder.path() / "scene.toml").string()));
+        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+      }
+    }
+  }
+  CHECK(refused > 300);
 }
