@@ -1,6 +1,8 @@
 #include "experiments/hdf5_file.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <numeric>
 
@@ -19,13 +21,45 @@ hsize_t product(const Hdf5Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
 
+/// Memory of a file in memory: malloc's, but kept when the file is closed. H5Fget_file_image would copy it, and spoils
+/// the checksum of the superblock (HDF5 1.10).
+namespace image_memory {
+using Op = H5FD_file_image_op_t;
+void* allocate(size_t size, Op, void*) { return std::malloc(size); }
+void* copy(void* to, const void* from, size_t size, Op, void*) { return std::memcpy(to, from, size); }
+void* resize(void* bytes, size_t size, Op, void*) { return std::realloc(bytes, size); }
+herr_t release(void* bytes, Op op, void* image) {
+  if (op == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
+    static_cast<Hdf5Writer::Image*>(image)->bytes = static_cast<unsigned char*>(bytes);
+  else
+    std::free(bytes);
+  return 0;
+}
+void* same_image(void* image) { return image; }
+herr_t keep_image(void*) { return 0; }
+}  // namespace image_memory
+
 /// Opens a file that lives in memory only: its name is never used.
-hid_t create_in_memory() {
+hid_t create_in_memory(Hdf5Writer::Image& image) {
   const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5FD_file_image_callbacks_t callbacks{image_memory::allocate,    image_memory::copy,       image_memory::resize,
+                                        image_memory::release,     image_memory::same_image, image_memory::keep_image,
+                                        static_cast<void*>(&image)};
   H5Pset_fapl_core(access, memory_increment, false);
+  H5Pset_file_image_callbacks(access, &callbacks);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   H5Pset_obj_track_times(creation, false);
   return H5Fcreate("record in memory", H5F_ACC_TRUNC, creation, access);
+}
+
+/// Length of a file with superblock version 2 (HDF5 1.8's): its end-of-file address. 0 for anything else.
+size_t file_length(const unsigned char* bytes) {
+  constexpr unsigned char beginning[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n', 2, 8, 8};
+  constexpr size_t end_of_file = 28;
+  if (!bytes || std::memcmp(bytes, beginning, sizeof beginning) != 0) return 0;
+  size_t length = 0;
+  for (size_t k = 8; k-- > 0;) length = length << 8 | bytes[end_of_file + k];
+  return length;
 }
 
 hid_t open_for_reading(const std::filesystem::path& file) { return H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT); }
@@ -52,7 +86,7 @@ Hdf5Silence::Hdf5Silence() {
 Hdf5Silence::~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& target)
-    : target_(target), file_(checked(create_in_memory(), target, "make a file in memory"), H5Fclose) {}
+    : target_(target), file_(checked(create_in_memory(image_), target, "make a file in memory"), H5Fclose) {}
 
 hid_t Hdf5Writer::check(hid_t result, const std::string& what) const { return checked(result, target_, what); }
 
@@ -136,13 +170,13 @@ void Hdf5Writer::write_slice(const Hdf5Id& dataset, hsize_t index, std::span<con
 }
 
 void Hdf5Writer::commit() {
-  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "finish the file in memory");
-  const ssize_t bytes = H5Fget_file_image(file_, nullptr, 0);
-  check(bytes, "give the file's size");
-  std::string image(static_cast<size_t>(bytes), '\0');
-  check(H5Fget_file_image(file_, image.data(), image.size()), "give the file's bytes");
-  write_whole_file(target_, image);
+  check(file_.close(), "finish the file in memory");
+  const size_t length = file_length(image_.bytes);
+  if (length == 0) check(-1, "give the bytes of the file in memory");
+  write_whole_file(target_, {reinterpret_cast<const char*>(image_.bytes), length});
 }
+
+Hdf5Writer::Image::~Image() { std::free(bytes); }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
     : path_(file),

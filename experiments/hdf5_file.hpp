@@ -17,13 +17,14 @@ namespace ballast {
 class Hdf5Id {
  public:
   using Close = herr_t (*)(hid_t);
-  Hdf5Id(hid_t id, Close close) : id_(id), close_(close) {}
+  Hdf5Id(hid_t id, Close closer) : id_(id), close_(closer) {}
   ~Hdf5Id() {
     if (id_ >= 0) close_(id_);
   }
   Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Hdf5Id& operator=(Hdf5Id&&) = delete;
   operator hid_t() const { return id_; }
+  herr_t close() { return close_(std::exchange(id_, -1)); }
 
  private:
   hid_t id_;
@@ -65,8 +66,15 @@ class Hdf5Writer {
   Hdf5Id add_slices(const std::string& name, const Hdf5Shape& shape);
   void write_slice(const Hdf5Id& dataset, hsize_t index, std::span<const double> values);
 
-  /// Writes beside the target and renames.
+  /// Writes beside the target and renames. All datasets handed out must be closed by then; nothing can be added
+  /// afterwards.
   void commit();
+
+  /// The bytes of the file in memory, which HDF5 leaves to us when it closes the file.
+  struct Image {
+    unsigned char* bytes = nullptr;
+    ~Image();
+  };
 
  private:
   Hdf5Id make_dataset(const std::string& name, hid_t type, const Hdf5Shape& shape);
@@ -75,6 +83,7 @@ class Hdf5Writer {
 
   Hdf5Silence silence_;
   std::filesystem::path target_;
+  Image image_;  // outlives file_
   Hdf5Id file_;
 };
 

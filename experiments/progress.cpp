@@ -37,7 +37,7 @@ std::string duration(double seconds) {
 std::string bar(double fraction) {
   constexpr int width = 12;
   const int full = static_cast<int>(width * fraction);
-  return "[" + std::string(full, '#') + std::string(width - full, '.') + "] ";
+  return std::string("[").append(full, '#').append(width - full, '.').append("] ");
 }
 
 /// Of the terminal that stderr is: a longer line could not be rewritten. Asked each time, as windows change.

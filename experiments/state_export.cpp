@@ -151,7 +151,7 @@ ExportFormat export_format(const std::string& name) {
   std::string names;
   for (const auto& [known, format] : format_names) {
     if (name == known) return format;
-    names += std::string(names.empty() ? "" : ", ") + known;
+    names.append(names.empty() ? "" : ", ").append(known);
   }
   throw RunError("no export format '" + name + "': there are " + names);
 }
