@@ -271,6 +271,7 @@ Polyhedron convex_hull(std::span<const Vec3> points) {
   try {
     return assembled(points, hull_loops(scaled, kMerge[0]));
   } catch (const InvalidPolyhedron&) {
+    // the finer attempt below decides
   }
   try {
     return assembled(points, hull_loops(scaled, kMerge[1]));
