@@ -132,9 +132,9 @@ bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
   }
 }
 
-/// Edges of body `own` whose arc of normals has a part that all witnesses let reach the best. On the arc n = m / |m| with
-/// m = (1 - l) n_left + l n_right, 0 <= l <= 1, |m| <= 1, and a witness asks for m.(w - edge) >= |m| s, which is at least
-/// min(s, 0): linear in l, with the faces' heights at the ends.
+/// Edges of body `own` whose arc of normals has a part that all witnesses let reach the best. On the arc n = m / |m|
+/// with m = (1 - l) n_left + l n_right, 0 <= l <= 1, |m| <= 1, and a witness asks for m.(w - edge) >= |m| s, which is
+/// at least min(s, 0): linear in l, with the faces' heights at the ends.
 void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   const CollisionShape& shape = *pair.shape[own];
   Side& side = side_[own];
@@ -162,8 +162,8 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
   turned_.clear();
   for (const int e : side_[1].edges) {
     const CollisionShape::Edge& edge = b.edges()[e];
-    turned_.push_back({e, rotation * edge.along, -(rotation * b.faces().xyz(edge.left)),
-                       -(rotation * b.faces().xyz(edge.right))});
+    turned_.push_back(
+        {e, rotation * edge.along, -(rotation * b.faces().xyz(edge.left)), -(rotation * b.faces().xyz(edge.right))});
   }
   // A cheap look at the arcs first: edge_separation decides, in its own rounding.
   const double blur = 1e-12;

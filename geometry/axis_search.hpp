@@ -1,6 +1,6 @@
 #pragma once
-// The best separating axis of a pair: last step's if it can be proved to be the best still, otherwise an exact search that
-// bounds before it evaluates.
+// The best separating axis of a pair: last step's if it can be proved to be the best still, otherwise an exact search
+// that bounds before it evaluates.
 
 #include <vector>
 
@@ -24,14 +24,14 @@ class AxisSearch {
   /// `shapes`: all that will be asked for, to size the scratch.
   explicit AxisSearch(std::span<const CollisionShape> shapes);
 
-  /// The best axis of the pair, unless some facet's separation exceeds `alert` [m]: then no more than that is found out.
-  /// `hint`: a facet to start from, of any kind or none; on return the one that decided. Outcome (separated or not) and
-  /// axis do not depend on the hint, to the last bit.
+  /// The best axis of the pair, unless some facet's separation exceeds `alert` [m]: then no more than that is found
+  /// out. `hint`: a facet to start from, of any kind or none; on return the one that decided. Outcome (separated or
+  /// not) and axis do not depend on the hint, to the last bit.
   AxisOutcome find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis);
 
  private:
-  /// What is known of the facets on one body's side. A witness is a point of the other body, in this body's frame: as a face
-  /// f of this body is its support along n_f, s(n_f) <= n_f.w - offset_f.
+  /// What is known of the facets on one body's side. A witness is a point of the other body, in this body's frame: as a
+  /// face f of this body is its support along n_f, s(n_f) <= n_f.w - offset_f.
   struct Side {
     std::vector<double> bound;    // per face: upper bound of its separation; -infinity once evaluated
     std::vector<double> value;    // per face: its separation, -infinity unless evaluated
@@ -62,9 +62,9 @@ class AxisSearch {
   static constexpr int kWitnesses = 12;
   Heights heights_;
   Side side_[2];
-  std::vector<EdgePair> edge_pairs_;   // evaluated, near or above the best when they were
+  std::vector<EdgePair> edge_pairs_;  // evaluated, near or above the best when they were
   std::vector<TurnedEdge> turned_;
-  double best_ = 0.0;                  // largest separation so far
+  double best_ = 0.0;  // largest separation so far
   AxisFeature best_feature_;
 };
 

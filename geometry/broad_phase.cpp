@@ -120,8 +120,7 @@ void BroadPhase::sort_pairs() {
 void BroadPhase::carry_axes() {
   size_t old = 0;
   for (CandidatePair& pair : pairs_) {
-    while (old < old_pairs_.size() &&
-           std::pair(old_pairs_[old].a, old_pairs_[old].b) < std::pair(pair.a, pair.b))
+    while (old < old_pairs_.size() && std::pair(old_pairs_[old].a, old_pairs_[old].b) < std::pair(pair.a, pair.b))
       ++old;
     if (old == old_pairs_.size()) break;
     if (old_pairs_[old].a == pair.a && old_pairs_[old].b == pair.b) pair.axis = old_pairs_[old].axis;

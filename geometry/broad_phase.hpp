@@ -22,9 +22,9 @@ struct CandidatePair {
   AxisFeature axis;  ///< last step's
 };
 
-/// The list holds every pair whose boxes, each grown by its body's reach, overlap at the given poses. It may hold more: boxes
-/// are listed with a margin, and the list stands as long as no body has used up its margin by moving or by a longer reach.
-/// How far bodies have moved is measured on the poses in every call.
+/// The list holds every pair whose boxes, each grown by its body's reach, overlap at the given poses. It may hold more:
+/// boxes are listed with a margin, and the list stands as long as no body has used up its margin by moving or by a
+/// longer reach. How far bodies have moved is measured on the poses in every call.
 class BroadPhase {
  public:
   struct Body {
@@ -53,10 +53,10 @@ class BroadPhase {
 
   std::vector<Body> bodies_;
   double skin_;
-  std::vector<Pose> listed_pose_;    // when the list was made
-  std::vector<double> allowance_;    // how far a body's surface may get from there, reach included [m]
-  std::vector<Box> boxes_;           // grown by the allowance
-  std::vector<int> order_;           // polyhedra, by the low end of their boxes
+  std::vector<Pose> listed_pose_;  // when the list was made
+  std::vector<double> allowance_;  // how far a body's surface may get from there, reach included [m]
+  std::vector<Box> boxes_;         // grown by the allowance
+  std::vector<int> order_;         // polyhedra, by the low end of their boxes
   std::vector<std::pair<int, int>> found_;
   std::vector<CandidatePair> pairs_, old_pairs_;
   std::vector<int> first_;

@@ -7,8 +7,8 @@
 namespace ballast {
 namespace {
 
-constexpr int kLanes = 8;        // one AVX-512 register, two AVX, four SSE2
-constexpr double kFar = 1e100;   // [m]; finite, so that sums of padding stay finite
+constexpr int kLanes = 8;       // one AVX-512 register, two AVX, four SSE2
+constexpr double kFar = 1e100;  // [m]; finite, so that sums of padding stay finite
 
 int rounded_up(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
@@ -127,8 +127,8 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
 void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   sides_.resize(corners_.size());
   const auto add_side = [&](int f, int from, int to) {
-    const int k = static_cast<int>(std::find(corners_.begin() + face_begin_[f], corners_.begin() + face_begin_[f + 1], from) -
-                                   corners_.begin());
+    const int k = static_cast<int>(
+        std::find(corners_.begin() + face_begin_[f], corners_.begin() + face_begin_[f + 1], from) - corners_.begin());
     const Vec3 outward = (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_.xyz(f)).normalized();
     const double offset = std::max(outward.dot(polyhedron.vertex(from)), outward.dot(polyhedron.vertex(to)));
     sides_[k] = {static_cast<int>(edges_.size()), offset, outward};
@@ -153,16 +153,15 @@ void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron, const std:
   }
 }
 
-/// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is larger: the mean is always
-/// strictly inside, the origin of a user's frame need not be.
+/// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is larger: the mean is
+/// always strictly inside, the origin of a user's frame need not be.
 void CollisionShape::build_ball(const Polyhedron& polyhedron) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : polyhedron.vertices()) mean += p;
   mean /= static_cast<double>(polyhedron.vertex_count());
   const auto radius_about = [&](const Vec3& centre) {
     double nearest = kFar;
-    for (int f = 0; f < faces_.count(); ++f)
-      nearest = std::min(nearest, -(faces_.xyz(f).dot(centre) + faces_.w(f)));
+    for (int f = 0; f < faces_.count(); ++f) nearest = std::min(nearest, -(faces_.xyz(f).dot(centre) + faces_.w(f)));
     return nearest;
   };
   if (radius_about(mean) > radius_about(Vec3::Zero())) ball_centre_ = mean;

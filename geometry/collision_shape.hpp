@@ -33,8 +33,8 @@ class AffineRows {
   std::vector<double> table_;
 };
 
-/// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated boxes) are one face here,
-/// so that a contact patch does not end at a diagonal. Frame: that of the polyhedron [m].
+/// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated boxes) are one face
+/// here, so that a contact patch does not end at a diagonal. Frame: that of the polyhedron [m].
 class CollisionShape {
  public:
   /// Two faces whose normals differ by less than this angle [rad] are one.
@@ -57,8 +57,8 @@ class CollisionShape {
 
   /// Rows (position, 0); padding is far above every height.
   const AffineRows& vertices() const { return vertices_; }
-  /// Rows (outward unit normal, -offset): the signed distance of a point to each face's plane. The offset is the support of
-  /// the whole polyhedron along the normal. Padding is far inside.
+  /// Rows (outward unit normal, -offset): the signed distance of a point to each face's plane. The offset is the
+  /// support of the whole polyhedron along the normal. Padding is far inside.
   const AffineRows& faces() const { return faces_; }
   std::span<const Edge> edges() const { return edges_; }
 

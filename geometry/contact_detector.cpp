@@ -115,7 +115,8 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
 void ContactDetector::State::check(std::span<const Pose> poses, std::span<const double> reach) const {
   if (poses.size() != shapes.size() || reach.size() != shapes.size())
     throw std::invalid_argument("detect: " + std::to_string(shapes.size()) + " bodies, but " +
-                                std::to_string(poses.size()) + " poses and " + std::to_string(reach.size()) + " reaches");
+                                std::to_string(poses.size()) + " poses and " + std::to_string(reach.size()) +
+                                " reaches");
   for (size_t i = 0; i < poses.size(); ++i) {
     if (!poses[i].position.allFinite() || !poses[i].rotation.coeffs().allFinite() || !(reach[i] >= 0.0))
       throw std::invalid_argument("detect: pose or reach of body " + std::to_string(i) + " is not a finite number");
@@ -139,7 +140,8 @@ void ContactDetector::State::detect_plane(int plane, std::span<const Pose> poses
       const double gap = height + heights[v];
       if (gap > alert) continue;
       const Vec3 vertex = poses[b].position + rotations[b] * body->vertices().xyz(v);
-      contacts.push_back({plane, b, feature_key(PointKind::vertex_of_b, 0, v), normal, vertex - 0.5 * gap * normal, gap});
+      contacts.push_back(
+          {plane, b, feature_key(PointKind::vertex_of_b, 0, v), normal, vertex - 0.5 * gap * normal, gap});
     }
     if (contacts.size() > before) ++counters.manifolds;
   }
@@ -160,10 +162,11 @@ void ContactDetector::State::detect_pair(CandidatePair& candidate, std::span<con
   SeparatingAxis axis;
   const AxisOutcome outcome = search.find(pair, alert, candidate.axis, axis);
   if (outcome == AxisOutcome::separated_by_hint) ++counters.cached_separations;
+  if (outcome == AxisOutcome::proved_by_hint) ++counters.proved_axes;
   if (outcome == AxisOutcome::separated || outcome == AxisOutcome::found) ++counters.full_tests;
   if (is_separated(outcome)) return;
-  // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says. Which of them count must
-  // not depend on which the broad phase happened to list: those that it lists with no margin at all.
+  // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says. Which of them count
+  // must not depend on which the broad phase happened to list: those that it lists with no margin at all.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, poses, alert)) return;
 
   ++counters.manifolds;

@@ -44,6 +44,7 @@ struct DetectionSettings {
 struct DetectionCounters {
   long candidate_pairs = 0;   ///< pairs in the broad phase's list
   long cached_separations = 0;///< pairs dismissed by the axis that separated them last time
+  long proved_axes = 0;       ///< pairs whose last axis was proved to be the best still
   long full_tests = 0;        ///< pairs that needed the whole separating-axis search
   long manifolds = 0;         ///< pairs with at least one contact point
   long broad_phase_rebuilds = 0;  ///< since construction

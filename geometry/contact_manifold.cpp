@@ -6,8 +6,8 @@
 namespace ballast {
 namespace {
 
-/// The face of the other body, among those at its touching vertex, that opposes the reference face most. Near-ties go to
-/// the smallest index: rounding must not choose.
+/// The face of the other body, among those at its touching vertex, that opposes the reference face most. Near-ties go
+/// to the smallest index: rounding must not choose.
 int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
   const CollisionShape& other = *pair.shape[1 - reference];
   const Vec3 direction = pair.other[reference].rotation.transpose() * pair.shape[reference]->faces().xyz(face);
@@ -27,8 +27,8 @@ ClippedPoint touching_vertex(const ShapePair& pair, int reference, int face, int
   ClippedPoint point;
   point.position = pair.other[reference] * pair.shape[1 - reference]->vertices().xyz(vertex);
   point.height = faces.xyz(face).dot(point.position) + faces.w(face);
-  point.key = reference == 0 ? feature_key(PointKind::vertex_of_b, 0, vertex)
-                             : feature_key(PointKind::vertex_of_a, vertex, 0);
+  point.key =
+      reference == 0 ? feature_key(PointKind::vertex_of_b, 0, vertex) : feature_key(PointKind::vertex_of_a, vertex, 0);
   point.next_edge = -1;
   return point;
 }
@@ -41,48 +41,70 @@ double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const Clipped
 
 std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair, const SeparatingAxis& axis, double alert,
                                                        int max_points) {
-  points_.clear();
+  candidates_.clear();
+  const bool of_b = axis.feature.kind == AxisKind::face_of_b;
   if (axis.feature.kind == AxisKind::edges)
-    points_.push_back(edge_point(pair, axis));
+    edge_candidates(pair, axis, alert);
   else
-    face_points(pair, axis, alert, max_points);
+    face_candidates(pair, axis, alert);
+  reduce(max_points, pair.size());
+  points_.clear();
+  // candidates lie on the incident body's surface, which is a's for a reference face of b
+  const double half = of_b ? 0.5 : -0.5;
+  for (const ClippedPoint& p : candidates_) {
+    const Vec3 in_a = of_b ? pair.other[0] * p.position : p.position;
+    points_.push_back({p.key, in_a + half * p.height * axis.normal, p.height});
+  }
   if (points_.size() > 1)
     std::sort(points_.begin(), points_.end(), [](const auto& p, const auto& q) { return p.key < q.key; });
   return points_;
 }
 
 /// The lines' closest points; those of bodies apart may lie beyond the edges' ends and are held there.
-ManifoldPoint ContactManifold::edge_point(const ShapePair& pair, const SeparatingAxis& axis) const {
+void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxis& axis, double alert) {
+  constexpr double nearly_parallel = 0.99;  // cosine
   const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
   const CollisionShape::Edge &edge_a = a.edges()[axis.feature.a], &edge_b = b.edges()[axis.feature.b];
   const LineParameters at = closest_on_lines(pair, axis.feature.a, axis.feature.b);
   const Vec3 on_a = a.vertices().xyz(edge_a.tail) + std::clamp(at.a, 0.0, 1.0) * edge_a.along;
   const Vec3 on_b = pair.other[0] * (b.vertices().xyz(edge_b.tail) + std::clamp(at.b, 0.0, 1.0) * edge_b.along);
-  return {feature_key(PointKind::edges, axis.feature.a, axis.feature.b), 0.5 * (on_a + on_b), axis.separation};
+  ClippedPoint crossing;
+  crossing.key = feature_key(PointKind::edges, axis.feature.a, axis.feature.b);
+  crossing.height = axis.separation;
+  crossing.position = 0.5 * (on_a + on_b) + 0.5 * axis.separation * axis.normal;
+  crossing.next_edge = -1;
+
+  const Vec3 normal_in_b = pair.other[0].rotation.transpose() * axis.normal;
+  const auto most_aligned = [](const CollisionShape& shape, const CollisionShape::Edge& edge, const Vec3& d) {
+    return shape.faces().xyz(edge.left).dot(d) >= shape.faces().xyz(edge.right).dot(d) ? edge.left : edge.right;
+  };
+  const int face_a = most_aligned(a, edge_a, axis.normal), face_b = most_aligned(b, edge_b, -normal_in_b);
+  bool has_crossing = false;
+  if (a.faces().xyz(face_a).dot(axis.normal) > nearly_parallel &&
+      b.faces().xyz(face_b).dot(normal_in_b) < -nearly_parallel) {
+    for (const ClippedPoint& p : clipper_.clip_along(pair, 0, face_a, face_b, axis.normal, 1e-9 * pair.size())) {
+      if (p.height > alert) continue;
+      has_crossing |= p.key == crossing.key;
+      candidates_.push_back(p.key == crossing.key ? crossing : p);
+    }
+  }
+  if (!has_crossing) candidates_.push_back(crossing);
 }
 
-ManifoldPoint ContactManifold::on_reference(const ShapePair& pair, int reference, int face,
-                                            const ClippedPoint& point) const {
-  const Vec3 midway = point.position - 0.5 * point.height * pair.shape[reference]->faces().xyz(face);
-  return {point.key, reference == 0 ? midway : pair.other[0] * midway, point.height};
-}
-
-void ContactManifold::face_points(const ShapePair& pair, const SeparatingAxis& axis, double alert, int max_points) {
+void ContactManifold::face_candidates(const ShapePair& pair, const SeparatingAxis& axis, double alert) {
   const int reference = axis.feature.kind == AxisKind::face_of_a ? 0 : 1;
   const int face = reference == 0 ? axis.feature.a : axis.feature.b;
   const double size = pair.size(), thickness = 1e-9 * size;
   const ClippedPoint touching = touching_vertex(pair, reference, face, axis.support);
 
-  // Most contacts are one vertex on a face. All else of the other body rises from the vertex at `slope` at least, so nothing
-  // within reach gets to the sides or to another vertex: what clipping would return is known.
+  // Most contacts are one vertex on a face. All else of the other body rises from the vertex at `slope` at least, so
+  // nothing within reach gets to the sides or to another vertex: what clipping would return is known.
   const double slope = axis.clearance / (2.0 * pair.shape[1 - reference]->circumradius());
   if (axis.inside > thickness && axis.separation + slope * axis.inside > alert + thickness &&
       axis.separation + axis.clearance > alert + thickness) {
-    points_.push_back(on_reference(pair, reference, face, touching));
+    candidates_.push_back(touching);
     return;
   }
-
-  candidates_.clear();
   double deepest = alert + size;
   const int incident = incident_face(pair, reference, face, axis.support);
   for (const ClippedPoint& point : clipper_.clip(pair, reference, face, incident, thickness)) {
@@ -93,13 +115,11 @@ void ContactManifold::face_points(const ShapePair& pair, const SeparatingAxis& a
     std::erase_if(candidates_, [&](const ClippedPoint& point) { return point.key == touching.key; });
     candidates_.push_back(touching);
   }
-  reduce(max_points, size);
-  for (const ClippedPoint& point : candidates_) points_.push_back(on_reference(pair, reference, face, point));
 }
 
-/// Keeps the deepest point, then the one farthest from it, then again and again the one that adds most area to the polygon of
-/// those kept. The candidates are corners of a convex polygon in order, so that the area added is that of the triangle
-/// with the two neighbours kept. Near-ties go to the smallest key: rounding must not choose.
+/// Keeps the deepest point, then the one farthest from it, then again and again the one that adds most area to the
+/// polygon of those kept. The candidates are corners of a convex polygon in order, so that the area added is that of
+/// the triangle with the two neighbours kept. Near-ties go to the smallest key: rounding must not choose.
 void ContactManifold::reduce(int max_points, double size) {
   const int count = static_cast<int>(candidates_.size());
   if (count <= max_points) return;

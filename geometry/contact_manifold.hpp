@@ -17,20 +17,22 @@ struct ManifoldPoint {
 /// Holds scratch memory; one per thread.
 class ContactManifold {
  public:
-  /// Points of the pair with gap <= alert, at most `max_points` of them, sorted by key. The axis must be the pair's best and
-  /// its separation <= alert. The smallest gap equals the separation: the touching vertex is added if clipping lost it.
-  /// Face: the other body's face at its touching vertex that opposes the reference face most is clipped by the
-  /// reference face's sides; each corner has its own gap. Edges: one point. Valid until the next call.
-  std::span<const ManifoldPoint> points(const ShapePair& pair, const SeparatingAxis& axis, double alert, int max_points);
+  /// Points of the pair with gap <= alert, at most `max_points` of them, sorted by key. The axis must be the pair's
+  /// best and its separation <= alert. The smallest gap equals the separation: the touching vertex is added if clipping
+  /// lost it. Face: the other body's face at its touching vertex that opposes the reference face most is clipped by the
+  /// reference face's sides; each corner has its own gap. Edges: the lines' closest points; where faces beside the two
+  /// edges are nearly parallel, the corners of their common part as well, so that a flat contact whose best axis
+  /// happens to be an edge pair's keeps its points. Valid until the next call.
+  std::span<const ManifoldPoint> points(const ShapePair& pair, const SeparatingAxis& axis, double alert,
+                                        int max_points);
 
  private:
-  ManifoldPoint edge_point(const ShapePair& pair, const SeparatingAxis& axis) const;
-  void face_points(const ShapePair& pair, const SeparatingAxis& axis, double alert, int max_points);
-  ManifoldPoint on_reference(const ShapePair& pair, int reference, int face, const ClippedPoint& point) const;
+  void edge_candidates(const ShapePair& pair, const SeparatingAxis& axis, double alert);
+  void face_candidates(const ShapePair& pair, const SeparatingAxis& axis, double alert);
   void reduce(int max_points, double size);
 
   FaceClipper clipper_;
-  std::vector<ClippedPoint> candidates_;  // within reach, in the polygon's order
+  std::vector<ClippedPoint> candidates_;  // within reach, in the polygon's order; reference body's frame
   std::vector<int> by_key_;               // candidates in the order of their keys
   std::vector<char> chosen_;
   std::vector<ManifoldPoint> points_;

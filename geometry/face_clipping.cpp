@@ -4,12 +4,30 @@ namespace ballast {
 
 std::span<const ClippedPoint> FaceClipper::clip(const ShapePair& pair, int reference, int face, int incident,
                                                 double thickness) {
+  const CollisionShape& shape = *pair.shape[reference];
   start(pair, reference, incident);
-  const int sides = pair.shape[reference]->corner_count(face);
-  for (int k = 0; k < sides && !polygon_.empty(); ++k) clip_by_side(pair, reference, face, k, thickness);
-  const Vec3 normal = pair.shape[reference]->faces().xyz(face);
-  const double minus_offset = pair.shape[reference]->faces().w(face);
-  for (ClippedPoint& p : polygon_) p.height = normal.dot(p.position) + minus_offset;
+  const std::span<const CollisionShape::Side> sides = shape.sides(face);
+  for (size_t k = 0; k < sides.size() && !polygon_.empty(); ++k)
+    clip_by_side(pair, reference, face, static_cast<int>(k), {sides[k].outward, sides[k].offset}, thickness);
+  const Vec3 normal = shape.faces().xyz(face);
+  for (ClippedPoint& p : polygon_) p.height = normal.dot(p.position) + shape.faces().w(face);
+  return polygon_;
+}
+
+std::span<const ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int reference, int face, int incident,
+                                                      const Vec3& direction, double thickness) {
+  const CollisionShape& shape = *pair.shape[reference];
+  start(pair, reference, incident);
+  const std::span<const int> corners = shape.corners(face);
+  for (size_t k = 0; k < corners.size() && !polygon_.empty(); ++k) {
+    const Vec3 from = shape.vertices().xyz(corners[k]);
+    const Vec3 along = shape.vertices().xyz(corners[k + 1 < corners.size() ? k + 1 : 0]) - from;
+    const Vec3 outward = along.cross(direction).normalized();
+    clip_by_side(pair, reference, face, static_cast<int>(k), {outward, outward.dot(from)}, thickness);
+  }
+  const Vec3 normal = shape.faces().xyz(face);
+  const double scale = 1.0 / normal.dot(direction);
+  for (ClippedPoint& p : polygon_) p.height = (normal.dot(p.position) + shape.faces().w(face)) * scale;
   return polygon_;
 }
 
@@ -25,12 +43,12 @@ void FaceClipper::start(const ShapePair& pair, int reference, int incident) {
   }
 }
 
-void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, int k, double thickness) {
-  const CollisionShape::Side& side = pair.shape[reference]->sides(face)[k];
+void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, int k, const Plane& plane,
+                               double thickness) {
   distance_.clear();
   bool all_inside = true;
   for (const ClippedPoint& p : polygon_) {
-    distance_.push_back(side.outward.dot(p.position) - side.offset);
+    distance_.push_back(plane.outward.dot(p.position) - plane.offset);
     all_inside &= distance_.back() <= thickness;
   }
   if (all_inside) return;
@@ -56,19 +74,22 @@ void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, i
   polygon_.swap(clipped_);
 }
 
-/// Side k of the reference face meets an edge of the incident face, or one of the face's own sides at their common corner.
+/// Side k of the reference face meets an edge of the incident face, or one of the face's own sides at their common
+/// corner.
 std::uint64_t FaceClipper::crossing_key(const ShapePair& pair, int reference, int face, int k, int edge) const {
   const CollisionShape& shape = *pair.shape[reference];
   const int own_edge = shape.sides(face)[k].edge;
   if (edge >= 0) {
-    return reference == 0 ? feature_key(PointKind::edges, own_edge, edge) : feature_key(PointKind::edges, edge, own_edge);
+    return reference == 0 ? feature_key(PointKind::edges, own_edge, edge)
+                          : feature_key(PointKind::edges, edge, own_edge);
   }
   const int other_side = ~edge, count = shape.corner_count(face);
   int corner = -1;
   if ((other_side + 1) % count == k) corner = shape.corners(face)[k];
   if ((k + 1) % count == other_side) corner = shape.corners(face)[other_side];
   if (corner < 0) return feature_key(PointKind::sides, own_edge, shape.sides(face)[other_side].edge);
-  return reference == 0 ? feature_key(PointKind::vertex_of_a, corner, 0) : feature_key(PointKind::vertex_of_b, 0, corner);
+  return reference == 0 ? feature_key(PointKind::vertex_of_a, corner, 0)
+                        : feature_key(PointKind::vertex_of_b, 0, corner);
 }
 
 }  // namespace ballast

@@ -14,8 +14,8 @@ namespace ballast {
 enum class PointKind : std::uint8_t {
   vertex_of_a,  ///< index in a; nothing in b
   vertex_of_b,
-  edges,        ///< an edge of each
-  sides         ///< two sides of the reference face that share no corner: rounding only
+  edges,  ///< an edge of each
+  sides   ///< two sides of the reference face that share no corner: rounding only
 };
 
 /// kind in the two top bits, then 31 bits for each body's index. A vertex of b has the vertex's number as its key.
@@ -26,23 +26,31 @@ inline std::uint64_t feature_key(PointKind kind, int a, int b) {
 
 /// A corner of a clipped polygon.
 struct ClippedPoint {
-  Vec3 position;      ///< in the reference body's frame [m]
-  double height;      ///< above the reference face's plane [m]
+  Vec3 position;  ///< in the reference body's frame [m]
+  double height;  ///< above the reference face's plane, along the prism [m]
   std::uint64_t key;
-  int next_edge;      ///< what runs to the next corner: an edge e of the incident body, or ~k for side k of the reference face
+  int next_edge;  ///< what runs to the next corner: an edge e of the incident body, or ~k for side k of the reference
+                  ///< face
 };
 
 /// Holds scratch memory; one per thread.
 class FaceClipper {
  public:
-  /// The part of face `incident` of body 1 - `reference` that lies within the prism on face `face` of body `reference`, along the
-  /// face's normal, counter-clockwise seen from the incident body's outside. Corners up to `thickness` [m] outside a side
-  /// count as inside and stay where they are. Valid until the next call.
+  /// The part of face `incident` of body 1 - `reference` that lies within the prism on face `face` of body `reference`,
+  /// along the face's normal, counter-clockwise seen from the incident body's outside. Corners up to `thickness` [m]
+  /// outside a side count as inside and stay where they are. Valid until the next call.
   std::span<const ClippedPoint> clip(const ShapePair& pair, int reference, int face, int incident, double thickness);
+  /// The same for a prism along another unit direction (reference body's frame); heights are measured along it.
+  std::span<const ClippedPoint> clip_along(const ShapePair& pair, int reference, int face, int incident,
+                                           const Vec3& direction, double thickness);
 
  private:
+  struct Plane {
+    Vec3 outward;
+    double offset;
+  };
   void start(const ShapePair& pair, int reference, int incident);
-  void clip_by_side(const ShapePair& pair, int reference, int face, int k, double thickness);
+  void clip_by_side(const ShapePair& pair, int reference, int face, int k, const Plane& plane, double thickness);
   std::uint64_t crossing_key(const ShapePair& pair, int reference, int face, int k, int edge) const;
 
   std::vector<ClippedPoint> polygon_, clipped_;

@@ -31,15 +31,16 @@ Lowest lowest(const double* values, int padded) {
 }
 
 /// How far all vertices but the two ends of an edge lie above `level` along d.
-double clearance_of_edge(const CollisionShape& shape, const CollisionShape::Edge& edge, const Vec3& d, Heights& heights) {
+double clearance_of_edge(const CollisionShape& shape, const CollisionShape::Edge& edge, const Vec3& d,
+                         Heights& heights) {
   shape.vertices().evaluate(d, heights.data());
   const double level = std::min(heights[edge.tail], heights[edge.head]);
   heights[edge.tail] = heights[edge.head] = 1e200;
   return lowest(heights.data(), shape.vertices().padded()).value - level;
 }
 
-/// Cross product of two edges, freed of its components along them: of nearly parallel edges these are all its error that
-/// matters, as the edges are long in that direction.
+/// Cross product of two edges, freed of its components along them: of nearly parallel edges these are all its error
+/// that matters, as the edges are long in that direction.
 Vec3 refined_cross(const Vec3& u, const Vec3& v) {
   Vec3 n = u.cross(v);
   n -= u * (n.dot(u) / u.squaredNorm());
@@ -79,9 +80,9 @@ std::optional<SeparatingAxis> edge_axis(const ShapePair& pair, const AxisFeature
   const double length_a = edge_a.along.norm(), length_b = edge_b.along.norm();
   const double sine = edge_a.along.cross(pair.other[0].rotation * edge_b.along).norm() / (length_a * length_b);
   axis.inside = sine * std::min(length_a * std::min(at.a, 1.0 - at.a), length_b * std::min(at.b, 1.0 - at.b));
-  axis.clearance = std::min(
-      clearance_of_edge(*pair.shape[0], edge_a, -axis.normal, heights),
-      clearance_of_edge(*pair.shape[1], edge_b, pair.other[0].rotation.transpose() * axis.normal, heights));
+  axis.clearance =
+      std::min(clearance_of_edge(*pair.shape[0], edge_a, -axis.normal, heights),
+               clearance_of_edge(*pair.shape[1], edge_b, pair.other[0].rotation.transpose() * axis.normal, heights));
   return axis;
 }
 
@@ -145,13 +146,13 @@ std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFea
   return face_axis(pair, feature, heights);
 }
 
-/// Let n0 be the axis, s0 its separation, and n = n0 cos t + e sin t another unit vector, e perpendicular to n0. The facet's
-/// corners x_i lie in n0.x = s0, and around the origin's projection out to r = `inside` at least, so some corner has
-/// e.x_i <= -r, and s(n) <= min_i n.x_i <= s0 cos t - r sin t. That is below s0 - margin where
+/// Let n0 be the axis, s0 its separation, and n = n0 cos t + e sin t another unit vector, e perpendicular to n0. The
+/// facet's corners x_i lie in n0.x = s0, and around the origin's projection out to r = `inside` at least, so some
+/// corner has e.x_i <= -r, and s(n) <= min_i n.x_i <= s0 cos t - r sin t. That is below s0 - margin where
 ///     f(t) = r sin t + s0 (1 - cos t) - margin > 0,
-/// and as f > 0 is an interval of t, two ends prove all between. The lower end: within `isolation` of n0 the supports are
-/// only the facet's own vertices, so there is no other facet. The upper end: both bodies contain balls, so with c the ball
-/// centres' difference s(n) <= n.c - r_a - r_b, and n must lie in a cap around c.
+/// and as f > 0 is an interval of t, two ends prove all between. The lower end: within `isolation` of n0 the supports
+/// are only the facet's own vertices, so there is no other facet. The upper end: both bodies contain balls, so with c
+/// the ball centres' difference s(n) <= n.c - r_a - r_b, and n must lie in a cap around c.
 bool is_proved_best(const ShapePair& pair, const SeparatingAxis& axis) {
   constexpr double isolation = 1e-8;  // [rad]
   const double size = pair.size();

@@ -1,10 +1,11 @@
 #pragma once
 // Signed separation of two convex polyhedra along the facets of their Minkowski difference B - A.
 //
-// For a unit vector n let s(n) = min_B n.x - max_A n.x be the gap along n. The separation is the largest s over the facets
-// of B - A, whose normals are A's face normals, B's face normals reversed, and cross products of an edge of A and an edge of B
-// whose arcs on the Gauss sphere cross. Of an overlapping pair it is minus the penetration depth, the largest s(n) of all n; of a
-// pair apart it is positive, and the distance when the nearest points lie inside the facet's two features.
+// For a unit vector n let s(n) = min_B n.x - max_A n.x be the gap along n. The separation is the largest s over the
+// facets of B - A, whose normals are A's face normals, B's face normals reversed, and cross products of an edge of A
+// and an edge of B whose arcs on the Gauss sphere cross. Of an overlapping pair it is minus the penetration depth, the
+// largest s(n) of all n; of a pair apart it is positive, and the distance when the nearest points lie inside the
+// facet's two features.
 
 #include <cstdint>
 #include <optional>
@@ -43,22 +44,22 @@ struct AxisFeature {
 
 struct SeparatingAxis {
   AxisFeature feature;
-  Vec3 normal;         ///< unit, in a's frame, from a to b
-  double separation;   ///< [m]
-  int support = -1;    ///< of a face: the other body's vertex nearest to its plane (smallest index among equals)
-  double inside;       ///< how far inside the facet the origin projects [m]: of a face, where the support vertex projects;
-                       ///< of two edges, where the lines' closest points lie; negative outside
-  double clearance;    ///< how much farther off than the touching vertex or edge all other vertices are [m]
+  Vec3 normal;        ///< unit, in a's frame, from a to b
+  double separation;  ///< [m]
+  int support = -1;   ///< of a face: the other body's vertex nearest to its plane (smallest index among equals)
+  double inside;  ///< how far inside the facet the origin projects [m]: of a face, where the support vertex projects;
+                  ///< of two edges, where the lines' closest points lie; negative outside
+  double clearance;  ///< how much farther off than the touching vertex or edge all other vertices are [m]
 };
 
-/// Axes whose separations differ by less than this are equal, and a rule chooses: faces before edges, a's before b's, the
-/// smaller index. Rounding is a hundred times less.
+/// Axes whose separations differ by less than this are equal, and a rule chooses: faces before edges, a's before b's,
+/// the smaller index. Rounding is a hundred times less.
 inline double tie_tolerance(const ShapePair& pair) { return 1e-13 * pair.size(); }
 /// Margin of every proof that an axis is not the best: above tie_tolerance by more than rounding.
 inline double proof_margin(const ShapePair& pair) { return 4e-13 * pair.size(); }
 
-/// Edges with a smaller sine of the angle between them count as parallel: their cross product is mostly rounding. The facet
-/// left out is a sliver of this width relative to the edge.
+/// Edges with a smaller sine of the angle between them count as parallel: their cross product is mostly rounding. The
+/// facet left out is a sliver of this width relative to the edge.
 constexpr double kParallelSine = 1e-7;
 
 /// Scratch: one double per padded vertex of the largest shape.
