@@ -1,0 +1,76 @@
+#pragma once
+// Plots by gnuplot: the one place that knows it. A figure is plain data; its script holds the data too, so that
+// `gnuplot figures/x.gnuplot > x.svg` makes the same picture again.
+//
+// Labels are gnuplot's enhanced text: x_{max} and {/:Italic f} work; text from outside goes through plain_text().
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ballast {
+
+/// Okabe and Ito's colour-blind-safe colours, and two greys. The page maps them to lighter ones on a dark ground.
+enum class Ink { black, blue, vermilion, green, orange, sky, purple, yellow, grey, light };
+const char* rgb_of(Ink ink);  ///< "#rrggbb"
+
+enum class Mark {
+  line,    ///< NaN breaks it
+  points,  ///< filled circles; with y_error: bars
+  area,    ///< filled between y and y_low
+};
+
+struct Curve {
+  std::vector<double> x, y;
+  std::string title;     ///< empty: not in the key
+  Ink ink = Ink::blue;
+  Mark mark = Mark::line;
+  double width = 1.6;    ///< of the line, or size of the points
+  bool dashed = false;
+  double opacity = 1.0;
+  std::vector<double> y_error;  ///< points: half length of the bars
+  std::vector<double> y_low;    ///< area: lower bound
+};
+
+/// A dashed line across the panel with a label at its end: a target, a reference.
+struct ReferenceLine {
+  double value = 0.0;
+  std::string label;
+  bool vertical = false;
+  Ink ink = Ink::grey;
+};
+
+struct Panel {
+  std::string x_label, y_label;
+  bool log_x = false, log_y = false;
+  std::optional<double> y_min, y_max, x_min, x_max;
+  std::vector<Curve> curves;
+  std::vector<ReferenceLine> lines;
+};
+
+struct Figure {
+  std::string name;   ///< stem of its files: letters, digits, _ and -
+  std::string title;  ///< for screen readers and the SVG's <title>; plain text
+  int width = 900, height = 420;
+  std::vector<Panel> panels;  ///< one above the other, x axes aligned; only the last shows its x label if all share it
+};
+
+/// Escapes what enhanced text would interpret; control characters become spaces.
+std::string plain_text(const std::string& text);
+
+/// The script, data included; output goes to standard output. Throws std::invalid_argument when the figure is inconsistent.
+std::string gnuplot_script(const Figure& figure);
+
+/// Version line of the gnuplot found on PATH ("gnuplot 5.4 patchlevel 4"); empty when there is none.
+std::string gnuplot_version();
+
+/// Writes folder/<name>.gnuplot and folder/<name>.svg, each beside and renamed, and returns the SVG's text. The child gets no shell and
+/// reads no configuration; it is ended after `seconds`. Throws RunError naming the figure; an older SVG of that name is gone then.
+std::string render_svg(const Figure& figure, const std::filesystem::path& folder, double seconds = 60.0);
+
+/// At most `limit` samples that look the same: the least and the largest of each stretch, in their order; NaN once per stretch.
+void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit);
+
+}  // namespace ballast
