@@ -40,19 +40,6 @@ struct Gram {
   }
 };
 
-void stored_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks) {
-  for (int c = 0; c < problem.contact_count(); ++c) {
-    Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-    for (int i = 0; i < rows; ++i)
-      for (SparseRows::InnerIterator entry(problem.delassus.w, first + i); entry; ++entry) {
-        const int j = static_cast<int>(entry.col()) - first;
-        if (j >= 0 && j < rows) block(i, j) = entry.value();
-      }
-    blocks[c] = 0.5 * (block + block.transpose());
-  }
-}
-
 /// One body of one contact.
 struct Side {
   int contact;
@@ -104,6 +91,17 @@ SparseRows assemble(const FrictionProblem& problem) {
 
 }  // namespace
 
+Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
+  Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+  const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+  for (int i = 0; i < rows; ++i)
+    for (SparseRows::InnerIterator entry(problem.delassus.w, first + i); entry; ++entry) {
+      const int j = static_cast<int>(entry.col()) - first;
+      if (j >= 0 && j < rows) block(i, j) = entry.value();
+    }
+  return block;
+}
+
 void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
   roots.resize(dynamics.body_count());
   for (int b = 0; b < dynamics.body_count(); ++b)
@@ -114,7 +112,13 @@ void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
 void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
                        std::vector<Eigen::Matrix3d>& blocks) {
   blocks.resize(problem.contact_count());
-  if (!problem.has_dynamics) return stored_diagonal(problem, blocks);
+  if (!problem.has_dynamics) {
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      const Eigen::Matrix3d block = stored_diagonal_block(problem, c);
+      blocks[c] = 0.5 * (block + block.transpose());
+    }
+    return;
+  }
   const DynamicsForm& dynamics = problem.dynamics;
   factor_masses(dynamics, roots);
   for (int c = 0; c < problem.contact_count(); ++c) {

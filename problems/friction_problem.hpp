@@ -54,7 +54,9 @@ struct DynamicsForm {
 
 /// The problem as files often give it: W (rows x rows) and q.
 struct DelassusForm {
-  SparseRows w;       ///< symmetric positive semidefinite [1/kg]
+  /// Positive semidefinite [1/kg]. Symmetric when it comes from a DynamicsForm; stored problems with implicit
+  /// gyroscopic terms are unsymmetric by up to some per cent, and the law is then asked of u = W r + q with W as it is.
+  SparseRows w;
   Eigen::VectorXd q;  ///< [m/s]
 };
 
