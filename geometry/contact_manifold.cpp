@@ -10,11 +10,11 @@ namespace {
 /// to the smallest index: rounding must not choose.
 int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
   const CollisionShape& other = *pair.shape[1 - reference];
-  const Vec3 direction = pair.other[reference].rotation.transpose() * pair.shape[reference]->faces().xyz(face);
+  const Vec3 direction = pair.other[1 - reference].rotation * pair.shape[reference]->face(face).normal;
   int incident = -1;
   double most_opposed = 2.0;
   for (const int f : other.vertex_faces(vertex)) {
-    const double cosine = other.faces().xyz(f).dot(direction);
+    const double cosine = other.face(f).normal.dot(direction);
     if (cosine >= most_opposed - 1e-12) continue;
     most_opposed = cosine;
     incident = f;
@@ -23,10 +23,10 @@ int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
 }
 
 ClippedPoint touching_vertex(const ShapePair& pair, int reference, int face, int vertex) {
-  const AffineRows& faces = pair.shape[reference]->faces();
+  const CollisionShape::Face& plane = pair.shape[reference]->face(face);
   ClippedPoint point;
   point.position = pair.other[reference] * pair.shape[1 - reference]->vertices().xyz(vertex);
-  point.height = faces.xyz(face).dot(point.position) + faces.w(face);
+  point.height = plane.normal.dot(point.position) - plane.offset;
   point.key =
       reference == 0 ? feature_key(PointKind::vertex_of_b, 0, vertex) : feature_key(PointKind::vertex_of_a, vertex, 0);
   point.next_edge = -1;
@@ -65,26 +65,33 @@ void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxi
   constexpr double nearly_parallel = 0.99;  // cosine
   const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
   const CollisionShape::Edge &edge_a = a.edges()[axis.feature.a], &edge_b = b.edges()[axis.feature.b];
-  const LineParameters at = closest_on_lines(pair, axis.feature.a, axis.feature.b);
-  const Vec3 on_a = a.vertices().xyz(edge_a.tail) + std::clamp(at.a, 0.0, 1.0) * edge_a.along;
-  const Vec3 on_b = pair.other[0] * (b.vertices().xyz(edge_b.tail) + std::clamp(at.b, 0.0, 1.0) * edge_b.along);
+  const Vec3 on_a = edge_a.from + std::clamp(axis.at_a, 0.0, 1.0) * edge_a.along;
+  const Vec3 on_b = pair.other[0] * (edge_b.from + std::clamp(axis.at_b, 0.0, 1.0) * edge_b.along);
   ClippedPoint crossing;
   crossing.key = feature_key(PointKind::edges, axis.feature.a, axis.feature.b);
   crossing.height = axis.separation;
   crossing.position = 0.5 * (on_a + on_b) + 0.5 * axis.separation * axis.normal;
   crossing.next_edge = -1;
 
-  const Vec3 normal_in_b = pair.other[0].rotation.transpose() * axis.normal;
-  const auto most_aligned = [](const CollisionShape& shape, const CollisionShape::Edge& edge, const Vec3& d) {
-    return shape.faces().xyz(edge.left).dot(d) >= shape.faces().xyz(edge.right).dot(d) ? edge.left : edge.right;
+  const Vec3 normal_in_b = pair.other[1].rotation * axis.normal;
+  const auto most_aligned = [](const CollisionShape::Edge& edge, const Vec3& d) {
+    return edge.left_normal.dot(d) >= edge.right_normal.dot(d) ? edge.left : edge.right;
   };
-  const int face_a = most_aligned(a, edge_a, axis.normal), face_b = most_aligned(b, edge_b, -normal_in_b);
+  const int face_a = most_aligned(edge_a, axis.normal), face_b = most_aligned(edge_b, -normal_in_b);
+  // An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to see it
+  // this step: without the other end contact jumps from end to end as the body rocks by micrometres.
+  const bool flat_on_a = a.face(face_a).normal.dot(axis.normal) > nearly_parallel;
+  const bool flat_on_b = -b.face(face_b).normal.dot(normal_in_b) > nearly_parallel;
   bool has_crossing = false;
-  if (a.faces().xyz(face_a).dot(axis.normal) > nearly_parallel &&
-      b.faces().xyz(face_b).dot(normal_in_b) < -nearly_parallel) {
-    for (const ClippedPoint& p : clipper_.clip_along(pair, 0, face_a, face_b, axis.normal, 1e-9 * pair.size())) {
+  if (flat_on_a || flat_on_b) {
+    const int reference = flat_on_a ? 0 : 1;
+    const std::span<const ClippedPoint> clipped =
+        flat_on_a ? clipper_.clip_along(pair, 0, face_a, face_b, axis.normal, 1e-9 * pair.size())
+                  : clipper_.clip_along(pair, 1, face_b, face_a, -normal_in_b, 1e-9 * pair.size());
+    for (ClippedPoint p : clipped) {
       if (p.height > alert) continue;
       has_crossing |= p.key == crossing.key;
+      if (reference == 1) p.position = pair.other[0] * p.position + p.height * axis.normal;  // from a's surface to b's
       candidates_.push_back(p.key == crossing.key ? crossing : p);
     }
   }
