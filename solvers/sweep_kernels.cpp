@@ -2,20 +2,18 @@
 
 #include "problems/contact_error.hpp"
 
-// Vectors never cross a call boundary that the linker sees, so GCC's note about their calling convention does not
-// apply.
+// Vectors are returned by inlined functions only, so GCC's note about their calling convention does not apply.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace ballast {
 namespace {
 
 // GCC's vector extensions: the same element-wise operations in the same order on every instruction set, hence the same
-// bits
-// (-ffp-contract=off keeps multiplications and additions apart).
+// bits (-ffp-contract=off keeps multiplications and additions apart).
 using Vector8 = double __attribute__((vector_size(64)));
 using Vector4 = double __attribute__((vector_size(32)));
 
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
 #define BALLAST_FOR_EACH_CPU __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define BALLAST_FOR_EACH_CPU
@@ -24,14 +22,14 @@ using Vector4 = double __attribute__((vector_size(32)));
 #define BALLAST_INLINE inline __attribute__((always_inline))
 
 BALLAST_INLINE Vector8 load8(const double* x) { return *reinterpret_cast<const Vector8*>(x); }
-BALLAST_INLINE void store8(double* x, Vector8 value) { *reinterpret_cast<Vector8*>(x) = value; }
+BALLAST_INLINE void store8(double* x, const Vector8& value) { *reinterpret_cast<Vector8*>(x) = value; }
 
-BALLAST_INLINE Vector4 halves(Vector8 x) {
+BALLAST_INLINE Vector4 halves(const Vector8& x) {
   return __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
 }
 
 /// The sums of three vectors' entries.
-BALLAST_INLINE Vector4 three_sums(Vector8 x, Vector8 y, Vector8 z) {
+BALLAST_INLINE Vector4 three_sums(const Vector8& x, const Vector8& y, const Vector8& z) {
   const Vector4 p = halves(x), q = halves(y), s = halves(z);
   const Vector4 pq = __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
   const Vector4 ss = __builtin_shufflevector(s, s, 0, 0, 2, 2) + __builtin_shufflevector(s, s, 1, 1, 3, 3);
@@ -39,7 +37,7 @@ BALLAST_INLINE Vector4 three_sums(Vector8 x, Vector8 y, Vector8 z) {
 }
 
 /// G w over both sides.
-BALLAST_INLINE Vector4 relative_velocity(const FrictionRecord& k, Vector8 wa, Vector8 wb) {
+BALLAST_INLINE Vector4 relative_velocity(const FrictionRecord& k, const Vector8& wa, const Vector8& wb) {
   return three_sums(load8(k.rows[0][0]) * wa + load8(k.rows[1][0]) * wb,
                     load8(k.rows[0][1]) * wa + load8(k.rows[1][1]) * wb,
                     load8(k.rows[0][2]) * wa + load8(k.rows[1][2]) * wb);
@@ -52,42 +50,83 @@ BALLAST_INLINE Vector8 row_product(const FrictionRecord& k, int i, int j) {
 
 }  // namespace
 
+namespace {
+
+/// Solves one contact and moves its bodies; returns |dr| in principal coordinates.
+BALLAST_INLINE double relax(FrictionRecord& k, BodyVelocity* velocity) {
+  double* va = velocity[k.body[0]].w;
+  double* vb = velocity[k.body[1]].w;
+  const Vector8 wa = load8(va), wb = load8(vb);
+  const Vector4 u = relative_velocity(k, wa, wb);
+  double y = k.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
+  double t1 = k.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
+  double t2 = k.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
+  apply_coulomb(k.local, y, t1, t2, k.slip);
+  const double dy = y - k.y[0], d1 = t1 - k.y[1], d2 = t2 - k.y[2];
+  k.y[0] = y;
+  k.y[1] = t1;
+  k.y[2] = t2;
+  store8(va, wa + (load8(k.rows[0][0]) * dy + load8(k.rows[0][1]) * d1 + load8(k.rows[0][2]) * d2));
+  store8(vb, wb + (load8(k.rows[1][0]) * dy + load8(k.rows[1][1]) * d1 + load8(k.rows[1][2]) * d2));
+  return std::sqrt(dy * dy + d1 * d1 + d2 * d2);
+}
+
+BALLAST_INLINE double relax(OneRowRecord& k, BodyVelocity* velocity) {
+  double* va = velocity[k.body[0]].w;
+  double* vb = velocity[k.body[1]].w;
+  const Vector8 wa = load8(va), wb = load8(vb);
+  const Vector4 p = halves(load8(k.rows[0]) * wa + load8(k.rows[1]) * wb);
+  const double candidate = k.y - ((p[0] + p[1]) + (p[2] + p[3]) + k.bias) * k.inverse_normal;
+  const double y = candidate <= 0.0 ? 0.0 : candidate;
+  const double dy = y - k.y;
+  k.y = y;
+  store8(va, wa + load8(k.rows[0]) * dy);
+  store8(vb, wb + load8(k.rows[1]) * dy);
+  return std::abs(dy);
+}
+
+template <typename Record>
+BALLAST_INLINE void sweep_active(Record* records, ContactActivity* activity, int count, BodyVelocity* velocity,
+                                 double* stir, double threshold, ActiveSweep& done) {
+  ActiveSweep sum = done;
+  for (int c = 0; c < count; ++c) {
+    ContactActivity& k = activity[c];
+    double& stir_a = stir[k.body[0]];
+    double& stir_b = stir[k.body[1]];
+    if (stir_a + stir_b - k.seen < threshold) continue;
+    const double change = relax(records[c], velocity);
+    stir_a += k.reach[0] * change;
+    stir_b += k.reach[1] * change;
+    k.seen = stir_a + stir_b;
+    const double moved = (k.reach[0] + k.reach[1]) * change;
+    sum.change_squared += moved * moved;
+    ++sum.visits;
+  }
+  done = sum;
+}
+
+}  // namespace
+
 BALLAST_FOR_EACH_CPU
 void sweep_friction(FrictionRecord* records, int count, BodyVelocity* velocity) {
-  for (int c = 0; c < count; ++c) {
-    FrictionRecord& k = records[c];
-    double* va = velocity[k.body[0]].w;
-    double* vb = velocity[k.body[1]].w;
-    const Vector8 wa = load8(va), wb = load8(vb);
-    const Vector4 u = relative_velocity(k, wa, wb);
-    double y = k.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
-    double t1 = k.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
-    double t2 = k.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
-    apply_coulomb(k.local, y, t1, t2, k.slip);
-    const double dy = y - k.y[0], d1 = t1 - k.y[1], d2 = t2 - k.y[2];
-    k.y[0] = y;
-    k.y[1] = t1;
-    k.y[2] = t2;
-    store8(va, wa + (load8(k.rows[0][0]) * dy + load8(k.rows[0][1]) * d1 + load8(k.rows[0][2]) * d2));
-    store8(vb, wb + (load8(k.rows[1][0]) * dy + load8(k.rows[1][1]) * d1 + load8(k.rows[1][2]) * d2));
-  }
+  for (int c = 0; c < count; ++c) relax(records[c], velocity);
 }
 
 BALLAST_FOR_EACH_CPU
 void sweep_one_row(OneRowRecord* records, int count, BodyVelocity* velocity) {
-  for (int c = 0; c < count; ++c) {
-    OneRowRecord& k = records[c];
-    double* va = velocity[k.body[0]].w;
-    double* vb = velocity[k.body[1]].w;
-    const Vector8 wa = load8(va), wb = load8(vb);
-    const Vector4 p = halves(load8(k.rows[0]) * wa + load8(k.rows[1]) * wb);
-    const double candidate = k.y - ((p[0] + p[1]) + (p[2] + p[3]) + k.bias) * k.inverse_normal;
-    const double y = candidate <= 0.0 ? 0.0 : candidate;
-    const double dy = y - k.y;
-    k.y = y;
-    store8(va, wa + load8(k.rows[0]) * dy);
-    store8(vb, wb + load8(k.rows[1]) * dy);
-  }
+  for (int c = 0; c < count; ++c) relax(records[c], velocity);
+}
+
+BALLAST_FOR_EACH_CPU
+void sweep_active_friction(FrictionRecord* records, ContactActivity* activity, int count, BodyVelocity* velocity,
+                           double* stir, double threshold, ActiveSweep& done) {
+  sweep_active(records, activity, count, velocity, stir, threshold, done);
+}
+
+BALLAST_FOR_EACH_CPU
+void sweep_active_one_row(OneRowRecord* records, ContactActivity* activity, int count, BodyVelocity* velocity,
+                          double* stir, double threshold, ActiveSweep& done) {
+  sweep_active(records, activity, count, velocity, stir, threshold, done);
 }
 
 BALLAST_FOR_EACH_CPU
