@@ -105,11 +105,12 @@ void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& a
   }
   const int own = axis.feature.kind == AxisKind::face_of_a ? 0 : 1;
   add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(axis.support));
-  const std::span<const int> corners = pair.shape[own]->corners(own == 0 ? axis.feature.a : axis.feature.b);
+  const std::span<const CollisionShape::Corner> corners =
+      pair.shape[own]->corners(own == 0 ? axis.feature.a : axis.feature.b);
   // a few of a large face's corners are enough
   const size_t stride = 1 + (corners.size() - 1) / 4;
   for (size_t k = 0; k < corners.size(); k += stride)
-    add_witness(pair, 1 - own, pair.other[1 - own] * pair.shape[own]->vertices().xyz(corners[k]));
+    add_witness(pair, 1 - own, pair.other[1 - own] * pair.shape[own]->vertices().xyz(corners[k].vertex));
 }
 
 /// Faces of body `own`, most promising first, until no bound reaches the best. True as soon as one separates.
@@ -162,17 +163,15 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
   turned_.clear();
   for (const int e : side_[1].edges) {
     const CollisionShape::Edge& edge = b.edges()[e];
-    turned_.push_back(
-        {e, rotation * edge.along, -(rotation * b.faces().xyz(edge.left)), -(rotation * b.faces().xyz(edge.right))});
+    turned_.push_back({e, rotation * edge.along, -(rotation * edge.left_normal), -(rotation * edge.right_normal)});
   }
   // A cheap look at the arcs first: edge_separation decides, in its own rounding.
   const double blur = 1e-12;
   for (const int ea : side_[0].edges) {
     const CollisionShape::Edge& edge = a.edges()[ea];
-    const Vec3 left = a.faces().xyz(edge.left), right = a.faces().xyz(edge.right);
     const double length_blur = blur * pair.size();
     for (const TurnedEdge& other : turned_) {
-      const double left_a = left.dot(other.along), right_a = right.dot(other.along);
+      const double left_a = edge.left_normal.dot(other.along), right_a = edge.right_normal.dot(other.along);
       if (std::min(left_a, right_a) > length_blur || std::max(left_a, right_a) < -length_blur) continue;
       const double left_b = other.left.dot(edge.along), right_b = other.right.dot(edge.along);
       if (std::min(left_b, right_b) > length_blur || std::max(left_b, right_b) < -length_blur) continue;

@@ -98,8 +98,7 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
     ++members[patch[f]];
     seed[patch[f]] = f;
   }
-  faces_ = AffineRows(count, -kFar);
-  face_begin_.assign(1, 0);
+  face_rows_ = AffineRows(count, -kFar);
   std::vector<double> heights(vertices_.padded());
   for (int p = 0; p < count; ++p) {
     std::vector<int> loop(polyhedron.face(seed[p]).begin(), polyhedron.face(seed[p]).end());
@@ -108,18 +107,19 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
       loop = boundary_loop(polyhedron, patch, p);
       normal = newell_normal(polyhedron, loop);
     }
-    corners_.insert(corners_.end(), loop.begin(), loop.end());
-    face_begin_.push_back(static_cast<int>(corners_.size()));
-    max_corners_ = std::max(max_corners_, static_cast<int>(loop.size()));
     vertices_.evaluate(normal, heights.data());
-    faces_.set(p, normal, -*std::max_element(heights.begin(), heights.begin() + vertices_.count()));
-    for (const int v : loop) unevenness_ = std::max(unevenness_, -faces_.w(p) - heights[v]);
+    const double offset = *std::max_element(heights.begin(), heights.begin() + vertices_.count());
+    face_rows_.set(p, normal, -offset);
+    faces_.push_back({normal, offset, 1.0, static_cast<int>(corners_.size()), static_cast<int>(loop.size())});
+    for (const int v : loop) {
+      corners_.push_back({v, -1});
+      unevenness_ = std::max(unevenness_, offset - heights[v]);
+    }
   }
-  isolation_.assign(count, 1.0);
-  for (int f = 0; f < count; ++f) {
-    for (int g = 0; g < count; ++g) {
-      if (g == f || faces_.xyz(f).dot(faces_.xyz(g)) < 0.5) continue;
-      isolation_[f] = std::min(isolation_[f], faces_.xyz(f).cross(faces_.xyz(g)).norm());  // sine <= angle
+  for (Face& face : faces_) {
+    for (const Face& other : faces_) {
+      if (&face == &other || face.normal.dot(other.normal) < 0.5) continue;
+      face.isolation = std::min(face.isolation, face.normal.cross(other.normal).norm());  // sine <= angle
     }
   }
 }
@@ -127,18 +127,31 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
 void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   sides_.resize(corners_.size());
   const auto add_side = [&](int f, int from, int to) {
-    const int k = static_cast<int>(
-        std::find(corners_.begin() + face_begin_[f], corners_.begin() + face_begin_[f + 1], from) - corners_.begin());
-    const Vec3 outward = (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_.xyz(f)).normalized();
+    const auto first = corners_.begin() + faces_[f].first_corner;
+    const auto corner = std::find_if(first, corners_.end(), [&](const Corner& c) { return c.vertex == from; });
+    corner->edge = static_cast<int>(edges_.size());
+    const Vec3 outward = (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_[f].normal).normalized();
     const double offset = std::max(outward.dot(polyhedron.vertex(from)), outward.dot(polyhedron.vertex(to)));
-    sides_[k] = {static_cast<int>(edges_.size()), offset, outward};
+    sides_[corner - corners_.begin()] = {outward, offset};
   };
   for (const Polyhedron::Edge& edge : polyhedron.edges()) {
     const int left = patch[edge.left], right = patch[edge.right];
     if (left == right) continue;
     add_side(left, edge.tail, edge.head);
     add_side(right, edge.head, edge.tail);
-    edges_.push_back({edge.tail, edge.head, left, right, polyhedron.vertex(edge.head) - polyhedron.vertex(edge.tail)});
+    const Vec3 &left_normal = faces_[left].normal, &right_normal = faces_[right].normal;
+    // n = p left_normal + q right_normal with p, q = |right_normal.u|, |left_normal.u| times length / (sine |along x
+    // u|)
+    double below = kFar;
+    for (int v = 0; v < polyhedron.vertex_count(); ++v) {
+      if (v == edge.tail || v == edge.head) continue;
+      below = std::min(below, faces_[left].offset - left_normal.dot(polyhedron.vertex(v)) + faces_[right].offset -
+                                  right_normal.dot(polyhedron.vertex(v)));
+    }
+    const Vec3 tail = polyhedron.vertex(edge.tail), along = polyhedron.vertex(edge.head) - tail;
+    const double length = along.norm(), sine = left_normal.cross(right_normal).norm();
+    edges_.push_back(
+        {tail, along, left_normal, right_normal, length, below * length / sine, edge.tail, edge.head, left, right});
   }
 }
 
@@ -161,7 +174,7 @@ void CollisionShape::build_ball(const Polyhedron& polyhedron) {
   mean /= static_cast<double>(polyhedron.vertex_count());
   const auto radius_about = [&](const Vec3& centre) {
     double nearest = kFar;
-    for (int f = 0; f < faces_.count(); ++f) nearest = std::min(nearest, -(faces_.xyz(f).dot(centre) + faces_.w(f)));
+    for (const Face& face : faces_) nearest = std::min(nearest, face.offset - face.normal.dot(centre));
     return nearest;
   };
   if (radius_about(mean) > radius_about(Vec3::Zero())) ball_centre_ = mean;

@@ -40,40 +40,47 @@ class CollisionShape {
   /// Two faces whose normals differ by less than this angle [rad] are one.
   static constexpr double coplanar_angle = 1e-9;
 
-  struct Edge {
-    int tail, head;
-    int left, right;  ///< faces: seen from outside, `left` runs tail -> head
-    Vec3 along;       ///< head - tail
+  /// Records hold all that one visit asks for, in one place: of 1200 shapes only a few are in the cache.
+  struct Face {
+    Vec3 normal;       ///< outward, unit
+    double offset;     ///< support of the whole polyhedron along the normal
+    double isolation;  ///< smallest angle between this normal and any other face's, up to 1 [rad]
+    int first_corner, corner_count;
   };
-  /// One side of a face: the edge from corner k to corner k+1 of its loop, and the plane through it that stands on the
-  /// face: inside the face outward.x <= offset.
+  struct Edge {
+    Vec3 from, along;                ///< the tail, and head - tail
+    Vec3 left_normal, right_normal;  ///< outward; seen from outside, face `left` runs tail -> head
+    double length;
+    /// Along the unit normal n of this edge and another one, u, every vertex but the two ends lies at least
+    /// drop min(|left_normal.u|, |right_normal.u|) / |along x u| below the edge [m].
+    double drop;
+    int tail, head, left, right;
+  };
+  /// Corner k of a face's loop and the edge from there to corner k+1.
+  struct Corner {
+    int vertex, edge;
+  };
+  /// The plane through that edge which stands on the face: inside the face outward.x <= offset.
   struct Side {
-    int edge;
-    double offset;
     Vec3 outward;  ///< unit, in the plane of the face
+    double offset;
   };
 
   explicit CollisionShape(const Polyhedron& polyhedron);
 
   /// Rows (position, 0); padding is far above every height.
   const AffineRows& vertices() const { return vertices_; }
-  /// Rows (outward unit normal, -offset): the signed distance of a point to each face's plane. The offset is the
-  /// support of the whole polyhedron along the normal. Padding is far inside.
-  const AffineRows& faces() const { return faces_; }
+  /// Rows (outward unit normal, -offset): the signed distance of a point to each face's plane. Padding is far inside.
+  const AffineRows& faces() const { return face_rows_; }
+  const Face& face(int f) const { return faces_[f]; }
   std::span<const Edge> edges() const { return edges_; }
 
-  int corner_count(int f) const { return face_begin_[f + 1] - face_begin_[f]; }
-  std::span<const int> corners(int f) const { return {corners_.data() + face_begin_[f], corner_span(f)}; }
-  std::span<const Side> sides(int f) const { return {sides_.data() + face_begin_[f], corner_span(f)}; }
+  std::span<const Corner> corners(int f) const { return {corners_.data() + faces_[f].first_corner, corner_span(f)}; }
+  std::span<const Side> sides(int f) const { return {sides_.data() + faces_[f].first_corner, corner_span(f)}; }
   /// Faces that have v in their plane, ascending.
   std::span<const int> vertex_faces(int v) const {
     return {vertex_faces_.data() + vertex_begin_[v], static_cast<size_t>(vertex_begin_[v + 1] - vertex_begin_[v])};
   }
-  int max_corners() const { return max_corners_; }
-
-  /// Smallest angle between face f's normal and any other face's, up to 1 [rad].
-  double face_isolation(int f) const { return isolation_[f]; }
-
   /// Largest distance of a corner from its face's plane [m]: rounding, or what the polyhedron's tolerance allowed.
   double unevenness() const { return unevenness_; }
   /// A ball inside the solid.
@@ -83,20 +90,19 @@ class CollisionShape {
   double circumradius() const { return circumradius_; }
 
  private:
-  size_t corner_span(int f) const { return static_cast<size_t>(corner_count(f)); }
+  size_t corner_span(int f) const { return static_cast<size_t>(faces_[f].corner_count); }
   std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
   void build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_ball(const Polyhedron& polyhedron);
 
-  AffineRows vertices_, faces_;
+  AffineRows vertices_, face_rows_;
+  std::vector<Face> faces_;
   std::vector<Edge> edges_;
-  std::vector<int> face_begin_, corners_;
+  std::vector<Corner> corners_;
   std::vector<Side> sides_;
   std::vector<int> vertex_begin_, vertex_faces_;
-  std::vector<double> isolation_;
-  int max_corners_ = 0;
   Vec3 ball_centre_ = Vec3::Zero();
   double unevenness_ = 0.0, ball_radius_ = 0.0, circumradius_ = 0.0;
 };

@@ -35,18 +35,18 @@ struct ContactPoint {
 };
 
 struct DetectionSettings {
-  int max_points = 4;       ///< per pair of polyhedra; the deepest is always kept
-  double skin = 0.0;        ///< broad-phase margin [m]; 0 = chosen from the shapes
-  bool use_cache = true;    ///< start from last step's axis; off: every pair from scratch (same contacts, slower)
+  int max_points = 4;     ///< per pair of polyhedra; the deepest is always kept
+  double skin = 0.0;      ///< broad-phase margin [m]; 0 = chosen from the shapes
+  bool use_cache = true;  ///< start from last step's axis; off: every pair from scratch (same contacts, slower)
 };
 
 /// Counters of the last detect().
 struct DetectionCounters {
-  long candidate_pairs = 0;   ///< pairs in the broad phase's list
-  long cached_separations = 0;///< pairs dismissed by the axis that separated them last time
-  long proved_axes = 0;       ///< pairs whose last axis was proved to be the best still
-  long full_tests = 0;        ///< pairs that needed the whole separating-axis search
-  long manifolds = 0;         ///< pairs with at least one contact point
+  long candidate_pairs = 0;       ///< pairs in the broad phase's list
+  long cached_separations = 0;    ///< pairs dismissed by the axis that separated them last time
+  long proved_axes = 0;           ///< pairs whose last axis was proved to be the best still
+  long full_tests = 0;            ///< pairs that needed the whole separating-axis search
+  long manifolds = 0;             ///< pairs with at least one contact point
   long broad_phase_rebuilds = 0;  ///< since construction
 };
 
@@ -59,8 +59,8 @@ class ContactDetector {
   ContactDetector(ContactDetector&&) noexcept;
   ContactDetector& operator=(ContactDetector&&) noexcept;
 
-  /// poses[i]: pose of body i. reach[i] [m]: bound on how far any point of body i moves until the next detection. A point
-  /// is reported when its gap <= reach[a] + reach[b]. `contacts` is overwritten; no allocation once it has grown.
+  /// poses[i]: pose of body i. reach[i] [m]: bound on how far any point of body i moves until the next detection. A
+  /// point is reported when its gap <= reach[a] + reach[b]. `contacts` is overwritten; no allocation once it has grown.
   void detect(std::span<const Pose> poses, std::span<const double> reach, std::vector<ContactPoint>& contacts);
 
   const DetectionCounters& counters() const;

@@ -78,8 +78,8 @@ void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxi
     return edge.left_normal.dot(d) >= edge.right_normal.dot(d) ? edge.left : edge.right;
   };
   const int face_a = most_aligned(edge_a, axis.normal), face_b = most_aligned(edge_b, -normal_in_b);
-  // An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to see it
-  // this step: without the other end contact jumps from end to end as the body rocks by micrometres.
+  // An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to
+  // see it this step: without the other end contact jumps from end to end as the body rocks by micrometres.
   const bool flat_on_a = a.face(face_a).normal.dot(axis.normal) > nearly_parallel;
   const bool flat_on_b = -b.face(face_b).normal.dot(normal_in_b) > nearly_parallel;
   bool has_crossing = false;

@@ -9,8 +9,8 @@ std::span<const ClippedPoint> FaceClipper::clip(const ShapePair& pair, int refer
   const std::span<const CollisionShape::Side> sides = shape.sides(face);
   for (size_t k = 0; k < sides.size() && !polygon_.empty(); ++k)
     clip_by_side(pair, reference, face, static_cast<int>(k), {sides[k].outward, sides[k].offset}, thickness);
-  const Vec3 normal = shape.faces().xyz(face);
-  for (ClippedPoint& p : polygon_) p.height = normal.dot(p.position) + shape.faces().w(face);
+  const Vec3& normal = shape.face(face).normal;
+  for (ClippedPoint& p : polygon_) p.height = normal.dot(p.position) - shape.face(face).offset;
   return polygon_;
 }
 
@@ -18,28 +18,26 @@ std::span<const ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int
                                                       const Vec3& direction, double thickness) {
   const CollisionShape& shape = *pair.shape[reference];
   start(pair, reference, incident);
-  const std::span<const int> corners = shape.corners(face);
+  const std::span<const CollisionShape::Corner> corners = shape.corners(face);
   for (size_t k = 0; k < corners.size() && !polygon_.empty(); ++k) {
-    const Vec3 from = shape.vertices().xyz(corners[k]);
-    const Vec3 along = shape.vertices().xyz(corners[k + 1 < corners.size() ? k + 1 : 0]) - from;
+    const Vec3 from = shape.vertices().xyz(corners[k].vertex);
+    const Vec3 along = shape.vertices().xyz(corners[k + 1 < corners.size() ? k + 1 : 0].vertex) - from;
     const Vec3 outward = along.cross(direction).normalized();
     clip_by_side(pair, reference, face, static_cast<int>(k), {outward, outward.dot(from)}, thickness);
   }
-  const Vec3 normal = shape.faces().xyz(face);
+  const Vec3& normal = shape.face(face).normal;
   const double scale = 1.0 / normal.dot(direction);
-  for (ClippedPoint& p : polygon_) p.height = (normal.dot(p.position) + shape.faces().w(face)) * scale;
+  for (ClippedPoint& p : polygon_) p.height = (normal.dot(p.position) - shape.face(face).offset) * scale;
   return polygon_;
 }
 
 void FaceClipper::start(const ShapePair& pair, int reference, int incident) {
   const CollisionShape& other = *pair.shape[1 - reference];
-  const std::span<const int> corners = other.corners(incident);
-  const std::span<const CollisionShape::Side> sides = other.sides(incident);
   polygon_.clear();
-  for (size_t k = 0; k < corners.size(); ++k) {
-    const std::uint64_t key = reference == 0 ? feature_key(PointKind::vertex_of_b, 0, corners[k])
-                                             : feature_key(PointKind::vertex_of_a, corners[k], 0);
-    polygon_.push_back({pair.other[reference] * other.vertices().xyz(corners[k]), 0.0, key, sides[k].edge});
+  for (const CollisionShape::Corner& corner : other.corners(incident)) {
+    const std::uint64_t key = reference == 0 ? feature_key(PointKind::vertex_of_b, 0, corner.vertex)
+                                             : feature_key(PointKind::vertex_of_a, corner.vertex, 0);
+    polygon_.push_back({pair.other[reference] * other.vertices().xyz(corner.vertex), 0.0, key, corner.edge});
   }
 }
 
@@ -77,17 +75,17 @@ void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, i
 /// Side k of the reference face meets an edge of the incident face, or one of the face's own sides at their common
 /// corner.
 std::uint64_t FaceClipper::crossing_key(const ShapePair& pair, int reference, int face, int k, int edge) const {
-  const CollisionShape& shape = *pair.shape[reference];
-  const int own_edge = shape.sides(face)[k].edge;
+  const std::span<const CollisionShape::Corner> corners = pair.shape[reference]->corners(face);
+  const int own_edge = corners[k].edge;
   if (edge >= 0) {
     return reference == 0 ? feature_key(PointKind::edges, own_edge, edge)
                           : feature_key(PointKind::edges, edge, own_edge);
   }
-  const int other_side = ~edge, count = shape.corner_count(face);
+  const int other_side = ~edge, count = static_cast<int>(corners.size());
   int corner = -1;
-  if ((other_side + 1) % count == k) corner = shape.corners(face)[k];
-  if ((k + 1) % count == other_side) corner = shape.corners(face)[other_side];
-  if (corner < 0) return feature_key(PointKind::sides, own_edge, shape.sides(face)[other_side].edge);
+  if ((other_side + 1) % count == k) corner = corners[k].vertex;
+  if ((k + 1) % count == other_side) corner = corners[other_side].vertex;
+  if (corner < 0) return feature_key(PointKind::sides, own_edge, corners[other_side].edge);
   return reference == 0 ? feature_key(PointKind::vertex_of_a, corner, 0)
                         : feature_key(PointKind::vertex_of_b, 0, corner);
 }

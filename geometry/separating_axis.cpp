@@ -30,15 +30,6 @@ Lowest lowest(const double* values, int padded) {
   return result;
 }
 
-/// How far all vertices but the two ends of an edge lie above `level` along d.
-double clearance_of_edge(const CollisionShape& shape, const CollisionShape::Edge& edge, const Vec3& d,
-                         Heights& heights) {
-  shape.vertices().evaluate(d, heights.data());
-  const double level = std::min(heights[edge.tail], heights[edge.head]);
-  heights[edge.tail] = heights[edge.head] = 1e200;
-  return lowest(heights.data(), shape.vertices().padded()).value - level;
-}
-
 /// Cross product of two edges, freed of its components along them: of nearly parallel edges these are all its error
 /// that matters, as the edges are long in that direction.
 Vec3 refined_cross(const Vec3& u, const Vec3& v) {
@@ -58,7 +49,7 @@ SeparatingAxis face_axis(const ShapePair& pair, const AxisFeature& feature, Heig
   axis.separation = found.separation;
   axis.support = found.support;
   axis.clearance = found.clearance;
-  const Vec3 normal = shape.faces().xyz(f);
+  const Vec3& normal = shape.face(f).normal;
   axis.normal = own == 0 ? normal : Vec3(-(pair.other[0].rotation * normal));
   const Vec3 support = pair.other[own] * other.vertices().xyz(found.support);
   axis.inside = pair.size();
@@ -75,27 +66,25 @@ std::optional<SeparatingAxis> edge_axis(const ShapePair& pair, const AxisFeature
   axis.normal = found->normal;
   axis.separation = found->separation;
   const CollisionShape::Edge &edge_a = pair.shape[0]->edges()[feature.a], &edge_b = pair.shape[1]->edges()[feature.b];
-  const LineParameters at = closest_on_lines(pair, feature.a, feature.b);
-  // the facet is the parallelogram of the two edges: its corner-to-side distances are lengths times the sine
-  const double length_a = edge_a.along.norm(), length_b = edge_b.along.norm();
-  const double sine = edge_a.along.cross(pair.other[0].rotation * edge_b.along).norm() / (length_a * length_b);
-  axis.inside = sine * std::min(length_a * std::min(at.a, 1.0 - at.a), length_b * std::min(at.b, 1.0 - at.b));
-  axis.clearance =
-      std::min(clearance_of_edge(*pair.shape[0], edge_a, -axis.normal, heights),
-               clearance_of_edge(*pair.shape[1], edge_b, pair.other[0].rotation.transpose() * axis.normal, heights));
+  const Vec3 between = pair.other[0] * edge_b.from - edge_a.from;
+  axis.at_a = between.cross(found->along_b).dot(found->normal) / found->cross;
+  axis.at_b = between.cross(edge_a.along).dot(found->normal) / found->cross;
+  // the facet is the parallelogram of the two edges: distances to its sides are lengths times the sine
+  const double cross = std::abs(found->cross);
+  axis.inside = cross * std::min(std::min(axis.at_a, 1.0 - axis.at_a) / edge_b.length,
+                                 std::min(axis.at_b, 1.0 - axis.at_b) / edge_a.length);
+  axis.clearance = std::min(found->weight_a * edge_a.drop, found->weight_b * edge_b.drop) / cross;
   return axis;
 }
 
 }  // namespace
 
 FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& heights) {
-  const AffineRows& faces = pair.shape[own]->faces();
+  const CollisionShape::Face& face = pair.shape[own]->face(f);
   const AffineRows& vertices = pair.shape[1 - own]->vertices();
-  const RelativePose& other = pair.other[own];
-  const Vec3 normal = faces.xyz(f);
-  vertices.evaluate(other.rotation.transpose() * normal, heights.data());
+  vertices.evaluate(pair.other[1 - own].rotation * face.normal, heights.data());
   const Lowest low = lowest(heights.data(), vertices.padded());
-  return {low.value + (normal.dot(other.position) + faces.w(f)), low.row, low.next - low.value};
+  return {low.value + (face.normal.dot(pair.other[own].position) - face.offset), low.row, low.next - low.value};
 }
 
 std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb, Heights& heights) {
@@ -105,39 +94,33 @@ std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int
   const Vec3 along_a = edge_a.along, along_b = b_in_a.rotation * edge_b.along;
   // The arc left -> right of an edge turns around `along`. The arc of a and the reversed arc of b cross where both are
   // perpendicular to both edges: each edge must separate the ends of the other's arc, on the same half of the sphere.
-  const double left_a = a.faces().xyz(edge_a.left).dot(along_b), right_a = a.faces().xyz(edge_a.right).dot(along_b);
+  const double left_a = edge_a.left_normal.dot(along_b), right_a = edge_a.right_normal.dot(along_b);
   if (!(left_a * right_a < 0.0)) return std::nullopt;
-  const Vec3 along_a_in_b = b_in_a.rotation.transpose() * along_a;
-  const double left_b = -b.faces().xyz(edge_b.left).dot(along_a_in_b);
-  const double right_b = -b.faces().xyz(edge_b.right).dot(along_a_in_b);
+  const Vec3 along_a_in_b = pair.other[1].rotation * along_a;
+  const double left_b = -edge_b.left_normal.dot(along_a_in_b), right_b = -edge_b.right_normal.dot(along_a_in_b);
   if (!(left_b * right_b < 0.0) || !(left_a * right_b > 0.0)) return std::nullopt;
 
-  Vec3 normal = along_a.cross(along_b);
-  const double sine_sq = normal.squaredNorm() / (along_a.squaredNorm() * along_b.squaredNorm());
-  if (sine_sq < kParallelSine * kParallelSine) return std::nullopt;
-  if (left_a < 0.0) normal = -normal;
-  if (sine_sq > 1e-6) {
-    normal /= normal.norm();
-    const Vec3 from_a_to_b = b_in_a * b.vertices().xyz(edge_b.tail) - a.vertices().xyz(edge_a.tail);
-    return EdgeSeparation{normal.dot(from_a_to_b), normal};
+  EdgeSeparation result;
+  result.along_b = along_b;
+  result.weight_a = std::min(std::abs(left_a), std::abs(right_a));
+  result.weight_b = std::min(std::abs(left_b), std::abs(right_b));
+  const Vec3 cross = along_a.cross(along_b);
+  const double sign = left_a > 0.0 ? 1.0 : -1.0, length = cross.norm(), sine = length / (edge_a.length * edge_b.length);
+  if (sine < kParallelSine) return std::nullopt;
+  result.cross = sign * length;
+  if (sine > 1e-3) {
+    result.normal = cross / result.cross;
+    result.separation = result.normal.dot(b_in_a * edge_b.from - edge_a.from);
+    return result;
   }
   // Nearly parallel: the arcs' crossing is uncertain by rounding / sine, so the supports are asked.
-  normal = refined_cross(along_a, left_a < 0.0 ? Vec3(-along_b) : along_b).normalized();
-  a.vertices().evaluate(-normal, heights.data());
+  result.normal = sign * refined_cross(along_a, along_b).normalized();
+  a.vertices().evaluate(-result.normal, heights.data());
   const double top_a = -lowest(heights.data(), a.vertices().padded()).value;
-  b.vertices().evaluate(b_in_a.rotation.transpose() * normal, heights.data());
-  const double bottom_b = lowest(heights.data(), b.vertices().padded()).value + normal.dot(b_in_a.position);
-  return EdgeSeparation{bottom_b - top_a, normal};
-}
-
-LineParameters closest_on_lines(const ShapePair& pair, int ea, int eb) {
-  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
-  const CollisionShape::Edge &edge_a = a.edges()[ea], &edge_b = b.edges()[eb];
-  const Vec3 along_b = pair.other[0].rotation * edge_b.along;
-  const Vec3 cross = edge_a.along.cross(along_b);
-  const Vec3 between = pair.other[0] * b.vertices().xyz(edge_b.tail) - a.vertices().xyz(edge_a.tail);
-  const double scale = 1.0 / cross.squaredNorm();
-  return {between.cross(along_b).dot(cross) * scale, between.cross(edge_a.along).dot(cross) * scale};
+  b.vertices().evaluate(pair.other[1].rotation * result.normal, heights.data());
+  const double bottom_b = lowest(heights.data(), b.vertices().padded()).value + result.normal.dot(b_in_a.position);
+  result.separation = bottom_b - top_a;
+  return result;
 }
 
 std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights) {
@@ -159,9 +142,9 @@ bool is_proved_best(const ShapePair& pair, const SeparatingAxis& axis) {
   const double margin = proof_margin(pair) + pair.shape[0]->unevenness() + pair.shape[1]->unevenness();
   const double s0 = axis.separation, r = axis.inside;
   if (!(axis.clearance > 4.0 * size * isolation)) return false;
-  if (axis.feature.kind == AxisKind::face_of_a && pair.shape[0]->face_isolation(axis.feature.a) < 2.0 * isolation)
+  if (axis.feature.kind == AxisKind::face_of_a && pair.shape[0]->face(axis.feature.a).isolation < 2.0 * isolation)
     return false;
-  if (axis.feature.kind == AxisKind::face_of_b && pair.shape[1]->face_isolation(axis.feature.b) < 2.0 * isolation)
+  if (axis.feature.kind == AxisKind::face_of_b && pair.shape[1]->face(axis.feature.b).isolation < 2.0 * isolation)
     return false;
   if (!(r * isolation - std::abs(s0) * isolation * isolation > margin)) return false;
 

@@ -47,9 +47,11 @@ struct SeparatingAxis {
   Vec3 normal;        ///< unit, in a's frame, from a to b
   double separation;  ///< [m]
   int support = -1;   ///< of a face: the other body's vertex nearest to its plane (smallest index among equals)
+  double at_a = 0.0, at_b = 0.0;  ///< of two edges: closest points of their lines, from the tails in edge lengths
   double inside;  ///< how far inside the facet the origin projects [m]: of a face, where the support vertex projects;
                   ///< of two edges, where the lines' closest points lie; negative outside
-  double clearance;  ///< how much farther off than the touching vertex or edge all other vertices are [m]
+  double clearance;  ///< how much farther off than the touching vertex or edge all other vertices are [m]; of two
+                     ///< edges a lower bound
 };
 
 /// Axes whose separations differ by less than this are equal, and a rule chooses: faces before edges, a's before b's,
@@ -75,7 +77,11 @@ FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& h
 
 struct EdgeSeparation {
   double separation;
-  Vec3 normal;  ///< unit, in a's frame, from a to b
+  Vec3 normal;   ///< unit, in a's frame, from a to b
+  Vec3 along_b;  ///< b's edge in a's frame
+  double cross;  ///< along_a x along_b = cross * normal
+  double weight_a,
+      weight_b;  ///< for CollisionShape::Edge::drop: the smaller |normal of a face beside the edge . other edge|
 };
 /// Separation along the facet of edges ea of a and eb of b; nothing if they do not form one, or count as parallel.
 std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb, Heights& heights);
@@ -86,11 +92,5 @@ std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFea
 /// True if it is proved that every other facet's separation is smaller by more than proof_margin. Sufficient, not
 /// necessary; what fails are near-ties and axes whose `inside` is not well above zero.
 bool is_proved_best(const ShapePair& pair, const SeparatingAxis& axis);
-
-/// Parameters in units of the edges' lengths, from their tails, of the closest points of the two edges' lines.
-struct LineParameters {
-  double a, b;
-};
-LineParameters closest_on_lines(const ShapePair& pair, int ea, int eb);
 
 }  // namespace ballast

@@ -43,15 +43,17 @@ TEST_CASE("tables agree with the polyhedron they come from") {
       CHECK(normal.norm() == Approx(1.0).epsilon(1e-14));
       CHECK(-shape.faces().w(f) == Approx(normal.dot(polyhedron.vertex(polyhedron.support(normal)))).epsilon(1e-13));
       CHECK(normal.dot(shape.ball_centre()) + shape.faces().w(f) <= -shape.ball_radius() + small);
-      for (int k = 0; k < shape.corner_count(f); ++k) {
-        const int corner = shape.corners(f)[k], next = shape.corners(f)[(k + 1) % shape.corner_count(f)];
+      for (int k = 0; k < shape.face(f).corner_count; ++k) {
+        const int corner = shape.corners(f)[k].vertex,
+                  next = shape.corners(f)[(k + 1) % shape.face(f).corner_count].vertex;
         const CollisionShape::Side& side = shape.sides(f)[k];
-        const CollisionShape::Edge& edge = shape.edges()[side.edge];
+        const CollisionShape::Edge& edge = shape.edges()[shape.corners(f)[k].edge];
         CHECK(std::minmax(corner, next) == std::minmax(edge.tail, edge.head));
         CHECK((edge.left == f ? edge.tail : edge.head) == corner);
         CHECK((edge.left == f || edge.right == f));
         CHECK(std::abs(side.outward.dot(normal)) <= small);
-        for (const int v : shape.corners(f)) CHECK(side.outward.dot(shape.vertices().xyz(v)) - side.offset <= small);
+        for (const auto& [v, e] : shape.corners(f))
+          CHECK(side.outward.dot(shape.vertices().xyz(v)) - side.offset <= small);
         const auto faces = shape.vertex_faces(corner);
         CHECK(std::find(faces.begin(), faces.end(), f) != faces.end());
       }
@@ -64,10 +66,9 @@ TEST_CASE("coplanar triangles become one face") {
   const CollisionShape box(triangulated_box(Vec3(1, 2, 3)));
   CHECK(box.faces().count() == 6);
   CHECK(box.edges().size() == 12);
-  CHECK(box.max_corners() == 4);
   for (int f = 0; f < 6; ++f) {
-    CHECK(box.corner_count(f) == 4);
-    CHECK(box.face_isolation(f) == Approx(1.0));
+    CHECK(box.face(f).corner_count == 4);
+    CHECK(box.face(f).isolation == Approx(1.0));
   }
   for (int v = 0; v < 8; ++v) CHECK(box.vertex_faces(v).size() == 3);
 

@@ -22,7 +22,7 @@ std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int r
   const double doubtful = 1e-7 * pair.size();
   const auto inside_sides = [&](const Vec3& p, int except) {
     double worst = -1.0;
-    for (int k = 0; k < own.corner_count(face); ++k)
+    for (int k = 0; k < own.face(face).corner_count; ++k)
       if (k != except) worst = std::max(worst, own.sides(face)[k].outward.dot(p) - own.sides(face)[k].offset);
     clear &= std::abs(worst) > doubtful;
     return worst < 0.0;
@@ -35,22 +35,23 @@ std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int r
     return is_a ? feature_key(PointKind::vertex_of_a, index, 0) : feature_key(PointKind::vertex_of_b, 0, index);
   };
   std::map<std::uint64_t, Vec3> points;
-  const int count = other.corner_count(incident);
+  const int count = other.face(incident).corner_count;
   for (int i = 0; i < count; ++i) {
-    const Vec3 p = pose * other.vertices().xyz(other.corners(incident)[i]);
-    const Vec3 q = pose * other.vertices().xyz(other.corners(incident)[(i + 1) % count]);
-    if (inside_sides(p, -1)) points[key(PointKind::vertex_of_b, -1, other.corners(incident)[i])] = p;
-    for (int k = 0; k < own.corner_count(face); ++k) {
+    const Vec3 p = pose * other.vertices().xyz(other.corners(incident)[i].vertex);
+    const Vec3 q = pose * other.vertices().xyz(other.corners(incident)[(i + 1) % count].vertex);
+    if (inside_sides(p, -1)) points[key(PointKind::vertex_of_b, -1, other.corners(incident)[i].vertex)] = p;
+    for (int k = 0; k < own.face(face).corner_count; ++k) {
       const CollisionShape::Side& side = own.sides(face)[k];
       const double at_p = side.outward.dot(p) - side.offset, at_q = side.outward.dot(q) - side.offset;
       if (at_p * at_q >= 0.0) continue;
       const Vec3 crossing = p + at_p / (at_p - at_q) * (q - p);
-      if (inside_sides(crossing, k)) points[key(PointKind::edges, side.edge, other.sides(incident)[i].edge)] = crossing;
+      if (inside_sides(crossing, k))
+        points[key(PointKind::edges, own.corners(face)[k].edge, other.corners(incident)[i].edge)] = crossing;
     }
   }
   const Vec3 up = own.faces().xyz(face), n = pose.rotation * other.faces().xyz(incident);
-  const Vec3 on_plane = pose * other.vertices().xyz(other.corners(incident)[0]);
-  for (const int v : own.corners(face)) {
+  const Vec3 on_plane = pose * other.vertices().xyz(other.corners(incident)[0].vertex);
+  for (const auto& [v, e] : own.corners(face)) {
     const Vec3 corner = own.vertices().xyz(v);
     const Vec3 p = corner + up * (n.dot(on_plane - corner) / n.dot(up));
     double worst = -1.0;

@@ -72,9 +72,11 @@ TEST_CASE("crossed edges: the gap along their common normal") {
   CHECK(found[0].normal.isApprox(on_edge.transpose() * Vec3::UnitZ(), 1e-14));
   CHECK(found[0].inside == Approx(5.0 * std::sqrt(0.75)).epsilon(1e-12));
   CHECK(is_proved_best(pair, found[0]));
-  const LineParameters at = closest_on_lines(pair, found[0].feature.a, found[0].feature.b);
-  CHECK(at.a == Approx(0.5));
-  CHECK(at.b == Approx(0.5));
+  CHECK(found[0].at_a == Approx(0.5));
+  CHECK(found[0].at_b == Approx(0.5));
+  // the nearest other vertices: the rods' side edges, half a diagonal below
+  CHECK(found[0].clearance > 0.1);
+  CHECK(found[0].clearance <= std::sqrt(0.5));
 }
 
 TEST_CASE("two edges form a facet exactly if both are supports along their common normal") {
