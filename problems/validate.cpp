@@ -30,12 +30,12 @@ template <typename... Parts>
   throw InvalidProblem(text.str());
 }
 
-void require_size(const std::string& array, long size, long expected, const char* because) {
+void require_size(const char* array, long size, long expected, const char* because) {
   if (size != expected) fail(array, " has ", size, " entries; ", because, " needs ", expected);
 }
 
 /// NaN and infinity have all exponent bits set. Integer work, so that the compiler vectorises the reduction.
-void require_finite(const std::string& array, const double* x, long size) {
+void require_finite(const char* array, const double* x, long size) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000ull;
   std::uint64_t bad = 0;
   for (long i = 0; i < size; ++i) bad |= ((std::bit_cast<std::uint64_t>(x[i]) & exponent) + (1ull << 52)) >> 63;
@@ -44,7 +44,7 @@ void require_finite(const std::string& array, const double* x, long size) {
     if (!std::isfinite(x[i])) fail(array, "[", i, "] = ", x[i], " is not finite");
 }
 
-void require_begin(const std::string& array, const std::vector<int>& begin, int count, const char* of) {
+void require_begin(const char* array, const std::vector<int>& begin, int count, const char* of) {
   require_size(array, static_cast<long>(begin.size()), count + 1L, of);
   if (begin[0] != 0) fail(array, "[0] = ", begin[0], ", must be 0");
 }
