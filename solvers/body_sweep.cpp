@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "problems/delassus.hpp"
 
@@ -85,7 +84,6 @@ void BodySweep::prepare_one_row(const FrictionProblem& problem, int c, int recor
 
 void BodySweep::load(const FrictionProblem& problem, const Impulses& r) {
   velocity_ = free_velocity_;
-  activity_is_fresh_ = false;
   for (const Run& run : runs_)
     for (int i = 0; i < run.count; ++i) {
       const double* rc = r.data() + problem.row_begin[run.first_contact + i];
@@ -113,51 +111,6 @@ void BodySweep::sweep() {
       sweep_one_row(one_row_.data() + run.first_record, run.count, velocity_.data());
     else
       sweep_friction(friction_.data() + run.first_record, run.count, velocity_.data());
-}
-
-void BodySweep::reset_activity() {
-  const auto side = [](const double (*rows)[body_width], int count) {
-    double sum = 0.0;  // the trace bounds lambda_max
-    for (int i = 0; i < count; ++i)
-      for (int j = 0; j < body_width; ++j) sum += rows[i][j] * rows[i][j];
-    return sum;
-  };
-  constexpr double never = -std::numeric_limits<double>::infinity();
-  friction_activity_.resize(friction_.size());
-  for (size_t i = 0; i < friction_.size(); ++i) {
-    const FrictionRecord& k = friction_[i];
-    friction_activity_[i] = {never, {side(k.rows[0], 3), side(k.rows[1], 3)}, {k.body[0], k.body[1]}};
-  }
-  one_row_activity_.resize(one_row_.size());
-  for (size_t i = 0; i < one_row_.size(); ++i) {
-    const OneRowRecord& k = one_row_[i];
-    one_row_activity_[i] = {never, {side(&k.rows[0], 1), side(&k.rows[1], 1)}, {k.body[0], k.body[1]}};
-  }
-  stir_.assign(velocity_.size(), 0.0);
-  last_change_ = 0.0;  // the first pass visits all
-  activity_is_fresh_ = true;
-}
-
-void BodySweep::pass(double threshold, ActiveSweep& done) {
-  for (const Run& run : runs_)
-    if (run.one_row)
-      sweep_active_one_row(one_row_.data() + run.first_record, one_row_activity_.data() + run.first_record, run.count,
-                           velocity_.data(), stir_.data(), threshold, done);
-    else
-      sweep_active_friction(friction_.data() + run.first_record, friction_activity_.data() + run.first_record, run.count,
-                            velocity_.data(), stir_.data(), threshold, done);
-}
-
-void BodySweep::sweep_active(double skip) {
-  if (!activity_is_fresh_) reset_activity();
-  const long contacts = static_cast<long>(friction_.size() + one_row_.size());
-  for (long visits = 0; visits < contacts;) {
-    ActiveSweep done;
-    pass(skip * last_change_, done);
-    if (done.visits == 0 && last_change_ == 0.0) return;
-    last_change_ = std::sqrt(done.change_squared / static_cast<double>(contacts));
-    visits += std::max(done.visits, contacts / 64);  // a pass is not free
-  }
 }
 
 double BodySweep::error() const {

@@ -20,11 +20,13 @@ class BodySweep {
 
   /// Every contact once, in the given order.
   void sweep();
-  /// As many visits as sweep() makes, but spent where something still moves: passes that skip the contacts whose bodies
-  /// have been stirred by less than `skip` times the rms change of the pass before.
-  void sweep_active(double skip);
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
   double error() const;
+
+  /// What the sweep works on, for methods that move the iterate between sweeps: impulses and velocities must stay consistent.
+  std::vector<FrictionRecord>& friction_records() { return friction_; }
+  std::vector<OneRowRecord>& one_row_records() { return one_row_; }
+  std::vector<BodyVelocity>& velocities() { return velocity_; }
 
  private:
   /// Consecutive contacts of one kind, so that no contact branches on its kind.
@@ -46,13 +48,6 @@ class BodySweep {
   std::vector<TangentTurn> turn_;   ///< per friction record
   std::vector<double> lambda_max_;  ///< per friction record, of W_cc [1/kg]
   std::vector<double> one_row_lambda_max_;
-
-  void reset_activity();
-  void pass(double threshold, ActiveSweep& done);
-  bool activity_is_fresh_ = false;  ///< of the impulses loaded last
-  std::vector<ContactActivity> friction_activity_, one_row_activity_;
-  std::vector<double> stir_;  ///< per body [m/s]
-  double last_change_ = 0.0;  ///< rms over contacts of the last pass [m/s]
 };
 
 }  // namespace ballast

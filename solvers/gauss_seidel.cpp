@@ -11,8 +11,7 @@ namespace {
 
 class GaussSeidel final : public Solver {
  public:
-  explicit GaussSeidel(const GaussSeidelSettings& settings)
-      : schedule_{settings.first_check, settings.check_growth}, skip_(settings.skip) {}
+  explicit GaussSeidel(const GaussSeidelSettings& settings) : schedule_{settings.first_check, settings.check_growth} {}
 
   void prepare(const FrictionProblem& problem) override {
     if (problem.has_delassus && !problem.has_dynamics)
@@ -34,7 +33,7 @@ class GaussSeidel final : public Solver {
     sweep.store(problem, r);
     iteration.evaluated(sweep.error());
     while (iteration.next()) {
-      one_iteration(sweep);
+      sweep.sweep();
       if (!iteration.error_due()) continue;
       double error = sweep.error();
       sweep.store(problem, r);
@@ -51,16 +50,7 @@ class GaussSeidel final : public Solver {
     return solved;
   }
 
-  void one_iteration(BodySweep& sweep) {
-    if (skip_ > 0.0)
-      sweep.sweep_active(skip_);
-    else
-      sweep.sweep();
-  }
-  void one_iteration(DelassusSweep& sweep) { sweep.sweep(); }
-
   CheckSchedule schedule_;
-  double skip_;
   BodySweep bodies_;
   DelassusSweep delassus_;
 };

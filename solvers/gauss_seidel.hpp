@@ -10,9 +10,6 @@ namespace ballast {
 struct GaussSeidelSettings {
   int first_check = 4;         ///< sweep of the first evaluation of the error
   double check_growth = 1.25;  ///< next evaluation after this factor more sweeps: the cost of checks stays below ~15 %
-  /// > 0: visits go where something still moves (BodySweep::sweep_active), skipping contacts stirred by less than this many
-  /// times the rms change of the last pass. An iteration is still as many visits as there are contacts. Dynamics form only.
-  double skip = 0.0;
 };
 
 std::unique_ptr<Solver> make_gauss_seidel(const GaussSeidelSettings& settings = {});

@@ -1,6 +1,7 @@
 #include "solvers/solver_list.hpp"
 
 #include "solvers/gauss_seidel.hpp"
+#include "solvers/nncg.hpp"
 
 namespace ballast {
 namespace {
@@ -8,8 +9,8 @@ namespace {
 constexpr SolverEntry entries[] = {
     {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)", ContactLaw::coulomb,
      [] { return make_gauss_seidel(); }, ""},
-    {"pgs_active", "pgs that spends its visits where impulses still change", ContactLaw::coulomb,
-     [] { return make_gauss_seidel({.skip = 4.0}); }, ""},
+    {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)", ContactLaw::coulomb,
+     [] { return make_nncg(); }, ""},
 };
 
 std::string all_names() {

@@ -52,8 +52,8 @@ BALLAST_INLINE Vector8 row_product(const FrictionRecord& k, int i, int j) {
 
 namespace {
 
-/// Solves one contact and moves its bodies; returns |dr| in principal coordinates.
-BALLAST_INLINE double relax(FrictionRecord& k, BodyVelocity* velocity) {
+/// Solves one contact and moves its bodies.
+BALLAST_INLINE void relax(FrictionRecord& k, BodyVelocity* velocity) {
   double* va = velocity[k.body[0]].w;
   double* vb = velocity[k.body[1]].w;
   const Vector8 wa = load8(va), wb = load8(vb);
@@ -68,10 +68,9 @@ BALLAST_INLINE double relax(FrictionRecord& k, BodyVelocity* velocity) {
   k.y[2] = t2;
   store8(va, wa + (load8(k.rows[0][0]) * dy + load8(k.rows[0][1]) * d1 + load8(k.rows[0][2]) * d2));
   store8(vb, wb + (load8(k.rows[1][0]) * dy + load8(k.rows[1][1]) * d1 + load8(k.rows[1][2]) * d2));
-  return std::sqrt(dy * dy + d1 * d1 + d2 * d2);
 }
 
-BALLAST_INLINE double relax(OneRowRecord& k, BodyVelocity* velocity) {
+BALLAST_INLINE void relax(OneRowRecord& k, BodyVelocity* velocity) {
   double* va = velocity[k.body[0]].w;
   double* vb = velocity[k.body[1]].w;
   const Vector8 wa = load8(va), wb = load8(vb);
@@ -82,27 +81,6 @@ BALLAST_INLINE double relax(OneRowRecord& k, BodyVelocity* velocity) {
   k.y = y;
   store8(va, wa + load8(k.rows[0]) * dy);
   store8(vb, wb + load8(k.rows[1]) * dy);
-  return std::abs(dy);
-}
-
-template <typename Record>
-BALLAST_INLINE void sweep_active(Record* records, ContactActivity* activity, int count, BodyVelocity* velocity,
-                                 double* stir, double threshold, ActiveSweep& done) {
-  ActiveSweep sum = done;
-  for (int c = 0; c < count; ++c) {
-    ContactActivity& k = activity[c];
-    double& stir_a = stir[k.body[0]];
-    double& stir_b = stir[k.body[1]];
-    if (stir_a + stir_b - k.seen < threshold) continue;
-    const double change = relax(records[c], velocity);
-    stir_a += k.reach[0] * change;
-    stir_b += k.reach[1] * change;
-    k.seen = stir_a + stir_b;
-    const double moved = (k.reach[0] + k.reach[1]) * change;
-    sum.change_squared += moved * moved;
-    ++sum.visits;
-  }
-  done = sum;
 }
 
 }  // namespace
@@ -115,18 +93,6 @@ void sweep_friction(FrictionRecord* records, int count, BodyVelocity* velocity) 
 BALLAST_FOR_EACH_CPU
 void sweep_one_row(OneRowRecord* records, int count, BodyVelocity* velocity) {
   for (int c = 0; c < count; ++c) relax(records[c], velocity);
-}
-
-BALLAST_FOR_EACH_CPU
-void sweep_active_friction(FrictionRecord* records, ContactActivity* activity, int count, BodyVelocity* velocity,
-                           double* stir, double threshold, ActiveSweep& done) {
-  sweep_active(records, activity, count, velocity, stir, threshold, done);
-}
-
-BALLAST_FOR_EACH_CPU
-void sweep_active_one_row(OneRowRecord* records, ContactActivity* activity, int count, BodyVelocity* velocity,
-                          double* stir, double threshold, ActiveSweep& done) {
-  sweep_active(records, activity, count, velocity, stir, threshold, done);
 }
 
 BALLAST_FOR_EACH_CPU

@@ -39,26 +39,6 @@ struct alignas(64) OneRowRecord {
 void sweep_friction(FrictionRecord* records, int count, BodyVelocity* velocity);
 void sweep_one_row(OneRowRecord* records, int count, BodyVelocity* velocity);
 
-/// When a contact was last solved, and how much its impulse stirs its bodies. A body's stir is the sum of all changes of
-/// velocity that impulses on it could have made at a contact [m/s]: it only grows.
-struct ContactActivity {
-  double seen;       ///< stir of both bodies right after the last visit
-  double reach[2];   ///< lambda_max of each side's part of W_cc [1/kg]
-  int body[2];
-};
-
-/// What an active sweep did.
-struct ActiveSweep {
-  long visits = 0;
-  double change_squared = 0.0;  ///< sum of (lambda_max |dr|)^2 [m^2/s^2]
-};
-
-/// As sweep_*, but passes over contacts whose bodies have been stirred by less than `threshold` [m/s] since the last visit.
-void sweep_active_friction(FrictionRecord* records, ContactActivity* activity, int count, BodyVelocity* velocity,
-                           double* stir, double threshold, ActiveSweep& done);
-void sweep_active_one_row(OneRowRecord* records, ContactActivity* activity, int count, BodyVelocity* velocity,
-                          double* stir, double threshold, ActiveSweep& done);
-
 /// From H L^-T and the given bias in the record to its principal coordinates; also lambda_max(W_cc).
 void make_principal(FrictionRecord& record, double mu, TangentTurn& turn, double& lambda_max);
 void make_principal(OneRowRecord& record, double& lambda_max);
