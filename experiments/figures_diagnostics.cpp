@@ -31,7 +31,7 @@ bool is_zero(const RunData& data, double StepRecord::*value) {
 ReportFigure error_figure(const RunData& data, const RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
   const bool is_relative = std::isfinite(scale);
-  Panel panel = time_panel(data, is_relative ? "error / {/:Italic gh}" : "error  (m/s)", true);
+  Panel panel = time_panel(data, is_relative ? "error\u00a0/\u00a0{/:Italic gh}" : "error  (m/s)", true);
   const double factor = is_relative ? 1.0 / scale : 1.0;
   panel.curves = {column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
                   column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
@@ -88,7 +88,7 @@ ReportFigure effort_figure(const RunData& data, const RunSummary& summary) {
   figure.height = 540;
   figure.panels = {above, below};
   Html caption{"<b>Effort.</b> Solver iterations of each step (mean "};
-  caption += number(summary.iterations.mean) + Html{", most "} + number(summary.iterations.max) + Html{") and contact points (mean "} +
+  caption += number(summary.iterations.mean) + Html{", most "} + exact(summary.iterations.max) + Html{") and contact points (mean "} +
              number(summary.contacts.mean, 4) + Html{" given, "} + number(summary.active_contacts.mean, 4) +
              Html{" with an impulse). <span class=\"look\">A flat top of the iterations is the limit: those steps were cut off before their "
                   "tolerance.</span>"};
@@ -102,6 +102,8 @@ std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, 
   bins = std::min(bins, count);
   std::vector<double> time(bins), low(bins, 0.0);
   for (size_t b = 0; b < bins; ++b) time[b] = data.steps[(b * count / bins + (b + 1) * count / bins) / 2].time;
+  time.front() = 0.0;
+  time.back() = data.steps.back().time;
   std::vector<Curve> curves;
   for (size_t p = 0; p < summary.cost.size(); ++p) {
     if (!(summary.cost[p].ms_per_step > 0.0)) continue;
@@ -129,6 +131,7 @@ ReportFigure cost_figure(const RunData& data, const RunSummary& summary) {
   Figure figure;
   figure.name = "cost";
   figure.title = "Wall clock per step by phase";
+  figure.height = 460;
   figure.panels = {panel};
   Html caption{"<b>Cost</b> of a step by phase, one above the other, averaged over stretches of "};
   caption += quantity(1e3 * summary.duration / static_cast<double>(std::min<size_t>(250, data.steps.size())), "ms") +

@@ -109,10 +109,9 @@ ReportFigure figure_4(const RunData& data, const RunSummary& summary) {
   const ForceUnit unit = force_unit(summary.facts.f_max);
   const size_t first = cycles.periods[cycles.loop_first].first, last = cycles.periods[cycles.loop_last - 1].last;
   Curve raw;
-  raw.title = "{/:Italic f}_g of each step";
+  raw.title = "each step";
   raw.ink = Ink::light;
-  raw.width = 0.5;
-  raw.opacity = 0.6;
+  raw.width = 0.7;
   for (size_t k = first; k < last; ++k) {
     raw.x.push_back(1e3 * data.steps[k].wall_x);
     raw.y.push_back(unit.factor * data.steps[k].wall_force);
@@ -138,9 +137,9 @@ ReportFigure figure_4(const RunData& data, const RunSummary& summary) {
   figure.panels = {panel};
   const size_t periods = cycles.loop_last - cycles.loop_first;
   Html caption{"<b>Paper, Fig. 4.</b> Force <i>f</i><sub>g</sub> of the grains on the wall against its displacement, over the last "};
-  caption += number(static_cast<double>(periods), 1) + Html{" whole periods after the first 0.2&#8239;s. A step’s <i>f</i><sub>g</sub> is its "
+  caption += exact(static_cast<double>(periods)) + Html{" whole periods after the first 0.2&#8239;s. A step’s <i>f</i><sub>g</sub> is its "
              "impulses divided by <i>h</i> and noisy (grey, cut off above the axis); the coloured line is its low-pass, a Hann window of "} +
-             quantity(1e3 * cycles.smoothing, "ms") + Html{". Colours: the wall moves out (active), in (passive), or stands still around the "
+             exact(1e3 * cycles.smoothing) + Html{"&#8239;ms"} + Html{". Colours: the wall moves out (active), in (passive), or stands still around the "
              "load’s maximum (jammed). "} +
              Html{"The paper shows a slightly exponential growth in the active phase, a faster and almost linear one in the passive, and the "
                   "vertical jammed branch on which <i>f</i><sub>g</sub> = <i>f</i>."};
@@ -164,7 +163,7 @@ ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
   const LineFit& trend = compaction.per_period;
   if (std::isfinite(trend.slope)) {
     Curve line;
-    line.title = "gain per period " + print("%.2e", trend.slope);
+    line.title = "gain per period " + print("%.3g", trend.slope);
     line.ink = Ink::vermilion;
     line.dashed = true;
     line.width = 1.8;
@@ -211,7 +210,7 @@ ReportFigure jammed_figure(const RunData& data, const RunSummary& summary) {
   Panel above, below;
   above.x_label = below.x_label = time_axis;
   above.log_y = below.log_y = true;
-  above.y_label = "|{/:Italic f}_g − {/:Italic f }| / {/:Italic f}_{max}";
+  above.y_label = "|{/:Italic f}_g\u00a0−\u00a0{/:Italic f}\u2009| / {/:Italic f}_{max}";
   below.y_label = "|{/:Italic v}|  (mm/s)";
   above.curves = {line_of(time, miss, "all steps", Ink::light, 0.8), line_of(time, jammed_miss, "jammed", Ink::green, 1.2)};
   below.curves = {line_of(time, speed, "all steps", Ink::light, 0.8), line_of(time, jammed_speed, "jammed", Ink::green, 1.2)};

@@ -49,6 +49,34 @@ void tighten_colours(std::string& text) {
   }
 }
 
+std::string without_trailing_zeros(std::string digits) {
+  if (digits.find('.') == std::string::npos) return digits;
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits;
+}
+
+std::string number_text(double value, int digits, bool is_exact) {
+  if (!std::isfinite(value)) return "<span class=\"unknown\">–</span>";
+  if (value == 0.0) return "0";
+  char text[64];
+  // the rounded value decides, so that 999999.9 isn't printed as 1.00e+06
+  std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
+  const char* mark = std::strchr(text, 'e');
+  const int exponent = std::atoi(mark + 1);
+  const bool has_power = exponent < -3 || exponent >= 6;
+  std::string result(text, static_cast<size_t>(mark - text)), power;
+  if (has_power) {
+    power = "×10<sup>" + std::string(exponent < 0 ? "−" : "") + std::to_string(std::abs(exponent)) + "</sup>";
+  } else {
+    std::snprintf(text, sizeof text, "%.*f", std::max(0, digits - 1 - exponent), value);
+    result = text;
+  }
+  if (is_exact) result = without_trailing_zeros(result);
+  if (result[0] == '-') result.replace(0, 1, "−");
+  return result + power;
+}
+
 /// Rules that turn one colour of the figures into a variable of the page.
 std::string colour_rules(const std::string& rgb, const std::string& variable) {
   std::string rules;
@@ -100,25 +128,9 @@ Html escaped(std::string_view text) {
   return html;
 }
 
-Html number(double value, int digits) {
-  if (!std::isfinite(value)) return {"<span class=\"unknown\">–</span>"};
-  char text[64];
-  if (value == 0.0) return {"0"};
-  // the rounded value decides, so that 999999.9 isn't printed as 1.00e+06
-  std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
-  const char* mark = std::strchr(text, 'e');
-  const int exponent = std::atoi(mark + 1);
-  std::string result;
-  if (exponent < -3 || exponent >= 6) {
-    result = std::string(text, static_cast<size_t>(mark - text)) + "×10<sup>" + std::to_string(exponent) + "</sup>";
-    replace_all(result, "<sup>-", "<sup>−");
-  } else {
-    std::snprintf(text, sizeof text, "%.*f", std::max(0, digits - 1 - exponent), value);
-    result = text;
-  }
-  if (result[0] == '-') result.replace(0, 1, "−");
-  return {result};
-}
+Html number(double value, int digits) { return {number_text(value, digits, false)}; }
+
+Html exact(double value, int digits) { return {number_text(value, digits, true)}; }
 
 Html quantity(double value, const char* unit, int digits) {
   if (!std::isfinite(value)) return number(value);

@@ -23,6 +23,8 @@ Html escaped(std::string_view text);
 
 /// `digits` significant digits; powers of ten below 1e-3 and from 1e6 on; a dash for NaN and infinities.
 Html number(double value, int digits = 3);
+/// The same without trailing zeros: settings and counts, which are exact.
+Html exact(double value, int digits = 7);
 /// number, narrow space, unit (HTML).
 Html quantity(double value, const char* unit, int digits = 3);
 /// Value against its bound: "met" or "missed" with a sign that doesn't need colour; nothing when either is NaN.

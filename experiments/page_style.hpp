@@ -33,7 +33,9 @@ pre{background:var(--wash);padding:.8rem 1rem;overflow-x:auto;line-height:1.45;b
 table{border-collapse:collapse;font-size:.92rem;line-height:1.35;font-variant-numeric:tabular-nums lining-nums;width:100%}
 th,td{text-align:left;vertical-align:baseline;padding:.34rem 1rem .34rem 0;border-bottom:1px solid var(--rule)}
 th{font-weight:600;color:var(--soft);border-bottom:1px solid var(--text);vertical-align:bottom}
-th.n,td.n{text-align:right;white-space:nowrap}
+th.n,td.n{text-align:right}
+td.n{white-space:nowrap}
+sub,sup{line-height:0}
 tr:last-child td{border-bottom:0}
 td:last-child,th:last-child{padding-right:0}
 .scroll{overflow-x:auto;margin:.8rem 0 1.2rem}

@@ -11,6 +11,9 @@
 namespace ballast {
 namespace {
 
+// pixels
+constexpr double left_margin = 98.0, right_margin = 22.0, key_row = 22.0;
+
 std::string print(const char* format, ...) __attribute__((format(printf, 1, 2)));
 std::string print(const char* format, ...) {
   char text[512];
@@ -79,13 +82,10 @@ Extent y_extent(const Panel& panel) {
 
 Extent x_extent(const Panel& panel) {
   Extent extent{panel.log_x};
-  bool has_points = false;
-  for (const Curve& curve : panel.curves) {
-    has_points = has_points || curve.mark == Mark::points;
+  for (const Curve& curve : panel.curves)
     for (double x : curve.x) extent.add(x);
-  }
   if (extent.is_empty()) throw std::invalid_argument("nothing to draw along " + panel.x_label);
-  if (panel.log_x || has_points || extent.low == extent.high) extent.pad(0.04);
+  if (!panel.x_min || !panel.x_max) extent.pad(0.03);
   if (panel.x_min) extent.low = *panel.x_min;
   if (panel.x_max) extent.high = *panel.x_max;
   return extent;
@@ -135,7 +135,7 @@ std::string reference(const ReferenceLine& line) {
   if (line.label.empty()) return text;
   text += "set label " + quoted(line.label) + (line.vertical ? " at first " + v + ", graph 0.95 left offset character 0.5, 0"
                                                               : " at graph 0.995, first " + v + " right offset character 0, 0.5");
-  return text + " front font ',13' tc rgb '" + ink + "'\n";
+  return text + " front font ',13' tc rgb '" + rgb_of(Ink::black) + "'\n";
 }
 
 void check(const Figure& figure) {
@@ -156,24 +156,48 @@ void check(const Figure& figure) {
     }
 }
 
+/// Columns and rows of a panel's key: all columns are as wide as the longest title (gnuplot's rule), letters taken as wide as it takes them.
+struct KeySize {
+  int columns = 1, rows = 0;
+};
+
+KeySize key_size(const Figure& figure, const Panel& panel) {
+  constexpr double letter = 10.6, sample = 5.3 * letter;
+  double widest = 0.0;
+  int entries = 0;
+  for (const Curve& curve : panel.curves) {
+    if (curve.title.empty()) continue;
+    ++entries;
+    const auto letters = std::count_if(curve.title.begin(), curve.title.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; });
+    widest = std::max(widest, sample + letter * static_cast<double>(letters));
+  }
+  if (entries == 0) return {};
+  KeySize size;
+  size.columns = std::clamp(static_cast<int>((figure.width - left_margin - right_margin) / widest), 1, entries);
+  size.rows = (entries + size.columns - 1) / size.columns;
+  return size;
+}
+
 struct PanelPlace {
-  double top, bottom;  ///< screen coordinates of the axes' box
+  double top, bottom;  ///< pixels from the lower edge to the axes' box
   bool shows_x;
+  KeySize key;
 };
 
 std::string panel_commands(const Figure& figure, const Panel& panel, const PanelPlace& place, const std::string& blocks) {
   const Extent x = x_extent(panel), y = y_extent(panel);
   std::string text = "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n";
-  text += print("set lmargin at screen %.5f\nset rmargin at screen %.5f\n", 92.0 / figure.width, 1.0 - 22.0 / figure.width);
-  text += print("set tmargin at screen %.5f\nset bmargin at screen %.5f\n", place.top, place.bottom);
+  const double right = 1.0 - right_margin / figure.width;
+  text += print("set lmargin at screen %.5f\nset rmargin at screen %.5f\n", left_margin / figure.width, right);
+  text += print("set tmargin at screen %.5f\nset bmargin at screen %.5f\n", place.top / figure.height, place.bottom / figure.height);
   text += "set xrange [" + number(x.low) + ':' + number(x.high) + "]\nset yrange [" + number(y.low) + ':' + number(y.high) + "]\n";
   if (panel.log_x) text += "set logscale x\nset format x '10^{%L}'\n";
   if (panel.log_y) text += "set logscale y\nset format y '10^{%L}'\n";
-  text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + '\n' : "set xlabel ''\nset format x ''\n";
+  text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n" : "set xlabel ''\nset format x ''\n";
   text += "set ylabel " + quoted(panel.y_label) + '\n';
-  // above the box, to the right; one row
-  text += print("set key at screen %.5f, screen %.5f right center horizontal samplen 1.6 spacing 1.0\n",
-                1.0 - 22.0 / figure.width, place.top + 15.0 / figure.height);
+  // above the box, to the right
+  text += print("set key at screen %.5f, screen %.5f right center horizontal maxcols %d samplen 1.6 spacing 1.0\n", right,
+                (place.top + 5.0 + 0.5 * key_row * place.key.rows) / figure.height, place.key.columns);
   for (const ReferenceLine& line : panel.lines) text += reference(line);
   std::string curves;
   for (size_t c = 0; c < panel.curves.size(); ++c)
@@ -214,23 +238,27 @@ std::string gnuplot_script(const Figure& figure) {
   for (size_t p = 0; p < figure.panels.size(); ++p)
     for (size_t c = 0; c < figure.panels[p].curves.size(); ++c)
       text += data_block("$p" + std::to_string(p) + "c" + std::to_string(c), figure.panels[p].curves[c]);
-  text += "set encoding utf8\n";
+  text += "set encoding utf8\nset minussign\n";
   text += print("set terminal svg size %d,%d dynamic enhanced rounded font 'sans-serif,15' name '%s'\n", figure.width,
                 figure.height, figure.name.c_str());
   text += "set border 3 lw 1 lc rgb '#767676'\nset tics nomirror out scale 0.6 tc rgb '#1a1a1a'\n";
   text += "set grid lw 0.6 lt 1 lc rgb '#e0e0e0'\n";
   text += print("set multiplot\n");
   const size_t count = figure.panels.size();
-  // pixels: a row for the key above each box, tick labels and x label below the last (or below each when the axes differ)
+  // the key above each box; tick labels and x label below the last, or below each when the axes differ
   const bool is_shared = std::all_of(figure.panels.begin(), figure.panels.end(),
                                      [&](const Panel& panel) { return panel.x_label == figure.panels[0].x_label; });
-  const double above = 32.0, below_last = 58.0, below = is_shared ? 12.0 : below_last;
-  const double box = (figure.height - static_cast<double>(count) * above - below_last - (static_cast<double>(count) - 1) * below) /
+  constexpr double above = 12.0, below_last = 66.0;
+  const double below = is_shared ? 12.0 : below_last;
+  double keys = 0.0;
+  for (const Panel& panel : figure.panels) keys += key_row * key_size(figure, panel).rows;
+  const double box = (figure.height - keys - static_cast<double>(count) * above - below_last - static_cast<double>(count - 1) * below) /
                      static_cast<double>(count);
   double y = figure.height;
   for (size_t p = 0; p < count; ++p) {
-    y -= above;
-    const PanelPlace place{y / figure.height, (y - box) / figure.height, !is_shared || p + 1 == count};
+    const KeySize key = key_size(figure, figure.panels[p]);
+    y -= above + key_row * key.rows;
+    const PanelPlace place{y, y - box, !is_shared || p + 1 == count, key};
     text += panel_commands(figure, figure.panels[p], place, "$p" + std::to_string(p) + "c");
     y -= box + below;
   }

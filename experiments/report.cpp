@@ -37,11 +37,13 @@ Html draw(const std::vector<ReportFigure>& figures, RunData& data) {
 
 Html header(const RunData& data, const RunSummary& summary) {
   Html html{"<header>\n<h1>"};
-  html += escaped(name_of_run(data)) + Html{"</h1>\n<p class=\"lede\">"} + number(static_cast<double>(summary.steps), 7) + Html{" steps, "} +
-          quantity(summary.duration, "s") + Html{" simulated"};
+  html += escaped(name_of_run(data)) + Html{"</h1>\n<p class=\"lede\">"} + exact(static_cast<double>(summary.steps)) + Html{" steps, "} +
+          exact(summary.duration) + Html{"&#8239;s"} + Html{" simulated"};
   if (summary.contacts.samples) html += Html{", "} + number(summary.contacts.mean, 4) + Html{" contact points on average"};
   if (std::isfinite(summary.ms_per_step)) html += Html{", "} + quantity(summary.ms_per_step, "ms") + Html{" per step"};
-  return html + Html{".</p>\n</header>\n"};
+  html += {".</p>\n"};
+  if (const std::string made = made_by(data); !made.empty()) html += Html{"<p class=\"lede\">"} + escaped(made) + Html{"</p>\n"};
+  return html + Html{"</header>\n"};
 }
 
 Html notices(const RunData& data) {

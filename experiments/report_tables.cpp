@@ -10,7 +10,7 @@ class Results {
  public:
   void group(const char* name) { table_.rows.push_back({Html{std::string("<b>") + name + "</b>"}, {}, {}, {}}); }
   void bounded(const char* what, double value, double bound, const char* unit = "", double factor = 1.0) {
-    row(what, quantity(factor * value, unit), Html{"≤&nbsp;"} + quantity(factor * bound, unit, 2), verdict(value, bound));
+    row(what, *unit ? quantity(factor * value, unit) : number(value), Html{"≤&nbsp;"} + exact(factor * bound) + Html{*unit ? "&#8239;" : ""} + Html{unit}, verdict(value, bound));
   }
   void compared(const char* what, Html value, Html paper) { row(what, std::move(value), std::move(paper), {"<span class=\"note\">paper</span>"}); }
   void plain(const char* what, Html value, Html remark = {}) { row(what, std::move(value), {}, std::move(remark)); }
@@ -60,8 +60,8 @@ void add_wall(const RunSummary& summary, Results& results) {
                 number(jammed.force_p95) + Html{", "} + number(jammed.force_max));
   results.plain("|<i>v</i>|: mean, largest", quantity(1e3 * jammed.speed_mean, "mm/s") + Html{", "} + quantity(1e3 * jammed.speed_max, "mm/s"),
                 Html{"<span class=\"note\">moving phases: up to "} + quantity(1e3 * summary.wall.v_peak, "mm/s") + Html{"</span>"});
-  results.plain("jammed stretch found in", number(summary.wall.jammed_periods) + Html{" of "} +
-                                               number(static_cast<double>(summary.wall.periods.size())) + Html{" periods"});
+  results.plain("jammed stretch found in", exact(summary.wall.jammed_periods) + Html{" of "} +
+                                               exact(static_cast<double>(summary.wall.periods.size())) + Html{" periods"});
   results.group("Motion of the wall");
   results.plain("first contraction", quantity(1e3 * summary.contraction.size, "mm"));
   results.compared("90&#8239;% of it reached at", quantity(summary.contraction.time90, "s"), Html{"~&nbsp;0.2&#8239;s"});
@@ -94,10 +94,21 @@ struct NamedUnit {
 constexpr NamedUnit named_units[] = {{"_m_s2", "m/s²"}, {"_kg_m3", "kg/m³"}, {"_m_s", "m/s"}, {"_kg", "kg"}, {"_Hz", "Hz"}, {"_MB", "MB"},
                                      {"_GB", "GB"},     {"_N", "N"},         {"_J", "J"},     {"_s", "s"},   {"_m", "m"}};
 
+/// Lists and objects on one line, without JSON's quotes and braces.
+std::string readable(const nlohmann::ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& [name, part] : value.items())
+    text += (text.empty() ? "" : ", ") + (value.is_object() ? name + ' ' : std::string()) + readable(part);
+  return text;
+}
+
 Html summary_row_value(const nlohmann::ordered_json& value, const char* unit) {
-  if (value.is_number()) return quantity(value.get<double>(), unit, 6);
+  if (value.is_number_integer()) return escaped(value.dump());
+  if (value.is_number()) return exact(value.get<double>(), 6) + Html{*unit ? "&#8239;" : ""} + Html{unit};
   if (value.is_null()) return number(not_known);
-  return escaped(value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  return escaped(readable(value));
 }
 
 std::string text_at(const nlohmann::ordered_json& json, const char* group, const char* name) {
@@ -105,7 +116,7 @@ std::string text_at(const nlohmann::ordered_json& json, const char* group, const
   if (part == json.end() || !part->is_object()) return {};
   const auto value = part->find(name);
   if (value == part->end() || value->is_null()) return {};
-  return value->is_string() ? value->get<std::string>() : value->dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return readable(*value);
 }
 
 HtmlTable facts_table() {
@@ -114,28 +125,31 @@ HtmlTable facts_table() {
   return table;
 }
 
+/// A setting with its unit, as it was given.
+Html setting(double value, const char* unit) { return exact(value) + Html{"&#8239;"} + Html{unit}; }
+
 void add_scene(const Scene& scene, HtmlTable& table) {
   const auto row = [&](const char* what, Html value) { table.rows.push_back({Html{what}, std::move(value)}); };
-  row("step <i>h</i>, duration", quantity(scene.step, "s") + Html{", "} + quantity(scene.duration, "s"));
-  row("gravity", quantity(scene.gravity.norm(), "m/s²"));
-  row("friction, restitution between bodies", number(scene.friction) + Html{", "} + number(scene.restitution));
-  row("solver", escaped(scene.solver.name) + Html{", tolerance "} + number(scene.solver.tolerance) +
+  row("step <i>h</i>, duration", setting(scene.step, "s") + Html{", "} + setting(scene.duration, "s"));
+  row("gravity", setting(scene.gravity.norm(), "m/s²"));
+  row("friction, restitution between bodies", exact(scene.friction) + Html{", "} + exact(scene.restitution));
+  row("solver", escaped(scene.solver.name) + Html{", tolerance "} + exact(scene.solver.tolerance) +
                     Html{scene.gravity.isZero() ? " m/s" : " <i>gh</i>"} + Html{", at most "} +
-                    number(scene.solver.max_iterations) + Html{scene.solver.warm_start ? " iterations, warm start" : " iterations, cold start"});
+                    exact(scene.solver.max_iterations) + Html{scene.solver.warm_start ? " iterations, warm start" : " iterations, cold start"});
   row("overlap correction", scene.correction.enabled
-                                ? quantity(100.0 * scene.correction.fraction, "%") + Html{" of what exceeds "} +
-                                      quantity(1e6 * scene.correction.slop, "µm") + Html{" per step, "} +
-                                      number(scene.correction.sweeps) + Html{" sweeps"}
+                                ? setting(100.0 * scene.correction.fraction, "%") + Html{" of what exceeds "} +
+                                      setting(1e6 * scene.correction.slop, "µm") + Html{" per step, "} +
+                                      exact(scene.correction.sweeps) + Html{" sweeps"}
                                 : Html{"off"});
   if (!scene.grains) return;
   const DriveSpec& drive = scene.drive;
-  row("drive", quantity(drive.frequency, "Hz") + Html{", <i>f</i><sub>max</sub> = "} + number(drive.f_max_over_weight) +
-                   Html{" <i>mg</i>, <i>f</i><sub>min</sub> = "} + number(drive.f_min_over_weight) + Html{" <i>mg</i>, wall "} +
-                   number(drive.wall_mass_over_grains) + Html{" <i>m</i>, lid raised "} + quantity(1e3 * drive.lid_raise, "mm"));
-  row("grains", number(scene.grains->count, 6) + Html{", seed "} + Html{std::to_string(scene.grains->seed)} + Html{", "} +
-                    quantity(scene.grains->density, "kg/m³", 4));
-  row("box, length × width", quantity(scene.box.length, "m") + Html{" × "} + quantity(scene.box.width, "m"));
-  row("friction of floor and lid, of side walls", number(scene.box.friction_horizontal) + Html{", "} + number(scene.box.friction_vertical));
+  row("drive", setting(drive.frequency, "Hz") + Html{", <i>f</i><sub>max</sub> = "} + exact(drive.f_max_over_weight) +
+                   Html{" <i>mg</i>, <i>f</i><sub>min</sub> = "} + exact(drive.f_min_over_weight) + Html{" <i>mg</i>, wall "} +
+                   exact(drive.wall_mass_over_grains) + Html{" <i>m</i>, lid raised "} + setting(1e3 * drive.lid_raise, "mm"));
+  row("grains", exact(scene.grains->count, 6) + Html{", seed "} + Html{std::to_string(scene.grains->seed)} + Html{", "} +
+                    setting(scene.grains->density, "kg/m³"));
+  row("box, length × width", setting(scene.box.length, "m") + Html{" × "} + setting(scene.box.width, "m"));
+  row("friction of floor and lid, of side walls", exact(scene.box.friction_horizontal) + Html{", "} + exact(scene.box.friction_vertical));
 }
 
 }  // namespace
@@ -146,8 +160,8 @@ Html results_table(const RunData&, const RunSummary& summary) {
   if (*summary.facts.has_wall && *summary.facts.has_packing) add_wall(summary, results);
   if (*summary.facts.has_packing) add_compaction(summary, results);
   results.group("Effort");
-  results.plain("iterations per step: mean, most", number(summary.iterations.mean) + Html{", "} + number(summary.iterations.max));
-  results.plain("contact points per step: mean, most", number(summary.contacts.mean, 4) + Html{", "} + number(summary.contacts.max, 6));
+  results.plain("iterations per step: mean, most", number(summary.iterations.mean) + Html{", "} + exact(summary.iterations.max));
+  results.plain("contact points per step: mean, most", number(summary.contacts.mean, 4) + Html{", "} + exact(summary.contacts.max));
   results.plain("wall clock per step", quantity(summary.ms_per_step, "ms"));
   return results.html();
 }
@@ -155,12 +169,12 @@ Html results_table(const RunData&, const RunSummary& summary) {
 Html periods_table(const RunSummary& summary) {
   if (summary.wall.periods.empty()) return {};
   HtmlTable table;
-  table.head = {{"period"}, {"from (s)"}, {"to (s)"}, {"Δ<i>x</i><sub>max</sub> (mm)"}, {"contraction (mm)"}, {"<i>v</i><sub>max</sub> in (mm/s)"},
-                {"<i>v</i> out (mm/s)"}, {"jammed (%)"}, {"mean &rho;"}, {"gain of &rho;"}};
+  table.head = {{"period"}, {"from<br>(s)"}, {"to<br>(s)"}, {"Δ<i>x</i><sub>max</sub><br>(mm)"}, {"contraction<br>(mm)"},
+                {"<i>v</i><sub>max</sub> in<br>(mm/s)"}, {"<i>v</i> out<br>(mm/s)"}, {"jammed<br>(%)"}, {"&rho;,<br>mean"}, {"gain<br>of &rho;"}};
   table.is_number.assign(10, true);
   double before = not_known;
   for (const WallPeriod& period : summary.wall.periods) {
-    table.rows.push_back({number(std::round(period.end * summary.facts.frequency), 4), number(period.begin), number(period.end),
+    table.rows.push_back({exact(std::round(period.end * summary.facts.frequency)), exact(period.begin, 4), exact(period.end, 4),
                           number(1e3 * period.rise), number(-1e3 * period.net), number(1e3 * period.speed_in),
                           number(1e3 * period.speed_out), number(100.0 * period.jammed_share), number(period.solid_fraction, 5),
                           number(period.solid_fraction - before, 2)});
@@ -249,8 +263,8 @@ Html provenance_table(const RunData& data) {
   for (const char* name : {"started", "key"})
     if (const auto value = manifest.find(name); value != manifest.end() && value->is_string())
       row(name, value->get<std::string>());
-  if (const auto resumed = manifest.find("resumed"); resumed != manifest.end() && resumed->is_array() && !resumed->empty())
-    row("resumed", resumed->dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  if (const auto resumed = manifest.find("resumed"); resumed != manifest.end() && resumed->is_array())
+    for (const auto& entry : *resumed) row("resumed", readable(entry));
   return to_html(table);
 }
 
@@ -268,6 +282,19 @@ Html files_table(const RunData& data) {
     if (std::filesystem::exists(data.folder / name))
       table.rows.push_back({Html{std::string("<a href=\"") + name + "\"><code>" + name + "</code></a>"}, Html{what}});
   return to_html(table);
+}
+
+std::string made_by(const RunData& data) {
+  std::string text;
+  const auto add = [&](const std::string& before, const std::string& part) {
+    if (!part.empty()) text += (text.empty() ? "" : ", ") + before + part;
+  };
+  add("ballast ", text_at(data.manifest, "ballast", "version"));
+  add("commit ", text_at(data.manifest, "ballast", "commit").substr(0, 12));
+  add("", text_at(data.manifest, "machine", "cpu"));
+  if (const auto started = data.manifest.find("started"); started != data.manifest.end() && started->is_string())
+    add("started ", started->get<std::string>());
+  return text;
 }
 
 std::string shell_word(const std::string& word) {

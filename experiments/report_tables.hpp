@@ -19,6 +19,8 @@ Html parameters_table(const RunData& data);
 Html provenance_table(const RunData& data);
 /// What is in the folder.
 Html files_table(const RunData& data);
+/// One line for the head of the page: program, machine, date; empty when the manifest says nothing.
+std::string made_by(const RunData& data);
 /// Commands that make the run again, as text for a shell.
 std::string reproduce_commands(const RunData& data);
 

@@ -60,16 +60,44 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
   return period;
 }
 
-/// Marks the stretch of |v| <= limit around the load's maximum of a period; false when the wall moves there.
+/// Marks the stretch of |v| <= limit around the load's maximum of a period, from sample `first` on; false when the wall moves there.
 bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit, size_t first, WallCycles& cycles) {
   size_t top = period.first;
   for (size_t k = period.first; k < period.last; ++k)
     if (steps[k].load > steps[top].load) top = k;
   const auto is_slow = [&](size_t k) { return std::abs(cycles.velocity[k]) <= limit; };
   if (!is_slow(top)) return false;
-  for (size_t k = top; k < steps.size() && is_slow(k); ++k) cycles.phase[k] = WallPhase::jammed;
-  for (size_t k = top; k-- > first && is_slow(k);) cycles.phase[k] = WallPhase::jammed;
+  const auto mark = [&](size_t k) {
+    if (k >= first) cycles.phase[k] = WallPhase::jammed;
+  };
+  for (size_t k = top; k < steps.size() && is_slow(k); ++k) mark(k);
+  for (size_t k = top; k-- > first && is_slow(k);) mark(k);
   return true;
+}
+
+void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h, const WallSettings& settings, WallCycles& cycles) {
+  const size_t first = first_after(steps, settings.first_transient, h);
+  std::vector<double> speed;
+  for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
+  cycles.v_peak = statistics(speed).max;
+  const double limit = settings.jammed_speed * cycles.v_peak;
+  bool has_moved = false;  // a wall that rests at the end of the transient has no phase yet, unless it is jammed since
+  for (size_t k = first; k < steps.size(); ++k) {
+    const double v = cycles.velocity[k];
+    has_moved = has_moved || std::abs(v) > limit;
+    if (has_moved) cycles.phase[k] = v > 0.0 ? WallPhase::active : v < 0.0 ? WallPhase::passive : WallPhase::none;
+  }
+  // the jam before the first whole period reaches into it
+  const double begin = cycles.periods.empty() ? 0.0 : cycles.periods.front().begin;
+  if (begin >= duration_of_period - 0.25 * h)
+    mark_jammed(steps, make_period(steps, begin - duration_of_period, begin, h), limit, first, cycles);
+  for (const WallPeriod& period : cycles.periods)
+    if (mark_jammed(steps, period, limit, first, cycles)) ++cycles.jammed_periods;
+  for (WallPeriod& period : cycles.periods) {
+    const auto jammed = std::count(cycles.phase.begin() + static_cast<long>(period.first),
+                                   cycles.phase.begin() + static_cast<long>(period.last), WallPhase::jammed);
+    period.jammed_share = static_cast<double>(jammed) / static_cast<double>(period.last - period.first);
+  }
 }
 
 }  // namespace
@@ -85,7 +113,6 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   cycles.phase.assign(steps.size(), WallPhase::none);
   if (steps.empty()) return cycles;
 
-  const size_t first = first_after(steps, settings.first_transient, h);
   const double end_time = steps.back().time;
   for (long k = std::lround(std::ceil((settings.first_transient - 0.25 * h) * frequency));; ++k) {
     const double begin = static_cast<double>(k) * duration_of_period;
@@ -96,21 +123,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   }
   cycles.loop_last = cycles.periods.size();
   cycles.loop_first = cycles.loop_last - std::min<size_t>(cycles.loop_last, settings.loop_periods);
-
-  std::vector<double> speed;
-  for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
-  cycles.v_peak = statistics(speed).max;
-  for (size_t k = first; k < steps.size(); ++k) {
-    const double v = cycles.velocity[k];
-    cycles.phase[k] = v > 0.0 ? WallPhase::active : v < 0.0 ? WallPhase::passive : WallPhase::none;
-  }
-  for (WallPeriod& period : cycles.periods)
-    if (mark_jammed(steps, period, settings.jammed_speed * cycles.v_peak, first, cycles)) ++cycles.jammed_periods;
-  for (WallPeriod& period : cycles.periods) {
-    const auto jammed = std::count(cycles.phase.begin() + static_cast<long>(period.first),
-                                   cycles.phase.begin() + static_cast<long>(period.last), WallPhase::jammed);
-    period.jammed_share = static_cast<double>(jammed) / static_cast<double>(period.last - period.first);
-  }
+  find_phases(steps, duration_of_period, h, settings, cycles);
   return cycles;
 }
 
