@@ -78,12 +78,16 @@ void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxi
     return edge.left_normal.dot(d) >= edge.right_normal.dot(d) ? edge.left : edge.right;
   };
   const int face_a = most_aligned(edge_a, axis.normal), face_b = most_aligned(edge_b, -normal_in_b);
-  // An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to
-  // see it this step: without the other end contact jumps from end to end as the body rocks by micrometres.
+  // An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to see it
+  // this step: without the other end contact jumps from end to end as the body rocks by micrometres. An edge along the
+  // face's own side has no second end on the face.
   const bool flat_on_a = a.face(face_a).normal.dot(axis.normal) > nearly_parallel;
   const bool flat_on_b = -b.face(face_b).normal.dot(normal_in_b) > nearly_parallel;
+  const Vec3 along_b = pair.other[0].rotation * edge_b.along;
+  const bool across =
+      edge_a.along.cross(along_b).squaredNorm() > 0.01 * edge_a.along.squaredNorm() * along_b.squaredNorm();
   bool has_crossing = false;
-  if (flat_on_a || flat_on_b) {
+  if ((flat_on_a && flat_on_b) || (across && (flat_on_a || flat_on_b))) {
     const int reference = flat_on_a ? 0 : 1;
     const std::span<const ClippedPoint> clipped =
         flat_on_a ? clipper_.clip_along(pair, 0, face_a, face_b, axis.normal, 1e-9 * pair.size())

@@ -36,6 +36,13 @@ struct ClippedPoint {
 /// Holds scratch memory; one per thread.
 class FaceClipper {
  public:
+  /// Room for every polygon of ordinary grains: buffers change places while clipping, so each must be large enough at once.
+  FaceClipper() {
+    polygon_.reserve(kRoom);
+    clipped_.reserve(kRoom);
+    distance_.reserve(kRoom);
+  }
+
   /// The part of face `incident` of body 1 - `reference` that lies within the prism on face `face` of body `reference`,
   /// along the face's normal, counter-clockwise seen from the incident body's outside. Corners up to `thickness` [m]
   /// outside a side count as inside and stay where they are. Valid until the next call.
@@ -45,6 +52,7 @@ class FaceClipper {
                                            const Vec3& direction, double thickness);
 
  private:
+  static constexpr size_t kRoom = 128;
   struct Plane {
     Vec3 outward;
     double offset;

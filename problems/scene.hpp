@@ -104,9 +104,9 @@ struct DriveSpec {
 };
 
 struct SolverSpec {
-  std::string name = "pgs";
+  std::string name = "nncg";
   double tolerance = 1e-3;   ///< natural map rms, in g h (in m/s where there is no gravity)
-  int max_iterations = 500;
+  int max_iterations = 150;
   double max_seconds = 1e30; ///< per step: breaks reproducibility, so off
   bool warm_start = true;
 };
