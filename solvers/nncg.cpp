@@ -14,7 +14,8 @@ namespace {
 //   else      r := r^ + beta p,  p := beta p + d
 //   r^ := sweep(r)
 // The body velocities are linear in r, so they take the same combination of their own past: no pass over the contacts' blocks.
-// Only swept iterates, which lie in the cones, are ever judged or returned.
+// Only swept iterates, which lie in the cones, are ever judged or returned. The law is not a minimisation, and now and then the
+// search circles: when the error has grown from one evaluation to the next, plain sweeps follow until the one after.
 class Nncg final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
@@ -27,9 +28,11 @@ class Nncg final : public Solver {
     Iteration iteration(budget, {4, 1.25});
     load(problem, r);
     sweep_.store(problem, r);
-    iteration.evaluated(sweep_.error());
+    double last_error = sweep_.error();
+    iteration.evaluated(last_error);
+    bool accelerates = true;
     while (iteration.next()) {
-      if (swept_) extrapolate();
+      if (swept_ && accelerates) extrapolate();
       remember();
       sweep_.sweep();
       swept_ = true;
@@ -41,6 +44,9 @@ class Nncg final : public Solver {
         error = sweep_.error();
       }
       iteration.evaluated(error);
+      accelerates = !accelerates || error < last_error;
+      if (!accelerates) forget();
+      last_error = error;
     }
     Solved solved;
     iteration.finish(solved);
@@ -54,10 +60,15 @@ class Nncg final : public Solver {
     const size_t entries = 3 * sweep_.friction_records().size() + sweep_.one_row_records().size();
     before_.resize(entries);
     step_.resize(entries);
-    direction_.assign(entries, 0.0);
+    forget();
+    swept_ = false;
+  }
+
+  /// The next search direction is the plain sweep's.
+  void forget() {
+    direction_.assign(before_.size(), 0.0);
     velocity_direction_.assign(sweep_.velocities().size(), BodyVelocity{});
     last_square_ = 0.0;
-    swept_ = false;
   }
 
   /// Calls f(k, entry) for every impulse entry, k counting them.

@@ -70,7 +70,9 @@ void check_checkpoint(const std::string& file) {
 }
 
 void check(const std::string& file, const CheckOptions& options) {
-  std::string suffix = std::filesystem::path(file).extension().string();
+  std::filesystem::path path = file;
+  if (!path.has_filename()) path = path.parent_path();  // a folder, written with its slash
+  std::string suffix = path.extension().string();
   std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (suffix == ".toml")

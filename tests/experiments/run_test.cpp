@@ -41,7 +41,7 @@ class Workplace {
 RunOptions small_run(const fs::path& output, const fs::path& packings) {
   RunOptions options;
   options.scene = "vibrated_box_small";
-  options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=0.05"};
+  options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=0.05", "solver.max_iterations=2000"};
   options.output = output;
   options.packing_cache = packings;
   options.report = false;
