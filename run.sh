@@ -11,7 +11,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 install=
 if [ "${1:-}" = --no-install ]; then install=--no-install; shift; fi
 if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0; fi
-ballast_setup default $install
+ballast_setup default ballast $install
 
 [ $# -gt 0 ] || set -- vibrated_box
 ballast=$root/build/default/bin/ballast

@@ -1,5 +1,5 @@
 # Sourced by run.sh and test.sh: installs the Debian packages that are missing, configures and builds.
-# Usage: ballast_setup PRESET [--no-install]
+# Usage: ballast_setup PRESET TARGET [--no-install]
 
 say() { printf '== %s\n' "$*"; }
 die() { printf 'ballast: %s\n' "$*" >&2; exit 1; }
@@ -28,11 +28,11 @@ install_packages() {
 }
 
 ballast_setup() {
-  local preset=$1
-  [ "${2:-}" = --no-install ] || install_packages
+  local preset=$1 target=$2
+  [ "${3:-}" = --no-install ] || install_packages
   cd "$root" || exit 1
   say "building (preset $preset)"
-  cmake --preset "$preset" >"$root/build-$preset.log" 2>&1 && cmake --build --preset "$preset" >>"$root/build-$preset.log" 2>&1 || {
+  cmake --preset "$preset" >"$root/build-$preset.log" 2>&1 && cmake --build --preset "$preset" --target "$target" >>"$root/build-$preset.log" 2>&1 || {
     tail -n 40 "$root/build-$preset.log" >&2
     die "the build failed; the whole log is build-$preset.log"
   }
