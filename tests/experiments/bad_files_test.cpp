@@ -98,18 +98,16 @@ TEST_CASE("a stored problem is solved, a broken one is exit code 1") {
       {"empty.hdf5", ""},
       {"text.hdf5", "no HDF5 at all"},
       {"cut.hdf5", bytes.substr(0, bytes.size() / 2)},
-      {"folder.hdf5/", ""},
   };
   for (const auto& [name, text] : wrongs) {
     INFO(name);
-    const auto file = folder.path() / name;
-    if (name.ends_with('/'))
-      std::filesystem::create_directory(file);
-    else
-      folder.write(name, text);
+    const auto file = folder.write(name, text);
     for (const char* command : {"solve", "check"})
-      check_failure(ballast_program({command, file.string()}), ExitCode::failure, {file.parent_path().string()});
+      check_failure(ballast_program({command, file.string()}), ExitCode::failure, {file.string()});
   }
+  std::filesystem::create_directory(folder.path() / "folder.hdf5");
+  check_failure(ballast_program({"check", (folder.path() / "folder.hdf5").string()}), ExitCode::failure,
+                {"folder.hdf5"});
   check_failure(ballast_program({"solve", "none.hdf5"}), ExitCode::failure, {"none.hdf5"});
   check_failure(ballast_program({"solve", sound.string(), "none.dat"}), ExitCode::failure, {"none.dat"});
 }
