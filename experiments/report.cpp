@@ -87,7 +87,7 @@ void write_report(const std::filesystem::path& folder) {
   body += section("paper", *summary.facts.has_packing ? "What the paper shows" : "Motion of the wall", paper);
   body += section("periods", "Period by period", periods_table(summary));
   body += section("diagnostics", "Can it be trusted?", diagnostics);
-  body += section("cost", "Cost", cost_table(summary));
+  body += section("cost-table", "Cost", cost_table(summary));
   body += section("energy-table", "Energy", energy_table(summary));
   body += section("parameters", "Parameters", parameters_table(data) + folded("The whole scene (scene.toml)", data.scene_text));
   body += section("provenance", "Program and machine", provenance_table(data) + folded("The whole manifest (manifest.json)", data.manifest_text));

@@ -18,10 +18,10 @@ namespace ballast {
 
 struct SyntheticBox {
   double h = 2e-4, duration = 1.0, frequency = 5.0;
-  double grain_mass = 214.0, wall_mass = 107.0, f_max = 6300.0;
+  double grain_mass = 214.0, wall_mass = 214.0, f_max = 6300.0;
   double gravity = 9.81;
-  double active_force = 900.0, active_rate = 120.0;     ///< f_g = 900 N exp(xi 120/m)
-  double passive_force = 3400.0, passive_slope = 4e5;   ///< f_g = 3400 N - 4e5 N/m xi
+  double active_force = 500.0, active_rate = 100.0;     ///< f_g = 500 N exp(xi 100/m)
+  double passive_force = 1500.0, passive_slope = 6e5;   ///< f_g = 1500 N - 6e5 N/m xi
   double first_contraction = 6e-3;   ///< [m]
   double ratchet = 0.05e-3;          ///< contraction per period [m]
   double solid_initial = 0.501, solid_jump = 0.018, solid_gain = 0.0012;
@@ -49,10 +49,9 @@ class Wall {
       x_from_ = x;
       x_back_ = x - box_.ratchet;
     }
-    force = v >= 0.0 ? box_.active_force * std::exp(box_.active_rate * (x - x_from_))
-                     : box_.passive_force - box_.passive_slope * (x - x_back_);
-    v += h * (force - f) / box_.wall_mass;
+    v += h * (law() - f) / box_.wall_mass;
     x += h * v;
+    force = law();  // of the position that is recorded with it
     if (v < 0.0 && x <= x_back_) {  // stopped within one step: the impulse shows as a peak of f_g, cut to something drawable
       x = x_back_;
       force = 1.6 * f;
@@ -64,6 +63,10 @@ class Wall {
 
  private:
   double first_end() const { return 0.15; }
+  double law() const {
+    return v >= 0.0 ? box_.active_force * std::exp(box_.active_rate * (x - x_from_))
+                    : box_.passive_force - box_.passive_slope * (x - x_back_);
+  }
   void contract(double t, double f) {
     const double s = std::min(1.0, t / first_end()), w = std::numbers::pi / first_end();
     x = -box_.first_contraction * 0.5 * (1.0 - std::cos(std::numbers::pi * s));
@@ -156,7 +159,7 @@ inline void write_steps_csv(const std::filesystem::path& file, const std::vector
   const auto write_row = [&](const auto& cell) {
     std::string line;
     for (const StepColumn& column : step_columns())
-      if (is_written(column)) line += (line.empty() ? "" : ",") + cell(column);
+      if (is_written(column)) line.append(line.empty() ? "" : ",").append(cell(column));
     out << line << '\n';
   };
   write_row([](const StepColumn& column) { return std::string(column.name); });
