@@ -108,6 +108,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   WallCycles cycles;
   cycles.smoothing = std::min(settings.smoothing, duration_of_period / 20.0);
   const int width = static_cast<int>(std::lround(cycles.smoothing / h));
+  cycles.smoothing_samples = static_cast<size_t>(width);
   cycles.force = low_pass(column(steps, &StepRecord::wall_force), width);
   cycles.velocity = low_pass(column(steps, &StepRecord::wall_v), width);
   cycles.phase.assign(steps.size(), WallPhase::none);
@@ -134,15 +135,16 @@ LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles, c
     const auto is_fitted = [&](double xi, double stroke) {
       return xi >= settings.fit_from * stroke && xi <= settings.fit_to * stroke;
     };
-    for (size_t k = period.first; k < period.last; ++k) {
+    const size_t width = cycles.smoothing_samples;
+    for (size_t k = period.first + width; k + width < period.last; ++k) {
       const bool rises = k <= period.peak;
       const double xi = steps[k].wall_x - (rises ? period.x_before : period.x_after);
       const double stroke = period.x_peak - (rises ? period.x_before : period.x_after);
       if (!is_fitted(xi, stroke)) continue;
-      if (rises && cycles.phase[k] == WallPhase::active) {
+      if (rises && cycles.phase[k] == WallPhase::active && cycles.phase[k - width] == WallPhase::active) {
         active_x.push_back(xi);
         active_force.push_back(cycles.force[k]);
-      } else if (!rises && cycles.phase[k] == WallPhase::passive) {
+      } else if (!rises && cycles.phase[k] == WallPhase::passive && cycles.phase[k + width] == WallPhase::passive) {
         passive_x.push_back(xi);
         passive_force.push_back(cycles.force[k]);
       }

@@ -45,6 +45,7 @@ struct WallPeriod {
 struct WallCycles {
   std::vector<double> force, velocity;  ///< f_g [N] and v [m/s], smoothed, one per step
   double smoothing = not_known;         ///< width used [s]
+  size_t smoothing_samples = 0;         ///< the same in steps
   double v_peak = not_known;            ///< [m/s]
   std::vector<WallPhase> phase;         ///< one per step; none before the end of the first transient
   std::vector<WallPeriod> periods;      ///< whole ones after the first transient
@@ -56,7 +57,8 @@ struct WallCycles {
 WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double step, const WallSettings& settings = {});
 
 /// f_g against the displacement from the jamming position, xi = x - x_before (active) or x - x_after (passive), all loop periods
-/// together, smoothed f_g, between fit_from and fit_to of each stroke. The paper: exponential when active, linear when passive.
+/// together, smoothed f_g, between fit_from and fit_to of each stroke, and so far from the jam that the smoothing mixes nothing of
+/// it in. The paper: exponential when active, linear when passive.
 struct LoopFits {
   ExponentialFit active;  ///< [N], rate [1/m]
   LineFit active_line;    ///< the same samples with a straight line, to see whether "exponential" says more

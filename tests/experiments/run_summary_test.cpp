@@ -42,6 +42,15 @@ TEST_CASE("the loop's fits give back the law it was made from") {
   CHECK(summary.loop.passive.r2 == Approx(1.0).epsilon(1e-9));
 }
 
+TEST_CASE("with noise of 25 % per step the smoothed loop still has the same fits") {
+  const SyntheticBox box;
+  const RunSummary summary = summarise(synthetic_box(box), facts_of(box));
+  CHECK(summary.loop.active.amplitude == Approx(box.active_force).epsilon(0.03));
+  CHECK(summary.loop.active.rate == Approx(box.active_rate).epsilon(0.15));
+  CHECK(summary.loop.passive.offset == Approx(box.passive_force).epsilon(0.04));
+  CHECK(summary.loop.passive.slope == Approx(-box.passive_slope).epsilon(0.08));
+}
+
 TEST_CASE("strokes: against every pair of samples") {
   const auto steps = synthetic_box();
   const RunSummary summary = summarise(steps, facts_of({}));
