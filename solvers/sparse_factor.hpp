@@ -1,0 +1,55 @@
+#pragma once
+// Sparse factorisations by SuiteSparse: the only place that knows CHOLMOD and UMFPACK.
+//
+// Both keep the symbolic analysis while the pattern stays the same, so that a sequence of matrices is ordered once.
+
+#include <memory>
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+
+namespace ballast {
+
+using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
+
+/// A = L L^T for symmetric positive definite A (CHOLMOD: best of AMD and METIS, supernodal).
+class CholeskyFactor {
+ public:
+  CholeskyFactor();
+  ~CholeskyFactor();
+  CholeskyFactor(CholeskyFactor&&) noexcept;
+  CholeskyFactor& operator=(CholeskyFactor&&) noexcept;
+
+  /// Reads the lower triangle of `a` (square, compressed). Analyses when the pattern is not the last one's. False: not
+  /// positive definite to working precision; then solve() must not be called.
+  bool factor(const SparseColumns& a);
+  /// x = A^-1 b, b of the size of A. `x` may be `b`.
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+  long entries() const;  ///< stored in L, supernodal padding included
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// P A Q = L U for a general square A (UMFPACK, symmetric strategy first: our matrices are nearly symmetric).
+class LuFactor {
+ public:
+  LuFactor();
+  ~LuFactor();
+  LuFactor(LuFactor&&) noexcept;
+  LuFactor& operator=(LuFactor&&) noexcept;
+
+  /// `a` square, compressed, sorted. False: singular to working precision.
+  bool factor(const SparseColumns& a);
+  /// x = A^-1 b with the matrix given to factor(), which must still live (`a`): UMFPACK refines with it when
+  /// `refinements` > 0. `x` must not be `b`.
+  void solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
+  double smallest_pivot_ratio() const;  ///< min |U_ii| / max |U_ii|: how near to singular
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ballast
