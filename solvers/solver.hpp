@@ -1,6 +1,7 @@
 #pragma once
 // The seam between problems and algorithms.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,5 +57,9 @@ class Solver {
   /// that a run of many steps does not allocate. `problem` is the one given to prepare().
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
 };
+
+/// Makes one backend. A backend that needs an optional library offers `SolverMaker foo_maker();`: foo.cpp returns the
+/// function, foo_missing.cpp, compiled instead where the library is not used, returns null.
+using SolverMaker = std::unique_ptr<Solver> (*)();
 
 }  // namespace ballast

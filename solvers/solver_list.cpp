@@ -1,30 +1,37 @@
 #include "solvers/solver_list.hpp"
 
+#include <string>
+#include <vector>
+
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/nncg.hpp"
 
 namespace ballast {
 namespace {
 
-constexpr SolverEntry entries[] = {
-    {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)", ContactLaw::coulomb,
-     [] { return make_gauss_seidel(); }, ""},
-    {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)", ContactLaw::coulomb,
-     [] { return make_nncg(); }, ""},
-};
+/// Built at the first call: makers of optional backends are known only then.
+const std::vector<SolverEntry>& entries() {
+  static const std::vector<SolverEntry> list = {
+      {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)", ContactLaw::coulomb,
+       [] { return make_gauss_seidel(); }, ""},
+      {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)", ContactLaw::coulomb,
+       [] { return make_nncg(); }, ""},
+  };
+  return list;
+}
 
 std::string all_names() {
   std::string names;
-  for (const SolverEntry& entry : entries) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  for (const SolverEntry& entry : entries()) names += (names.empty() ? "" : ", ") + std::string(entry.name);
   return names;
 }
 
 }  // namespace
 
-std::span<const SolverEntry> solver_list() { return entries; }
+std::span<const SolverEntry> solver_list() { return entries(); }
 
 const SolverEntry& find_solver(std::string_view name) {
-  for (const SolverEntry& entry : entries)
+  for (const SolverEntry& entry : entries())
     if (name == entry.name) return entry;
   throw UnknownSolver("no solver is called '" + std::string(name) + "'; there are: " + all_names());
 }

@@ -1,7 +1,6 @@
 #pragma once
 // The one register of backends. Tests, bench, figures and help enumerate it.
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,8 +13,8 @@ struct SolverEntry {
   const char* name;         ///< as on the command line
   const char* description;  ///< one line, with the source
   ContactLaw law;
-  std::unique_ptr<Solver> (*make)();  ///< null: built without the library it needs
-  const char* missing;                ///< what to install when make is null
+  SolverMaker make;     ///< null: built without the library it needs
+  const char* missing;  ///< what to install when make is null
 };
 
 std::span<const SolverEntry> solver_list();
