@@ -5,6 +5,8 @@
 #include <chrono>
 #include <iostream>
 
+#include "experiments/atomic_file.hpp"
+#include "experiments/capture.hpp"
 #include "experiments/checkpoint.hpp"
 #include "experiments/content_key.hpp"
 #include "experiments/interrupt.hpp"
@@ -105,6 +107,7 @@ class Run {
       run_.state = std::move(found.state);
       run_.memory = {std::move(found.contacts), std::move(found.impulses)};
       manifest_.resumed(run_.state.step);
+      manifest_.write(folder_.manifest());  // what is killed later has been resumed all the same
     }
     return true;
   }
@@ -124,7 +127,7 @@ class Run {
       std::cout << "packing from the cache: " << file.string() << std::endl;
       return true;
     }
-    make_folder(cache);
+    create_folder(cache);
     std::cout << "depositing " << rain.grains.size() << " grains (kept in " << file.string() << ")" << std::endl;
     const auto begin = Clock::now();
     Progress progress;
@@ -171,6 +174,9 @@ class Run {
     Recorder recorder(folder_.path(), run_.system, run_.state.step);
     std::optional<ParaviewSeries> paraview;
     if (scene_.record.paraview) paraview.emplace(folder_.path(), run_.system, run_.state.step);
+    std::optional<StepCapture> capture;
+    if (!options_.capture.empty())
+      capture.emplace(CaptureSettings::parse(options_.capture), folder_.capture(), settings.h, scene_.gravity.norm());
     const long pose_every = std::max(1L, std::lround(1.0 / (scene_.record.pose_rate * settings.h)));
     const auto store_pose = [&] {
       recorder.add_poses(run_.state);
@@ -191,6 +197,11 @@ class Run {
       if (run_.control_volume) {
         const auto begin = Clock::now();
         record.solid_fraction = run_.control_volume->solid_fraction(run_.system, state);
+        record.seconds_other += seconds_since(begin);
+      }
+      if (capture) {
+        const auto begin = Clock::now();
+        capture->observe(stepper, state, record);
         record.seconds_other += seconds_since(begin);
       }
       recorder.add_step(record);
@@ -214,6 +225,7 @@ class Run {
   ExitCode stopped(LoopEnd end) const {
     std::string command = "ballast run " + options_.scene;
     for (const std::string& set : options_.overrides) command += " --set '" + set + "'";
+    if (!options_.capture.empty()) command += " --capture " + options_.capture;
     if (!options_.output.empty()) command += " --output " + options_.output.string();
     const std::string why = end == LoopEnd::time_limit ? "time limit reached" : "interrupted";
     std::cout << why << " at t = " << run_.state.time << " s; nothing is lost. Continue with:\n  " << command << " --resume"
@@ -227,6 +239,7 @@ class Run {
     if (options_.report) std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
     std::cout << "  steps.csv     every step's scalars\n"
               << "  record.h5     the same and the poses (HDF5)\n"
+              << (options_.capture.empty() ? "" : "  capture/      friction problems of steps, for ballast compare\n")
               << "  manifest.json machine, commit, parameters, summary" << std::endl;
   }
 

@@ -21,6 +21,7 @@ struct RunOptions {
   bool resume = false;                 ///< continue the run found in the folder; without it an existing run is an error
   bool overwrite = false;              ///< replace a run found in the folder
   bool new_packing = false;            ///< deposit again even if the cache has the packing
+  std::string capture;                 ///< which steps to keep as problem files (CaptureSettings::parse); empty: none
   bool report = true;                  ///< figures and page at the end
   double max_seconds = 1e30;           ///< wall clock: checkpoint and exit code 3 after this
 };
@@ -28,7 +29,7 @@ struct RunOptions {
 /// Runs to the end, to the time limit, or to SIGINT/SIGTERM (checkpoint, then ExitCode::failure with the line that resumes).
 /// Throws SceneFileError, InvalidProblem, MissingSolver, UnknownSolver, RunError: each with a one-line what().
 ///
-/// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5, checkpoint.bin, log/ (append-only raw
+/// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5, checkpoint.bin, capture/ (if asked for), log/ (append-only raw
 /// rows from which the two records are made), figures/*.svg, report.html.
 ExitCode run(const RunOptions& options);
 

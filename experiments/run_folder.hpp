@@ -8,12 +8,6 @@
 
 namespace ballast {
 
-/// Creates a folder with its parents; throws RunError naming it.
-void make_folder(const std::filesystem::path& folder);
-
-/// Writes text beside and renames; throws RunError naming the file.
-void write_text(const std::filesystem::path& file, const std::string& text);
-
 class RunFolder {
  public:
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
@@ -24,6 +18,7 @@ class RunFolder {
   std::filesystem::path scene() const { return path_ / "scene.toml"; }
   std::filesystem::path manifest() const { return path_ / "manifest.json"; }
   std::filesystem::path checkpoint() const { return path_ / "checkpoint.bin"; }
+  std::filesystem::path capture() const { return path_ / "capture"; }
   bool has_run() const { return std::filesystem::exists(scene()); }
 
   /// A fresh run: refuses a folder that holds one (unless `overwrite`, which clears what a run writes), writes scene.toml.

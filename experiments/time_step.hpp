@@ -49,6 +49,10 @@ class TimeStepper {
   /// The problem solved last, its solution, and the contacts it came from: for capture and export.
   const FrictionProblem& problem() const { return problem_; }
   const Impulses& impulses() const { return impulses_; }
+  const ProblemAssembler& assembler() const { return assembler_; }
+  const std::vector<ContactPoint>& contacts() const { return contacts_; }
+  /// The impulses from which its solution was begun, rows as in the problem.
+  void warm_start(Impulses& rows) const { assembler_.to_rows(carried_, rows); }
   const DetectionCounters& detection_counters() const { return detector_.counters(); }
   const ContactError& error() const { return error_; }
 

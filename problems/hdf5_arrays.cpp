@@ -42,7 +42,7 @@ Hdf5Arrays::Hdf5Arrays(const std::filesystem::path& file, Mode mode) : name_(fil
   } else if (H5Fis_hdf5(name_.c_str()) <= 0) {
     problem = "not an HDF5 file";
   } else {
-    file_ = H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    file_ = H5Fopen(name_.c_str(), mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT);
     problem = "damaged or truncated HDF5 file";
   }
   if (file_ >= 0) return;
@@ -95,6 +95,24 @@ std::vector<double> Hdf5Arrays::read_doubles(const std::string& path) const {
   return read<double>(path, H5T_NATIVE_DOUBLE);
 }
 
+std::vector<std::uint64_t> Hdf5Arrays::read_keys(const std::string& path) const {
+  return read<std::uint64_t>(path, H5T_NATIVE_UINT64);
+}
+
+std::string Hdf5Arrays::read_text(const std::string& path) const {
+  if (!has(path)) fail(path + ": no such dataset");
+  const Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle type(dataset.valid() ? H5Dget_type(dataset.id()) : H5I_INVALID_HID, H5Tclose);
+  if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0)
+    fail(path + ": is no text of fixed length");
+  const Handle space(H5Dget_space(dataset.id()), H5Sclose);
+  if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1) fail(path + ": is not one text");
+  std::string text(H5Tget_size(type.id()), '\0');
+  if (H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+    fail(path + ": cannot be read (damaged or truncated)");
+  return text.substr(0, text.find('\0'));
+}
+
 int Hdf5Arrays::read_int(const std::string& path) const {
   const std::vector<int> values = read_ints(path);
   if (values.size() != 1) fail(path + " has " + std::to_string(values.size()) + " entries, must have 1");
@@ -121,6 +139,10 @@ void Hdf5Arrays::write(const std::string& path, const std::vector<int>& values) 
 
 void Hdf5Arrays::write(const std::string& path, const std::vector<double>& values) {
   write(path, H5T_NATIVE_DOUBLE, values.size(), values.data());
+}
+
+void Hdf5Arrays::write(const std::string& path, const std::vector<std::uint64_t>& values) {
+  write(path, H5T_NATIVE_UINT64, values.size(), values.data());
 }
 
 void Hdf5Arrays::write(const std::string& path, const std::string& text) {

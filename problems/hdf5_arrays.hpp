@@ -1,5 +1,5 @@
 #pragma once
-// An adapter over HDF5's C interface: one-dimensional arrays of integers and doubles by path, errors as one line.
+// An adapter over HDF5's C interface: one-dimensional arrays of integers, doubles and 64-bit keys by path, errors as one line.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace ballast {
 /// failure is a ProblemFileError that starts with the file's name and names the dataset.
 class Hdf5Arrays {
  public:
-  enum class Mode { read, create };
+  enum class Mode { read, create, extend };
 
   Hdf5Arrays(const std::filesystem::path& file, Mode mode);
   ~Hdf5Arrays();
@@ -22,11 +22,14 @@ class Hdf5Arrays {
   bool has(const std::string& path) const;
   std::vector<int> read_ints(const std::string& path) const;
   std::vector<double> read_doubles(const std::string& path) const;
-  int read_int(const std::string& path) const;  ///< the only entry of a dataset
+  std::vector<std::uint64_t> read_keys(const std::string& path) const;
+  std::string read_text(const std::string& path) const;  ///< as write() left it
+  int read_int(const std::string& path) const;           ///< the only entry of a dataset
 
   void make_group(const std::string& path);
   void write(const std::string& path, const std::vector<int>& values);
   void write(const std::string& path, const std::vector<double>& values);
+  void write(const std::string& path, const std::vector<std::uint64_t>& values);
   void write(const std::string& path, const std::string& text);
   /// Flushes and closes; a full disk is noticed here.
   void close();

@@ -3,7 +3,9 @@
 #include <system_error>
 #include <variant>
 
+#include "problems/captured_problem.hpp"
 #include "problems/fclib_file.hpp"
+#include "problems/hdf5_arrays.hpp"
 #include "problems/siconos_text.hpp"
 
 namespace ballast {
@@ -13,6 +15,7 @@ FrictionProblem read_problem(const std::filesystem::path& file) {
   const bool hdf5 = extension == ".hdf5" || extension == ".h5";
   if (!hdf5 && extension != ".dat")
     throw ProblemFileError(file.string() + ": unknown kind of file '" + extension + "'; known: .hdf5, .h5, .dat");
+  if (is_captured(file)) return read_captured(file).problem;
   const auto stored = hdf5 ? read_fclib(file) : read_siconos_text(file);
   try {
     FrictionProblem problem = std::visit([](const auto& form) { return to_friction_problem(form); }, stored);
@@ -23,7 +26,8 @@ FrictionProblem read_problem(const std::filesystem::path& file) {
   }
 }
 
-void write_problem(const std::filesystem::path& file, const FrictionProblem& problem) {
+void write_problem(const std::filesystem::path& file, const FrictionProblem& problem,
+                   const std::function<void(Hdf5Arrays&)>& add) {
   problem.validate();
   const std::filesystem::path beside = file.string() + ".tmp";
   try {
@@ -31,6 +35,11 @@ void write_problem(const std::filesystem::path& file, const FrictionProblem& pro
       write_fclib(beside, to_global_problem(problem));
     else
       write_fclib(beside, to_local_problem(problem));
+    if (add) {
+      Hdf5Arrays opened(beside, Hdf5Arrays::Mode::extend);
+      add(opened);
+      opened.close();
+    }
     std::filesystem::rename(beside, file);
   } catch (const std::exception& error) {
     std::error_code ignored;

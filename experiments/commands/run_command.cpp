@@ -3,9 +3,22 @@
 #include <iostream>
 #include <memory>
 
+#include "experiments/capture.hpp"
 #include "experiments/commands/command.hpp"
 
 namespace ballast {
+
+namespace {
+
+void check_capture(const std::string& text) {
+  try {
+    CaptureSettings::parse(text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("run: --capture: ") + error.what());
+  }
+}
+
+}  // namespace
 
 void add_run_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("run", "Runs a scene into a folder of results");
@@ -23,6 +36,11 @@ void add_run_command(CLI::App& program, Action& action) {
       ->add_option("--packing-cache", options->packing_cache,
                    "Where deposited packings are kept (<output>/../packings)")
       ->type_name("DIR");
+  command
+      ->add_option("--capture", options->capture,
+                   "Keeps the friction problems of steps as FCLIB files in <output>/capture: every=50 (two consecutive "
+                   "ones each; steps=3: three), from=1000,to=1020")
+      ->type_name("WHICH");
   command->add_flag_callback(
       "--no-report", [options] { options->report = false; }, "No figures and no page at the end");
   command
@@ -32,10 +50,12 @@ void add_run_command(CLI::App& program, Action& action) {
   command->footer(
       "Examples:\n  ballast run vibrated_box\n"
       "  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 --output results/fine\n"
+      "  ballast run vibrated_box --capture every=500 --output results/captured\n"
       "  ballast run incline --set 'gravity.direction=[0.3, 0, -1]'");
   command->callback([options, &action] {
     action = [options] {
       if (!(options->max_seconds > 0.0)) throw UsageError("run: --max-seconds: expected a number > 0");
+      if (!options->capture.empty()) check_capture(options->capture);
       const ExitCode code = run(*options);
       if (code != ExitCode::ok)
         std::cerr << "ballast: " << options->scene << ": stopped before its end; --resume continues it" << std::endl;
