@@ -65,7 +65,7 @@ bool take(int descriptor, std::string& text) {
 }
 
 /// Reads both until the child closes them; false when time is up or it is too much.
-bool read_both(const Pipe& output, const Pipe& errors, Clock::time_point deadline, ChildResult& result) {
+bool read_both(const Pipe& output, const Pipe& errors, Clock::time_point deadline, ProgramResult& result) {
   constexpr size_t most = 256u << 20;
   pollfd waiting[2] = {{output.read_end, POLLIN, 0}, {errors.read_end, POLLIN, 0}};
   std::string* texts[2] = {&result.output, &result.errors};
@@ -98,7 +98,7 @@ int wait_for(pid_t child, Clock::time_point deadline, bool& timed_out) {
 
 }  // namespace
 
-ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments, double seconds) {
+ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, double seconds) {
   Pipe output, errors;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -112,7 +112,7 @@ ChildResult run_child(const std::string& program, const std::vector<std::string>
   posix_spawn_file_actions_destroy(&actions);
   output.close_write_end();
   errors.close_write_end();
-  ChildResult result;
+  ProgramResult result;
   if (error != 0) {
     result.was_found = false;
     result.status = 127;

@@ -6,7 +6,7 @@
 
 namespace ballast {
 
-struct ChildResult {
+struct ProgramResult {
   bool was_found = true;     ///< the program is on PATH
   bool timed_out = false;    ///< and was killed
   int status = 0;            ///< exit code; 128 + signal when a signal ended it
@@ -17,6 +17,6 @@ struct ChildResult {
 
 /// Runs program (looked up on PATH) with arguments, standard input empty, in the C locale and without the variables GNUPLOT* and GNUTERM;
 /// kills it after `seconds`, or when it has written more than 256 MB. Throws RunError when there can be no child at all.
-ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments, double seconds);
+ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, double seconds);
 
 }  // namespace ballast

@@ -27,7 +27,7 @@ std::string last_line(const std::string& errors) {
   return last.empty() ? "no message" : last.substr(0, 300);
 }
 
-std::string why(const ChildResult& child, double seconds) {
+std::string why(const ProgramResult& child, double seconds) {
   if (!child.was_found) return "gnuplot cannot be started: " + child.errors;
   if (child.timed_out) return "gnuplot was ended after " + std::to_string(std::lround(seconds)) + " s";
   return "gnuplot failed (" + std::to_string(child.status) + "): " + last_line(child.errors);
@@ -36,7 +36,7 @@ std::string why(const ChildResult& child, double seconds) {
 }  // namespace
 
 std::string gnuplot_version() {
-  const ChildResult child = run_child("gnuplot", {"--version"}, 10.0);
+  const ProgramResult child = run_child("gnuplot", {"--version"}, 10.0);
   return child.succeeded() ? child.output.substr(0, child.output.find('\n')) : std::string();
 }
 
@@ -54,7 +54,7 @@ std::string render_svg(const Figure& figure, const fs::path& folder, double seco
   // absolute: a name beginning with "-" or "<" would mean something to gnuplot
   const fs::path commands = fs::absolute(folder / (figure.name + ".gnuplot"));
   write_whole_file(commands, script);
-  ChildResult child = run_child("gnuplot", {"-d", commands.string()}, seconds);
+  ProgramResult child = run_child("gnuplot", {"-d", commands.string()}, seconds);
   if (!child.succeeded()) throw RunError("figure " + figure.name + ": " + why(child, seconds));
   if (child.output.find("</svg>") == std::string::npos) throw RunError("figure " + figure.name + ": gnuplot's SVG is incomplete");
   write_whole_file(svg, child.output);

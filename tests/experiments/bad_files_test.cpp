@@ -32,7 +32,7 @@ std::string bytes_of(const std::filesystem::path& file) {
 TEST_CASE("a sound mesh is described, a broken one is exit code 1") {
   const TemporaryFolder folder;
   const auto sound = folder.write("sound.obj", tetrahedron_vertices + tetrahedron_faces);
-  const ChildResult described = ballast_program({"check", sound.string()});
+  const ProgramResult described = ballast_program({"check", sound.string()});
   CHECK(described.status == 0);
   CHECK_THAT(described.output, Catch::Contains("4 vertices, 6 edges, 4 faces, volume 0.166667 m^3"));
 
@@ -73,7 +73,7 @@ TEST_CASE("a sound mesh is described, a broken one is exit code 1") {
 TEST_CASE("a stored problem is solved, a broken one is exit code 1") {
   const TemporaryFolder folder;
   const auto sound = folder.write("sound.dat", dense_problem("1", "-1", "0.5"));
-  const ChildResult solved = ballast_program({"solve", sound.string()});
+  const ProgramResult solved = ballast_program({"solve", sound.string()});
   INFO(solved.errors);
   CHECK(solved.status == 0);
   CHECK_THAT(solved.output,
@@ -127,7 +127,7 @@ TEST_CASE("a solver that stops short is exit code 1, by the clock 3") {
   check_failure(solve({"--max-iterations", "3"}), ExitCode::failure, {"hard.hdf5", "iteration_limit"});
   check_failure(solve({"--max-iterations", "1000000000", "--max-seconds", "0.05"}), ExitCode::time_limit,
                 {"hard.hdf5", "time_limit"});
-  const ChildResult json = solve({"--max-iterations", "3", "--json"});
+  const ProgramResult json = solve({"--max-iterations", "3", "--json"});
   CHECK_THAT(json.output, Catch::StartsWith("[") && Catch::Contains("\"natural_map_rms\": "));
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("a broken checkpoint is exit code 1") {
   checkpoint.state.velocity.assign(3, Vec3::Zero());
   checkpoint.state.spin.assign(3, Vec3::Zero());
   write_checkpoint(sound, checkpoint);
-  const ChildResult described = ballast_program({"check", sound.string()});
+  const ProgramResult described = ballast_program({"check", sound.string()});
   CHECK(described.status == 0);
   CHECK_THAT(described.output, Catch::Contains("phase drive") && Catch::Contains("3 bodies"));
 

@@ -136,7 +136,7 @@ TEST_CASE("a folder that can't take the run is exit code 1") {
   check_failure(ballast_program({"run", scene, "--output", "/proc/ballast"}), ExitCode::failure, {"/proc/ballast"});
   check_failure(ballast_program({"run", scene, "--output", output, "--resume"}), ExitCode::failure, {output, "no run"});
 
-  const ChildResult first = ballast_program({"run", scene, "--output", output, "--no-report"});
+  const ProgramResult first = ballast_program({"run", scene, "--output", output, "--no-report"});
   INFO(first.errors);
   REQUIRE(first.status == 0);
   check_failure(ballast_program({"run", scene, "--output", output}), ExitCode::failure, {output, "--overwrite"});
@@ -160,7 +160,7 @@ TEST_CASE("a disk that is full is exit code 1") {
   check_failure(ballast_in_shell("\"$@\" > /dev/full", {"scenes"}), ExitCode::failure, {"standard output"});
   // no file may become larger than one block of 512 bytes: what a full disk does to a write
   const std::string output = (folder.path() / "run").string();
-  const ChildResult full =
+  const ProgramResult full =
       ballast_in_shell("trap '' XFSZ; ulimit -f 1; exec \"$@\"", {"run", scene, "--output", output, "--no-report"});
   check_failure(full, ExitCode::failure, {output, "File too large"});
 }
