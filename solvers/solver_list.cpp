@@ -5,6 +5,7 @@
 
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/nncg.hpp"
+#include "solvers/siconos.hpp"
 
 namespace ballast {
 namespace {
@@ -16,6 +17,14 @@ const std::vector<SolverEntry>& entries() {
        [] { return make_gauss_seidel(); }, ""},
       {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)", ContactLaw::coulomb,
        [] { return make_nncg(); }, ""},
+      {"siconos_nsgs", "Siconos: nonsmooth Gauss-Seidel, hybrid local Newton", ContactLaw::coulomb,
+       siconos_nsgs_maker(), "libsiconos-numerics-dev"},
+      {"siconos_prox", "Siconos: proximal point around a nonsmooth Newton", ContactLaw::coulomb,
+       siconos_prox_maker(), "libsiconos-numerics-dev"},
+      {"siconos_admm", "Siconos: ADMM, penalty by residual balancing", ContactLaw::coulomb, siconos_admm_maker(),
+       "libsiconos-numerics-dev"},
+      {"siconos_nsn_ac", "Siconos: nonsmooth Newton on Alart-Curnier's function", ContactLaw::coulomb,
+       siconos_nsn_ac_maker(), "libsiconos-numerics-dev"},
   };
   return list;
 }

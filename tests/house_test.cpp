@@ -41,6 +41,9 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"cholmod.h", {"solvers/sparse_factor"}},
     {"umfpack.h", {"solvers/sparse_factor"}},
     {"klu.h", {"solvers/sparse_factor"}},
+    {"Ip", {"solvers/ipopt"}},
+    {"nlopt.h", {"solvers/nlopt", "tests/solvers/nlopt"}},
+    {"siconos/", {"solvers/siconos"}},
     {"catch2/", {"tests/catch.hpp", "tests/test_main.cpp"}},
 };
 

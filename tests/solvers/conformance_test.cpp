@@ -13,14 +13,11 @@ using namespace ballast;
 
 namespace {
 
-/// Runs `check(entry)` for every backend that was built; the failing one is named.
+/// Runs `check(entry)` for every backend that was built, each in a section of its own: `solvers_test -c NAME` tests one.
 template <typename Check>
 void for_each_backend(const Check& check) {
-  for (const SolverEntry& entry : solver_list()) {
-    if (!entry.make) continue;
-    CAPTURE(entry.name);
-    check(entry);
-  }
+  for (const SolverEntry& entry : solver_list())
+    if (entry.make) DYNAMIC_SECTION(entry.name) { check(entry); }
 }
 
 /// Nothing when the backend declines the problem's form.
