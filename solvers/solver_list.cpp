@@ -5,6 +5,7 @@
 
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/nncg.hpp"
+#include "solvers/pyramid_lemke.hpp"
 #include "solvers/siconos.hpp"
 
 namespace ballast {
@@ -25,6 +26,8 @@ const std::vector<SolverEntry>& entries() {
        "libsiconos-numerics-dev"},
       {"siconos_nsn_ac", "Siconos: nonsmooth Newton on Alart-Curnier's function", ContactLaw::coulomb,
        siconos_nsn_ac_maker(), "libsiconos-numerics-dev"},
+      {"pyramid_lemke", "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996)", ContactLaw::pyramid,
+       [] { return make_pyramid_lemke(); }, ""},
   };
   return list;
 }
