@@ -128,4 +128,36 @@ double BodySweep::error() const {
   return counted > 0 ? std::sqrt(sum / counted) : 0.0;
 }
 
+void BodySweep::save(Eigen::VectorXd& state) const {
+  state.resize(3 * friction_.size() + one_row_.size() + body_width * velocity_.size());
+  double* x = state.data();
+  for (const FrictionRecord& k : friction_) x = std::copy_n(k.y, 3, x);
+  for (const OneRowRecord& k : one_row_) *x++ = k.y;
+  for (const BodyVelocity& v : velocity_) x = std::copy_n(v.w, body_width, x);
+}
+
+void BodySweep::restore(const Eigen::VectorXd& state) {
+  const double* x = state.data();
+  for (FrictionRecord& k : friction_) {
+    std::copy_n(x, 3, k.y);
+    x += 3;
+  }
+  for (OneRowRecord& k : one_row_) k.y = *x++;
+  for (BodyVelocity& v : velocity_) {
+    std::copy_n(x, body_width, v.w);
+    x += body_width;
+  }
+}
+
+void BodySweep::impulse_weights(Eigen::VectorXd& weights) const {
+  weights.resize(3 * friction_.size() + one_row_.size());
+  double* x = weights.data();
+  for (const FrictionRecord& k : friction_) {
+    *x++ = k.local.inverse_normal > 0.0 ? 1.0 / std::sqrt(k.local.inverse_normal) : 0.0;
+    *x++ = std::sqrt(k.local.s1);
+    *x++ = std::sqrt(k.local.s2);
+  }
+  for (const double lambda_max : one_row_lambda_max_) *x++ = std::sqrt(lambda_max);
+}
+
 }  // namespace ballast

@@ -23,6 +23,13 @@ class BodySweep {
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
   double error() const;
 
+  /// The iterate as one vector: impulses in the records' coordinates, then body velocities in which every mass is one.
+  /// Both are linear in r: combinations of iterates stay consistent.
+  void save(Eigen::VectorXd& state) const;
+  void restore(const Eigen::VectorXd& state);
+  /// Square roots of W's diagonal in the same coordinates, for the impulses alone: their number is the vector's size.
+  void impulse_weights(Eigen::VectorXd& weights) const;
+
   /// What the sweep works on, for methods that move the iterate between sweeps: impulses and velocities must stay consistent.
   std::vector<FrictionRecord>& friction_records() { return friction_; }
   std::vector<OneRowRecord>& one_row_records() { return one_row_; }

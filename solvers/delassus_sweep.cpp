@@ -1,5 +1,6 @@
 #include "solvers/delassus_sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "problems/contact_error.hpp"
@@ -79,21 +80,9 @@ void DelassusSweep::velocity(int c, double* u) const {
 void DelassusSweep::sweep() {
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     Contact& contact = contacts_[c];
-    const PrincipalContact& local = contact.local;
     double u[3];
     velocity(c, u);
-    double* r = r_.data() + 3 * c;
-    double t1 = r[1], t2 = r[2];
-    contact.turn.to_principal(u[1], u[2]);
-    contact.turn.to_principal(t1, t2);
-    double y = r[0] + local.c1 * t1 + local.c2 * t2 - u[0] * local.inverse_normal;
-    t1 -= (u[1] - local.c1 * u[0]) * local.inverse_s1;
-    t2 -= (u[2] - local.c2 * u[0]) * local.inverse_s2;
-    apply_coulomb(local, y, t1, t2, contact.slip);
-    r[0] = y - local.c1 * t1 - local.c2 * t2;
-    contact.turn.from_principal(t1, t2);
-    r[1] = t1;
-    r[2] = t2;
+    resolve_contact(contact.local, contact.turn, u, r_.data() + 3 * c, contact.slip);
   }
 }
 
@@ -111,6 +100,18 @@ double DelassusSweep::error() const {
     ++counted;
   }
   return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+}
+
+void DelassusSweep::save(Eigen::VectorXd& state) const {
+  state = Eigen::Map<const Eigen::VectorXd>(r_.data(), static_cast<Eigen::Index>(r_.size()));
+}
+
+void DelassusSweep::restore(const Eigen::VectorXd& state) { std::copy_n(state.data(), r_.size(), r_.data()); }
+
+void DelassusSweep::impulse_weights(Eigen::VectorXd& weights) const {
+  weights.resize(3 * contacts_.size());
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    weights.segment<3>(3 * c).setConstant(std::sqrt(contacts_[c].lambda_max));
 }
 
 }  // namespace ballast

@@ -22,6 +22,12 @@ class DelassusSweep {
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
   double error() const;
 
+  /// The impulses, three per contact: the whole of the iterate.
+  void save(Eigen::VectorXd& state) const;
+  void restore(const Eigen::VectorXd& state);
+  /// sqrt(lambda_max(W_cc)) for each of them.
+  void impulse_weights(Eigen::VectorXd& weights) const;
+
  private:
   struct Contact {
     PrincipalContact local;

@@ -3,9 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "solvers/anderson_pgs.hpp"
+#include "solvers/apgd.hpp"
 #include "solvers/gauss_seidel.hpp"
+#include "solvers/jacobi.hpp"
 #include "solvers/nncg.hpp"
-#include "solvers/pyramid_lemke.hpp"
+#include "solvers/spg.hpp"
 #include "solvers/siconos.hpp"
 
 namespace ballast {
@@ -18,6 +21,14 @@ const std::vector<SolverEntry>& entries() {
        [] { return make_gauss_seidel(); }, ""},
       {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)", ContactLaw::coulomb,
        [] { return make_nncg(); }, ""},
+      {"jacobi", "damped block Jacobi, each contact solved exactly: the parallel baseline", ContactLaw::coulomb,
+       [] { return make_jacobi(); }, ""},
+      {"anderson_pgs", "pgs with safeguarded Anderson acceleration (Walker, Ni 2011)", ContactLaw::coulomb,
+       [] { return make_anderson_pgs(); }, ""},
+      {"apgd", "accelerated projected gradient with s-update (Mazhar 2015)", ContactLaw::coulomb,
+       [] { return make_apgd(); }, ""},
+      {"spg", "spectral projected gradient with s-update (Birgin, Martinez, Raydan 2000)", ContactLaw::coulomb,
+       [] { return make_spg(); }, ""},
       {"siconos_nsgs", "Siconos: nonsmooth Gauss-Seidel, hybrid local Newton", ContactLaw::coulomb,
        siconos_nsgs_maker(), "libsiconos-numerics-dev"},
       {"siconos_prox", "Siconos: proximal point around a nonsmooth Newton", ContactLaw::coulomb,
@@ -26,8 +37,6 @@ const std::vector<SolverEntry>& entries() {
        "libsiconos-numerics-dev"},
       {"siconos_nsn_ac", "Siconos: nonsmooth Newton on Alart-Curnier's function", ContactLaw::coulomb,
        siconos_nsn_ac_maker(), "libsiconos-numerics-dev"},
-      {"pyramid_lemke", "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996)", ContactLaw::pyramid,
-       [] { return make_pyramid_lemke(); }, ""},
   };
   return list;
 }
