@@ -33,6 +33,21 @@ std::string why(const ProgramResult& child, double seconds) {
   return "gnuplot failed (" + std::to_string(child.status) + "): " + last_line(child.errors);
 }
 
+/// Writes the script and returns what gnuplot made of it.
+std::string run_gnuplot(const Figure& figure, PlotFormat format, const fs::path& commands, double seconds) {
+  std::string script;
+  try {
+    script = gnuplot_script(figure, format);
+  } catch (const std::invalid_argument& error) {
+    throw RunError("figure " + figure.name + ": " + error.what());
+  }
+  create_folder(commands.parent_path());
+  write_whole_file(commands, script);
+  ProgramResult child = run_child("gnuplot", {"-d", commands.string()}, seconds);
+  if (!child.succeeded()) throw RunError("figure " + figure.name + ": " + why(child, seconds));
+  return std::move(child.output);
+}
+
 }  // namespace
 
 std::string gnuplot_version() {
@@ -40,25 +55,26 @@ std::string gnuplot_version() {
   return child.succeeded() ? child.output.substr(0, child.output.find('\n')) : std::string();
 }
 
+void render_pdf(const Figure& figure, const fs::path& folder, double seconds) {
+  const fs::path pdf = folder / (figure.name + ".pdf"), commands = fs::absolute(folder / (figure.name + ".pdf.gnuplot"));
+  std::error_code ignored;
+  fs::remove(pdf, ignored);
+  const std::string output = run_gnuplot(figure, PlotFormat::pdf, commands, seconds);
+  fs::remove(commands, ignored);
+  if (output.find("%%EOF") == std::string::npos) throw RunError("figure " + figure.name + ": gnuplot's PDF is incomplete");
+  write_whole_file(pdf, output);
+}
+
 std::string render_svg(const Figure& figure, const fs::path& folder, double seconds) {
   const fs::path svg = folder / (figure.name + ".svg");
   std::error_code ignored;
   fs::remove(svg, ignored);
-  std::string script;
-  try {
-    script = gnuplot_script(figure);
-  } catch (const std::invalid_argument& error) {
-    throw RunError("figure " + figure.name + ": " + error.what());
-  }
-  create_folder(folder);
   // absolute: a name beginning with "-" or "<" would mean something to gnuplot
   const fs::path commands = fs::absolute(folder / (figure.name + ".gnuplot"));
-  write_whole_file(commands, script);
-  ProgramResult child = run_child("gnuplot", {"-d", commands.string()}, seconds);
-  if (!child.succeeded()) throw RunError("figure " + figure.name + ": " + why(child, seconds));
-  if (child.output.find("</svg>") == std::string::npos) throw RunError("figure " + figure.name + ": gnuplot's SVG is incomplete");
-  write_whole_file(svg, child.output);
-  return std::move(child.output);
+  std::string output = run_gnuplot(figure, PlotFormat::svg, commands, seconds);
+  if (output.find("</svg>") == std::string::npos) throw RunError("figure " + figure.name + ": gnuplot's SVG is incomplete");
+  write_whole_file(svg, output);
+  return output;
 }
 
 void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit) {

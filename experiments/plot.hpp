@@ -60,8 +60,10 @@ struct Figure {
 /// Escapes what enhanced text would interpret; control characters become spaces.
 std::string plain_text(const std::string& text);
 
+enum class PlotFormat { svg, pdf };
+
 /// The script, data included; output goes to standard output. Throws std::invalid_argument when the figure is inconsistent.
-std::string gnuplot_script(const Figure& figure);
+std::string gnuplot_script(const Figure& figure, PlotFormat format = PlotFormat::svg);
 
 /// Version line of the gnuplot found on PATH ("gnuplot 5.4 patchlevel 4"); empty when there is none.
 std::string gnuplot_version();
@@ -69,6 +71,9 @@ std::string gnuplot_version();
 /// Writes folder/<name>.gnuplot and folder/<name>.svg, each beside and renamed, and returns the SVG's text. The child gets no shell and
 /// reads no configuration; it is ended after `seconds`. Throws RunError naming the figure; an older SVG of that name is gone then.
 std::string render_svg(const Figure& figure, const std::filesystem::path& folder, double seconds = 60.0);
+
+/// Writes folder/<name>.pdf in the same way: for papers. Nothing else is left behind.
+void render_pdf(const Figure& figure, const std::filesystem::path& folder, double seconds = 60.0);
 
 /// At most `limit` samples that look the same: the least and the largest of each stretch, in their order; NaN once per stretch.
 void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit);

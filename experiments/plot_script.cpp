@@ -232,15 +232,21 @@ std::string plain_text(const std::string& text) {
   return result;
 }
 
-std::string gnuplot_script(const Figure& figure) {
+std::string gnuplot_script(const Figure& figure, PlotFormat format) {
   check(figure);
   std::string text = "# " + figure.name + ": gnuplot " + figure.name + ".gnuplot > " + figure.name + ".svg\n";
   for (size_t p = 0; p < figure.panels.size(); ++p)
     for (size_t c = 0; c < figure.panels[p].curves.size(); ++c)
       text += data_block("$p" + std::to_string(p) + "c" + std::to_string(c), figure.panels[p].curves[c]);
   text += "set encoding utf8\nset minussign\n";
-  text += print("set terminal svg size %d,%d dynamic enhanced rounded font 'sans-serif,15' name '%s'\n", figure.width,
-                figure.height, figure.name.c_str());
+  std::string id = figure.name;  // gnuplot takes no hyphen here
+  std::replace(id.begin(), id.end(), '-', '_');
+  if (format == PlotFormat::svg)
+    text += print("set terminal svg size %d,%d dynamic enhanced rounded font 'sans-serif,15' name '%s'\n", figure.width,
+                  figure.height, id.c_str());
+  else  // a pixel is 1/96 inch, 3/4 point
+    text += print("set terminal pdfcairo size %.4fin,%.4fin enhanced rounded font 'sans-serif,11.25'\n", figure.width / 96.0,
+                  figure.height / 96.0);
   text += "set border 3 lw 1 lc rgb '#767676'\nset tics nomirror out scale 0.6 tc rgb '#1a1a1a'\n";
   text += "set grid lw 0.6 lt 1 lc rgb '#e0e0e0'\n";
   text += print("set multiplot\n");

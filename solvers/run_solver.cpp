@@ -26,23 +26,18 @@ void validate_start(const FrictionProblem& problem, Impulses& start) {
 
 }  // namespace
 
-SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget) {
-  problem.validate();
-  validate_start(problem, start);
-
+/// Does the timed work, then judges what it left in run.solved, whatever that is.
+template <typename Work>
+SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& budget, Work&& work) {
   SolverRun run;
-  Clock::time_point begin = Clock::now();
   try {
-    solver.prepare(problem);
-    run.prepare_seconds = seconds_since(begin);
-    begin = Clock::now();
-    run.solved = solver.solve(problem, std::move(start), budget);
-    run.solve_seconds = seconds_since(begin);
+    work(run);
   } catch (const UnsupportedProblem&) {
     throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
     run.solved = {};
     run.solved.reason = StopReason::numerical_failure;
+    run.failure = error.what();
   }
   // A backend that failed may return nothing; no impulses is then what is judged.
   if (run.solved.impulses.size() != problem.row_count()) {
@@ -53,6 +48,29 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
   run.success = run.solved.reason == StopReason::reached_tolerance && run.error.finite &&
                 run.error.natural_map_rms <= budget.tolerance;
   return run;
+}
+
+SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget) {
+  problem.validate();
+  validate_start(problem, start);
+  return guarded(problem, budget, [&](SolverRun& run) {
+    Clock::time_point begin = Clock::now();
+    solver.prepare(problem);
+    run.prepare_seconds = seconds_since(begin);
+    begin = Clock::now();
+    run.solved = solver.solve(problem, std::move(start), budget);
+    run.solve_seconds = seconds_since(begin);
+  });
+}
+
+SolverRun SolverRunner::run_again(Solver& solver, const FrictionProblem& problem, Impulses start,
+                                  const Budget& budget) {
+  validate_start(problem, start);
+  return guarded(problem, budget, [&](SolverRun& run) {
+    const Clock::time_point begin = Clock::now();
+    run.solved = solver.solve(problem, std::move(start), budget);
+    run.solve_seconds = seconds_since(begin);
+  });
 }
 
 }  // namespace ballast

@@ -12,6 +12,7 @@ struct SolverRun {
   double prepare_seconds = 0;  ///< wall clock of prepare() and solve() alone
   double solve_seconds = 0;
   bool success = false;  ///< the backend says reached_tolerance *and* the judge agrees
+  std::string failure;   ///< what() of the exception that a backend threw; empty: none
 };
 
 /// Keeps the judge's workspace between calls.
@@ -21,7 +22,13 @@ class SolverRunner {
   /// InvalidProblem; an empty one means zero. Other exceptions of a backend become reason = numerical_failure.
   SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget);
 
+  /// Solves once more what run() prepared, from another start or for another budget: prepare_seconds is 0.
+  SolverRun run_again(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget);
+
  private:
+  template <typename Work>
+  SolverRun guarded(const FrictionProblem& problem, const Budget& budget, Work&& work);
+
   ContactJudge judge_;
 };
 

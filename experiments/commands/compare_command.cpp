@@ -1,0 +1,151 @@
+// Backends on identical problems: rows, figures and a page.
+
+#include <CLI/CLI.hpp>
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "experiments/atomic_file.hpp"
+#include "experiments/commands/command.hpp"
+#include "experiments/compare/bench_options.hpp"
+#include "experiments/compare/bench_report.hpp"
+#include "experiments/compare/reference_times.hpp"
+#include "experiments/interrupt.hpp"
+#include "experiments/report_tables.hpp"
+#include "solvers/solver_list.hpp"
+
+namespace ballast {
+namespace {
+
+struct CompareOptions {
+  std::vector<std::string> cases;
+  std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
+  std::filesystem::path output = "results/compare", reference;
+  BenchOptions bench;
+  bool report = true;
+};
+
+/// The command line of this process, as it was given.
+std::vector<std::string> own_words() {
+  std::vector<std::string> words;
+  const std::string text = read_whole_file("/proc/self/cmdline");
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find('\0', begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+/// A threaded BLAS reads its number of threads when it is loaded: where nothing is said, this program begins again with one.
+void become_single_threaded(std::vector<std::string> words) {
+  if (getenv("OPENBLAS_NUM_THREADS") || words.empty()) return;
+  setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  setenv("OMP_NUM_THREADS", "1", 0);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv("/proc/self/exe", pointers.data());
+  throw RunError("cannot start anew with OPENBLAS_NUM_THREADS=1");
+}
+
+bool show(const BenchRow& row, bool was_there, size_t done, size_t count) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done, count,
+                row.case_name.c_str(), row.solver.c_str(), row.tolerance, name_of(row.start), name_of(row.outcome),
+                row.seconds(), row.error, was_there ? "  (was there)" : "", row.is_false_success() ? "  JUDGE DISAGREES" : "");
+  std::cout << text << std::endl;
+  return !InterruptGuard::requested();
+}
+
+/// What is wrong with the words; std::invalid_argument from the parsers gets its option's name here.
+void parse(CompareOptions& options) {
+  const auto with_name = [](const char* option, const auto& work) {
+    try {
+      work();
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("compare: ") + option + ": " + error.what());
+    } catch (const UnknownSolver& error) {
+      throw UsageError(error.what());
+    }
+  };
+  BenchOptions& bench = options.bench;
+  with_name("--solvers", [&] { bench.solvers = bench_solvers(options.solvers); });
+  with_name("--tolerances", [&] { bench.tolerances = bench_tolerances(options.tolerances); });
+  with_name("--starts", [&] { bench.starts = bench_starts(options.starts); });
+  with_name("--measure", [&] { bench.measure = measure_of(options.measure); });
+  if (bench.repeats < 1) throw UsageError("compare: --repeats: expected a number >= 1");
+  if (!(bench.max_seconds > 0.0)) throw UsageError("compare: --max-seconds: expected a number > 0");
+  if (!(bench.limits.memory_MB >= 0.0)) throw UsageError("compare: --memory: expected a number >= 0");
+}
+
+ExitCode compare(CompareOptions options) {
+  parse(options);
+  const std::vector<std::string> words = own_words();
+  become_single_threaded(words);
+  options.bench.folder = options.output;
+  for (const std::string& word : words)
+    options.bench.command += (options.bench.command.empty() ? "" : " ") + shell_word(&word == &words[0] ? "ballast" : word);
+  std::vector<ReferenceTimes> reference;
+  if (!options.reference.empty()) reference = read_reference_times(options.reference);
+  const std::vector<BenchCase> cases = bench_cases(options.cases);
+  InterruptGuard guard;
+  const std::vector<BenchRow> rows = run_bench(cases, options.bench, show);
+  if (InterruptGuard::requested()) {
+    std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on" << std::endl;
+    return ExitCode::failure;
+  }
+  if (options.report) write_bench_report(options.output, rows, reference);
+  std::cout << '\n' << bench_summary(rows, reference) << "\nresults in " << options.output.string() << "\n"
+            << (options.report ? "  compare.html  figures and tables: open it in a browser\n" : "")
+            << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
+            << "  manifest.json program, machine, BLAS, options" << std::endl;
+  return ExitCode::ok;
+}
+
+constexpr const char* footer =
+    R"(Cases are files (.hdf5, .h5, .dat), folders, patterns, and manufactured problems with known solutions:
+  known:bodies=20,contacts=40,mass_ratio=1e3,friction_min=0,friction_max=1,open=.25,slip=.35,frictionless=.1,seed=1,count=3
+
+Each solve runs in a child process under limits of time and memory; a timeout or a crash is a row. A solve shorter than a quarter of a second
+is repeated in its child, and the fastest run counts. "solved": the backend says so and the judge, outside the child, agrees.
+
+The tolerance bounds, by --measure
+  natural_map   the judge's scaled natural map, rms over contacts, relative to the rms of q, or to g h for captured problems
+  fclib         what Siconos prints: natural map with rho = 1 over max(|q|, |r|, |u|). Backends stop on the natural map, so its tolerance
+                falls in rounds, each from the last one's impulses, until the judge is satisfied; the rounds' times are added
+
+What is in the output folder is kept: the same command goes on after an interrupt; rows made by another binary are made again.
+
+Examples:
+  ballast compare ../shared/data/fclib --measure fclib --reference ../shared/data/siconos_best.csv
+  ballast compare results/captured/capture --solvers pgs,nncg,admm --starts cold,warm --tolerances 1e-3,1e-4,1e-6
+  ballast compare known:contacts=200,count=5 --repeats 5)";
+
+}  // namespace
+
+void add_compare_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("compare", "Backends on identical problems: accuracy against cost, figures, a page");
+  auto options = std::make_shared<CompareOptions>();
+  BenchOptions& bench = options->bench;
+  command->add_option("cases", options->cases, "Problem files, folders, patterns, known:...")->required();
+  command->add_option("--solvers", options->solvers, "Names, separated by commas, or all")->capture_default_str();
+  command->add_option("--tolerances", options->tolerances, "Separated by commas")->capture_default_str();
+  command->add_option("--starts", options->starts, "cold, warm or cold,warm; warm where a case has a warm start")->capture_default_str();
+  command->add_option("--measure", options->measure, "natural_map or fclib")->capture_default_str();
+  command->add_option("--repeats", bench.repeats, "Interleaved; tables show the median")->capture_default_str();
+  command->add_option("--max-seconds", bench.max_seconds, "Wall clock of one solve, prepare included")->capture_default_str();
+  command->add_option("--memory", bench.limits.memory_MB, "Address space of one child in MB; 0: no limit")->capture_default_str();
+  command->add_option("--reference", options->reference, "CSV of others' times: problem,ms_1e-4,solver_1e-4,...")->type_name("FILE");
+  command->add_option("--output", options->output, "Folder of the results")->capture_default_str()->type_name("DIR");
+  command->add_flag_callback("--no-report", [options] { options->report = false; }, "No figures and no page");
+  command->footer(footer);
+  command->callback([options, &action] { action = [options] { return compare(*options); }; });
+}
+
+}  // namespace ballast

@@ -1,0 +1,57 @@
+#pragma once
+// The problems of a bench: files, folders, patterns and manufactured ones, each with what the figures want to know of it.
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "problems/friction_problem.hpp"
+
+namespace ballast {
+
+/// A case that cannot be had: no such file, a pattern that matches nothing, an unknown setting. One line.
+class BenchCaseError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What cost is drawn against.
+struct CaseFacts {
+  int contacts = 0, rows = 0;
+  int dofs = 0;              ///< unknowns of the dynamics form; 0 when only W is known
+  double rank_deficiency = 0.0;  ///< 1 - rank(W)/rows. By eigenvalues up to 1000 rows; above, from the unknowns (a lower bound),
+                                 ///< and NaN where only W is known
+  double mass_ratio = 1.0;       ///< largest over smallest lambda_max(W_cc): how unlike the contacts' effective masses are
+  double velocity_scale = 1.0;   ///< errors are relative to it [m/s]: rms of q over rows; g h for captured problems
+  std::string content;           ///< key of the problem, its start and its scale
+};
+
+struct LoadedCase {
+  FrictionProblem problem;
+  Impulses warm_start;  ///< empty: the case has none
+  CaseFacts facts;
+  /// Where a contact is, for who looks for the worst one: "contact 12", with bodies and gap where they are known.
+  std::function<std::string(int)> describe_contact;
+};
+
+struct BenchCase {
+  std::string name;    ///< unique in a bench: a file's name, or the words that make the problem
+  std::string family;  ///< cases of one kind: the file's name up to its numbers, the run and phase of a captured one
+  /// Throws ProblemFileError, InvalidProblem.
+  std::function<LoadedCase()> load;
+};
+
+/// Each word is one of
+///   a file (.hdf5, .h5, .dat), a folder (all such files in and below it), a pattern with * ? [ ]
+///   known:bodies=20,contacts=40,mass_ratio=1e3,friction_min=0,friction_max=1,open=.25,slip=.35,frictionless=.1,seed=1,count=3
+/// Files come sorted; equal names get their folders before them. Throws BenchCaseError.
+std::vector<BenchCase> bench_cases(const std::vector<std::string>& words);
+
+/// Measures a problem. Throws InvalidProblem.
+CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start, double velocity_scale);
+
+/// "Capsules-i101-404.dat" -> "Capsules", "Rover1039.dat" -> "Rover".
+std::string family_of_file(const std::string& file_name);
+
+}  // namespace ballast

@@ -1,0 +1,25 @@
+#pragma once
+// The figures of a bench.
+
+#include <span>
+#include <vector>
+
+#include "experiments/compare/bench_table.hpp"
+#include "experiments/figures.hpp"
+
+namespace ballast {
+
+/// Performance and data profiles, cost against contacts, rank deficiency and mass ratio, of one table. Empty when nobody solved anything.
+std::vector<ReportFigure> profile_figures(const BenchTable& table);
+std::vector<ReportFigure> cost_figures(const BenchTable& table);
+
+/// Error against time on one case from one start: each backend's history to its tightest tolerance, and where each tolerance was reached.
+/// Without panels when there is nothing to draw.
+ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::string& case_name, StartKind start);
+/// The same over a family: geometric means over its cases.
+ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family, StartKind start);
+
+/// Letters, digits, _ and -: what a figure's name may be of.
+std::string figure_name(const std::string& text);
+
+}  // namespace ballast

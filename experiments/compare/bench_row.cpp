@@ -1,0 +1,197 @@
+#include "experiments/compare/bench_row.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/run.hpp"
+
+namespace ballast {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* measure_names[] = {"natural_map", "fclib"};
+constexpr const char* start_names[] = {"cold", "warm"};
+constexpr const char* outcome_names[] = {"solved", "stopped", "timeout", "crashed", "out_of_memory", "unsupported"};
+
+template <typename Enum, size_t count>
+Enum by_name(const char* const (&names)[count], const std::string& name, const char* what) {
+  std::string all;
+  for (size_t k = 0; k < count; ++k) {
+    if (name == names[k]) return static_cast<Enum>(k);
+    all += (k ? ", " : "") + std::string(names[k]);
+  }
+  throw std::invalid_argument("'" + name + "' is no " + what + "; there are: " + all);
+}
+
+/// Calls f(name, member) for every member that the JSON keeps: written and read by the same list.
+template <typename Row, typename F>
+void for_members(Row& row, F&& f) {
+  f("key", row.key);
+  f("case", row.case_name);
+  f("family", row.family);
+  f("solver", row.solver);
+  f("law", row.law);
+  f("tolerance", row.tolerance);
+  f("repeat", row.repeat);
+  f("max_seconds", row.max_seconds);
+  f("contacts", row.facts.contacts);
+  f("rows", row.facts.rows);
+  f("dofs", row.facts.dofs);
+  f("rank_deficiency", row.facts.rank_deficiency);
+  f("mass_ratio", row.facts.mass_ratio);
+  f("velocity_scale", row.facts.velocity_scale);
+  f("content", row.facts.content);
+  f("reason", row.reason);
+  f("note", row.note);
+  f("claimed", row.claimed);
+  f("judged", row.judged);
+  f("error", row.error);
+  f("natural_map_rms", row.natural_map_rms);
+  f("natural_map_max", row.natural_map_max);
+  f("fclib", row.fclib);
+  f("cone_violation", row.cone_violation);
+  f("min_normal_velocity", row.min_normal_velocity);
+  f("own_residual", row.own_residual);
+  f("worst_contact", row.worst_contact);
+  f("worst", row.worst);
+  f("iterations", row.iterations);
+  f("rounds", row.rounds);
+  f("runs", row.runs);
+  f("prepare_seconds", row.prepare_seconds);
+  f("solve_seconds", row.solve_seconds);
+  f("first_seconds", row.first_seconds);
+  f("peak_memory_MB", row.peak_memory_MB);
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json json_of(double value) { return number(value); }
+template <typename Value>
+Json json_of(const Value& value) { return value; }
+
+void take(const Json& json, double& value) {
+  value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+template <typename Value>
+void take(const Json& json, Value& value) { value = json.get<Value>(); }
+
+std::string print(const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+const char* name_of(Measure measure) { return measure_names[static_cast<size_t>(measure)]; }
+const char* name_of(StartKind start) { return start_names[static_cast<size_t>(start)]; }
+const char* name_of(Outcome outcome) { return outcome_names[static_cast<size_t>(outcome)]; }
+Measure measure_of(const std::string& name) { return by_name<Measure>(measure_names, name, "measure"); }
+StartKind start_of(const std::string& name) { return by_name<StartKind>(start_names, name, "start"); }
+
+const std::vector<BenchColumn>& bench_columns() {
+  using R = const BenchRow&;
+  static const std::vector<BenchColumn> columns = {
+      {"case", "problem", [](R r) { return r.case_name; }},
+      {"family", "problems of one kind", [](R r) { return r.family; }},
+      {"solver", "backend", [](R r) { return r.solver; }},
+      {"law", "that the backend solves; each is judged on Coulomb's", [](R r) { return r.law; }},
+      {"measure", "what the tolerance bounds", [](R r) { return std::string(name_of(r.measure)); }},
+      {"tolerance", "relative", [](R r) { return print("%g", r.tolerance); }},
+      {"start", "cold: zero; warm: the run's", [](R r) { return std::string(name_of(r.start)); }},
+      {"repeat", "from 0", [](R r) { return std::to_string(r.repeat); }},
+      {"max_seconds", "the limit", [](R r) { return print("%g", r.max_seconds); }},
+      {"outcome", "solved: claimed and judged", [](R r) { return std::string(name_of(r.outcome)); }},
+      {"reason", "why the backend stopped", [](R r) { return r.reason; }},
+      {"claimed", "1: the backend says that it is done", [](R r) { return std::to_string(r.claimed); }},
+      {"judged", "1: the judge finds it so", [](R r) { return std::to_string(r.judged); }},
+      {"error", "in the measure", [](R r) { return print("%.6g", r.error); }},
+      {"seconds", "prepare and solve, fastest run in the child", [](R r) { return print("%.6g", r.seconds()); }},
+      {"prepare_seconds", "", [](R r) { return print("%.6g", r.prepare_seconds); }},
+      {"solve_seconds", "", [](R r) { return print("%.6g", r.solve_seconds); }},
+      {"first_seconds", "of the child's first run", [](R r) { return print("%.6g", r.first_seconds); }},
+      {"runs", "solves in the child", [](R r) { return std::to_string(r.runs); }},
+      {"iterations", "", [](R r) { return std::to_string(r.iterations); }},
+      {"rounds", "of falling natural-map tolerance (measure fclib)", [](R r) { return std::to_string(r.rounds); }},
+      {"natural_map_rms", "[m/s]", [](R r) { return print("%.6g", r.natural_map_rms); }},
+      {"natural_map_max", "[m/s]", [](R r) { return print("%.6g", r.natural_map_max); }},
+      {"fclib", "what Siconos prints", [](R r) { return print("%.6g", r.fclib); }},
+      {"cone_violation", "[N s]", [](R r) { return print("%.6g", r.cone_violation); }},
+      {"min_normal_velocity", "[m/s]", [](R r) { return print("%.6g", r.min_normal_velocity); }},
+      {"own_residual", "the backend's own: no evidence", [](R r) { return print("%.6g", r.own_residual); }},
+      {"worst", "contact of natural_map_max", [](R r) { return r.worst; }},
+      {"peak_memory_MB", "of the child", [](R r) { return print("%.4g", r.peak_memory_MB); }},
+      {"contacts", "", [](R r) { return std::to_string(r.facts.contacts); }},
+      {"rows", "", [](R r) { return std::to_string(r.facts.rows); }},
+      {"dofs", "unknowns of bodies in contact; 0: only W is known", [](R r) { return std::to_string(r.facts.dofs); }},
+      {"rank_deficiency", "1 - rank(W)/rows", [](R r) { return print("%.4g", r.facts.rank_deficiency); }},
+      {"mass_ratio", "largest over smallest lambda_max(W_cc)", [](R r) { return print("%.4g", r.facts.mass_ratio); }},
+      {"velocity_scale", "[m/s]", [](R r) { return print("%.6g", r.facts.velocity_scale); }},
+      {"note", "", [](R r) { return r.note; }},
+      {"key", "of problem, backend, options and binary", [](R r) { return r.key; }},
+  };
+  return columns;
+}
+
+std::string bench_csv(const std::vector<BenchRow>& rows) {
+  std::string text;
+  const auto add_line = [&](const auto& cell_of) {
+    for (const BenchColumn& column : bench_columns()) {
+      text += cell_of(column);
+      text += ',';
+    }
+    text.back() = '\n';
+  };
+  add_line([](const BenchColumn& column) { return std::string(column.name); });
+  for (const BenchRow& row : rows) add_line([&](const BenchColumn& column) { return quoted(column.text(row)); });
+  return text;
+}
+
+std::string to_json(const BenchRow& row) {
+  Json json = Json::object();
+  for_members(row, [&](const char* name, const auto& value) { json[name] = json_of(value); });
+  json["measure"] = name_of(row.measure);
+  json["start"] = name_of(row.start);
+  json["outcome"] = name_of(row.outcome);
+  Json& history = json["history"] = Json::array();
+  for (const HistoryRow& h : row.history) history.push_back({h.round, h.iteration, number(h.seconds), number(h.error)});
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+BenchRow bench_row_of_json(const std::string& text, const std::string& file) {
+  try {
+    const Json json = Json::parse(text);
+    BenchRow row;
+    for_members(row, [&](const char* name, auto& value) { take(json.at(name), value); });
+    row.measure = measure_of(json.at("measure").get<std::string>());
+    row.start = start_of(json.at("start").get<std::string>());
+    row.outcome = by_name<Outcome>(outcome_names, json.at("outcome").get<std::string>(), "outcome");
+    for (const Json& h : json.at("history")) {
+      HistoryRow point;
+      take(h.at(0), point.round);
+      take(h.at(1), point.iteration);
+      take(h.at(2), point.seconds);
+      take(h.at(3), point.error);
+      row.history.push_back(point);
+    }
+    return row;
+  } catch (const std::exception& error) {  // of JSON, or of a name
+    throw RunError(file + ": is no row of a bench: " + error.what());
+  }
+}
+
+}  // namespace ballast

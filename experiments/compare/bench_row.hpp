@@ -1,0 +1,92 @@
+#pragma once
+// What one solve of a bench was and what came of it: the row of every table and figure.
+
+#include <string>
+#include <vector>
+
+#include "experiments/compare/bench_case.hpp"
+#include "solvers/solver.hpp"
+
+namespace ballast {
+
+/// What a tolerance bounds.
+enum class Measure {
+  natural_map,  ///< the judge's scaled natural map, rms over contacts, relative to the case's velocity scale
+  fclib,        ///< ContactError::fclib: what Siconos prints
+};
+enum class StartKind { cold, warm };
+
+/// How an attempt ended. Only `solved` counts: the backend says so and the judge agrees.
+enum class Outcome {
+  solved,
+  stopped,        ///< by itself: limit, stall, failure (see reason), or with a claim that the judge denies
+  timeout,        ///< over the time limit, by itself or killed
+  crashed,        ///< the child process died
+  out_of_memory,  ///< allocation refused under the memory limit
+  unsupported,    ///< the backend says that it cannot take the problem
+};
+
+const char* name_of(Measure measure);
+const char* name_of(StartKind start);
+const char* name_of(Outcome outcome);
+/// Throw std::invalid_argument listing what there is.
+Measure measure_of(const std::string& name);
+StartKind start_of(const std::string& name);
+
+/// One point of an error-against-time history. prepare() is not in `seconds`.
+struct HistoryRow {
+  int round = 0, iteration = 0;
+  double seconds = 0.0;  ///< of solve(), all rounds
+  double error = 0.0;    ///< scaled natural map rms over the case's velocity scale: the backend's own figure
+};
+
+struct BenchRow {
+  // what was tried
+  std::string key, case_name, family, solver, law;
+  Measure measure = Measure::natural_map;
+  double tolerance = 0.0;
+  StartKind start = StartKind::cold;
+  int repeat = 0;
+  double max_seconds = 0.0;  ///< the limit
+  CaseFacts facts;
+
+  // what came of it
+  Outcome outcome = Outcome::crashed;
+  std::string reason;  ///< the backend's StopReason; empty when none was heard
+  std::string note;    ///< why it failed
+  bool claimed = false;  ///< the backend (measure fclib: the driver of its rounds) says that the tolerance is reached
+  bool judged = false;   ///< the judge, in another process, finds the error below the tolerance
+  double error = 0.0;    ///< in the row's measure, the judge's
+  double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< the judge's [m/s]
+  double fclib = 0.0;
+  double cone_violation = 0.0, min_normal_velocity = 0.0, own_residual = 0.0;
+  int worst_contact = -1;
+  std::string worst;  ///< the same with its name
+  int iterations = 0, rounds = 0;
+  int runs = 0;  ///< solves in the child, of which the fastest is timed here
+  double prepare_seconds = 0.0, solve_seconds = 0.0;
+  double first_seconds = 0.0;  ///< prepare and solve of the child's first run: caches cold
+  double peak_memory_MB = 0.0;
+  std::vector<HistoryRow> history;
+
+  double seconds() const { return prepare_seconds + solve_seconds; }
+  /// A claim that the judge denies.
+  bool is_false_success() const { return claimed && !judged; }
+};
+
+/// One column of the CSV. `text` writes a cell.
+struct BenchColumn {
+  const char* name;
+  const char* description;
+  std::string (*text)(const BenchRow&);
+};
+const std::vector<BenchColumn>& bench_columns();
+
+/// All rows without their histories; fields with commas or quotes are quoted.
+std::string bench_csv(const std::vector<BenchRow>& rows);
+
+/// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null. Throws RunError naming `file`.
+std::string to_json(const BenchRow& row);
+BenchRow bench_row_of_json(const std::string& text, const std::string& file);
+
+}  // namespace ballast

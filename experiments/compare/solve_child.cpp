@@ -1,0 +1,219 @@
+#include "experiments/compare/solve_child.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "problems/contact_error.hpp"
+#include "solvers/child_process.hpp"
+
+namespace ballast {
+namespace {
+
+/// How the child says it ended, apart from being solved or not.
+enum class ChildOutcome { driven, unsupported, out_of_memory, failed };
+
+/// What a child sends, as the row of doubles that child_process carries: written and read by the same list of members.
+struct ChildMessage {
+  ChildOutcome outcome = ChildOutcome::failed;
+  std::string note;
+  StopReason reason = StopReason::numerical_failure;
+  bool claimed = false;
+  int iterations = 0, rounds = 0, runs = 0;
+  double own_residual = 0.0, prepare_seconds = 0.0, solve_seconds = 0.0, first_seconds = 0.0, peak_memory_MB = 0.0;
+  std::vector<HistoryRow> history;
+  Impulses impulses;
+
+  template <typename Carrier>
+  void carry(Carrier& c) {
+    c.number(outcome);
+    c.text(note);
+    c.number(reason);
+    c.number(claimed);
+    c.number(iterations);
+    c.number(rounds);
+    c.number(runs);
+    c.number(own_residual);
+    c.number(prepare_seconds);
+    c.number(solve_seconds);
+    c.number(first_seconds);
+    c.number(peak_memory_MB);
+    c.size(history);
+    for (HistoryRow& point : history) {
+      c.number(point.round);
+      c.number(point.iteration);
+      c.number(point.seconds);
+      c.number(point.error);
+    }
+    c.size(impulses);
+    for (double& entry : impulses) c.number(entry);
+  }
+};
+
+struct Writer {
+  std::vector<double>& record;
+  template <typename Value>
+  void number(Value value) { record.push_back(static_cast<double>(value)); }
+  template <typename Values>
+  void size(const Values& values) { number(values.size()); }
+  void text(const std::string& text) {
+    size(text);
+    for (const char c : text) number(static_cast<unsigned char>(c));
+  }
+};
+
+struct Reader {
+  const std::vector<double>& record;
+  size_t next = 0;
+  double take() { return record.at(next++); }
+  template <typename Value>
+  void number(Value& value) { value = static_cast<Value>(take()); }
+  template <typename Values>
+  void size(Values& values) { values.resize(static_cast<decltype(values.size())>(take())); }
+  void text(std::string& text) {
+    size(text);
+    for (char& c : text) c = static_cast<char>(static_cast<unsigned char>(take()));
+  }
+};
+
+void limit_memory(double memory_MB) {
+  if (!(memory_MB > 0.0)) return;
+  const rlimit limit{static_cast<rlim_t>(memory_MB * 1048576.0), static_cast<rlim_t>(memory_MB * 1048576.0)};
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+/// Of this process or of the largest one that it waited for [MB].
+double peak_memory() {
+  double peak = 0.0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    peak = std::max(peak, static_cast<double>(usage.ru_maxrss) / 1024.0);
+  }
+  return peak;
+}
+
+void take_result(DrivenSolve&& driven, ChildMessage& message) {
+  const std::string& failure = driven.last.failure;
+  const bool no_memory = failure == std::bad_alloc().what();
+  message.outcome = no_memory ? ChildOutcome::out_of_memory : failure.empty() ? ChildOutcome::driven : ChildOutcome::failed;
+  message.note = failure;
+  message.reason = driven.last.solved.reason;
+  message.claimed = driven.claimed;
+  message.iterations = driven.iterations;
+  message.rounds = driven.rounds;
+  message.own_residual = driven.last.solved.own_residual;
+  message.prepare_seconds = driven.prepare_seconds;
+  message.solve_seconds = driven.solve_seconds;
+  message.history = std::move(driven.history);
+  message.impulses = std::move(driven.last.solved.impulses);
+}
+
+/// The whole of what the child does. A new solver for each run: nothing is carried over but caches.
+void drive_repeatedly(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive, const ChildLimits& limits,
+                      StartKind start, ChildMessage& message) {
+  const Impulses from = start == StartKind::warm ? loaded.warm_start : Impulses();
+  double spent = 0.0, fastest = 0.0;
+  do {
+    DrivenSolve driven = drive_solver(*make(), loaded.problem, from, drive);
+    const double seconds = driven.seconds();
+    if (message.runs == 0) message.first_seconds = seconds;
+    if (message.runs == 0 || seconds < fastest) {
+      fastest = seconds;
+      take_result(std::move(driven), message);
+    }
+    ++message.runs;
+    spent += seconds;
+  } while (message.claimed && message.runs < limits.most_runs && spent + fastest < limits.warm_seconds);
+}
+
+ChildMessage work_of_child(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive,
+                           const ChildLimits& limits, StartKind start) {
+  limit_memory(limits.memory_MB);
+  ChildMessage message;
+  try {
+    drive_repeatedly(make, loaded, drive, limits, start, message);
+  } catch (const UnsupportedProblem& error) {
+    message.outcome = ChildOutcome::unsupported;
+    message.note = error.what();
+  } catch (const std::bad_alloc&) {
+    message.outcome = ChildOutcome::out_of_memory;
+  } catch (const std::exception& error) {
+    message.outcome = ChildOutcome::failed;
+    message.note = error.what();
+  }
+  message.peak_memory_MB = peak_memory();
+  return message;
+}
+
+void judge(const LoadedCase& loaded, const Impulses& impulses, BenchRow& row) {
+  if (impulses.size() != loaded.problem.row_count()) return;
+  const ContactError error = contact_error(loaded.problem, impulses);
+  row.natural_map_rms = error.natural_map_rms;
+  row.natural_map_max = error.natural_map_max;
+  row.fclib = error.fclib;
+  row.cone_violation = error.cone_violation;
+  row.min_normal_velocity = error.min_normal_velocity;
+  row.worst_contact = error.worst_contact;
+  row.worst = loaded.describe_contact(error.worst_contact);
+  row.error = row.measure == Measure::fclib ? error.fclib : error.natural_map_rms / loaded.facts.velocity_scale;
+  row.judged = error.finite && row.error <= row.tolerance;
+}
+
+Outcome outcome_of(const ChildMessage& message, const BenchRow& row, double max_seconds) {
+  switch (message.outcome) {
+    case ChildOutcome::unsupported: return Outcome::unsupported;
+    case ChildOutcome::out_of_memory: return Outcome::out_of_memory;
+    case ChildOutcome::failed: return Outcome::stopped;
+    case ChildOutcome::driven: break;
+  }
+  if (row.seconds() > max_seconds) return Outcome::timeout;
+  if (row.claimed && row.judged) return Outcome::solved;
+  return message.reason == StopReason::time_limit ? Outcome::timeout : Outcome::stopped;
+}
+
+}  // namespace
+
+void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSettings& settings,
+                    const ChildLimits& limits, BenchRow& row) {
+  DriveSettings drive = settings;
+  drive.measure = row.measure;
+  drive.tolerance = row.tolerance;
+  drive.velocity_scale = loaded.facts.velocity_scale;
+  // Backends look at the clock between iterations, prepare() never does: some grace before the child is killed.
+  const double most_seconds = 1.25 * drive.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
+  const ChildResult child = run_in_child(most_seconds, [&](std::vector<double>& record) {
+    ChildMessage message = work_of_child(make, loaded, drive, limits, row.start);
+    Writer writer{record};
+    message.carry(writer);
+  });
+  row.error = row.natural_map_rms = row.natural_map_max = row.fclib = std::nan("");
+  if (child.end != ChildEnd::complete) {
+    row.outcome = child.end == ChildEnd::out_of_time ? Outcome::timeout : Outcome::crashed;
+    row.note = child.end == ChildEnd::out_of_time ? "killed: did not stop at the time limit" : "the child process died";
+    row.solve_seconds = child.end == ChildEnd::out_of_time ? most_seconds : 0.0;
+    return;
+  }
+  ChildMessage message;
+  Reader reader{child.record};
+  message.carry(reader);
+  row.note = message.note;
+  row.reason = message.outcome == ChildOutcome::driven ? name_of(message.reason) : "";
+  row.claimed = message.claimed;
+  row.iterations = message.iterations;
+  row.rounds = message.rounds;
+  row.runs = message.runs;
+  row.own_residual = message.own_residual;
+  row.prepare_seconds = message.prepare_seconds;
+  row.solve_seconds = message.solve_seconds;
+  row.first_seconds = message.first_seconds;
+  row.peak_memory_MB = message.peak_memory_MB;
+  row.history = std::move(message.history);
+  judge(loaded, message.impulses, row);
+  row.outcome = outcome_of(message, row, drive.max_seconds);
+}
+
+}  // namespace ballast
