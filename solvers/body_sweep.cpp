@@ -40,12 +40,15 @@ void BodySweep::prepare(const FrictionProblem& problem) {
   one_row_lambda_max_.resize(one_row);
 
   runs_.clear();
+  record_.resize(contacts);
+  is_one_row_.resize(contacts);
   int next[2] = {0, 0};  // record of each kind
   for (int c = 0; c < contacts; ++c) {
     const bool short_one = problem.contact_rows(c) == 1;
     if (runs_.empty() || runs_.back().one_row != short_one) runs_.push_back({short_one, c, next[short_one], 0});
     ++runs_.back().count;
-    const int record = next[short_one]++;
+    is_one_row_[c] = short_one;
+    const int record = record_[c] = next[short_one]++;
     if (short_one)
       prepare_one_row(problem, c, record);
     else
@@ -111,6 +114,16 @@ void BodySweep::sweep() {
       sweep_one_row(one_row_.data() + run.first_record, run.count, velocity_.data());
     else
       sweep_friction(friction_.data() + run.first_record, run.count, velocity_.data());
+}
+
+void BodySweep::sweep(const SweepVariant& variant, const std::vector<int>& contacts) {
+  for (const int c : contacts) {
+    const int record = record_[c];
+    if (is_one_row_[c])
+      resolve_by_variant(variant, one_row_[record], one_row_lambda_max_[record], velocity_.data());
+    else
+      resolve_by_variant(variant, friction_[record], lambda_max_[record], velocity_.data());
+  }
 }
 
 double BodySweep::error() const {

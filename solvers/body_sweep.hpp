@@ -7,6 +7,7 @@
 #include "problems/friction_problem.hpp"
 #include "problems/mass_root.hpp"
 #include "solvers/sweep_kernels.hpp"
+#include "solvers/sweep_variant.hpp"
 
 namespace ballast {
 
@@ -20,6 +21,8 @@ class BodySweep {
 
   /// Every contact once, in the given order.
   void sweep();
+  /// The contacts named, in that order, another way: for comparison, not for speed.
+  void sweep(const SweepVariant& variant, const std::vector<int>& contacts);
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
   double error() const;
 
@@ -30,7 +33,8 @@ class BodySweep {
   /// Square roots of W's diagonal in the same coordinates, for the impulses alone: their number is the vector's size.
   void impulse_weights(Eigen::VectorXd& weights) const;
 
-  /// What the sweep works on, for methods that move the iterate between sweeps: impulses and velocities must stay consistent.
+  /// What the sweep works on, for methods that move the iterate between sweeps: impulses and velocities must stay
+  /// consistent.
   std::vector<FrictionRecord>& friction_records() { return friction_; }
   std::vector<OneRowRecord>& one_row_records() { return one_row_; }
   std::vector<BodyVelocity>& velocities() { return velocity_; }
@@ -52,6 +56,8 @@ class BodySweep {
   std::vector<FrictionRecord> friction_;
   std::vector<OneRowRecord> one_row_;
   std::vector<Run> runs_;
+  std::vector<int> record_;  ///< of each contact: its number among those of its kind
+  std::vector<char> is_one_row_;
   std::vector<TangentTurn> turn_;   ///< per friction record
   std::vector<double> lambda_max_;  ///< per friction record, of W_cc [1/kg]
   std::vector<double> one_row_lambda_max_;

@@ -86,6 +86,25 @@ void DelassusSweep::sweep() {
   }
 }
 
+void DelassusSweep::sweep(const SweepVariant& variant, const std::vector<int>& contacts) {
+  for (const int c : contacts) {
+    Contact& contact = contacts_[c];
+    const PrincipalContact& local = contact.local;
+    double u[3], *r = r_.data() + 3 * c, y[3] = {r[0], r[1], r[2]};
+    velocity(c, u);
+    contact.turn.to_principal(u[1], u[2]);
+    contact.turn.to_principal(y[1], y[2]);
+    u[1] -= local.c1 * u[0];
+    u[2] -= local.c2 * u[0];
+    y[0] += local.c1 * y[1] + local.c2 * y[2];
+    resolve_by_variant(variant, local, contact.lambda_max, u, y, contact.slip);
+    r[0] = y[0] - local.c1 * y[1] - local.c2 * y[2];
+    contact.turn.from_principal(y[1], y[2]);
+    r[1] = y[1];
+    r[2] = y[2];
+  }
+}
+
 double DelassusSweep::error() const {
   double sum = 0.0;
   int counted = 0;

@@ -8,6 +8,7 @@
 
 #include "problems/friction_problem.hpp"
 #include "solvers/one_contact.hpp"
+#include "solvers/sweep_variant.hpp"
 
 namespace ballast {
 
@@ -19,6 +20,8 @@ class DelassusSweep {
 
   /// Every contact once, in the given order.
   void sweep();
+  /// The contacts named, in that order, another way: for comparison, not for speed.
+  void sweep(const SweepVariant& variant, const std::vector<int>& contacts);
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
   double error() const;
 

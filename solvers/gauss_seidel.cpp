@@ -11,7 +11,8 @@ namespace {
 
 class GaussSeidel final : public Solver {
  public:
-  explicit GaussSeidel(const GaussSeidelSettings& settings) : schedule_{settings.first_check, settings.check_growth} {}
+  explicit GaussSeidel(const GaussSeidelSettings& settings)
+      : schedule_{settings.first_check, settings.check_growth}, variant_(settings.variant) {}
 
   void prepare(const FrictionProblem& problem) override {
     if (problem.has_delassus && !problem.has_dynamics)
@@ -29,11 +30,15 @@ class GaussSeidel final : public Solver {
   template <typename Sweep>
   Solved iterate(Sweep& sweep, const FrictionProblem& problem, Impulses r, const Budget& budget) {
     Iteration iteration(budget, schedule_);
+    order_.begin(variant_, variant_.plain() ? 0 : problem.contact_count());
     sweep.load(problem, r);
     sweep.store(problem, r);
     iteration.evaluated(sweep.error());
     while (iteration.next()) {
-      sweep.sweep();
+      if (variant_.plain())
+        sweep.sweep();
+      else
+        sweep.sweep(variant_, order_.next());
       if (!iteration.error_due()) continue;
       double error = sweep.error();
       sweep.store(problem, r);
@@ -51,6 +56,8 @@ class GaussSeidel final : public Solver {
   }
 
   CheckSchedule schedule_;
+  SweepVariant variant_;
+  ContactOrder order_;
   BodySweep bodies_;
   DelassusSweep delassus_;
 };

@@ -9,6 +9,7 @@
 #include "solvers/jacobi.hpp"
 #include "solvers/nncg.hpp"
 #include "solvers/spg.hpp"
+#include "solvers/pyramid_lemke.hpp"
 #include "solvers/siconos.hpp"
 
 namespace ballast {
@@ -19,6 +20,16 @@ const std::vector<SolverEntry>& entries() {
   static const std::vector<SolverEntry> list = {
       {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)", ContactLaw::coulomb,
        [] { return make_gauss_seidel(); }, ""},
+      {"pgs_projection", "pgs, each contact by one projection (De Saxce, Feng 1998)", ContactLaw::coulomb,
+       [] { return make_gauss_seidel({.variant = {.rule = LocalRule::projection}}); }, ""},
+      {"pgs_newton", "pgs, each contact by Newton on Alart-Curnier's function (1991)", ContactLaw::coulomb,
+       [] { return make_gauss_seidel({.variant = {.rule = LocalRule::newton}}); }, ""},
+      {"psor", "pgs over-relaxed by 1.3", ContactLaw::coulomb,
+       [] { return make_gauss_seidel({.variant = {.relaxation = 1.3}}); }, ""},
+      {"pgs_symmetric", "pgs, contacts forward and backward by turns", ContactLaw::coulomb,
+       [] { return make_gauss_seidel({.variant = {.order = SweepOrder::symmetric}}); }, ""},
+      {"pgs_random", "pgs, contacts in another seeded order every sweep", ContactLaw::coulomb,
+       [] { return make_gauss_seidel({.variant = {.order = SweepOrder::random}}); }, ""},
       {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)", ContactLaw::coulomb,
        [] { return make_nncg(); }, ""},
       {"jacobi", "damped block Jacobi, each contact solved exactly: the parallel baseline", ContactLaw::coulomb,
@@ -29,6 +40,8 @@ const std::vector<SolverEntry>& entries() {
        [] { return make_apgd(); }, ""},
       {"spg", "spectral projected gradient with s-update (Birgin, Martinez, Raydan 2000)", ContactLaw::coulomb,
        [] { return make_spg(); }, ""},
+      {"pyramid_lemke", "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996)", ContactLaw::pyramid,
+       [] { return make_pyramid_lemke(); }, ""},
       {"siconos_nsgs", "Siconos: nonsmooth Gauss-Seidel, hybrid local Newton", ContactLaw::coulomb,
        siconos_nsgs_maker(), "libsiconos-numerics-dev"},
       {"siconos_prox", "Siconos: proximal point around a nonsmooth Newton", ContactLaw::coulomb,

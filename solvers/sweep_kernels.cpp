@@ -1,5 +1,7 @@
 #include "solvers/sweep_kernels.hpp"
 
+#include <algorithm>
+
 #include "problems/contact_error.hpp"
 
 // Vectors are returned by inlined functions only, so GCC's note about their calling convention does not apply.
@@ -93,6 +95,34 @@ void sweep_friction(FrictionRecord* records, int count, BodyVelocity* velocity) 
 BALLAST_FOR_EACH_CPU
 void sweep_one_row(OneRowRecord* records, int count, BodyVelocity* velocity) {
   for (int c = 0; c < count; ++c) relax(records[c], velocity);
+}
+
+void resolve_by_variant(const SweepVariant& variant, FrictionRecord& k, double lambda_max, BodyVelocity* velocity) {
+  double* sides[2] = {velocity[k.body[0]].w, velocity[k.body[1]].w};
+  double u[3], y[3];
+  for (int i = 0; i < 3; ++i) {
+    u[i] = k.bias[i];
+    y[i] = k.y[i];
+    for (int s = 0; s < 2; ++s)
+      for (int j = 0; j < body_width; ++j) u[i] += k.rows[s][i][j] * sides[s][j];
+  }
+  resolve_by_variant(variant, k.local, lambda_max, u, y, k.slip);
+  for (int i = 0; i < 3; ++i) {
+    const double change = y[i] - k.y[i];
+    k.y[i] = y[i];
+    for (int s = 0; s < 2; ++s)
+      for (int j = 0; j < body_width; ++j) sides[s][j] += k.rows[s][i][j] * change;
+  }
+}
+
+void resolve_by_variant(const SweepVariant& variant, OneRowRecord& k, double, BodyVelocity* velocity) {
+  // Every rule solves one row exactly: what is left is relaxation.
+  const double before = k.y;
+  relax(k, velocity);
+  const double y = std::max(0.0, before + variant.relaxation * (k.y - before)), change = y - k.y;
+  k.y = y;
+  for (int s = 0; s < 2; ++s)
+    for (int j = 0; j < body_width; ++j) velocity[k.body[s]].w[j] += k.rows[s][j] * change;
 }
 
 BALLAST_FOR_EACH_CPU

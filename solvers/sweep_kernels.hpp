@@ -6,6 +6,7 @@
 // so that each side is one block, read once, for both directions. Rows and velocities are padded to one cache line.
 
 #include "solvers/one_contact.hpp"
+#include "solvers/sweep_variant.hpp"
 
 namespace ballast {
 
@@ -38,6 +39,10 @@ struct alignas(64) OneRowRecord {
 /// Every record once, in order.
 void sweep_friction(FrictionRecord* records, int count, BodyVelocity* velocity);
 void sweep_one_row(OneRowRecord* records, int count, BodyVelocity* velocity);
+
+/// One record another way (sweep_variant.hpp).
+void resolve_by_variant(const SweepVariant& variant, FrictionRecord& record, double lambda_max, BodyVelocity* velocity);
+void resolve_by_variant(const SweepVariant& variant, OneRowRecord& record, double lambda_max, BodyVelocity* velocity);
 
 /// From H L^-T and the given bias in the record to its principal coordinates; also lambda_max(W_cc).
 void make_principal(FrictionRecord& record, double mu, TangentTurn& turn, double& lambda_max);
