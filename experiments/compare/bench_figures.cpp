@@ -41,6 +41,9 @@ std::string suffix_of(const BenchTable& table) {
   return std::string(name_of(table.start)) + "_" + figure_name(text_of("%.0e", table.tolerance));
 }
 
+/// Of a figure whose key has so many entries: the key grows, the axes stay.
+int height_for(size_t entries) { return 440 + 22 * static_cast<int>(entries / 6); }
+
 /// Corners of a step curve up to `last`.
 Curve stairs(const StepCurve& steps, double last, Curve curve) {
   for (size_t k = 0; k < steps.x.size(); ++k) {
@@ -75,7 +78,7 @@ ReportFigure profile(const BenchTable& table, const std::string& name, const std
   Figure figure;
   figure.name = name + "_" + suffix_of(table);
   figure.title = title;
-  figure.height = 460;
+  figure.height = height_for(curves.size());
   figure.panels = {panel};
   return {figure, std::move(caption)};
 }
@@ -159,7 +162,7 @@ Figure figure_of(const std::string& name, const std::string& title, Panel panel)
   Figure figure;
   figure.name = name;
   figure.title = title;
-  figure.height = 440;
+  figure.height = height_for(panel.curves.size() / 2);
   if (!panel.curves.empty()) {
     bound_errors(panel);
     figure.panels = {std::move(panel)};
@@ -230,7 +233,7 @@ std::vector<ReportFigure> cost_figures(const BenchTable& table) {
     Figure figure;
     figure.name = std::string("cost_") + axis.name + "_" + suffix_of(table);
     figure.title = std::string("Cost against ") + axis.name;
-    figure.height = 460;
+    figure.height = height_for(panel.curves.size());
     figure.panels = {panel};
     figures.push_back({figure, Html{"<b>Cost against "} + Html{axis.words} + Html{"</b>. "} + what_of(table) +
                                    Html{"Time of prepare and solve; only what was solved is drawn."}});

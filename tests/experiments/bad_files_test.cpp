@@ -104,6 +104,8 @@ TEST_CASE("a stored problem is solved, a broken one is exit code 1") {
     const auto file = folder.write(name, text);
     for (const char* command : {"solve", "check"})
       check_failure(ballast_program({command, file.string()}), ExitCode::failure, {file.string()});
+    check_failure(ballast_program({"compare", file.string(), "--solvers", "pgs", "--output", (folder.path() / "out").string()}),
+                  ExitCode::failure, {file.string()});
   }
   std::filesystem::create_directory(folder.path() / "folder.hdf5");
   check_failure(ballast_program({"check", (folder.path() / "folder.hdf5").string()}), ExitCode::failure,

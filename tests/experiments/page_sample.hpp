@@ -1,0 +1,68 @@
+#pragma once
+// What every page that we write must be: well-formed, with ids of its own, and readable offline.
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/catch.hpp"
+
+namespace ballast {
+
+/// Elements are closed in the order they were opened (void elements and <x/> aside). Returns the first complaint.
+inline std::string nesting_fault(const std::string& page) {
+  const std::set<std::string> is_void{"meta", "br", "!DOCTYPE"};
+  std::vector<std::string> open;
+  for (size_t at = 0; (at = page.find('<', at)) != std::string::npos;) {
+    const size_t end = page.find('>', at);
+    if (end == std::string::npos) return "no end of " + page.substr(at, 40);
+    size_t name_begin = at + 1;
+    const bool closes = page[name_begin] == '/';
+    if (closes) ++name_begin;
+    size_t name_end = name_begin;
+    while (name_end < end && !std::isspace(static_cast<unsigned char>(page[name_end])) && page[name_end] != '/') ++name_end;
+    const std::string name = page.substr(name_begin, name_end - name_begin);
+    if (closes) {
+      if (open.empty() || open.back() != name) return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
+      open.pop_back();
+    } else if (page[end - 1] != '/' && !is_void.count(name)) {
+      open.push_back(name);
+    }
+    at = end + 1;
+    if (!closes && name == "style") at = page.find("</style>", at);
+  }
+  return open.empty() ? "" : "open at the end: " + open.back();
+}
+
+inline std::vector<std::string> ids_in(const std::string& page) {
+  std::vector<std::string> ids;
+  for (size_t at = 0; (at = page.find(" id=", at)) != std::string::npos; ++at) {
+    const char quote = page[at + 4];
+    ids.push_back(page.substr(at + 5, page.find(quote, at + 5) - at - 5));
+  }
+  return ids;
+}
+
+/// xmlns values aside, nothing in the page may name a place outside.
+inline std::string without_xmlns(std::string page) {
+  for (size_t at = 0; (at = page.find("xmlns", at)) != std::string::npos;) {
+    const size_t quote = page.find('"', at);
+    page.erase(at, page.find('"', quote + 1) + 1 - at);
+  }
+  return page;
+}
+
+inline void check_page(const std::string& page) {
+  using Catch::Matchers::Contains;
+  CHECK(nesting_fault(page) == "");
+  std::vector<std::string> ids = ids_in(page);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  CHECK((twice == ids.end() ? "" : *twice) == "");
+  CHECK_THAT(without_xmlns(page), !Contains("http:") && !Contains("https:") && !Contains("src=") && !Contains("<script") &&
+                                      !Contains("@import") && !Contains("<link"));
+}
+
+}  // namespace ballast
