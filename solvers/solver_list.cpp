@@ -9,6 +9,7 @@
 #include "solvers/jacobi.hpp"
 #include "solvers/nncg.hpp"
 #include "solvers/spg.hpp"
+#include "solvers/ipopt.hpp"
 #include "solvers/pyramid_lemke.hpp"
 #include "solvers/siconos.hpp"
 
@@ -40,6 +41,10 @@ const std::vector<SolverEntry>& entries() {
        [] { return make_apgd(); }, ""},
       {"spg", "spectral projected gradient with s-update (Birgin, Martinez, Raydan 2000)", ContactLaw::coulomb,
        [] { return make_spg(); }, ""},
+      {"ipopt", "convex cone program with s-update by Ipopt's interior point (Waechter, Biegler 2006)", ContactLaw::coulomb,
+       ipopt_maker(), "coinor-libipopt-dev"},
+      {"ipopt_mpcc", "program with complementarity constraints, relaxed towards zero (Scholtes 2001), by Ipopt",
+       ContactLaw::coulomb, ipopt_mpcc_maker(), "coinor-libipopt-dev"},
       {"pyramid_lemke", "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996)", ContactLaw::pyramid,
        [] { return make_pyramid_lemke(); }, ""},
       {"siconos_nsgs", "Siconos: nonsmooth Gauss-Seidel, hybrid local Newton", ContactLaw::coulomb,
