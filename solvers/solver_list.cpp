@@ -7,6 +7,7 @@
 #include "solvers/apgd.hpp"
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/jacobi.hpp"
+#include "solvers/newton.hpp"
 #include "solvers/nncg.hpp"
 #include "solvers/spg.hpp"
 #include "solvers/ipopt.hpp"
@@ -15,6 +16,8 @@
 
 namespace ballast {
 namespace {
+
+constexpr const char* suitesparse = "libsuitesparse-dev";
 
 /// Built at the first call: makers of optional backends are known only then.
 const std::vector<SolverEntry>& entries() {
@@ -41,6 +44,13 @@ const std::vector<SolverEntry>& entries() {
        [] { return make_apgd(); }, ""},
       {"spg", "spectral projected gradient with s-update (Birgin, Martinez, Raydan 2000)", ContactLaw::coulomb,
        [] { return make_spg(); }, ""},
+      {"newton_ac", "semismooth Newton on Alart and Curnier's function, sparse LU (Alart, Curnier 1991)",
+       ContactLaw::coulomb, newton_ac_maker(), suitesparse},
+      {"newton_nm", "semismooth Newton on the natural map, sparse LU", ContactLaw::coulomb, newton_nm_maker(), suitesparse},
+      {"newton_fb", "semismooth Newton on Fischer and Burmeister's function, sparse LU (Fukushima, Luo, Tseng 2002)",
+       ContactLaw::coulomb, newton_fb_maker(), suitesparse},
+      {"prox_newton", "proximal-point steps, each by semismooth Newton (Acary, Bremond, Huber 2018)",
+       ContactLaw::coulomb, prox_newton_maker(), suitesparse},
       {"ipopt", "convex cone program with s-update by Ipopt's interior point (Waechter, Biegler 2006)", ContactLaw::coulomb,
        ipopt_maker(), "coinor-libipopt-dev"},
       {"ipopt_mpcc", "program with complementarity constraints, relaxed towards zero (Scholtes 2001), by Ipopt",

@@ -1,0 +1,12 @@
+// Stands in for the backends that factorise where SuiteSparse is not used.
+
+#include "solvers/newton.hpp"
+
+namespace ballast {
+
+SolverMaker newton_ac_maker() { return nullptr; }
+SolverMaker newton_nm_maker() { return nullptr; }
+SolverMaker newton_fb_maker() { return nullptr; }
+SolverMaker prox_newton_maker() { return nullptr; }
+
+}  // namespace ballast
