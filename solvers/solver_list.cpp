@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/admm.hpp"
 #include "solvers/anderson_pgs.hpp"
 #include "solvers/apgd.hpp"
 #include "solvers/gauss_seidel.hpp"
@@ -44,6 +45,8 @@ const std::vector<SolverEntry>& entries() {
        [] { return make_apgd(); }, ""},
       {"spg", "spectral projected gradient with s-update (Birgin, Martinez, Raydan 2000)", ContactLaw::coulomb,
        [] { return make_spg(); }, ""},
+      {"admm", "alternating directions on one sparse factorisation, with s-update (Acary, Bremond, Huber 2018)",
+       ContactLaw::coulomb, admm_maker(), suitesparse},
       {"newton_ac", "semismooth Newton on Alart and Curnier's function, sparse LU (Alart, Curnier 1991)",
        ContactLaw::coulomb, newton_ac_maker(), suitesparse},
       {"newton_nm", "semismooth Newton on the natural map, sparse LU", ContactLaw::coulomb, newton_nm_maker(), suitesparse},

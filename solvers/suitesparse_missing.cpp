@@ -1,9 +1,11 @@
 // Stands in for the backends that factorise where SuiteSparse is not used.
 
+#include "solvers/admm.hpp"
 #include "solvers/newton.hpp"
 
 namespace ballast {
 
+SolverMaker admm_maker() { return nullptr; }
 SolverMaker newton_ac_maker() { return nullptr; }
 SolverMaker newton_nm_maker() { return nullptr; }
 SolverMaker newton_fb_maker() { return nullptr; }
