@@ -64,7 +64,10 @@ class Admm final : public Solver {
       const double rho = w_.rho()[c] > 0.0 ? w_.rho()[c] : 1.0;  // where nothing moves, anything will do
       sigma_[c] = rho / penalty * Eigen::Matrix3d::Identity();
     }
-    return system_.factor(sigma_);
+    shift_blocks_.resize(sigma_.size());
+    for (std::size_t c = 0; c < sigma_.size(); ++c)
+      shift_blocks_[c] = 1.0 / sigma_[c](0, 0) * Eigen::Matrix3d::Identity();
+    return system_.factor(shift_blocks_, sigma_);
   }
 
   void alternate(Impulses& r) {
@@ -118,7 +121,7 @@ class Admm final : public Solver {
   ContactOperator w_;
   ShiftedDelassus system_;
   SlipShift shift_;
-  std::vector<Eigen::Matrix3d> sigma_;
+  std::vector<Eigen::Matrix3d> sigma_, shift_blocks_;  ///< P^-1, P
   Eigen::VectorXd q_, u_, x_, y_, right_;
   double penalty_ = 1.0, split_ = 0.0, moved_ = 0.0;  ///< split_, moved_: squares
   int next_look_ = 0, look_after_ = 0;

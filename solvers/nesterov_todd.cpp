@@ -62,10 +62,18 @@ bool scale(const Vector& x, const Vector& z, bool half_line, Scaling& scaling) {
   const Vector v = (w + Vector(1.0, 0.0, 0.0)) / std::sqrt(2.0 * (w[0] + 1.0));
   scaling.f = beta * hyperbolic_reflection(v);
   scaling.f_inverse = hyperbolic_reflection(reflect(v)) / beta;
-  scaling.f_square_inverse = hyperbolic_reflection(reflect(w)) / beta_square;
+  // 2 w w^T - J with w_0^2 - |w_1..|^2 = 1: (w_0 +- |w_1..|)^2 along (1, +- w_1.. / |w_1..|), 1 across.
+  const double length = std::hypot(w[1], w[2]), stretch = (w[0] + length) * (w[0] + length);
+  const double cosine = length > 0.0 ? w[1] / length : 1.0, sine = length > 0.0 ? w[2] / length : 0.0;
+  const double half = std::sqrt(0.5);
+  scaling.eigenvalues = beta_square * Vector(stretch, 1.0 / stretch, 1.0);
+  scaling.axes << half, half, 0.0, half * cosine, -half * cosine, -sine, half * sine, -half * sine, cosine;
+  if (half_line) {
+    scaling.eigenvalues.setConstant(beta_square);
+    scaling.axes.setIdentity();
+  }
   scaling.lambda = scaling.f * x;
-  return scaling.lambda.allFinite() && scaling.f_square_inverse.allFinite() &&
-         (half_line || depth(scaling.lambda) > 0.0);
+  return scaling.lambda.allFinite() && scaling.eigenvalues.allFinite() && (half_line || depth(scaling.lambda) > 0.0);
 }
 
 }  // namespace ballast::lorentz

@@ -24,8 +24,18 @@ double longest_step(const Vector& x, const Vector& d, double most);
 /// F symmetric positive definite, maps L onto itself, F x = F^-1 z = lambda.
 struct Scaling {
   Matrix f = Matrix::Identity(), f_inverse = Matrix::Identity();
-  Matrix f_square_inverse = Matrix::Identity();  ///< F^-2, without the rounding of a product
   Vector lambda = Vector::Zero();
+  /// F^2 = sum of eigenvalue_i a_i a_i^T, a_i the columns of `axes`: each eigenvalue exact to rounding, however far
+  /// apart.
+  Vector eigenvalues = Vector::Ones();
+  Matrix axes = Matrix::Identity();
+
+  /// axes f(eigenvalue) axes^T.
+  template <typename Function>
+  Matrix of_square(const Function& function) const {
+    return axes * Vector(function(eigenvalues[0]), function(eigenvalues[1]), function(eigenvalues[2])).asDiagonal() *
+           axes.transpose();
+  }
 };
 /// x and z inside; `half_line`: only entry 0 of each. False: one of them is not inside by rounding.
 bool scale(const Vector& x, const Vector& z, bool half_line, Scaling& scaling);

@@ -28,17 +28,9 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
   symmetric_ = (base_ - transposed).norm() <= 1e-14 * base_.norm();
 }
 
-bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& sigma) {
+bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift, const std::vector<Eigen::Matrix3d>& sigma) {
+  shift_ = shift;
   sigma_ = sigma;
-  shift_.resize(sigma.size());
-  for (std::size_t c = 0; c < sigma.size(); ++c) {
-    shift_[c].setZero();
-    if (w_->problem().contact_rows(static_cast<int>(c)) == 1)
-      shift_[c](0, 0) = 1.0 / sigma[c](0, 0);
-    else
-      shift_[c] = sigma[c].inverse();
-    if (!shift_[c].allFinite()) return false;
-  }
   ++factorisations_;
   std::vector<Eigen::Triplet<double>> entries;
   for_block_entries(dynamics_ ? sigma_ : shift_, [&](int i, int j, double x) { entries.emplace_back(i, j, x); });

@@ -18,9 +18,10 @@ class ShiftedDelassus {
   /// The constant parts. `w` must stay prepared for the same problem.
   void prepare(ContactOperator& w);
 
-  /// Factors with P given by its inverse: sigma[c] = P_c^-1 [kg], 3 x 3 symmetric positive definite; of a one-row
-  /// contact only entry 0,0 is read. False: not definite to working precision; solve() must then not be called.
-  bool factor(const std::vector<Eigen::Matrix3d>& sigma);
+  /// Factors with P_c = shift[c] [1/kg], 3 x 3 symmetric positive definite, and sigma[c] = P_c^-1 [kg], which the
+  /// caller knows better than an inversion would; of a one-row contact only entries 0,0 are read. False: not definite
+  /// to working precision; solve() must then not be called.
+  bool factor(const std::vector<Eigen::Matrix3d>& shift, const std::vector<Eigen::Matrix3d>& sigma);
   /// x = (W + P)^-1 b, improved `refinements` times by the residual of the whole system. `x` must not be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
   int factorisations() const { return factorisations_; }

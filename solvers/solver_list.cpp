@@ -7,6 +7,7 @@
 #include "solvers/anderson_pgs.hpp"
 #include "solvers/apgd.hpp"
 #include "solvers/gauss_seidel.hpp"
+#include "solvers/interior_point.hpp"
 #include "solvers/jacobi.hpp"
 #include "solvers/newton.hpp"
 #include "solvers/nncg.hpp"
@@ -47,6 +48,8 @@ const std::vector<SolverEntry>& entries() {
        [] { return make_spg(); }, ""},
       {"admm", "alternating directions on one sparse factorisation, with s-update (Acary, Bremond, Huber 2018)",
        ContactLaw::coulomb, admm_maker(), suitesparse},
+      {"interior_point", "primal-dual for second-order cones, Nesterov-Todd scaling, with s-update (Acary et al. 2023)",
+       ContactLaw::coulomb, interior_point_maker(), suitesparse},
       {"newton_ac", "semismooth Newton on Alart and Curnier's function, sparse LU (Alart, Curnier 1991)",
        ContactLaw::coulomb, newton_ac_maker(), suitesparse},
       {"newton_nm", "semismooth Newton on the natural map, sparse LU", ContactLaw::coulomb, newton_nm_maker(), suitesparse},

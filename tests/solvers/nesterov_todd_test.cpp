@@ -27,7 +27,10 @@ TEST_CASE("the scaling sends both points to the same one, near the cone's side t
       CHECK((s.f * x - s.f_inverse * z).norm() <= accuracy * s.lambda.norm());
       CHECK(s.lambda.squaredNorm() == Approx(x.dot(z)).epsilon(accuracy));
       CHECK((s.f * s.f_inverse - lorentz::Matrix::Identity()).norm() <= accuracy);
-      CHECK((s.f_inverse * s.f_inverse - s.f_square_inverse).norm() <= accuracy * s.f_square_inverse.norm());
+      const lorentz::Matrix square = s.of_square([](double e) { return e; });
+      CHECK((s.f * s.f - square).norm() <= accuracy * square.norm());
+      const lorentz::Matrix inverse = s.of_square([](double e) { return 1.0 / e; });
+      CHECK((s.f_inverse * s.f_inverse - inverse).norm() <= accuracy * inverse.norm());
     }
   lorentz::Scaling s;
   REQUIRE(lorentz::scale({4.0, 0.0, 0.0}, {9.0, 0.0, 0.0}, true, s));
