@@ -38,19 +38,6 @@ struct Prepared {
   std::optional<ControlVolume> control_volume;  ///< of the vibrated box
 };
 
-int first_driven_wall(const MechanicalSystem& system) {
-  for (size_t b = 0; b < system.bodies.size(); ++b)
-    if (system.bodies[b].is_wall() && system.bodies[b].wall.motion == WallMotion::driven) return static_cast<int>(b);
-  return -1;
-}
-
-/// From the floor to the packing's top before the lid was raised, clear of the driven wall.
-ControlVolume control_volume_of(const Scene& scene, double top) {
-  const ControlVolumeSpec& margin = scene.control_volume;
-  return {Vec3(margin.margin_x, margin.margin_y, margin.margin_floor),
-          Vec3(scene.box.length - margin.margin_x, scene.box.width - margin.margin_y, top - margin.margin_top)};
-}
-
 class Run {
  public:
   Run(const RunOptions& options)
@@ -95,12 +82,12 @@ class Run {
       if (!take_packing(rain, packing)) return false;
       run_.system = drive_system(scene_, rain, packing, run_.state);
       run_.memory = packing.memory;
-      run_.control_volume = control_volume_of(scene_, packing.top);
+      run_.control_volume = box_control_volume(scene_, packing.top);
       describe_box(packing);
     } else {
       run_.system = make_system(scene_, run_.state);
     }
-    run_.driven_wall = first_driven_wall(run_.system);
+    run_.driven_wall = run_.system.first_driven_wall();
     if (options_.resume && std::filesystem::exists(folder_.checkpoint())) {
       Checkpoint found = read_checkpoint(folder_.checkpoint());
       if (found.key != key_) throw RunError(folder_.checkpoint().string() + ": belongs to another scene");

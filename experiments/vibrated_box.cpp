@@ -185,4 +185,10 @@ MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packin
   return box_system(scene, rain, BoxStage::drive, packing.lid);
 }
 
+ControlVolume box_control_volume(const Scene& scene, double top) {
+  const ControlVolumeSpec& margin = scene.control_volume;
+  return {Vec3(margin.margin_x, margin.margin_y, margin.margin_floor),
+          Vec3(scene.box.length - margin.margin_x, scene.box.width - margin.margin_y, top - margin.margin_top)};
+}
+
 }  // namespace ballast

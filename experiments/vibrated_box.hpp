@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "experiments/time_step.hpp"
+#include "problems/solid_fraction.hpp"
 
 namespace ballast {
 
@@ -53,6 +54,9 @@ bool read_packing(const std::filesystem::path& file, const std::string& key, Pac
 
 /// The driven system and its initial state: time and step counted from the start of the drive.
 MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packing& packing, MotionState& state);
+
+/// Where the solid fraction is taken: from the floor to the packing's top before the lid was raised, clear of the driven wall.
+ControlVolume box_control_volume(const Scene& scene, double top);
 
 /// rms speed of the grains [m/s], and the highest vertex [m].
 double grain_rms_velocity(const MechanicalSystem& system, const MotionState& state);

@@ -21,6 +21,12 @@ double MechanicalSystem::mass_of_grains() const {
   return mass;
 }
 
+int MechanicalSystem::first_driven_wall() const {
+  for (size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].is_wall() && bodies[b].wall.motion == WallMotion::driven) return static_cast<int>(b);
+  return -1;
+}
+
 int MechanicalSystem::find_body(const std::string& name) const {
   for (size_t b = 0; b < bodies.size(); ++b)
     if (bodies[b].name == name) return static_cast<int>(b);

@@ -51,6 +51,7 @@ struct MechanicalSystem {
 
   double mass_of_grains() const;
   int find_body(const std::string& name) const;  ///< -1 when there is none
+  int first_driven_wall() const;               ///< -1 when there is none
   double pair_friction(int a, int b) const;      ///< a wall's own mu, else the bodies'
 };
 

@@ -14,8 +14,10 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/bench_options.hpp"
 #include "experiments/compare/bench_report.hpp"
+#include "experiments/compare/live.hpp"
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/interrupt.hpp"
+#include "experiments/manifest.hpp"
 #include "experiments/report_tables.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -23,6 +25,7 @@ namespace ballast {
 namespace {
 
 struct CompareOptions {
+  LiveOptions live;
   std::vector<std::string> cases;
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
   std::filesystem::path output = "results/compare", reference;
@@ -79,9 +82,42 @@ void parse(CompareOptions& options) {
   with_name("--tolerances", [&] { bench.tolerances = bench_tolerances(options.tolerances); });
   with_name("--starts", [&] { bench.starts = bench_starts(options.starts); });
   with_name("--measure", [&] { bench.measure = measure_of(options.measure); });
+  if (options.cases.empty() == options.live.scene.empty()) throw UsageError("compare: expected cases, or --live SCENE");
+  if (!(options.live.start >= 0.0)) throw UsageError("compare: --from: expected a number >= 0");
+  if (!(options.live.duration > 0.0)) throw UsageError("compare: --duration: expected a number > 0");
+  if (!(options.live.trajectory_seconds > 0.0)) throw UsageError("compare: --trajectory-seconds: expected a number > 0");
   if (bench.repeats < 1) throw UsageError("compare: --repeats: expected a number >= 1");
   if (!(bench.max_seconds > 0.0)) throw UsageError("compare: --max-seconds: expected a number > 0");
   if (!(bench.limits.memory_MB >= 0.0)) throw UsageError("compare: --memory: expected a number >= 0");
+}
+
+ExitCode interrupted() {
+  std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on" << std::endl;
+  return ExitCode::failure;
+}
+
+bool show_trajectory(const Trajectory& trajectory) {
+  std::cout << trajectory.label() << ": " << trajectory.steps.size() << " steps, " << trajectory.ended << std::endl;
+  return !InterruptGuard::requested();
+}
+
+/// The closed loop under each backend.
+ExitCode compare_live(const CompareOptions& options) {
+  LiveOptions live = options.live;
+  live.solvers = options.bench.solvers;
+  live.tolerances = options.bench.tolerances;
+  live.max_seconds = options.bench.max_seconds;
+  live.folder = options.output;
+  InterruptGuard guard;
+  const LiveComparison comparison = run_live(live, show_trajectory);
+  if (InterruptGuard::requested()) return interrupted();
+  Manifest manifest("compare --live " + live.scene, {options.bench.command}, binary_key());
+  manifest.summary("blas", loaded_blas());
+  manifest.write(options.output / "manifest.json");
+  write_live_report(options.output, comparison);
+  std::cout << "\nresults in " << options.output.string() << "\n  live.html   figures and the table: open it in a browser\n"
+            << "  live.csv    one row per trajectory; steps-*.csv: every step's scalars" << std::endl;
+  return ExitCode::ok;
 }
 
 ExitCode compare(CompareOptions options) {
@@ -91,15 +127,13 @@ ExitCode compare(CompareOptions options) {
   options.bench.folder = options.output;
   for (const std::string& word : words)
     options.bench.command += (options.bench.command.empty() ? "" : " ") + shell_word(&word == &words[0] ? "ballast" : word);
+  if (!options.live.scene.empty()) return compare_live(options);
   std::vector<ReferenceTimes> reference;
   if (!options.reference.empty()) reference = read_reference_times(options.reference);
   const std::vector<BenchCase> cases = bench_cases(options.cases);
   InterruptGuard guard;
   const std::vector<BenchRow> rows = run_bench(cases, options.bench, show);
-  if (InterruptGuard::requested()) {
-    std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on" << std::endl;
-    return ExitCode::failure;
-  }
+  if (InterruptGuard::requested()) return interrupted();
   if (options.report) write_bench_report(options.output, rows, reference);
   std::cout << '\n' << bench_summary(rows, reference) << "\nresults in " << options.output.string() << "\n"
             << (options.report ? "  compare.html  figures and tables: open it in a browser\n" : "")
@@ -125,7 +159,8 @@ What is in the output folder is kept: the same command goes on after an interrup
 Examples:
   ballast compare ../shared/data/fclib --measure fclib --reference ../shared/data/siconos_best.csv
   ballast compare results/captured/capture --solvers pgs,nncg,admm --starts cold,warm --tolerances 1e-3,1e-4,1e-6
-  ballast compare known:contacts=200,count=5 --repeats 5)";
+  ballast compare known:contacts=200,count=5 --repeats 5
+  ballast compare --live vibrated_box --from 0.25 --duration 0.02 --solvers pgs,nncg --tolerances 1e-2,1e-3,1e-4)";
 
 }  // namespace
 
@@ -133,7 +168,7 @@ void add_compare_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("compare", "Backends on identical problems: accuracy against cost, figures, a page");
   auto options = std::make_shared<CompareOptions>();
   BenchOptions& bench = options->bench;
-  command->add_option("cases", options->cases, "Problem files, folders, patterns, known:...")->required();
+  command->add_option("cases", options->cases, "Problem files, folders, patterns, known:...");
   command->add_option("--solvers", options->solvers, "Names, separated by commas, or all")->capture_default_str();
   command->add_option("--tolerances", options->tolerances, "Separated by commas")->capture_default_str();
   command->add_option("--starts", options->starts, "cold, warm or cold,warm; warm where a case has a warm start")->capture_default_str();
@@ -144,6 +179,13 @@ void add_compare_command(CLI::App& program, Action& action) {
   command->add_option("--reference", options->reference, "CSV of others' times: problem,ms_1e-4,solver_1e-4,...")->type_name("FILE");
   command->add_option("--output", options->output, "Folder of the results")->capture_default_str()->type_name("DIR");
   command->add_flag_callback("--no-report", [options] { options->report = false; }, "No figures and no page");
+  LiveOptions& live = options->live;
+  command->add_option("--live", live.scene, "Instead of cases: a scene's closed loop from one start under each backend and tolerance")->type_name("SCENE");
+  command->add_option("--set", live.overrides, "Of that scene: dotted.key=value")->type_name("KEY=VALUE")->take_all()->expected(1);
+  command->add_option("--from", live.start, "Simulated time up to which the scene's own solver goes, once for all [s]");
+  command->add_option("--duration", live.duration, "Simulated from there under each backend [s]")->capture_default_str();
+  command->add_option("--trajectory-seconds", live.trajectory_seconds, "Wall clock of one trajectory")->capture_default_str();
+  command->add_option("--packing-cache", live.packing_cache, "Where deposited packings are kept (<output>/packings)")->type_name("DIR");
   command->footer(footer);
   command->callback([options, &action] { action = [options] { return compare(*options); }; });
 }

@@ -11,18 +11,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* seconds_axis = "time  (s)";
 
-/// The k-th backend's line: eight colours, then the same dashed, then thin.
-Curve styled(size_t k, const std::string& title) {
-  constexpr Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::orange, Ink::purple, Ink::sky, Ink::black, Ink::grey};
-  constexpr size_t count = std::size(inks);
-  Curve curve;
-  curve.title = plain_text(title);
-  curve.ink = inks[k % count];
-  curve.dashed = (k / count) % 2 == 1;
-  curve.width = k < 2 * count ? 1.8 : 0.9;
-  return curve;
-}
-
 std::vector<std::string> solvers_of(std::span<const BenchRow> rows) {
   std::vector<std::string> names;
   for (const BenchRow& row : rows)
@@ -40,9 +28,6 @@ std::string text_of(const char* format, double value) {
 std::string suffix_of(const BenchTable& table) {
   return std::string(name_of(table.start)) + "_" + figure_name(text_of("%.0e", table.tolerance));
 }
-
-/// Of a figure whose key has so many entries: the key grows, the axes stay.
-int height_for(size_t entries) { return 440 + 22 * static_cast<int>(entries / 6); }
 
 /// Corners of a step curve up to `last`.
 Curve stairs(const StepCurve& steps, double last, Curve curve) {
@@ -171,6 +156,19 @@ Figure figure_of(const std::string& name, const std::string& title, Panel panel)
 }
 
 }  // namespace
+
+Curve styled(size_t k, const std::string& title) {
+  constexpr Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::orange, Ink::purple, Ink::sky, Ink::black, Ink::grey};
+  constexpr size_t count = std::size(inks);
+  Curve curve;
+  curve.title = plain_text(title);
+  curve.ink = inks[k % count];
+  curve.dashed = (k / count) % 2 == 1;
+  curve.width = k < 2 * count ? 1.8 : 0.9;
+  return curve;
+}
+
+int height_for(size_t entries) { return 440 + 22 * static_cast<int>(entries / 6); }
 
 std::string figure_name(const std::string& text) {
   std::string name;

@@ -19,6 +19,12 @@ ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::st
 /// The same over a family: geometric means over its cases.
 ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family, StartKind start);
 
+/// The k-th backend's line: eight colours, then the same dashed, then thin.
+Curve styled(size_t k, const std::string& title);
+
+/// Height of a figure whose key has so many entries: the key grows, the axes stay [px].
+int height_for(size_t entries);
+
 /// Letters, digits, _ and -: what a figure's name may be of.
 std::string figure_name(const std::string& text);
 

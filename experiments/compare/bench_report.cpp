@@ -7,6 +7,7 @@
 #include "experiments/atomic_file.hpp"
 #include "experiments/compare/bench_figures.hpp"
 #include "experiments/compare/bench_html.hpp"
+#include "experiments/compare/page_drawing.hpp"
 #include "experiments/report_tables.hpp"
 #include "experiments/run.hpp"
 
@@ -14,37 +15,6 @@ namespace ballast {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Draws figures as SVG and PDF; what cannot be drawn becomes a notice.
-class Drawing {
- public:
-  explicit Drawing(fs::path folder) : folder_(std::move(folder)), has_gnuplot_(!gnuplot_version().empty()) {
-    if (!has_gnuplot_) notices.push_back("gnuplot was not found: this page has no figures.");
-  }
-
-  Html draw(const ReportFigure& figure) {
-    if (!has_gnuplot_ || figure.plot.panels.empty()) return {};
-    try {
-      const std::string svg = render_svg(figure.plot, folder_);
-      render_pdf(figure.plot, folder_);
-      return html_figure(figure.plot.name, inline_svg(svg, figure.plot.name, figure.plot.title), figure.caption);
-    } catch (const RunError& error) {
-      notices.push_back(std::string(error.what()) + ". The figure is left out.");
-      return {};
-    }
-  }
-  Html draw(const std::vector<ReportFigure>& figures) {
-    Html html;
-    for (const ReportFigure& figure : figures) html += draw(figure);
-    return html;
-  }
-
-  std::vector<std::string> notices;
-
- private:
-  fs::path folder_;
-  bool has_gnuplot_;
-};
 
 template <typename Name>
 std::vector<std::string> names_in(std::span<const BenchRow> rows, Name&& name_of_row) {
@@ -92,16 +62,7 @@ Html options_table(const RunData& data) {
   return to_html(table);
 }
 
-RunData provenance_of(const fs::path& folder) {
-  RunData data;
-  data.folder = folder;
-  data.manifest_text = read_whole_file(folder / "manifest.json");
-  data.manifest = nlohmann::ordered_json::parse(data.manifest_text, nullptr, false);
-  if (!data.manifest.is_object()) throw RunError((folder / "manifest.json").string() + ": is no JSON object");
-  return data;
-}
-
-Html case_figures(std::span<const BenchRow> rows, Drawing& drawing) {
+Html case_figures(std::span<const BenchRow> rows, PageDrawing& drawing) {
   Html html;
   for (const StartKind start : starts_in(rows))
     for (const std::string& name : names_in(rows, [](const BenchRow& r) { return r.case_name; }))
@@ -109,7 +70,7 @@ Html case_figures(std::span<const BenchRow> rows, Drawing& drawing) {
   return html;
 }
 
-Html family_figures(std::span<const BenchRow> rows, Drawing& drawing) {
+Html family_figures(std::span<const BenchRow> rows, PageDrawing& drawing) {
   Html html;
   for (const StartKind start : starts_in(rows))
     for (const std::string& name : names_in(rows, [](const BenchRow& r) { return r.family; }))
@@ -117,17 +78,13 @@ Html family_figures(std::span<const BenchRow> rows, Drawing& drawing) {
   return html;
 }
 
-Html section(const char* id, const std::string& heading, const Html& body) {
-  return body.markup.empty() ? Html{} : html_section(id, escaped(heading), body);
-}
-
 }  // namespace
 
 void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows, std::span<const ReferenceTimes> reference) {
-  const RunData data = provenance_of(folder);
+  const RunData data = read_provenance(folder);
   const std::vector<BenchTable> tables = bench_tables(rows);
   const double limit = limit_of(rows);
-  Drawing drawing(folder / "figures");
+  PageDrawing drawing(folder / "figures");
   Html overview = explanation(limit), profiles, costs, per_case, references;
   for (const BenchTable& table : tables) {
     const Html heading = Html{"<h3>"} + escaped(heading_of(table)) + Html{"</h3>\n"};
@@ -140,13 +97,7 @@ void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows, 
     drawing.notices.push_back("The reference's times are to the measure fclib, this bench's are not: their ratio compares unlike things.");
   for (const ReferenceComparison& comparison : compare_with_reference(tables, reference)) references += reference_html(comparison, limit);
   const Html families = family_figures(rows, drawing), cases = case_figures(rows, drawing);
-  Html notices;
-  if (!drawing.notices.empty()) {
-    notices = {"<div class=\"notices\" role=\"note\"><ul>\n"};
-    for (const std::string& notice : drawing.notices) notices += Html{"<li>"} + escaped(notice) + Html{"</li>\n"};
-    notices += {"</ul></div>\n"};
-  }
-  Html body = header(rows, data) + notices;
+  Html body = header(rows, data) + drawing.notices_html();
   body += section("backends", "The backends", overview);
   body += section("reference", "Beside the reference", references);
   body += section("failures", "What must not happen", failures_html(rows));

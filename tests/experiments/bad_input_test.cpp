@@ -48,6 +48,8 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"solve", "p.hdf5", "--max-iterations", "1.5"}, "1.5"},
       {{"solve", "p.hdf5", "--max-seconds", "-2"}, "--max-seconds"},
       {{"compare"}, "cases"},
+      {{"compare", "p.hdf5", "--live", scene}, "--live"},
+      {{"compare", "--live", scene, "--duration", "0"}, "--duration"},
       {{"compare", "p.hdf5", "--solvers", "pgs,oracle"}, "oracle"},
       {{"compare", "p.hdf5", "--solvers", "pgs,"}, "--solvers"},
       {{"compare", "p.hdf5", "--tolerances", "1e-4,0"}, "--tolerances"},

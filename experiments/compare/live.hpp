@@ -1,0 +1,61 @@
+#pragma once
+// The closed loop: one scene from one start under several backends and tolerances, and what that does to the physics.
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "experiments/compare/bench.hpp"
+#include "experiments/step_record.hpp"
+#include "problems/scene.hpp"
+
+namespace ballast {
+
+struct LiveOptions {
+  std::string scene;                   ///< name or path
+  std::vector<std::string> overrides;  ///< "dotted.key=value"
+  std::vector<BenchSolver> solvers;
+  std::vector<double> tolerances{1e-2, 1e-3, 1e-4};  ///< natural map rms, in g h (in m/s without gravity)
+  double start = 0.0;      ///< simulated time up to which the scene's own solver goes, once for all [s]; at least one step
+  double duration = 0.1;   ///< simulated from there under each backend [s]
+  double max_seconds = 60.0;         ///< wall clock of one solve
+  double trajectory_seconds = 600.0; ///< wall clock of one trajectory
+  std::filesystem::path packing_cache;  ///< empty: <folder>/packings
+  std::filesystem::path folder;         ///< start/ (a run), trajectories/<key>.bin, live.csv, live.html
+};
+
+/// What one backend made of the start.
+struct Trajectory {
+  std::string solver, law;
+  double tolerance = 0.0;  ///< relative
+  std::string ended;       ///< "complete", or why not: "time limit", "the child process died", a backend's own words
+  std::vector<StepRecord> steps;
+  std::vector<double> frame_times;            ///< [s]
+  std::vector<Eigen::VectorXd> positions;     ///< of all grains, 3 each [m]; one per frame
+  bool is_complete() const { return ended == "complete"; }
+  std::string label() const;  ///< "pgs 1e-4"
+};
+
+struct LiveComparison {
+  Scene scene;
+  double velocity_scale = 1.0;  ///< [m/s]: tolerances are relative to it
+  bool has_driven_wall = false;
+  int reference = -1;  ///< index of the reference solution: exact law, tightest tolerance, complete, first listed; -1: none
+  std::vector<Trajectory> trajectories;
+};
+
+/// rms over grains of the distance from the reference at each frame that both have [m].
+std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference);
+
+/// Steps every backend to every tolerance in a child process of its own; trajectories that are there are not made again. `said` hears of
+/// each; returning false stops. Throws SceneFileError, RunError.
+LiveComparison run_live(const LiveOptions& options, const std::function<bool(const Trajectory&)>& said);
+
+/// live.csv (one row per trajectory), trajectories as steps-<solver>-<tolerance>.csv, figures/*.svg, *.pdf and live.html.
+void write_live_report(const std::filesystem::path& folder, const LiveComparison& comparison);
+
+}  // namespace ballast
