@@ -7,11 +7,12 @@
 
 namespace ballast {
 
-Iteration::Iteration(const Budget& budget, const CheckSchedule& schedule)
+Iteration::Iteration(const Budget& budget, const CheckSchedule& schedule, int patience)
     : budget_(budget),
       schedule_(schedule),
       begin_(std::chrono::steady_clock::now()),
       next_check_(schedule.first),
+      patience_(patience),
       error_(std::numeric_limits<double>::quiet_NaN()) {}
 
 double Iteration::seconds() const {
@@ -46,7 +47,7 @@ void Iteration::evaluated(double error) {
     reason_ = StopReason::iteration_limit;
   else if (out_of_time_ || now >= budget_.max_seconds)
     reason_ = StopReason::time_limit;
-  else if (count_ - unchanged_since_ >= stalled_after)
+  else if (count_ - unchanged_since_ >= patience_)
     reason_ = StopReason::stalled;
   else
     stopped_ = false;

@@ -17,7 +17,11 @@ struct CheckSchedule {
 /// Use:  evaluated(error);  while (next()) { one iteration; if (error_due()) evaluated(error); }  finish(solved);
 class Iteration {
  public:
-  Iteration(const Budget& budget, const CheckSchedule& schedule);
+  /// Iterations without any digit of the error changing, after which it never will.
+  static constexpr int stalled_after = 1000;
+
+  /// `patience`: in place of stalled_after, where an iteration is something smaller.
+  Iteration(const Budget& budget, const CheckSchedule& schedule, int patience = stalled_after);
 
   /// Opens the next iteration. False when a reason to stop was found: the error of the current iterate is then known.
   bool next();
@@ -35,15 +39,13 @@ class Iteration {
   void finish(Solved& solved);
 
   static constexpr double margin = 1e-3;
-  /// Iterations without any digit of the error changing, after which it never will.
-  static constexpr int stalled_after = 1000;
 
  private:
   Budget budget_;
   CheckSchedule schedule_;
   std::chrono::steady_clock::time_point begin_;
   int count_ = 0;
-  int next_check_;
+  int next_check_, patience_;
   bool stopped_ = false, out_of_time_ = false;
   StopReason reason_ = StopReason::numerical_failure;
   double error_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "problems/contact_error.hpp"
@@ -13,7 +14,8 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
                        const Budget& budget, int patience,
                        const std::function<void(const RoundRequest&, RoundAnswer&)>& round) {
   ContactJudge judge;
-  Iteration iteration(budget, {});
+  // Standing still is judged by rounds, below.
+  Iteration iteration(budget, {}, std::numeric_limits<int>::max());
   Impulses r = std::move(start);
   const auto error_of = [&](const Eigen::VectorXd& x) {
     moving.scatter(problem, x, r);

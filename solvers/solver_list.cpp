@@ -10,6 +10,7 @@
 #include "solvers/interior_point.hpp"
 #include "solvers/jacobi.hpp"
 #include "solvers/newton.hpp"
+#include "solvers/nlopt.hpp"
 #include "solvers/nncg.hpp"
 #include "solvers/spg.hpp"
 #include "solvers/ipopt.hpp"
@@ -61,6 +62,12 @@ const std::vector<SolverEntry>& entries() {
        ipopt_maker(), "coinor-libipopt-dev"},
       {"ipopt_mpcc", "program with complementarity constraints, relaxed towards zero (Scholtes 2001), by Ipopt",
        ContactLaw::coulomb, ipopt_mpcc_maker(), "coinor-libipopt-dev"},
+      {"nlopt_slsqp", "convex cone program with s-update by NLopt's SLSQP (Kraft 1994); small problems",
+       ContactLaw::coulomb, nlopt_slsqp_maker(), "libnlopt-dev"},
+      {"nlopt_mma", "convex cone program with s-update by NLopt's MMA (Svanberg 2002)", ContactLaw::coulomb,
+       nlopt_mma_maker(), "libnlopt-dev"},
+      {"nlopt_ccsaq", "convex cone program with s-update by NLopt's CCSAQ (Svanberg 2002)", ContactLaw::coulomb,
+       nlopt_ccsaq_maker(), "libnlopt-dev"},
       {"pyramid_lemke", "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996)", ContactLaw::pyramid,
        [] { return make_pyramid_lemke(); }, ""},
       {"siconos_nsgs", "Siconos: nonsmooth Gauss-Seidel, hybrid local Newton", ContactLaw::coulomb,
