@@ -76,11 +76,15 @@ class ProximalNewton final : public Solver {
     step_.begin(settings_.equation, rho_factors[0], std::move(r));
     Best best{step_.impulses(), step_.error()};
     iteration.evaluated(best.error);
-    double weight = settings_.first_weight;
-    int failures = 0;
-    while (failures < 30) {
+    double weight = settings_.first_weight, halved = best.error;
+    int failures = 0, halved_at = 0;
+    while (failures < 30 && iteration.count() - halved_at <= settings_.patience * budget.max_iterations) {
       const int steps = proximal_step(iteration, weight, best);
       if (steps < 0) break;  // the budget ended
+      if (best.error < 0.5 * halved) {
+        halved = best.error;
+        halved_at = iteration.count();
+      }
       if (steps > 0 && steps <= settings_.inner_steps) {
         failures = 0;
         if (steps <= settings_.inner_steps / 2) weight = std::max(1e-9, weight * 0.3);

@@ -22,9 +22,10 @@ struct ProximalNewtonSettings {
   ContactEquation equation = ContactEquation::alart_curnier;
   int start_sweeps = 200;          ///< of Gauss-Seidel, when the start is cold
   int mending_sweeps = 50;         ///< after a proximal step that failed
-  double first_weight = 1e-2;      ///< alpha rho of the first proximal step
-  double inner_reduction = 0.1;    ///< of the residual that an inner Newton must reach
+  double first_weight = 1e-3;      ///< alpha rho of the first proximal step
+  double inner_reduction = 0.5;    ///< of the residual that an inner Newton must reach
   int inner_steps = 12;            ///< Newton steps, after which a proximal step has failed
+  double patience = 0.375;         ///< part of the budget's iterations without halving the error, after which it gives up (stalled)
 };
 
 /// r_{k+1} solves the law with u + alpha (r - r_k): regular whatever W's rank, and the same solutions (Acary, Bremond, Huber 2018,

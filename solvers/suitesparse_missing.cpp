@@ -2,12 +2,14 @@
 
 #include "solvers/admm.hpp"
 #include "solvers/interior_point.hpp"
+#include "solvers/auto.hpp"
 #include "solvers/newton.hpp"
 
 namespace ballast {
 
 SolverMaker admm_maker() { return nullptr; }
 SolverMaker interior_point_maker() { return nullptr; }
+SolverMaker auto_maker() { return nullptr; }
 SolverMaker newton_ac_maker() { return nullptr; }
 SolverMaker newton_nm_maker() { return nullptr; }
 SolverMaker newton_fb_maker() { return nullptr; }
