@@ -78,7 +78,8 @@ class InteriorPoint final : public Solver {
         stalled_steps = 0;
       }
       const double still = shift_.distance(w_, rounded_u_);
-      if (stepped && ++steps < settings_.most_steps && convex_error(r, rounded_u_) > settings_.inner_part * still)
+      if (stepped && ++steps < settings_.most_steps &&
+          shift_.convex_error(w_, r, rounded_u_) > settings_.inner_part * still)
         continue;
       shift_.improve(w_, rounded_u_);
       go_back();
@@ -129,17 +130,6 @@ class InteriorPoint final : public Solver {
   double velocity_scale() const {
     const double scale = q_.size() > 0 ? std::sqrt(q_.squaredNorm() / q_.size()) : 0.0;
     return scale > 0.0 ? scale : 1.0;
-  }
-
-  /// |r - P_K(r - rho (u + s n))| / rho, rms: how far the convex problem with s held is from solved [m/s].
-  double convex_error(const Impulses& r, const Eigen::VectorXd& u) const {
-    double sum = 0.0;
-    for (int c = 0; c < w_.contact_count(); ++c) {
-      if (!moves(c)) continue;
-      const Vector rc = w_.at(r, c), g = shift_.shifted(w_, u, c);
-      sum += (rc - project_cone(rc - w_.rho()[c] * g, w_.friction(c))).squaredNorm() / (w_.rho()[c] * w_.rho()[c]);
-    }
-    return w_.contact_count() > 0 ? std::sqrt(sum / w_.contact_count()) : 0.0;
   }
 
   void begin(const Impulses& start) {

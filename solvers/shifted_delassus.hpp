@@ -24,6 +24,9 @@ class ShiftedDelassus {
   bool factor(const std::vector<Eigen::Matrix3d>& shift, const std::vector<Eigen::Matrix3d>& sigma);
   /// x = (W + P)^-1 b, improved `refinements` times by the residual of the whole system. `x` must not be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
+  /// x = (M + H^T Sigma H)^-1 b, in the bodies' unknowns: dynamics form only. Sigma may here be singular. `x` may be
+  /// `b`.
+  void solve_bodies(const Eigen::VectorXd& b, Eigen::VectorXd& x) { cholesky_.solve(b, x); }
   int factorisations() const { return factorisations_; }
 
  private:

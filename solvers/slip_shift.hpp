@@ -36,6 +36,9 @@ class SlipShift {
   double improve(const ContactOperator& w, const Eigen::VectorXd& u);
   /// The distance |s - mu |u_T||, rms over contacts [m/s].
   double distance(const ContactOperator& w, const Eigen::VectorXd& u) const;
+  /// |r - P_K(r - rho (u + s n))| / rho, rms over the contacts that move: how far the convex problem with s held is
+  /// from solved by r [m/s].
+  double convex_error(const ContactOperator& w, const Impulses& r, const Eigen::VectorXd& u) const;
 
  private:
   Eigen::VectorXd s_, image_;

@@ -12,6 +12,7 @@
 #include "solvers/newton.hpp"
 #include "solvers/nlopt.hpp"
 #include "solvers/nncg.hpp"
+#include "solvers/sap.hpp"
 #include "solvers/spg.hpp"
 #include "solvers/ipopt.hpp"
 #include "solvers/pyramid_lemke.hpp"
@@ -51,6 +52,8 @@ const std::vector<SolverEntry>& entries() {
        ContactLaw::coulomb, admm_maker(), suitesparse},
       {"interior_point", "primal-dual for second-order cones, Nesterov-Todd scaling, with s-update (Acary et al. 2023)",
        ContactLaw::coulomb, interior_point_maker(), suitesparse},
+      {"sap", "unconstrained convex problem in velocities (Castro 2022), proximal steps", ContactLaw::convex_relaxation,
+       sap_maker(), suitesparse},
       {"newton_ac", "semismooth Newton on Alart and Curnier's function, sparse LU (Alart, Curnier 1991)",
        ContactLaw::coulomb, newton_ac_maker(), suitesparse},
       {"newton_nm", "semismooth Newton on the natural map, sparse LU", ContactLaw::coulomb, newton_nm_maker(), suitesparse},

@@ -4,6 +4,7 @@
 #include "solvers/interior_point.hpp"
 #include "solvers/auto.hpp"
 #include "solvers/newton.hpp"
+#include "solvers/sap.hpp"
 
 namespace ballast {
 
@@ -14,5 +15,6 @@ SolverMaker newton_ac_maker() { return nullptr; }
 SolverMaker newton_nm_maker() { return nullptr; }
 SolverMaker newton_fb_maker() { return nullptr; }
 SolverMaker prox_newton_maker() { return nullptr; }
+SolverMaker sap_maker() { return nullptr; }
 
 }  // namespace ballast

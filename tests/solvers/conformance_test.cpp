@@ -1,5 +1,7 @@
 // What every registered backend must do. Adding a row to solver_list.cpp is enough to be tested here.
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -13,7 +15,8 @@ using namespace ballast;
 
 namespace {
 
-/// Runs `check(entry)` for every backend that was built, each in a section of its own: `solvers_test -c NAME` tests one.
+/// Runs `check(entry)` for every backend that was built, each in a section of its own: `solvers_test -c NAME` tests
+/// one.
 template <typename Check>
 void for_each_backend(const Check& check) {
   for (const SolverEntry& entry : solver_list())
@@ -171,6 +174,8 @@ TEST_CASE("contacts that all open take no impulse") {
   for_each_backend([](const SolverEntry& entry) {
     KnownSolutionSettings settings;
     settings.open_fraction = 1.0;
+    // The relaxation presses contacts that leave more slowly than mu |u_T|.
+    if (entry.law == ContactLaw::convex_relaxation) settings.friction_max = 0.0;
     const KnownSolution open = make_known_solution(settings);
     // Without impulses every contact leaves: u = H v_free + bias is the solution's.
     const SolverRun cold = run_either(entry, open.problem, patient);
@@ -262,5 +267,61 @@ TEST_CASE("history is kept on request, and ends with what is returned") {
       CHECK(result.solved.history[i].iteration > result.solved.history[i - 1].iteration);
       CHECK(result.solved.history[i].seconds >= result.solved.history[i - 1].seconds);
     }
+  });
+}
+
+namespace {
+
+/// A block of 1 kg on a plane: it would sink at 0.1 m/s and slide at 1 m/s along the heading.
+FrictionProblem sliding_block(double heading) {
+  FrictionProblem p;
+  p.has_dynamics = true;
+  p.row_begin = {0, 3};
+  p.friction = {0.4};
+  DynamicsForm& d = p.dynamics;
+  d.dof_begin = {0, 3};
+  d.mass_begin = {0, 9};
+  d.mass = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  d.body_a = {-1};
+  d.body_b = {0};
+  d.h_begin = {0, 9};
+  d.h = d.mass;
+  d.v_free = Eigen::Vector3d(-0.1, std::cos(heading), std::sin(heading));
+  d.bias = Eigen::Vector3d::Zero();
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("a sliding block tells the laws apart, and every label is true") {
+  for_each_backend([](const SolverEntry& entry) {
+    double largest_turn = 0.0;
+    for (const double heading : {0.0, 0.3, 0.785398163397448, 2.0, 4.1}) {
+      CAPTURE(heading);
+      const FrictionProblem block = sliding_block(heading);
+      const SolverRun result = run_either(entry, block, patient);
+      const Impulses& r = result.solved.impulses;
+      Eigen::VectorXd u;
+      contact_velocity(block, r, u);
+      const double slip = u.tail<2>().norm(), friction = r.tail<2>().norm();
+      CHECK(result.error.cone_violation < 1e-9);
+      if (entry.law == ContactLaw::convex_relaxation) {
+        CHECK(slip == Approx(0.96 / 1.16));  // 1 - mu r_N with r_N = 0.1 + mu slip
+        CHECK(u[0] == Approx(0.4 * slip).epsilon(1e-6));
+        CHECK(friction == Approx(0.4 * r[0]).epsilon(1e-6));
+      } else {
+        CHECK(slip > 0.9);
+        CHECK(std::abs(u[0]) < 1e-7);
+        CHECK(r[0] == Approx(0.1).epsilon(1e-6));
+      }
+      // how far friction is from -mu r_N u_T / |u_T|
+      const double turn = (r.tail<2>() + 0.4 * r[0] * u.tail<2>() / slip).norm() / (0.4 * r[0]);
+      largest_turn = std::max(largest_turn, turn);
+      if (entry.law == ContactLaw::pyramid) CHECK(turn < 0.8);  // a corner or a side of the polygon
+    }
+    if (entry.law == ContactLaw::pyramid)
+      CHECK(largest_turn > 1e-2);
+    else
+      CHECK(largest_turn < 1e-5);
   });
 }
