@@ -126,7 +126,53 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
   body_velocity(dynamics, problem.row_begin, known.r, v);
   body_to_contact_velocity(dynamics, problem.row_begin, v, moved);
   dynamics.bias = known.u - moved;
+
+  if (settings.copies > 1) {
+    const std::vector<int> first = problem.row_begin;
+    repeat_contacts(problem, settings.copies);
+    Eigen::VectorXd r(problem.row_count()), u(problem.row_count());
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      const int from = first[c / settings.copies], rows = problem.contact_rows(c);
+      r.segment(problem.row_begin[c], rows) = known.r.segment(from, rows) / settings.copies;
+      u.segment(problem.row_begin[c], rows) = known.u.segment(from, rows);
+    }
+    known.r = r;
+    known.u = u;
+  }
+  change_units(problem, settings.mass_unit, settings.velocity_unit);
+  known.r *= settings.mass_unit * settings.velocity_unit;
+  known.u *= settings.velocity_unit;
   return known;
+}
+
+void repeat_contacts(FrictionProblem& problem, int copies) {
+  const FrictionProblem once = problem;
+  const DynamicsForm& from = once.dynamics;
+  DynamicsForm& to = problem.dynamics;
+  problem.row_begin = {0};
+  problem.friction.clear();
+  to.body_a.clear();
+  to.body_b.clear();
+  to.h_begin = {0};
+  to.h.clear();
+  to.bias.resize(static_cast<Eigen::Index>(once.row_count()) * copies);
+  for (int c = 0; c < once.contact_count(); ++c)
+    for (int copy = 0; copy < copies; ++copy) {
+      const int rows = once.contact_rows(c);
+      to.bias.segment(problem.row_begin.back(), rows) = from.bias.segment(once.row_begin[c], rows);
+      problem.row_begin.push_back(problem.row_begin.back() + rows);
+      problem.friction.push_back(once.friction[c]);
+      to.body_a.push_back(from.body_a[c]);
+      to.body_b.push_back(from.body_b[c]);
+      to.h.insert(to.h.end(), from.h.begin() + from.h_begin[c], from.h.begin() + from.h_begin[c + 1]);
+      to.h_begin.push_back(static_cast<int>(to.h.size()));
+    }
+}
+
+void change_units(FrictionProblem& problem, double mass, double velocity) {
+  for (double& entry : problem.dynamics.mass) entry *= mass;
+  problem.dynamics.v_free *= velocity;
+  problem.dynamics.bias *= velocity;
 }
 
 }  // namespace ballast

@@ -69,3 +69,20 @@ TEST_CASE("the seed decides every bit") {
   settings.seed = 2;
   CHECK(make_known_solution(settings).problem.dynamics.h != a.problem.dynamics.h);
 }
+
+TEST_CASE("repeated contacts and other units keep the solution") {
+  KnownSolutionSettings settings;
+  const KnownSolution plain = make_known_solution(settings);
+  settings.copies = 5;
+  settings.mass_unit = 1e3;
+  settings.velocity_unit = 100.0;
+  const KnownSolution other = make_known_solution(settings);
+  REQUIRE_NOTHROW(other.problem.validate());
+  CHECK(other.problem.contact_count() == 5 * plain.problem.contact_count());
+  CHECK(contact_error(other.problem, other.r).natural_map_max <= 1e-11 * 100.0);
+  CHECK(other.r.sum() == Approx(1e5 * plain.r.sum()));
+  Eigen::VectorXd v, w;
+  body_velocity(plain.problem.dynamics, plain.problem.row_begin, plain.r, v);
+  body_velocity(other.problem.dynamics, other.problem.row_begin, other.r, w);
+  CHECK((w - 100.0 * v).lpNorm<Eigen::Infinity>() < 1e-11 * 100.0);
+}

@@ -1,0 +1,169 @@
+// Every backend on the stress problems: no NaN, no hang, no false success, and the known answer where it claims one.
+
+#include "problems/stress_problems.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "problems/contact_error.hpp"
+#include "solvers/run_solver.hpp"
+#include "solvers/solver_list.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+const Budget short_budget{.tolerance = 1e-8, .max_iterations = 20000, .max_seconds = 0.5};
+const Budget table_budget{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 2.0};
+
+std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget) {
+  try {
+    return SolverRunner().run(*entry.make(), problem, {}, budget);
+  } catch (const UnsupportedProblem&) {
+    return std::nullopt;
+  }
+}
+
+double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return a.size() > 0 ? (a - b).lpNorm<Eigen::Infinity>() : 0.0;
+}
+
+/// From an error of 1e-8 in the contacts to one in velocities: the worst amplification of these problems is 1e3.
+constexpr double near = 1e-5;
+
+void check_answer(const StressProblem& stress, const Impulses& r) {
+  Eigen::VectorXd x;
+  contact_velocity(stress.problem, r, x);
+  if (stress.u.size() > 0) CHECK(distance(stress.u, x) < near);
+  if (stress.v.size() == 0) return;
+  body_velocity(stress.problem.dynamics, stress.problem.row_begin, r, x);
+  CHECK(distance(stress.v, x) < near);
+}
+
+/// error(k+1) / error(k) of Gauss-Seidel, once the slowest mode is alone.
+double gauss_seidel_rate(const FrictionProblem& problem, int sweeps) {
+  std::vector<double> errors;
+  for (const int limit : {sweeps, 2 * sweeps}) {
+    const Budget budget{.tolerance = 0.0, .max_iterations = limit};
+    errors.push_back(SolverRunner().run(*make_solver("pgs"), problem, {}, budget).error.natural_map_rms);
+  }
+  return std::pow(errors[1] / errors[0], 1.0 / sweeps);
+}
+
+}  // namespace
+
+TEST_CASE("stress: every backend, every problem") {
+  const std::vector<StressProblem> problems = stress_problems();
+  for (const SolverEntry& entry : solver_list()) {
+    if (!entry.make) continue;
+    DYNAMIC_SECTION(entry.name) {
+      for (const StressProblem& stress : problems) {
+        CAPTURE(stress.item, stress.name);
+        if (!stress.refused.empty()) {
+          CHECK_THROWS_WITH(run(entry, stress.problem, short_budget), Catch::Contains(stress.refused));
+          continue;
+        }
+        const std::optional<SolverRun> result = run(entry, stress.problem, short_budget);
+        if (!result) continue;
+        CAPTURE(name_of(result->solved.reason), result->error.natural_map_rms);
+        CHECK(result->error.finite);
+        CHECK(result->solve_seconds < short_budget.max_seconds + 2.0);
+        CHECK(result->solved.iterations <= short_budget.max_iterations);
+        if (result->solved.reason == StopReason::reached_tolerance && entry.law == ContactLaw::coulomb)
+          CHECK(result->success);
+        if (result->success) check_answer(stress, result->solved.impulses);
+      }
+    }
+  }
+}
+
+TEST_CASE("stress: answers are solutions") {
+  int known = 0;
+  for (const StressProblem& stress : stress_problems()) {
+    CAPTURE(stress.name);
+    if (!stress.refused.empty()) {
+      CHECK_THROWS_WITH(stress.problem.validate(), Catch::Contains(stress.refused));
+      continue;
+    }
+    REQUIRE_NOTHROW(stress.problem.validate());
+    CHECK(stress.problem.contact_count() <= 60);
+    const Budget patient{.tolerance = 1e-12, .max_iterations = 2000000, .max_seconds = 5.0};
+    const SolverRun result = SolverRunner().run(*make_solver("pgs"), stress.problem, {}, patient);
+    if (result.error.natural_map_rms > 1e-9) continue;  // R = 1e6 is out of Gauss-Seidel's reach
+    check_answer(stress, result.solved.impulses);
+    ++known;
+  }
+  CHECK(known > 20);
+}
+
+TEST_CASE("stress: Gauss-Seidel contracts by R / (1 + R) on a mass-ratio stack, by cos^2(pi / 2n) on n equal boxes") {
+  for (const int rows : {1, 3}) {
+    for (const double ratio : {1.0, 10.0, 1000.0}) {
+      CAPTURE(rows, ratio);
+      CHECK(gauss_seidel_rate(mass_stack({1.0, ratio}, rows).problem, 10) ==
+            Approx(ratio / (1.0 + ratio)).epsilon(1e-6));
+    }
+    for (const int n : {2, 5, 20}) {
+      CAPTURE(rows, n);
+      const double cosine = std::cos(M_PI / (2.0 * n));
+      const FrictionProblem problem = mass_stack(std::vector<double>(n, 1.0), rows).problem;
+      CHECK(gauss_seidel_rate(problem, n < 5 ? 20 : 5 * n * n / 4) == Approx(cosine * cosine).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("stress: sliding tells the laws apart") {
+  for (const SolverEntry& entry : solver_list()) {
+    if (!entry.make) continue;
+    CAPTURE(entry.name);
+    const double mu = 0.4;
+    const StressProblem stress = sliding_block(mu, M_PI / 8.0);  // half-way between the directions of a pyramid
+    const std::optional<SolverRun> result = run(entry, stress.problem, short_budget);
+    if (!result) continue;
+    Eigen::VectorXd u;
+    contact_velocity(stress.problem, result->solved.impulses, u);
+    if (entry.law == ContactLaw::convex_relaxation)
+      CHECK(u[0] == Approx(mu * u.tail<2>().norm()).epsilon(1e-3));
+    else
+      CHECK(std::abs(u[0]) < 1e-6);
+    CHECK(result->success == (entry.law == ContactLaw::coulomb));
+  }
+}
+
+/// One row per backend: iterations to 1e-8 m/s, or the error in bold where it did not get there.
+TEST_CASE("stress: table of every backend", "[.stress_table]") {
+  const std::vector<StressProblem> problems = stress_problems();
+  std::printf("Problems:\n\n| | item | problem |\n|---|---|---|\n");
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    std::printf("| %c%c | %d | %s |\n", static_cast<char>('A' + i / 10), static_cast<char>('0' + i % 10),
+                problems[i].item, problems[i].name.c_str());
+  std::printf("\n| backend |");
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    std::printf(" %c%c |", static_cast<char>('A' + i / 10), static_cast<char>('0' + i % 10));
+  std::printf("\n|---|");
+  for (std::size_t i = 0; i < problems.size(); ++i) std::printf("---|");
+  for (const SolverEntry& entry : solver_list()) {
+    if (!entry.make) continue;
+    std::printf("\n| %s |", entry.name);
+    for (const StressProblem& stress : problems) {
+      std::optional<SolverRun> result;
+      try {
+        result = run(entry, stress.problem, table_budget);
+      } catch (const InvalidProblem&) {
+        std::printf(" refused |");
+        continue;
+      }
+      if (!result)
+        std::printf(" declined |");
+      else if (result->success)
+        std::printf(" %d |", result->solved.iterations);
+      else
+        std::printf(" **%.0e** |", result->error.natural_map_rms);
+    }
+    std::fflush(stdout);
+  }
+  std::printf("\n");
+}
