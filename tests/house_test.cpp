@@ -163,3 +163,27 @@ TEST_CASE("the reader of includes sees what is forbidden") {
   CHECK(!breaches(root, "solvers/long.cpp", std::string(longest_file + 1, '\n')).empty());
   CHECK(breaches(root, "solvers/long.cpp", std::string(longest_file, '\n')).empty());
 }
+
+TEST_CASE("what docs/adding_a_solver.md quotes is what the files say") {
+  const fs::path root = BALLAST_SOURCE_FOLDER;
+  std::istringstream lines(content(root / "docs" / "adding_a_solver.md"));
+  std::string file, quotation;
+  bool inside = false;
+  int quotations = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!inside) {  // the last file that was named before a block is the one quoted
+      for (size_t at = line.find("`solvers/"); at != std::string::npos; at = line.find("`solvers/", at + 1))
+        file = line.substr(at + 1, line.find('`', at + 1) - at - 1);
+      inside = line == "```cpp" || line == "```cmake";
+      quotation.clear();
+    } else if (line == "```") {
+      inside = false;
+      ++quotations;
+      INFO(file << ":\n" << quotation);
+      CHECK(content(root / file).find(quotation) != std::string::npos);
+    } else {
+      quotation += line + "\n";
+    }
+  }
+  CHECK(quotations >= 8);
+}
