@@ -108,7 +108,6 @@ ExitCode compare_live(const CompareOptions& options) {
   live.tolerances = options.bench.tolerances;
   live.max_seconds = options.bench.max_seconds;
   live.folder = options.output;
-  InterruptGuard guard;
   const LiveComparison comparison = run_live(live, show_trajectory);
   if (InterruptGuard::requested()) return interrupted();
   Manifest manifest("compare --live " + live.scene, {options.bench.command}, binary_key());
@@ -143,8 +142,12 @@ ExitCode compare(CompareOptions options) {
 }
 
 constexpr const char* footer =
-    R"(Cases are files (.hdf5, .h5, .dat), folders, patterns, and manufactured problems with known solutions:
-  known:bodies=20,contacts=40,mass_ratio=1e3,friction_min=0,friction_max=1,open=.25,slip=.35,frictionless=.1,seed=1,count=3
+    R"(Cases are files (.hdf5, .h5, .dat), folders, patterns, and problems made on the spot:
+  known:bodies=20,contacts=40,copies=1,mass_ratio=1e3,friction_min=0,friction_max=1,open=.25,slip=.35,frictionless=.1,seed=1,count=3
+  stress:all                       the small ones that break solvers
+  stress:stack,n=2,ratio=1e6       n boxes, the uppermost of so many times the others' mass (rows=1: without friction)
+  stress:chain,grains=50,force=1e4 grains jammed between walls
+  stress:table,copies=25,mu=.5,speed=.01
 
 Each solve runs in a child process under limits of time and memory; a timeout or a crash is a row. A solve shorter than a quarter of a second
 is repeated in its child, and the fastest run counts. "solved": the backend says so and the judge, outside the child, agrees.
@@ -168,7 +171,7 @@ void add_compare_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("compare", "Backends on identical problems: accuracy against cost, figures, a page");
   auto options = std::make_shared<CompareOptions>();
   BenchOptions& bench = options->bench;
-  command->add_option("cases", options->cases, "Problem files, folders, patterns, known:...");
+  command->add_option("cases", options->cases, "Problem files, folders, patterns, known:..., stress:...");
   command->add_option("--solvers", options->solvers, "Names, separated by commas, or all")->capture_default_str();
   command->add_option("--tolerances", options->tolerances, "Separated by commas")->capture_default_str();
   command->add_option("--starts", options->starts, "cold, warm or cold,warm; warm where a case has a warm start")->capture_default_str();

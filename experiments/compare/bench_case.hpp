@@ -22,7 +22,7 @@ struct CaseFacts {
   int dofs = 0;              ///< unknowns of the dynamics form; 0 when only W is known
   double rank_deficiency = 0.0;  ///< 1 - rank(W)/rows. By eigenvalues up to 1000 rows; above, from the unknowns (a lower bound),
                                  ///< and NaN where only W is known
-  double mass_ratio = 1.0;       ///< largest over smallest lambda_max(W_cc): how unlike the contacts' effective masses are
+  double mass_ratio = 1.0;       ///< largest over smallest mass of the bodies in contact; where only W is known, of lambda_max(W_cc)
   double velocity_scale = 1.0;   ///< errors are relative to it [m/s]: rms of q over rows; g h for captured problems
   std::string content;           ///< key of the problem, its start and its scale
 };
@@ -44,9 +44,16 @@ struct BenchCase {
 
 /// Each word is one of
 ///   a file (.hdf5, .h5, .dat), a folder (all such files in and below it), a pattern with * ? [ ]
-///   known:bodies=20,contacts=40,mass_ratio=1e3,friction_min=0,friction_max=1,open=.25,slip=.35,frictionless=.1,seed=1,count=3
+///   known:..., stress:... (made_cases.cpp has the settings; ballast compare --help lists them)
 /// Files come sorted; equal names get their folders before them. Throws BenchCaseError.
 std::vector<BenchCase> bench_cases(const std::vector<std::string>& words);
+
+/// Problems made on the spot: words that begin with known: or stress:.
+bool is_made_case(const std::string& word);
+void add_made_cases(const std::string& word, std::vector<BenchCase>& cases);  ///< throws BenchCaseError
+
+/// A case without warm start; errors are relative to `velocity_scale` [m/s], or to the rms of q when that is 0. Throws InvalidProblem.
+LoadedCase load_case(FrictionProblem problem, double velocity_scale = 0.0);
 
 /// Measures a problem. Throws InvalidProblem.
 CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start, double velocity_scale);

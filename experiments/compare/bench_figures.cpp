@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <set>
 
 namespace ballast {
@@ -11,37 +12,12 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* seconds_axis = "time  (s)";
 
-std::vector<std::string> solvers_of(std::span<const BenchRow> rows) {
-  std::vector<std::string> names;
-  for (const BenchRow& row : rows)
-    if (std::find(names.begin(), names.end(), row.solver) == names.end()) names.push_back(row.solver);
-  return names;
-}
-
-std::string text_of(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-/// "cold_1e-08"
+/// "cold_1e-08": no two tolerances alike.
 std::string suffix_of(const BenchTable& table) {
-  return std::string(name_of(table.start)) + "_" + figure_name(text_of("%.0e", table.tolerance));
-}
-
-/// Corners of a step curve up to `last`.
-Curve stairs(const StepCurve& steps, double last, Curve curve) {
-  for (size_t k = 0; k < steps.x.size(); ++k) {
-    if (k > 0) {
-      curve.x.push_back(steps.x[k]);
-      curve.y.push_back(steps.y[k - 1]);
-    }
-    curve.x.push_back(steps.x[k]);
-    curve.y.push_back(steps.y[k]);
-  }
-  curve.x.push_back(last);
-  curve.y.push_back(steps.y.back());
-  return curve;
+  char text[48];
+  std::snprintf(text, sizeof text, "%.0e", table.tolerance);
+  if (std::atof(text) != table.tolerance) std::snprintf(text, sizeof text, "%g", table.tolerance);
+  return std::string(name_of(table.start)) + "_" + figure_name(text);
 }
 
 /// Whole decade at or above.
@@ -82,80 +58,28 @@ struct CostAxis {
 constexpr CostAxis cost_axes[] = {
     {"contacts", "contacts", "contacts", true, [](const CaseFacts& f) { return static_cast<double>(f.contacts); }},
     {"rank", "rank deficiency of {/:Italic W},  1 − rank/rows", "rank deficiency of <i>W</i>", false, [](const CaseFacts& f) { return f.rank_deficiency; }},
-    {"mass_ratio", "mass ratio,  largest/smallest {/Symbol l}_{max}({/:Italic W_{cc}})", "ratio of the contacts’ effective masses", true, [](const CaseFacts& f) { return f.mass_ratio; }},
+    {"mass_ratio", "mass ratio", "mass ratio", true, [](const CaseFacts& f) { return f.mass_ratio; }},
 };
 
 const CaseFacts& facts_of(const BenchTable& table, size_t c) {
   return std::find_if(table.cells[c].begin(), table.cells[c].end(), [](const BenchCell& cell) { return cell.row != nullptr; })->row->facts;
 }
 
-/// Rows of the first repeat, from `start`.
-template <typename Test>
-std::vector<const BenchRow*> selected(std::span<const BenchRow> rows, StartKind start, Test&& test) {
-  std::vector<const BenchRow*> found;
-  for (const BenchRow& row : rows)
-    if (row.start == start && row.repeat == 0 && test(row)) found.push_back(&row);
-  return found;
-}
+}  // namespace
 
-/// The history to the tightest tolerance that has one.
-const BenchRow* longest_history(const std::vector<const BenchRow*>& rows, const std::string& solver) {
-  const BenchRow* best = nullptr;
-  for (const BenchRow* row : rows)
-    if (row->solver == solver && !row->history.empty() && (!best || row->tolerance < best->tolerance)) best = row;
-  return best;
-}
-
-/// Where a solver arrived: one point per tolerance that it solved.
-Curve arrivals(const std::vector<const BenchRow*>& rows, const std::string& solver, Curve curve) {
-  curve.mark = Mark::points;
-  curve.width = 2.4;
-  curve.title.clear();
-  for (const BenchRow* row : rows) {
-    if (row->solver != solver || row->outcome != Outcome::solved || !(row->natural_map_rms > 0.0)) continue;
-    curve.x.push_back(row->seconds());
-    curve.y.push_back(row->natural_map_rms / row->facts.velocity_scale);
+Curve stairs(const StepCurve& steps, double last, Curve curve) {
+  for (size_t k = 0; k < steps.x.size(); ++k) {
+    if (k > 0) {
+      curve.x.push_back(steps.x[k]);
+      curve.y.push_back(steps.y[k - 1]);
+    }
+    curve.x.push_back(steps.x[k]);
+    curve.y.push_back(steps.y[k]);
   }
+  curve.x.push_back(last);
+  curve.y.push_back(steps.y.back());
   return curve;
 }
-
-Panel error_panel() {
-  Panel panel;
-  panel.x_label = seconds_axis;
-  panel.y_label = "error, relative";
-  panel.log_x = panel.log_y = true;
-  return panel;
-}
-
-void mark_tolerances(const std::vector<const BenchRow*>& rows, Panel& panel) {
-  if (rows.empty() || rows[0]->measure != Measure::natural_map) return;
-  std::set<double> tolerances;
-  for (const BenchRow* row : rows) tolerances.insert(row->tolerance);
-  for (const double tolerance : tolerances) panel.lines.push_back({tolerance, "", false, Ink::grey});
-}
-
-/// What a log axis cannot show: errors far below rounding flatten the picture.
-void bound_errors(Panel& panel) {
-  double least = infinity, most = 0.0;
-  for (const Curve& curve : panel.curves)
-    for (const double y : curve.y)
-      if (y > 0.0 && std::isfinite(y)) least = std::min(least, y), most = std::max(most, y);
-  if (least < 1e-16 && most > 1e-16) panel.y_min = 1e-16;
-}
-
-Figure figure_of(const std::string& name, const std::string& title, Panel panel) {
-  Figure figure;
-  figure.name = name;
-  figure.title = title;
-  figure.height = height_for(panel.curves.size() / 2);
-  if (!panel.curves.empty()) {
-    bound_errors(panel);
-    figure.panels = {std::move(panel)};
-  }
-  return figure;
-}
-
-}  // namespace
 
 Curve styled(size_t k, const std::string& title) {
   constexpr Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::orange, Ink::purple, Ink::sky, Ink::black, Ink::grey};
@@ -237,71 +161,6 @@ std::vector<ReportFigure> cost_figures(const BenchTable& table) {
                                    Html{"Time of prepare and solve; only what was solved is drawn."}});
   }
   return figures;
-}
-
-ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::string& case_name, StartKind start) {
-  const std::vector<const BenchRow*> mine = selected(rows, start, [&](const BenchRow& row) { return row.case_name == case_name; });
-  const std::vector<std::string> solvers = solvers_of(rows);
-  Panel panel = error_panel();
-  for (size_t s = 0; s < solvers.size(); ++s) {
-    const Curve style = styled(s, solvers[s]);
-    bool is_drawn = false;
-    if (const BenchRow* row = longest_history(mine, solvers[s])) {
-      StepCurve best = best_so_far(*row);
-      thin_out(best.x, best.y, 200);
-      if (best.x.size() > 1) {
-        Curve curve = stairs(best, std::max(best.x.back(), row->seconds()), style);
-        panel.curves.push_back(std::move(curve));
-        is_drawn = true;
-      }
-    }
-    Curve points = arrivals(mine, solvers[s], style);
-    if (points.x.empty()) continue;
-    if (!is_drawn) points.title = style.title;
-    panel.curves.push_back(std::move(points));
-  }
-  mark_tolerances(mine, panel);
-  Html caption = Html{"<b>"} + escaped(case_name) + Html{"</b>, "} + Html{name_of(start)} + Html{" start"};
-  if (!mine.empty())
-    caption += Html{": "} + exact(mine[0]->facts.contacts) + Html{" contacts, rank deficiency "} + number(mine[0]->facts.rank_deficiency, 2) +
-               Html{", mass ratio "} + number(mine[0]->facts.mass_ratio, 2);
-  caption += Html{". Lines: least error so far; dots: where a tolerance was reached."};
-  return {figure_of("case_" + figure_name(case_name) + "_" + name_of(start), "Error against time: " + case_name, std::move(panel)),
-          std::move(caption)};
-}
-
-ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family, StartKind start) {
-  const std::vector<const BenchRow*> mine = selected(rows, start, [&](const BenchRow& row) { return row.family == family; });
-  std::set<std::string> cases;
-  for (const BenchRow* row : mine) cases.insert(row->case_name);
-  const std::vector<std::string> solvers = solvers_of(rows);
-  Panel panel = error_panel();
-  for (size_t s = 0; cases.size() > 1 && s < solvers.size(); ++s) {
-    std::vector<StepCurve> curves;
-    for (const std::string& name : cases) {
-      std::vector<const BenchRow*> of_case;
-      for (const BenchRow* row : mine)
-        if (row->case_name == name) of_case.push_back(row);
-      if (const BenchRow* row = longest_history(of_case, solvers[s])) curves.push_back(best_so_far(*row));
-    }
-    if (curves.size() < cases.size()) continue;  // a mean over other cases would not compare
-    double first = infinity, last = 0.0;
-    for (const StepCurve& curve : curves)
-      for (const double x : curve.x)
-        if (x > 0.0) first = std::min(first, x), last = std::max(last, x);
-    if (!(last > first)) continue;
-    Curve curve = styled(s, solvers[s]);
-    constexpr int samples = 160;
-    for (int k = 0; k <= samples; ++k) curve.x.push_back(first * std::pow(last / first, static_cast<double>(k) / samples));
-    curve.y = mean_error_at(curves, curve.x);
-    panel.curves.push_back(std::move(curve));
-  }
-  mark_tolerances(mine, panel);
-  Html caption = Html{"<b>Family "} + escaped(family) + Html{"</b>, "} + exact(static_cast<double>(cases.size())) + Html{" cases, "} +
-                 Html{name_of(start)} + Html{" start: geometric mean over the cases of the least error reached by then. Backends that cannot take every case of "
-                      "the family are left out."};
-  return {figure_of("family_" + figure_name(family) + "_" + name_of(start), "Error against time: family " + family, std::move(panel)),
-          std::move(caption)};
 }
 
 }  // namespace ballast

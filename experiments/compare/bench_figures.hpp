@@ -22,6 +22,9 @@ ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& fa
 /// The k-th backend's line: eight colours, then the same dashed, then thin.
 Curve styled(size_t k, const std::string& title);
 
+/// Adds the corners of a step curve, held up to `last`, to a curve.
+Curve stairs(const StepCurve& steps, double last, Curve curve);
+
 /// Height of a figure whose key has so many entries: the key grows, the axes stay [px].
 int height_for(size_t entries);
 

@@ -139,7 +139,7 @@ const std::vector<BenchColumn>& bench_columns() {
       {"rows", "", [](R r) { return std::to_string(r.facts.rows); }},
       {"dofs", "unknowns of bodies in contact; 0: only W is known", [](R r) { return std::to_string(r.facts.dofs); }},
       {"rank_deficiency", "1 - rank(W)/rows", [](R r) { return print("%.4g", r.facts.rank_deficiency); }},
-      {"mass_ratio", "largest over smallest lambda_max(W_cc)", [](R r) { return print("%.4g", r.facts.mass_ratio); }},
+      {"mass_ratio", "of bodies in contact; where only W is known, of lambda_max(W_cc)", [](R r) { return print("%.4g", r.facts.mass_ratio); }},
       {"velocity_scale", "[m/s]", [](R r) { return print("%.6g", r.facts.velocity_scale); }},
       {"note", "", [](R r) { return r.note; }},
       {"key", "of problem, backend, options and binary", [](R r) { return r.key; }},

@@ -169,7 +169,7 @@ std::vector<double> mean_error_at(std::span<const StepCurve> curves, std::span<c
       if (curve.x.empty()) continue;
       const auto after = std::upper_bound(curve.x.begin(), curve.x.end(), time);
       const size_t k = after == curve.x.begin() ? 0 : static_cast<size_t>(after - curve.x.begin()) - 1;
-      sum += std::log(std::max(curve.y[k], 1e-300));
+      sum += std::log(std::max(curve.y[k], 1e-16));
       ++count;
     }
     means.push_back(count ? std::exp(sum / static_cast<double>(count)) : std::numeric_limits<double>::quiet_NaN());

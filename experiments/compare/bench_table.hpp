@@ -54,7 +54,7 @@ std::vector<StepCurve> data_profiles(const std::vector<std::vector<double>>& tim
 /// Error of a history as what was reached by then: falling steps. Times include `prepare_seconds`.
 StepCurve best_so_far(const BenchRow& row);
 
-/// Geometric mean over the curves of the error at each of `times`; before a curve's first point its first error holds. NaN without curves.
+/// Geometric mean over the curves of the error at each of `times`; before a curve's first point its first error holds; zero counts as 1e-16. NaN without curves.
 std::vector<double> mean_error_at(std::span<const StepCurve> curves, std::span<const double> times);
 
 }  // namespace ballast

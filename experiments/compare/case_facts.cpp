@@ -1,10 +1,11 @@
-// case_facts: what cost is drawn against, and the key of a problem's content.
+// load_case and case_facts: what cost is drawn against, and the key of a problem's content.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <cstdio>
 #include <string_view>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -80,36 +81,64 @@ double rank_deficiency(const FrictionProblem& problem, int touched_dofs) {
   return std::max(0.0, 1.0 - static_cast<double>(touched_dofs) / rows);
 }
 
-int touched_dofs(const DynamicsForm& dynamics) {
+/// Bodies that a contact touches.
+std::vector<int> touched_bodies(const DynamicsForm& dynamics) {
   std::vector<char> is_touched(static_cast<size_t>(dynamics.body_count()), 0);
   for (const std::vector<int>* bodies : {&dynamics.body_a, &dynamics.body_b})
     for (const int body : *bodies)
       if (body >= 0) is_touched[static_cast<size_t>(body)] = 1;
-  int dofs = 0;
+  std::vector<int> touched;
   for (int body = 0; body < dynamics.body_count(); ++body)
-    if (is_touched[static_cast<size_t>(body)]) dofs += dynamics.body_dofs(body);
-  return dofs;
+    if (is_touched[static_cast<size_t>(body)]) touched.push_back(body);
+  return touched;
+}
+
+/// Largest over smallest of what is > 0; 1 without any.
+double ratio_of(const std::vector<double>& values) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const double value : values) {
+    if (!(value > 0.0)) continue;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  return most > 0.0 ? most / least : 1.0;
+}
+
+double mass_ratio(const FrictionProblem& problem, const std::vector<int>& touched) {
+  std::vector<double> values;
+  if (problem.has_dynamics) {  // a block's first entry: translations come first
+    for (const int body : touched) values.push_back(problem.dynamics.mass[static_cast<size_t>(problem.dynamics.mass_begin[body])]);
+  } else {
+    std::vector<Eigen::Matrix3d> blocks;
+    delassus_diagonal(problem, blocks);
+    for (const Eigen::Matrix3d& block : blocks) values.push_back(largest_eigenvalue(block));
+  }
+  return ratio_of(values);
 }
 
 }  // namespace
+
+LoadedCase load_case(FrictionProblem problem, double velocity_scale) {
+  problem.validate();
+  LoadedCase loaded;
+  loaded.problem = std::move(problem);
+  // what the judge calls velocity scale: the rms of q
+  if (!(velocity_scale > 0.0)) velocity_scale = contact_error(loaded.problem, Impulses::Zero(loaded.problem.row_count())).velocity_scale;
+  loaded.facts = case_facts(loaded.problem, {}, velocity_scale);
+  loaded.describe_contact = [](int c) { return c < 0 ? std::string() : "contact " + std::to_string(c); };
+  return loaded;
+}
 
 CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start, double velocity_scale) {
   problem.validate();
   CaseFacts facts;
   facts.contacts = problem.contact_count();
   facts.rows = problem.row_count();
-  if (problem.has_dynamics) facts.dofs = touched_dofs(problem.dynamics);
+  std::vector<int> touched;
+  if (problem.has_dynamics) touched = touched_bodies(problem.dynamics);
+  for (const int body : touched) facts.dofs += problem.dynamics.body_dofs(body);
   facts.rank_deficiency = rank_deficiency(problem, facts.dofs);
-  std::vector<Eigen::Matrix3d> blocks;
-  delassus_diagonal(problem, blocks);
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  for (const Eigen::Matrix3d& block : blocks) {
-    const double lambda = largest_eigenvalue(block);
-    if (!(lambda > 0.0)) continue;
-    least = std::min(least, lambda);
-    most = std::max(most, lambda);
-  }
-  if (most > 0.0) facts.mass_ratio = most / least;
+  facts.mass_ratio = mass_ratio(problem, touched);
   // a problem at rest (q = 0) has no scale of its own
   facts.velocity_scale = velocity_scale > 0.0 ? velocity_scale : 1.0;
   facts.content = content_of(problem, warm_start, facts.velocity_scale);

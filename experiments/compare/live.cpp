@@ -216,6 +216,7 @@ LiveComparison run_live(const LiveOptions& options, const std::function<bool(con
   comparison.scene = read_scene(find_scene(options.scene), options.overrides);
   comparison.velocity_scale = step_settings(comparison.scene).velocity_scale();
   make_start(options, comparison.scene);
+  const InterruptGuard guard;  // only now: run() has one of its own
   const Start start = read_start(options, comparison.scene);
   comparison.has_driven_wall = start.system.first_driven_wall() >= 0;
   create_folder(options.folder / "trajectories");

@@ -81,6 +81,22 @@ double ReferenceComparison::ratio(double shift, double limit, bool of_auto) cons
   return a.empty() ? std::numeric_limits<double>::quiet_NaN() : shifted_geometric_ratio(a, b, shift);
 }
 
+namespace {
+
+bool is_ours(const std::string& solver) { return !solver.starts_with("siconos"); }
+
+/// Fills in our fastest.
+void take_fastest(const BenchTable& table, size_t c, ReferenceComparison::Line& line) {
+  line.ours = std::numeric_limits<double>::infinity();
+  for (size_t s = 0; s < table.solvers.size(); ++s) {
+    if (!is_ours(table.solvers[s]) || !(table.cells[c][s].median < line.ours)) continue;
+    line.ours = table.cells[c][s].median;
+    line.our_solver = table.solvers[s];
+  }
+}
+
+}  // namespace
+
 std::vector<ReferenceComparison> compare_with_reference(std::span<const BenchTable> tables,
                                                         std::span<const ReferenceTimes> reference) {
   std::vector<ReferenceComparison> comparisons;
@@ -91,18 +107,19 @@ std::vector<ReferenceComparison> compare_with_reference(std::span<const BenchTab
     ReferenceComparison comparison;
     comparison.tolerance = table.tolerance;
     for (size_t c = 0; c < table.cases.size(); ++c) {
-      const double ours = table.fastest(c);
+      ReferenceComparison::Line line;
+      line.case_name = table.cases[c];
+      take_fastest(table, c, line);
       const std::string stem = problem_stem(table.cases[c]);
       const auto theirs = times->entries.find(stem);
       if (theirs == times->entries.end()) {
-        if (std::isfinite(ours) && times->unsolved.contains(stem)) comparison.only_ours.push_back(table.cases[c]);
+        if (std::isfinite(line.ours) && times->unsolved.contains(stem)) comparison.only_ours.push_back(table.cases[c]);
         continue;
       }
-      if (std::isinf(ours)) comparison.missing.push_back(table.cases[c]);
-      ReferenceComparison::Line line{table.cases[c], theirs->second.solver, "", theirs->second.seconds, ours,
-                                     std::numeric_limits<double>::quiet_NaN()};
-      for (size_t s = 0; s < table.solvers.size(); ++s)
-        if (table.cells[c][s].solved && table.cells[c][s].median == ours) line.our_solver = table.solvers[s];
+      if (std::isinf(line.ours)) comparison.missing.push_back(table.cases[c]);
+      line.their_solver = theirs->second.solver;
+      line.theirs = theirs->second.seconds;
+      line.automatic = std::numeric_limits<double>::quiet_NaN();
       if (automatic != table.solvers.end())
         line.automatic = table.cells[c][static_cast<size_t>(automatic - table.solvers.begin())].median;
       comparison.lines.push_back(std::move(line));

@@ -47,7 +47,7 @@ struct ReferenceComparison {
   double ratio(double shift, double limit, bool of_auto) const;
 };
 
-/// For each reference tolerance that the bench has.
+/// For each reference tolerance that the bench has. Adapters to Siconos (siconos_*) are not ours.
 std::vector<ReferenceComparison> compare_with_reference(std::span<const BenchTable> tables,
                                                         std::span<const ReferenceTimes> reference);
 

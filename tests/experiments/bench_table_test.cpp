@@ -119,7 +119,8 @@ TEST_CASE("Reference times: names that differ by their suffixes, and ratios") {
   CHECK(reference[0].tolerance == 1e-4);
   CHECK(reference[0].entries.at("x").seconds == Approx(0.5));
   const std::vector<BenchRow> rows = {row("x.hdf5", "a", 2.0, Outcome::solved), row("x.hdf5", "auto", 1.0, Outcome::solved),
-                                      row("y.dat", "a", 3.0, Outcome::solved), row("y.dat", "auto", 4.0, Outcome::stopped)};
+                                      row("y.dat", "a", 3.0, Outcome::solved), row("y.dat", "auto", 4.0, Outcome::stopped),
+                                      row("x.hdf5", "siconos_nsgs", 0.1, Outcome::solved)};
   const std::vector<BenchTable> tables = bench_tables(rows);
   const std::vector<ReferenceComparison> compared = compare_with_reference(tables, reference);
   REQUIRE(compared.size() == 1);

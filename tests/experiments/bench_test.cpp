@@ -12,6 +12,8 @@
 
 #include "experiments/atomic_file.hpp"
 #include "experiments/compare/bench_options.hpp"
+#include "experiments/interrupt.hpp"
+#include "problems/delassus.hpp"
 #include "problems/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/temporary_folder.hpp"
@@ -180,6 +182,24 @@ TEST_CASE("A bench goes on after kill -9") {
   for (const BenchRow& row : rows) CHECK(row.outcome == Outcome::solved);
 }
 
+TEST_CASE("An interrupt stops the bench after the row under way") {
+  const TemporaryFolder folder;
+  const std::vector<BenchCase> cases = bench_cases({"known:contacts=12,bodies=6,count=5"});
+  BenchOptions options = options_in(folder.path(), bench_solvers("pgs"));
+  options.tolerances = {1e-6};
+  std::vector<BenchRow> rows;
+  {
+    const InterruptGuard guard;
+    rows = run_bench(cases, options, [](const BenchRow&, bool, size_t done, size_t) {
+      if (done == 2) raise(SIGINT);
+      return !InterruptGuard::requested();
+    });
+  }
+  const InterruptGuard forgotten;  // for the tests that follow
+  CHECK(rows.size() == 2);
+  CHECK(read_whole_file(folder.path() / "manifest.json").find("the same command goes on") != std::string::npos);
+}
+
 TEST_CASE("A row survives its file to the last bit") {
   BenchRow row;
   row.key = "k";
@@ -206,8 +226,13 @@ TEST_CASE("Cases: families, names, and what is refused") {
   CHECK(family_of_file("Rover1039.dat") == "Rover");
   CHECK(family_of_file("NESpheres_30_1.dat") == "NESpheres");
   CHECK(bench_cases({"known:count=3"}).size() == 3);
+  const std::vector<BenchCase> made = bench_cases({"stress:stack,ratio=1e3", "stress:all"});
+  CHECK(made.size() > 10);
+  CHECK(made[0].load().facts.mass_ratio == Approx(1e3));
+  CHECK(made[0].load().facts.velocity_scale == 9.81e-3);
+  for (const BenchCase& c : made) CHECK_NOTHROW(c.load());
   const TemporaryFolder folder;
-  for (const std::string word : {"known:bodies=x", "known:colour=3", "known:contacts=0", "/no/such/file.dat"})
+  for (const std::string word : {"known:bodies=x", "known:colour=3", "known:contacts=0", "known:bodies", "stress:", "stress:stack,weight=3", "stress:stack,rows=2", "/no/such/file.dat"})
     CHECK_THROWS_AS(bench_cases({word}), BenchCaseError);
   CHECK_THROWS_AS(bench_cases({folder.path().string()}), BenchCaseError);
   CHECK_THROWS_AS(bench_cases({folder.write("notes.txt", "").string()}), BenchCaseError);
@@ -230,7 +255,13 @@ TEST_CASE("What is measured of a case") {
   CHECK(facts.rows == 120);
   CHECK(facts.dofs == 18);
   CHECK(facts.rank_deficiency == Approx(1.0 - 18.0 / 120.0));
-  CHECK(facts.mass_ratio > 1.0);
+  CHECK(facts.mass_ratio == Approx(1.0));
+  FrictionProblem stored = known.problem;  // W alone
+  add_delassus_form(stored);
+  stored.has_dynamics = false;
+  CHECK(case_facts(stored, {}, 2.0).dofs == 0);
+  CHECK(case_facts(stored, {}, 2.0).rank_deficiency == Approx(facts.rank_deficiency));
+  CHECK(case_facts(stored, {}, 2.0).mass_ratio > 1.0);
   CHECK(case_facts(known.problem, known.r, 2.0).content != facts.content);
   CHECK(case_facts(known.problem, {}, 3.0).content != facts.content);
   CHECK(case_facts(known.problem, {}, 2.0).content == facts.content);

@@ -1,0 +1,148 @@
+// Problems of a bench that are made on the spot: manufactured ones with known solutions, and those that break solvers.
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "experiments/compare/bench_case.hpp"
+#include "problems/known_solutions.hpp"
+#include "problems/stress_problems.hpp"
+
+namespace ballast {
+namespace {
+
+/// "kind:what,name=value,...". Every setting must be asked for by finish().
+class MadeWord {
+ public:
+  explicit MadeWord(const std::string& word) : word_(word) {
+    std::string rest = word.substr(word.find(':') + 1);
+    while (!rest.empty()) {
+      const std::string item = rest.substr(0, rest.find(','));
+      rest.erase(0, item.size() + 1);
+      const size_t equals = item.find('=');
+      if (equals == std::string::npos) {
+        if (!what_.empty()) fail(item + ": expected name=value");
+        what_ = item;
+      } else {
+        values_[item.substr(0, equals)] = number_of(item, item.substr(equals + 1));
+      }
+    }
+  }
+
+  /// The word without a value; empty: none.
+  const std::string& what() const { return what_; }
+
+  double take(const char* name, double otherwise, double least = 0.0) {
+    const auto found = values_.find(name);
+    if (found == values_.end()) return otherwise;
+    const double value = found->second;
+    if (!(value >= least)) fail(std::string(name) + ": too small");
+    values_.erase(found);
+    return value;
+  }
+  int take_count(const char* name, int otherwise, int least) { return static_cast<int>(std::lround(take(name, otherwise, least))); }
+
+  void finish() const {
+    if (!values_.empty()) fail(values_.begin()->first + ": no such setting; see ballast compare --help");
+  }
+  [[noreturn]] void fail(const std::string& what) const { throw BenchCaseError(word_ + ": " + what); }
+
+ private:
+  double number_of(const std::string& item, const std::string& text) const {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0) || !(value <= 1e9))
+      fail(item + ": expected a number from 0 to 1e9");
+    return value;
+  }
+
+  std::string word_, what_;
+  std::map<std::string, double> values_;
+};
+
+void add_known_cases(MadeWord& word, std::vector<BenchCase>& cases) {
+  if (!word.what().empty()) word.fail(word.what() + ": expected name=value");
+  KnownSolutionSettings settings;
+  settings.bodies = word.take_count("bodies", settings.bodies, 2);
+  settings.contacts = word.take_count("contacts", settings.contacts, 1);
+  settings.mass_ratio = word.take("mass_ratio", settings.mass_ratio, 1.0);
+  settings.friction_min = word.take("friction_min", settings.friction_min);
+  settings.friction_max = word.take("friction_max", settings.friction_max);
+  settings.open_fraction = word.take("open", settings.open_fraction);
+  settings.slip_fraction = word.take("slip", settings.slip_fraction);
+  settings.frictionless_fraction = word.take("frictionless", settings.frictionless_fraction);
+  settings.copies = word.take_count("copies", settings.copies, 1);
+  settings.seed = static_cast<std::uint64_t>(word.take_count("seed", 1, 0));
+  const int count = word.take_count("count", 1, 1);
+  word.finish();
+  for (int k = 0; k < count; ++k, ++settings.seed) {
+    char name[96];
+    std::snprintf(name, sizeof name, "known-b%d-c%dx%d-R%g-s%llu", settings.bodies, settings.contacts, settings.copies, settings.mass_ratio,
+                  static_cast<unsigned long long>(settings.seed));
+    cases.push_back({name, "known", [settings] { return load_case(make_known_solution(settings).problem); }});
+  }
+}
+
+void add_stress_case(const std::string& name, const std::string& family, const std::function<StressProblem()>& make,
+                     std::vector<BenchCase>& cases) {
+  cases.push_back({name, family, [make] { return load_case(make().problem, stress_gravity_step); }});
+}
+
+/// Every small problem that is valid; broken ones are for tests.
+void add_all_stress_cases(std::vector<BenchCase>& cases) {
+  for (const StressProblem& stress : stress_problems()) {
+    if (!stress.refused.empty()) continue;
+    // the manufactured ones have no gravity
+    const double scale = stress.item == 20 ? 0.0 : stress_gravity_step;
+    cases.push_back({"stress-" + stress.name, "stress " + std::to_string(stress.item),
+                     [problem = stress.problem, scale] { return load_case(problem, scale); }});
+  }
+}
+
+/// stack: n boxes of 1 kg, the uppermost of `ratio` kg. chain: grains between walls. table: four legs.
+void add_stress_cases(MadeWord& word, std::vector<BenchCase>& cases) {
+  char name[80];
+  if (word.what() == "all") {
+    word.finish();
+    add_all_stress_cases(cases);
+  } else if (word.what() == "stack") {
+    const int n = word.take_count("n", 2, 1), rows = word.take_count("rows", 3, 1);
+    const double ratio = word.take("ratio", 1.0, 1e-9);
+    if (rows != 1 && rows != 3) word.fail("rows: expected 1 or 3");
+    word.finish();
+    std::vector<double> masses(static_cast<size_t>(n), 1.0);
+    masses.back() = ratio;
+    std::snprintf(name, sizeof name, "stack-n%d-R%g-rows%d", n, ratio, rows);
+    add_stress_case(name, "stack", [masses, rows] { return mass_stack(masses, rows); }, cases);
+  } else if (word.what() == "chain") {
+    const int grains = word.take_count("grains", 20, 1);
+    const double force = word.take("force", 1e3);
+    word.finish();
+    std::snprintf(name, sizeof name, "chain-n%d-F%g", grains, force);
+    add_stress_case(name, "chain", [grains, force] { return jammed_chain(grains, force); }, cases);
+  } else if (word.what() == "table") {
+    const int copies = word.take_count("copies", 1, 1);
+    const double mu = word.take("mu", 0.5), speed = word.take("speed", 0.0);
+    word.finish();
+    std::snprintf(name, sizeof name, "table-x%d-mu%g-v%g", copies, mu, speed);
+    add_stress_case(name, "table", [mu, speed, copies] { return four_legged_table(mu, speed, copies); }, cases);
+  } else {
+    word.fail("expected stress:all, stress:stack, stress:chain or stress:table");
+  }
+}
+
+bool begins_with(const std::string& text, const char* beginning) { return text.rfind(beginning, 0) == 0; }
+
+}  // namespace
+
+bool is_made_case(const std::string& word) { return begins_with(word, "known:") || begins_with(word, "stress:"); }
+
+void add_made_cases(const std::string& word, std::vector<BenchCase>& cases) {
+  MadeWord made(word);
+  if (begins_with(word, "known:")) add_known_cases(made, cases);
+  else add_stress_cases(made, cases);
+}
+
+}  // namespace ballast
