@@ -116,6 +116,8 @@ class Bench {
     manifest.summary("memory_MB", options_.limits.memory_MB);
     manifest.summary("repeats", options_.repeats);
     manifest.summary("blas", loaded_blas());
+    // of this process, the BLAS's included; children have the one that works
+    manifest.summary("threads", static_cast<double>(std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator())));
     double load[3];
     if (getloadavg(load, 3) == 3) manifest.summary("load_at_end", load[0]);
     long solved = 0, denied = 0;
