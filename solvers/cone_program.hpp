@@ -63,9 +63,9 @@ class ConeProgram {
   Eigen::VectorXd linear_term(const Eigen::VectorXd& x) const;
 
   MovingContacts moving_;
-  std::vector<int> row_;    ///< in MovingContacts, of each row here
-  Eigen::VectorXd scale_;   ///< per row: impulse = scale * x [N s]
-  double unit_ = 1.0;       ///< of q scaled by 1 / sqrt(W_cc) [sqrt(J)]
+  std::vector<int> row_;   ///< in MovingContacts, of each row here
+  Eigen::VectorXd scale_;  ///< per row: impulse = scale * x [N s]
+  double unit_ = 1.0;      ///< of q scaled by 1 / sqrt(W_cc) [sqrt(J)]
   double velocity_unit_ = 1.0;
   ContactOperator operator_;
   SlipShift shift_;

@@ -170,7 +170,8 @@ class MpccNlp final : public IpoptProgram {
   /// d r_j / d x times `factor`, into constraint i.
   void add_impulse_derivative(const VectorXd& x, int i, int j, double factor, Entries& entries) const {
     const int k = static_cast<int>(std::upper_bound(cones_.row_begin.begin(), cones_.row_begin.end(), j) -
-                                   cones_.row_begin.begin()) - 1;
+                                   cones_.row_begin.begin()) -
+                  1;
     const int v = variable_[k], part = j - cones_.row_begin[k];
     if (part == 0) return entries.add(i, v, factor);
     entries.add(i, v, factor * cones_.friction[k] * x[v + part]);

@@ -12,9 +12,9 @@
 namespace ballast {
 namespace {
 
+using Eigen::VectorXd;
 using Ipopt::Index;
 using Ipopt::Number;
-using Eigen::VectorXd;
 
 /// Ipopt's interface in terms of ours.
 class Adapter final : public Ipopt::TNLP {

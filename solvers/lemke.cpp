@@ -60,7 +60,8 @@ int Lemke::leaving_row(int entering) const {
     const double equal = tie * (1.0 + ratio(best));
     if (difference > equal) continue;
     // Among equals the artificial variable leaves first: that is the solution.
-    if (difference < -equal || basis_[i] == 2 * n_ || (basis_[best] != 2 * n_ && lexicographically_less(i, best, entering)))
+    if (difference < -equal || basis_[i] == 2 * n_ ||
+        (basis_[best] != 2 * n_ && lexicographically_less(i, best, entering)))
       best = i;
   }
   return best;
@@ -96,8 +97,8 @@ Eigen::VectorXd Lemke::solution() const {
   const Eigen::VectorXd right = -q_(active);
   const Eigen::VectorXd x = block.partialPivLu().solve(right);
   // A basis that only rounding keeps regular: then the tableau's own values.
-  const bool close = x.allFinite() && (block * x - right).lpNorm<Eigen::Infinity>() <=
-                                          1e-9 * (1.0 + right.lpNorm<Eigen::Infinity>());
+  const bool close =
+      x.allFinite() && (block * x - right).lpNorm<Eigen::Infinity>() <= 1e-9 * (1.0 + right.lpNorm<Eigen::Infinity>());
   if (close)
     for (std::size_t k = 0; k < active.size(); ++k) z[active[k]] = std::max(0.0, x[static_cast<Eigen::Index>(k)]);
   else

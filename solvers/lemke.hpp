@@ -10,8 +10,8 @@ namespace ballast {
 
 enum class LemkeState { running, solved, ray };
 
-/// Find z >= 0 with w = m z + q >= 0 and z . w = 0, one pivot at a time. The lexicographic rule meets no basis twice, so
-/// that it ends for every m; it ends with a solution when m is copositive-plus and some z >= 0 has m z + q >= 0.
+/// Find z >= 0 with w = m z + q >= 0 and z . w = 0, one pivot at a time. The lexicographic rule meets no basis twice,
+/// so that it ends for every m; it ends with a solution when m is copositive-plus and some z >= 0 has m z + q >= 0.
 /// Memory 16 n^2 bytes, a pivot costs about 4 n^2 operations.
 class Lemke {
  public:

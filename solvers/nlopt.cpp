@@ -71,9 +71,8 @@ class Nlopt final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     constexpr int patience = 40;
-    return cones_.solve(
-        problem, std::move(start), budget, patience,
-        [this](const ConeRequest& request, RoundAnswer& answer) { run(request, answer); });
+    return cones_.solve(problem, std::move(start), budget, patience,
+                        [this](const ConeRequest& request, RoundAnswer& answer) { run(request, answer); });
   }
 
  private:

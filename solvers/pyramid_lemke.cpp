@@ -94,8 +94,8 @@ class PyramidLemke final : public Solver {
       q_.segment(at, size) = e[k].transpose() * moving_.q.segment(moving_.row_begin[k], moving_.rows(k));
       for (int l = 0; l < contacts; ++l)
         m_.block(at, begin_[l], size, begin_[l + 1] - begin_[l]) =
-            e[k].transpose() *
-            w.block(moving_.row_begin[k], moving_.row_begin[l], moving_.rows(k), moving_.rows(l)) * e[l];
+            e[k].transpose() * w.block(moving_.row_begin[k], moving_.row_begin[l], moving_.rows(k), moving_.rows(l)) *
+            e[l];
       if (size == 1) continue;
       const int last = at + size - 1;
       m_.block(at + 1, last, settings_.sides, 1).setOnes();

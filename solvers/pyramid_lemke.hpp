@@ -1,14 +1,14 @@
 #pragma once
 // Friction on a pyramid instead of a cone, as a linear complementarity problem, solved exactly by Lemke's pivoting.
-// Stewart, Trinkle 1996, "An implicit time-stepping scheme for rigid body dynamics with inelastic collisions and Coulomb
-// friction", eq. (15); Anitescu, Potra 1997 (where it is shown to be solvable).
+// Stewart, Trinkle 1996, "An implicit time-stepping scheme for rigid body dynamics with inelastic collisions and
+// Coulomb friction", eq. (15); Anitescu, Potra 1997 (where it is shown to be solvable).
 
 #include "solvers/solver.hpp"
 
 namespace ballast {
 
 struct PyramidLemkeSettings {
-  int sides = 8;  ///< directions of friction per contact, even, >= 4; their hull is inside the circle
+  int sides = 8;       ///< directions of friction per contact, even, >= 4; their hull is inside the circle
   int largest = 1000;  ///< unknowns of the complementarity problem: sides + 2 per contact with friction, 1 without
 };
 

@@ -17,8 +17,8 @@ struct RoundRequest {
 };
 
 struct RoundAnswer {
-  Eigen::VectorXd x;   ///< not finite or empty: the round failed, and nothing is taken from it
-  int iterations = 1;  ///< what the round cost; 1 at least is booked
+  Eigen::VectorXd x;     ///< not finite or empty: the round failed, and nothing is taken from it
+  int iterations = 1;    ///< what the round cost; 1 at least is booked
   bool finished = true;  ///< ended by its own criterion, not by a limit: a failure to improve counts as standing still
 };
 

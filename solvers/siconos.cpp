@@ -27,7 +27,8 @@ struct Recipe {
   void (*adjust)(SolverOptions&);
 };
 
-/// W by 3 x 3 blocks. A one-row contact gets two more rows with W_NN on the diagonal, q = 0 and mu = 0: no impulse there.
+/// W by 3 x 3 blocks. A one-row contact gets two more rows with W_NN on the diagonal, q = 0 and mu = 0: no impulse
+/// there.
 class BlockProblem {
  public:
   void take(const MovingContacts& moving) {
@@ -119,16 +120,16 @@ class Siconos final : public Solver {
                        std::max(1.0, blocks_.q().norm());
     int chunk = recipe_.first_iterations;
     constexpr int patience = 3;
-    return solve_in_rounds(
-        problem, moving_, std::move(start), budget, patience, [&](const RoundRequest& request, RoundAnswer& answer) {
-          const int limit = std::min(chunk, request.max_iterations);
-          const bool whole = run(request, tolerance, limit, answer);
-          answer.finished = !whole || answer.iterations < limit;
-          if (!answer.finished)
-            chunk = chunk > (1 << 28) ? chunk : 2 * chunk;
-          else
-            tolerance *= std::clamp(0.3 * budget.tolerance / request.last_error, 1e-4, 0.1);
-        });
+    return solve_in_rounds(problem, moving_, std::move(start), budget, patience,
+                           [&](const RoundRequest& request, RoundAnswer& answer) {
+                             const int limit = std::min(chunk, request.max_iterations);
+                             const bool whole = run(request, tolerance, limit, answer);
+                             answer.finished = !whole || answer.iterations < limit;
+                             if (!answer.finished)
+                               chunk = chunk > (1 << 28) ? chunk : 2 * chunk;
+                             else
+                               tolerance *= std::clamp(0.3 * budget.tolerance / request.last_error, 1e-4, 0.1);
+                           });
   }
 
  private:

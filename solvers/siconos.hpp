@@ -1,7 +1,7 @@
 #pragma once
 // Adapter to Siconos' numerics library (https://nonsmooth.gricad-pages.univ-grenoble-alpes.fr/siconos): the field's
-// reference, solvers of its FrictionContactProblem  u = W r + q, mu. Its own formulas are in Acary, Bremond, Huber 2018,
-// "On solving contact problems with Coulomb friction: formulations and numerical comparisons".
+// reference, solvers of its FrictionContactProblem  u = W r + q, mu. Its own formulas are in Acary, Bremond, Huber
+// 2018, "On solving contact problems with Coulomb friction: formulations and numerical comparisons".
 
 #include "solvers/solver.hpp"
 
