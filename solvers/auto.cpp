@@ -94,6 +94,12 @@ class Auto final : public Solver {
     }
   }
 
+  void use_threads(int threads) override {
+    matrix_sweeps_->use_threads(threads);
+    body_sweeps_->use_threads(threads);
+    newton_->use_threads(threads);
+  }
+
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Rounds rounds(budget, std::move(start));
     sweep_while_it_pays(rounds, problem, budget.tolerance);

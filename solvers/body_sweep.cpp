@@ -8,15 +8,15 @@
 namespace ballast {
 namespace {
 
-/// Both sides' rows of G = H L^-T, padded; a side that does not move gets zero rows and the velocity that stays zero.
+/// Both sides' rows of G = H L^-T; a side that does not move gets zero rows and the velocity `nowhere`, which stays zero.
 template <int Rows>
 void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots, int c,
-                double (*rows)[Rows][body_width], int* body) {
+                int nowhere, double (*rows)[Rows][row_width], int* body) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
   const int bodies[2] = {dynamics.body_a[c], dynamics.body_b[c]};
   for (int s = 0; s < 2; ++s) {
-    std::fill(rows[s][0], rows[s][0] + Rows * body_width, 0.0);
-    body[s] = dynamics.body_count();
+    std::fill(rows[s][0], rows[s][0] + Rows * row_width, 0.0);
+    body[s] = nowhere;
     if (bodies[s] < 0) continue;
     body[s] = bodies[s];
     roots[bodies[s]].scaled_columns<Rows>(block, [side = rows[s]](int k, const double* column) {
@@ -29,37 +29,61 @@ void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots
 }  // namespace
 
 void BodySweep::prepare(const FrictionProblem& problem) {
+  plan_.prepare(problem);
+  prepare_ranges(problem);
   prepare_bodies(problem.dynamics);
-  const int contacts = problem.contact_count();
-  int one_row = 0;
-  for (int c = 0; c < contacts; ++c) one_row += problem.contact_rows(c) == 1;
-  friction_.resize(contacts - one_row);
-  turn_.resize(contacts - one_row);
-  lambda_max_.resize(contacts - one_row);
-  one_row_.resize(one_row);
-  one_row_lambda_max_.resize(one_row);
+  team_.run(team_.size(), [&](int member) {
+    const std::vector<int>& order = plan_.contacts();
+    const size_t begin = order.size() * member / team_.size(), end = order.size() * (member + 1) / team_.size();
+    for (size_t i = begin; i < end; ++i)
+      if (is_one_row_[order[i]])
+        prepare_one_row(problem, order[i], record_[order[i]]);
+      else
+        prepare_friction(problem, order[i], record_[order[i]]);
+  });
+}
 
-  runs_.clear();
+/// Numbers the records in the order of the plan.
+void BodySweep::prepare_ranges(const FrictionProblem& problem) {
+  const int contacts = problem.contact_count();
   record_.resize(contacts);
   is_one_row_.resize(contacts);
-  int next[2] = {0, 0};  // record of each kind
-  for (int c = 0; c < contacts; ++c) {
-    const bool short_one = problem.contact_rows(c) == 1;
-    if (runs_.empty() || runs_.back().one_row != short_one) runs_.push_back({short_one, c, next[short_one], 0});
-    ++runs_.back().count;
-    is_one_row_[c] = short_one;
-    const int record = record_[c] = next[short_one]++;
-    if (short_one)
-      prepare_one_row(problem, c, record);
-    else
-      prepare_friction(problem, c, record);
-  }
+  nowhere_.resize(contacts);
+  int friction = 0, one_row = 0, nowhere = problem.dynamics.body_count();
+  const auto number = [&](const std::vector<SweepPlan::Part>& parts, std::vector<Range>& ranges) {
+    ranges.clear();
+    for (const SweepPlan::Part& part : parts) {
+      ranges.push_back({friction, part.friction_end - part.begin, one_row, part.end - part.friction_end, 0.0, 0});
+      for (int i = part.begin; i < part.end; ++i) {
+        const int c = plan_.contacts()[i];
+        nowhere_[c] = nowhere;
+        is_one_row_[c] = i >= part.friction_end;
+        record_[c] = is_one_row_[c] ? one_row++ : friction++;
+      }
+      ++nowhere;
+    }
+  };
+  number(plan_.interiors(), interiors_);
+  number(plan_.interfaces(), interfaces_);
+  friction_.resize(friction);
+  friction_impulse_.resize(friction);
+  turn_.resize(friction);
+  lambda_max_.resize(friction);
+  one_row_.resize(one_row);
+  one_row_impulse_.resize(one_row);
+  one_row_lambda_max_.resize(one_row);
+}
+
+template <typename Task>
+void BodySweep::for_parts(const Task& task) {
+  team_.run(static_cast<int>(interiors_.size()), [&](int part) { task(interiors_[part]); });
+  team_.run(static_cast<int>(interfaces_.size()), [&](int part) { task(interfaces_[part]); });
 }
 
 void BodySweep::prepare_bodies(const DynamicsForm& dynamics) {
   factor_masses(dynamics, roots_);
   const int bodies = dynamics.body_count();
-  free_velocity_.assign(bodies + 1, BodyVelocity{});
+  free_velocity_.assign(bodies + interiors_.size() + interfaces_.size(), BodyVelocity{});
   velocity_.resize(free_velocity_.size());
   for (int b = 0; b < bodies; ++b) {
     double* w = free_velocity_[b].w;
@@ -71,72 +95,90 @@ void BodySweep::prepare_bodies(const DynamicsForm& dynamics) {
 
 void BodySweep::prepare_friction(const FrictionProblem& problem, int c, int record) {
   FrictionRecord& k = friction_[record];
-  scale_rows(problem.dynamics, roots_, c, k.rows, k.body);
+  scale_rows(problem.dynamics, roots_, c, nowhere_[c], k.rows, k.body);
   std::copy_n(problem.dynamics.bias.data() + problem.row_begin[c], 3, k.bias);
   make_principal(k, problem.friction[c], turn_[record], lambda_max_[record]);
 }
 
 void BodySweep::prepare_one_row(const FrictionProblem& problem, int c, int record) {
   OneRowRecord& k = one_row_[record];
-  double rows[2][1][body_width];
-  scale_rows(problem.dynamics, roots_, c, rows, k.body);
-  for (int s = 0; s < 2; ++s) std::copy_n(rows[s][0], body_width, k.rows[s]);
+  double rows[2][1][row_width];
+  scale_rows(problem.dynamics, roots_, c, nowhere_[c], rows, k.body);
+  for (int s = 0; s < 2; ++s) std::copy_n(rows[s][0], row_width, k.rows[s]);
   k.bias = problem.dynamics.bias[problem.row_begin[c]];
   make_principal(k, one_row_lambda_max_[record]);
 }
 
 void BodySweep::load(const FrictionProblem& problem, const Impulses& r) {
   velocity_ = free_velocity_;
-  for (const Run& run : runs_)
-    for (int i = 0; i < run.count; ++i) {
-      const double* rc = r.data() + problem.row_begin[run.first_contact + i];
-      if (run.one_row)
-        load_impulse(one_row_[run.first_record + i], rc, velocity_.data());
-      else
-        load_impulse(friction_[run.first_record + i], turn_[run.first_record + i], rc, velocity_.data());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const double* rc = r.data() + problem.row_begin[c];
+    const int record = record_[c];
+    if (is_one_row_[c]) {
+      load_impulse(one_row_[record], rc, one_row_impulse_[record], velocity_.data());
+    } else {
+      load_impulse(friction_[record], turn_[record], rc, friction_impulse_[record], velocity_.data());
+      friction_impulse_[record].slip = 0.0;
     }
+  }
 }
 
 void BodySweep::store(const FrictionProblem& problem, Impulses& r) const {
-  for (const Run& run : runs_)
-    for (int i = 0; i < run.count; ++i) {
-      double* rc = r.data() + problem.row_begin[run.first_contact + i];
-      if (run.one_row)
-        rc[0] = one_row_[run.first_record + i].y;
-      else
-        friction_[run.first_record + i].impulse(turn_[run.first_record + i], rc);
-    }
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    double* rc = r.data() + problem.row_begin[c];
+    const int record = record_[c];
+    if (is_one_row_[c])
+      rc[0] = one_row_impulse_[record];
+    else
+      store_impulse(friction_[record], turn_[record], friction_impulse_[record], rc);
+  }
 }
 
 void BodySweep::sweep() {
-  for (const Run& run : runs_)
-    if (run.one_row)
-      sweep_one_row(one_row_.data() + run.first_record, run.count, velocity_.data());
-    else
-      sweep_friction(friction_.data() + run.first_record, run.count, velocity_.data());
+  for_parts([this](const Range& range) {
+    sweep_friction(friction_.data() + range.friction, friction_impulse_.data() + range.friction, range.friction_count,
+                   velocity_.data());
+    sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row, range.one_row_count,
+                  velocity_.data());
+  });
 }
 
 void BodySweep::sweep(const SweepVariant& variant, const std::vector<int>& contacts) {
   for (const int c : contacts) {
     const int record = record_[c];
     if (is_one_row_[c])
-      resolve_by_variant(variant, one_row_[record], one_row_lambda_max_[record], velocity_.data());
+      resolve_by_variant(variant, one_row_[record], one_row_impulse_[record], velocity_.data());
     else
-      resolve_by_variant(variant, friction_[record], lambda_max_[record], velocity_.data());
+      resolve_by_variant(variant, friction_[record], friction_impulse_[record], lambda_max_[record], velocity_.data());
   }
 }
 
-double BodySweep::error() const {
-  double sum = 0.0;
-  int counted = 0;
-  for (const Run& run : runs_)
-    for (int record = run.first_record; record < run.first_record + run.count; ++record) {
-      const double lambda_max = run.one_row ? one_row_lambda_max_[record] : lambda_max_[record];
-      if (!(lambda_max > 0.0)) continue;
-      const double value = run.one_row ? natural_map(one_row_[record], lambda_max, velocity_.data())
-                                       : natural_map(friction_[record], lambda_max, velocity_.data());
+double BodySweep::error() {
+  // The same sums in the same order, whoever made them.
+  for_parts([this](Range& range) {
+    double sum = 0.0;
+    int counted = 0;
+    for (int k = range.friction; k < range.friction + range.friction_count; ++k) {
+      if (!(lambda_max_[k] > 0.0)) continue;
+      const double value = natural_map(friction_[k], friction_impulse_[k], lambda_max_[k], velocity_.data());
       sum += value * value;
       ++counted;
+    }
+    for (int k = range.one_row; k < range.one_row + range.one_row_count; ++k) {
+      if (!(one_row_lambda_max_[k] > 0.0)) continue;
+      const double value = natural_map(one_row_[k], one_row_impulse_[k], one_row_lambda_max_[k], velocity_.data());
+      sum += value * value;
+      ++counted;
+    }
+    range.error_square = sum;
+    range.judged = counted;
+  });
+  double sum = 0.0;
+  int counted = 0;
+  for (const std::vector<Range>* ranges : {&interiors_, &interfaces_})
+    for (const Range& range : *ranges) {
+      sum += range.error_square;
+      counted += range.judged;
     }
   return counted > 0 ? std::sqrt(sum / counted) : 0.0;
 }
@@ -144,18 +186,18 @@ double BodySweep::error() const {
 void BodySweep::save(Eigen::VectorXd& state) const {
   state.resize(3 * friction_.size() + one_row_.size() + body_width * velocity_.size());
   double* x = state.data();
-  for (const FrictionRecord& k : friction_) x = std::copy_n(k.y, 3, x);
-  for (const OneRowRecord& k : one_row_) *x++ = k.y;
+  for (const FrictionImpulse& k : friction_impulse_) x = std::copy_n(k.y, 3, x);
+  x = std::copy(one_row_impulse_.begin(), one_row_impulse_.end(), x);
   for (const BodyVelocity& v : velocity_) x = std::copy_n(v.w, body_width, x);
 }
 
 void BodySweep::restore(const Eigen::VectorXd& state) {
   const double* x = state.data();
-  for (FrictionRecord& k : friction_) {
+  for (FrictionImpulse& k : friction_impulse_) {
     std::copy_n(x, 3, k.y);
     x += 3;
   }
-  for (OneRowRecord& k : one_row_) k.y = *x++;
+  for (double& k : one_row_impulse_) k = *x++;
   for (BodyVelocity& v : velocity_) {
     std::copy_n(x, body_width, v.w);
     x += body_width;

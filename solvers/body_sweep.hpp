@@ -7,7 +7,9 @@
 #include "problems/friction_problem.hpp"
 #include "problems/mass_root.hpp"
 #include "solvers/sweep_kernels.hpp"
+#include "solvers/sweep_plan.hpp"
 #include "solvers/sweep_variant.hpp"
+#include "solvers/worker_team.hpp"
 
 namespace ballast {
 
@@ -19,12 +21,16 @@ class BodySweep {
   void load(const FrictionProblem& problem, const Impulses& r);
   void store(const FrictionProblem& problem, Impulses& r) const;
 
-  /// Every contact once, in the given order.
+  /// How many threads share a sweep from now on (>= 1). The same bits whatever their number.
+  void use_threads(int threads) { team_.resize(threads); }
+
+  /// Every contact once, in the order of order().
   void sweep();
+  const std::vector<int>& order() const { return plan_.contacts(); }
   /// The contacts named, in that order, another way: for comparison, not for speed.
   void sweep(const SweepVariant& variant, const std::vector<int>& contacts);
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
-  double error() const;
+  double error();
 
   /// The iterate as one vector: impulses in the records' coordinates, then body velocities in which every mass is one.
   /// Both are linear in r: combinations of iterates stay consistent.
@@ -33,31 +39,41 @@ class BodySweep {
   /// Square roots of W's diagonal in the same coordinates, for the impulses alone: their number is the vector's size.
   void impulse_weights(Eigen::VectorXd& weights) const;
 
-  /// What the sweep works on, for methods that move the iterate between sweeps: impulses and velocities must stay
-  /// consistent.
-  std::vector<FrictionRecord>& friction_records() { return friction_; }
-  std::vector<OneRowRecord>& one_row_records() { return one_row_; }
+  /// What the sweep moves, for methods that move the iterate between sweeps: impulses and velocities must stay consistent.
+  std::vector<FrictionImpulse>& friction_impulses() { return friction_impulse_; }
+  std::vector<double>& one_row_impulses() { return one_row_impulse_; }
   std::vector<BodyVelocity>& velocities() { return velocity_; }
+  WorkerTeam& team() { return team_; }
 
  private:
-  /// Consecutive contacts of one kind, so that no contact branches on its kind.
-  struct Run {
-    bool one_row;
-    int first_contact, first_record, count;
+  /// The records of one part of the plan.
+  struct Range {
+    int friction, friction_count, one_row, one_row_count;
+    double error_square = 0.0;  ///< of error(): the part's sum, and over how many contacts
+    int judged = 0;
   };
+  /// Calls task(range) for the interiors, then for the interfaces; those of a kind at the same time.
+  template <typename Task>
+  void for_parts(const Task& task);
 
   void prepare_bodies(const DynamicsForm& dynamics);
+  void prepare_ranges(const FrictionProblem& problem);
   void prepare_friction(const FrictionProblem& problem, int c, int record);
   void prepare_one_row(const FrictionProblem& problem, int c, int record);
 
   std::vector<MassRoot> roots_;
-  std::vector<BodyVelocity> free_velocity_;  ///< L^T v_free; the last body never moves
+  std::vector<BodyVelocity> free_velocity_;  ///< L^T v_free; then one for each part of the plan that never moves
   std::vector<BodyVelocity> velocity_;
+  SweepPlan plan_;
+  WorkerTeam team_;
+  std::vector<Range> interiors_, interfaces_;
   std::vector<FrictionRecord> friction_;
+  std::vector<FrictionImpulse> friction_impulse_;
   std::vector<OneRowRecord> one_row_;
-  std::vector<Run> runs_;
+  std::vector<double> one_row_impulse_;
   std::vector<int> record_;  ///< of each contact: its number among those of its kind
   std::vector<char> is_one_row_;
+  std::vector<int> nowhere_;  ///< of each contact: the velocity that stays zero, one to a part so that threads share no line
   std::vector<TangentTurn> turn_;   ///< per friction record
   std::vector<double> lambda_max_;  ///< per friction record, of W_cc [1/kg]
   std::vector<double> one_row_lambda_max_;

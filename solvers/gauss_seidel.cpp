@@ -21,6 +21,8 @@ class GaussSeidel final : public Solver {
       bodies_.prepare(problem);
   }
 
+  void use_threads(int threads) override { bodies_.use_threads(threads); }
+
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     return problem.has_delassus && !problem.has_dynamics ? iterate(delassus_, problem, std::move(start), budget)
                                                          : iterate(bodies_, problem, std::move(start), budget);

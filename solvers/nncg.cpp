@@ -24,6 +24,8 @@ class Nncg final : public Solver {
     sweep_.prepare(problem);
   }
 
+  void use_threads(int threads) override { sweep_.use_threads(threads); }
+
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {4, 1.25});
     load(problem, r);
@@ -32,8 +34,10 @@ class Nncg final : public Solver {
     iteration.evaluated(last_error);
     bool accelerates = true;
     while (iteration.next()) {
-      if (swept_ && accelerates) extrapolate();
-      remember();
+      if (swept_ && accelerates)
+        extrapolate();
+      else
+        remember();
       sweep_.sweep();
       swept_ = true;
       if (!iteration.error_due()) continue;
@@ -57,62 +61,79 @@ class Nncg final : public Solver {
  private:
   void load(const FrictionProblem& problem, const Impulses& r) {
     sweep_.load(problem, r);
-    const size_t entries = 3 * sweep_.friction_records().size() + sweep_.one_row_records().size();
-    before_.resize(entries);
-    step_.resize(entries);
+    before_.resize(sweep_.friction_impulses().size());
+    one_row_before_.resize(sweep_.one_row_impulses().size());
+    velocity_before_.resize(sweep_.velocities().size());
     forget();
     swept_ = false;
   }
 
   /// The next search direction is the plain sweep's.
   void forget() {
-    direction_.assign(before_.size(), 0.0);
-    velocity_direction_.assign(sweep_.velocities().size(), BodyVelocity{});
+    direction_.assign(before_.size(), FrictionImpulse{});
+    one_row_direction_.assign(one_row_before_.size(), 0.0);
+    velocity_direction_.assign(velocity_before_.size(), BodyVelocity{});
     last_square_ = 0.0;
   }
 
-  /// Calls f(k, entry) for every impulse entry, k counting them.
-  template <typename F>
-  void for_entries(F&& f) {
-    size_t k = 0;
-    for (FrictionRecord& record : sweep_.friction_records())
-      for (double& y : record.y) f(k++, y);
-    for (OneRowRecord& record : sweep_.one_row_records()) f(k++, record.y);
+  static size_t chunk_begin(size_t count, int chunk) { return count * static_cast<size_t>(chunk) / chunks; }
+
+  double chunk_square(int chunk) {
+    const auto& y = sweep_.friction_impulses();
+    const auto& z = sweep_.one_row_impulses();
+    double square = 0.0;
+    for (size_t k = chunk_begin(y.size(), chunk); k < chunk_begin(y.size(), chunk + 1); ++k)
+      for (int i = 0; i < 3; ++i) square += (y[k].y[i] - before_[k].y[i]) * (y[k].y[i] - before_[k].y[i]);
+    for (size_t k = chunk_begin(z.size(), chunk); k < chunk_begin(z.size(), chunk + 1); ++k)
+      square += (z[k] - one_row_before_[k]) * (z[k] - one_row_before_[k]);
+    return square;
+  }
+
+  /// x := x + beta p, p := beta p + (x - before), before := the new x.
+  static void advance(double beta, double& x, double& p, double& before) {
+    const double step = x - before;
+    p *= beta;
+    x += p;
+    p += step;
+    before = x;
+  }
+
+  void advance_chunk(double beta, int chunk) {
+    auto& y = sweep_.friction_impulses();
+    for (size_t k = chunk_begin(y.size(), chunk); k < chunk_begin(y.size(), chunk + 1); ++k)
+      for (int i = 0; i < 3; ++i) advance(beta, y[k].y[i], direction_[k].y[i], before_[k].y[i]);
+    auto& z = sweep_.one_row_impulses();
+    for (size_t k = chunk_begin(z.size(), chunk); k < chunk_begin(z.size(), chunk + 1); ++k)
+      advance(beta, z[k], one_row_direction_[k], one_row_before_[k]);
+    auto& v = sweep_.velocities();
+    for (size_t b = chunk_begin(v.size(), chunk); b < chunk_begin(v.size(), chunk + 1); ++b)
+      for (int i = 0; i < body_width; ++i)
+        advance(beta, v[b].w[i], velocity_direction_[b].w[i], velocity_before_[b].w[i]);
   }
 
   void remember() {
-    for_entries([&](size_t k, double y) { before_[k] = y; });
+    before_ = sweep_.friction_impulses();
+    one_row_before_ = sweep_.one_row_impulses();
     velocity_before_ = sweep_.velocities();
   }
 
+  /// Moves the iterate along the search direction, and remembers where the next sweep begins.
   void extrapolate() {
+    // in chunks whose number doesn't depend on the threads: the same sums
+    sweep_.team().run(chunks, [this](int chunk) { squares_[chunk] = chunk_square(chunk); });
     double square = 0.0;
-    for_entries([&](size_t k, double y) {
-      step_[k] = y - before_[k];
-      square += step_[k] * step_[k];
-    });
+    for (const double part : squares_) square += part;
     double beta = last_square_ > 0.0 ? square / last_square_ : 0.0;
     if (beta > 1.0) beta = 0.0;
     last_square_ = square;
-    for_entries([&](size_t k, double& y) {
-      direction_[k] *= beta;
-      y += direction_[k];
-      direction_[k] += step_[k];
-    });
-    std::vector<BodyVelocity>& velocities = sweep_.velocities();
-    for (size_t b = 0; b < velocities.size(); ++b)
-      for (int i = 0; i < body_width; ++i) {
-        double& w = velocities[b].w[i];
-        double& p = velocity_direction_[b].w[i];
-        const double step = w - velocity_before_[b].w[i];
-        p *= beta;
-        w += p;
-        p += step;
-      }
+    sweep_.team().run(chunks, [this, beta](int chunk) { advance_chunk(beta, chunk); });
   }
 
+  static constexpr int chunks = 8;
   BodySweep sweep_;
-  std::vector<double> before_, step_, direction_;  // three entries per friction record, then the one-row records
+  std::vector<FrictionImpulse> before_, direction_;  // y alone
+  std::vector<double> one_row_before_, one_row_direction_;
+  double squares_[chunks];
   std::vector<BodyVelocity> velocity_before_, velocity_direction_;
   double last_square_ = 0.0;
   bool swept_ = false;

@@ -53,6 +53,9 @@ class Solver {
   virtual ~Solver() = default;
   /// Allocation, ordering, symbolic and numeric factorisation: timed apart from solve(). Throws UnsupportedProblem.
   virtual void prepare(const FrictionProblem& problem) = 0;
+  /// How many threads prepare() and solve() may use from now on. The same bits whatever their number; a backend that has no use for
+  /// more than one ignores it.
+  virtual void use_threads(int /*threads*/) {}
   /// `start` is the first iterate (zero: cold) and is moved through: its storage comes back as Solved::impulses, so
   /// that a run of many steps does not allocate. `problem` is the one given to prepare().
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;

@@ -6,17 +6,18 @@
 #include "solvers/admm.hpp"
 #include "solvers/anderson_pgs.hpp"
 #include "solvers/apgd.hpp"
+#include "solvers/auto.hpp"
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/interior_point.hpp"
+#include "solvers/ipopt.hpp"
 #include "solvers/jacobi.hpp"
 #include "solvers/newton.hpp"
 #include "solvers/nlopt.hpp"
 #include "solvers/nncg.hpp"
-#include "solvers/sap.hpp"
-#include "solvers/spg.hpp"
-#include "solvers/ipopt.hpp"
 #include "solvers/pyramid_lemke.hpp"
+#include "solvers/sap.hpp"
 #include "solvers/siconos.hpp"
+#include "solvers/spg.hpp"
 
 namespace ballast {
 namespace {
@@ -26,6 +27,8 @@ constexpr const char* suitesparse = "libsuitesparse-dev";
 /// Built at the first call: makers of optional backends are known only then.
 const std::vector<SolverEntry>& entries() {
   static const std::vector<SolverEntry> list = {
+      {"auto", "ours, recommended: sweeps where they are enough, proximal Newton where not", ContactLaw::coulomb, auto_maker(),
+       suitesparse},
       {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)", ContactLaw::coulomb,
        [] { return make_gauss_seidel(); }, ""},
       {"pgs_projection", "pgs, each contact by one projection (De Saxce, Feng 1998)", ContactLaw::coulomb,

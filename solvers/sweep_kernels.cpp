@@ -23,7 +23,23 @@ using Vector4 = double __attribute__((vector_size(32)));
 
 #define BALLAST_INLINE inline __attribute__((always_inline))
 
+using Loose8 = double __attribute__((vector_size(64), aligned(8), may_alias));
+using Loose4 = double __attribute__((vector_size(32), aligned(8), may_alias));
+using Loose2 = double __attribute__((vector_size(16), aligned(8), may_alias));
+
 BALLAST_INLINE Vector8 load8(const double* x) { return *reinterpret_cast<const Vector8*>(x); }
+/// A row, and the two numbers that follow it.
+BALLAST_INLINE Vector8 load_row(const double* x) { return *reinterpret_cast<const Loose8*>(x); }
+/// Zero in place of what follows a row.
+BALLAST_INLINE Vector8 only_row(const Vector8& x) {
+  using Bits = long long __attribute__((vector_size(64)));
+  constexpr Bits keep = {-1, -1, -1, -1, -1, -1, 0, 0};
+  return (Vector8)((Bits)x & keep);
+}
+BALLAST_INLINE void store_row(double* x, const Vector8& value) {
+  *reinterpret_cast<Loose4*>(x) = __builtin_shufflevector(value, value, 0, 1, 2, 3);
+  *reinterpret_cast<Loose2*>(x + 4) = __builtin_shufflevector(value, value, 4, 5);
+}
 BALLAST_INLINE void store8(double* x, const Vector8& value) { *reinterpret_cast<Vector8*>(x) = value; }
 
 BALLAST_INLINE Vector4 halves(const Vector8& x) {
@@ -40,14 +56,14 @@ BALLAST_INLINE Vector4 three_sums(const Vector8& x, const Vector8& y, const Vect
 
 /// G w over both sides.
 BALLAST_INLINE Vector4 relative_velocity(const FrictionRecord& k, const Vector8& wa, const Vector8& wb) {
-  return three_sums(load8(k.rows[0][0]) * wa + load8(k.rows[1][0]) * wb,
-                    load8(k.rows[0][1]) * wa + load8(k.rows[1][1]) * wb,
-                    load8(k.rows[0][2]) * wa + load8(k.rows[1][2]) * wb);
+  return three_sums(load_row(k.rows[0][0]) * wa + load_row(k.rows[1][0]) * wb,
+                    load_row(k.rows[0][1]) * wa + load_row(k.rows[1][1]) * wb,
+                    load_row(k.rows[0][2]) * wa + load_row(k.rows[1][2]) * wb);
 }
 
 /// Row i times row j, lane by lane, over both sides.
 BALLAST_INLINE Vector8 row_product(const FrictionRecord& k, int i, int j) {
-  return load8(k.rows[0][i]) * load8(k.rows[0][j]) + load8(k.rows[1][i]) * load8(k.rows[1][j]);
+  return only_row(load_row(k.rows[0][i]) * load_row(k.rows[0][j]) + load_row(k.rows[1][i]) * load_row(k.rows[1][j]));
 }
 
 }  // namespace
@@ -55,74 +71,75 @@ BALLAST_INLINE Vector8 row_product(const FrictionRecord& k, int i, int j) {
 namespace {
 
 /// Solves one contact and moves its bodies.
-BALLAST_INLINE void relax(FrictionRecord& k, BodyVelocity* velocity) {
+BALLAST_INLINE void relax(const FrictionRecord& k, FrictionImpulse& r, BodyVelocity* velocity) {
   double* va = velocity[k.body[0]].w;
   double* vb = velocity[k.body[1]].w;
   const Vector8 wa = load8(va), wb = load8(vb);
   const Vector4 u = relative_velocity(k, wa, wb);
-  double y = k.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
-  double t1 = k.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
-  double t2 = k.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
-  apply_coulomb(k.local, y, t1, t2, k.slip);
-  const double dy = y - k.y[0], d1 = t1 - k.y[1], d2 = t2 - k.y[2];
-  k.y[0] = y;
-  k.y[1] = t1;
-  k.y[2] = t2;
-  store8(va, wa + (load8(k.rows[0][0]) * dy + load8(k.rows[0][1]) * d1 + load8(k.rows[0][2]) * d2));
-  store8(vb, wb + (load8(k.rows[1][0]) * dy + load8(k.rows[1][1]) * d1 + load8(k.rows[1][2]) * d2));
+  double y = r.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
+  double t1 = r.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
+  double t2 = r.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
+  apply_coulomb(k.local, y, t1, t2, r.slip);
+  const double dy = y - r.y[0], d1 = t1 - r.y[1], d2 = t2 - r.y[2];
+  r.y[0] = y;
+  r.y[1] = t1;
+  r.y[2] = t2;
+  store8(va, wa + only_row(load_row(k.rows[0][0]) * dy + load_row(k.rows[0][1]) * d1 + load_row(k.rows[0][2]) * d2));
+  store8(vb, wb + only_row(load_row(k.rows[1][0]) * dy + load_row(k.rows[1][1]) * d1 + load_row(k.rows[1][2]) * d2));
 }
 
-BALLAST_INLINE void relax(OneRowRecord& k, BodyVelocity* velocity) {
+BALLAST_INLINE void relax(const OneRowRecord& k, double& r, BodyVelocity* velocity) {
   double* va = velocity[k.body[0]].w;
   double* vb = velocity[k.body[1]].w;
   const Vector8 wa = load8(va), wb = load8(vb);
-  const Vector4 p = halves(load8(k.rows[0]) * wa + load8(k.rows[1]) * wb);
-  const double candidate = k.y - ((p[0] + p[1]) + (p[2] + p[3]) + k.bias) * k.inverse_normal;
+  const Vector4 p = halves(load_row(k.rows[0]) * wa + load_row(k.rows[1]) * wb);
+  const double candidate = r - ((p[0] + p[1]) + (p[2] + p[3]) + k.bias) * k.inverse_normal;
   const double y = candidate <= 0.0 ? 0.0 : candidate;
-  const double dy = y - k.y;
-  k.y = y;
-  store8(va, wa + load8(k.rows[0]) * dy);
-  store8(vb, wb + load8(k.rows[1]) * dy);
+  const double dy = y - r;
+  r = y;
+  store8(va, wa + only_row(load_row(k.rows[0]) * dy));
+  store8(vb, wb + only_row(load_row(k.rows[1]) * dy));
 }
 
 }  // namespace
 
 BALLAST_FOR_EACH_CPU
-void sweep_friction(FrictionRecord* records, int count, BodyVelocity* velocity) {
-  for (int c = 0; c < count; ++c) relax(records[c], velocity);
+void sweep_friction(const FrictionRecord* records, FrictionImpulse* impulses, int count, BodyVelocity* velocity) {
+  for (int c = 0; c < count; ++c) relax(records[c], impulses[c], velocity);
 }
 
 BALLAST_FOR_EACH_CPU
-void sweep_one_row(OneRowRecord* records, int count, BodyVelocity* velocity) {
-  for (int c = 0; c < count; ++c) relax(records[c], velocity);
+void sweep_one_row(const OneRowRecord* records, double* impulses, int count, BodyVelocity* velocity) {
+  for (int c = 0; c < count; ++c) relax(records[c], impulses[c], velocity);
 }
 
-void resolve_by_variant(const SweepVariant& variant, FrictionRecord& k, double lambda_max, BodyVelocity* velocity) {
+void resolve_by_variant(const SweepVariant& variant, const FrictionRecord& k, FrictionImpulse& r, double lambda_max,
+                        BodyVelocity* velocity) {
   double* sides[2] = {velocity[k.body[0]].w, velocity[k.body[1]].w};
   double u[3], y[3];
   for (int i = 0; i < 3; ++i) {
     u[i] = k.bias[i];
-    y[i] = k.y[i];
+    y[i] = r.y[i];
     for (int s = 0; s < 2; ++s)
-      for (int j = 0; j < body_width; ++j) u[i] += k.rows[s][i][j] * sides[s][j];
+      for (int j = 0; j < row_width; ++j) u[i] += k.rows[s][i][j] * sides[s][j];
   }
-  resolve_by_variant(variant, k.local, lambda_max, u, y, k.slip);
+  resolve_by_variant(variant, k.local, lambda_max, u, y, r.slip);
   for (int i = 0; i < 3; ++i) {
-    const double change = y[i] - k.y[i];
-    k.y[i] = y[i];
+    const double change = y[i] - r.y[i];
+    r.y[i] = y[i];
     for (int s = 0; s < 2; ++s)
-      for (int j = 0; j < body_width; ++j) sides[s][j] += k.rows[s][i][j] * change;
+      for (int j = 0; j < row_width; ++j) sides[s][j] += k.rows[s][i][j] * change;
   }
 }
 
-void resolve_by_variant(const SweepVariant& variant, OneRowRecord& k, double, BodyVelocity* velocity) {
+void resolve_by_variant(const SweepVariant& variant, const OneRowRecord& k, double& r, BodyVelocity* velocity) {
   // Every rule solves one row exactly: what is left is relaxation.
-  const double before = k.y;
-  relax(k, velocity);
-  const double y = std::max(0.0, before + variant.relaxation * (k.y - before)), change = y - k.y;
-  k.y = y;
+  const double before = r;
+  relax(k, r, velocity);
+  const double y = std::max(0.0, before + variant.relaxation * (r - before)), change = y - r;
+  r = y;
   for (int s = 0; s < 2; ++s)
-    for (int j = 0; j < body_width; ++j) velocity[k.body[s]].w[j] += k.rows[s][j] * change;
+    for (int j = 0; j < row_width; ++j) velocity[k.body[s]].w[j] += k.rows[s][j] * change;
 }
 
 BALLAST_FOR_EACH_CPU
@@ -133,42 +150,52 @@ void make_principal(FrictionRecord& k, double mu, TangentTurn& turn, double& lam
   w << first[0], first[1], first[2], first[1], rest[0], rest[1], first[2], rest[1], rest[2];
   make_principal(w, mu, k.local, turn);
   lambda_max = largest_eigenvalue(w);
-  k.slip = 0.0;
 
   turn.to_principal(k.bias[1], k.bias[2]);
   k.bias[1] -= k.local.c1 * k.bias[0];
   k.bias[2] -= k.local.c2 * k.bias[0];
   for (auto& rows : k.rows) {
-    const Vector8 n = load8(rows[0]), t1 = load8(rows[1]), t2 = load8(rows[2]);
-    store8(rows[1], turn.cosine * t1 + turn.sine * t2 - k.local.c1 * n);
-    store8(rows[2], turn.cosine * t2 - turn.sine * t1 - k.local.c2 * n);
+    const Vector8 n = load_row(rows[0]), t1 = load_row(rows[1]), t2 = load_row(rows[2]);
+    store_row(rows[1], turn.cosine * t1 + turn.sine * t2 - k.local.c1 * n);
+    store_row(rows[2], turn.cosine * t2 - turn.sine * t1 - k.local.c2 * n);
   }
 }
 
 void make_principal(OneRowRecord& k, double& lambda_max) {
-  const Vector4 p = halves(load8(k.rows[0]) * load8(k.rows[0]) + load8(k.rows[1]) * load8(k.rows[1]));
+  const Vector4 p =
+      halves(only_row(load_row(k.rows[0]) * load_row(k.rows[0]) + load_row(k.rows[1]) * load_row(k.rows[1])));
   lambda_max = (p[0] + p[1]) + (p[2] + p[3]);
   k.inverse_normal = lambda_max > 0.0 ? 1.0 / lambda_max : 0.0;
 }
 
-void load_impulse(FrictionRecord& k, const TangentTurn& turn, const double* r, BodyVelocity* velocity) {
+void load_impulse(const FrictionRecord& k, const TangentTurn& turn, const double* r, FrictionImpulse& impulse,
+                  BodyVelocity* velocity) {
   const double weight = k.local.inverse_normal > 0.0 ? 1.0 : 0.0;
   double t1 = weight * r[1], t2 = weight * r[2];
   turn.to_principal(t1, t2);
-  k.y[0] = weight * r[0] + k.local.c1 * t1 + k.local.c2 * t2;
-  k.y[1] = t1;
-  k.y[2] = t2;
+  impulse.y[0] = weight * r[0] + k.local.c1 * t1 + k.local.c2 * t2;
+  impulse.y[1] = t1;
+  impulse.y[2] = t2;
   for (int s = 0; s < 2; ++s) {
     double* w = velocity[k.body[s]].w;
     const auto& rows = k.rows[s];
-    for (int i = 0; i < body_width; ++i) w[i] += rows[0][i] * k.y[0] + rows[1][i] * k.y[1] + rows[2][i] * k.y[2];
+    for (int i = 0; i < row_width; ++i)
+      w[i] += rows[0][i] * impulse.y[0] + rows[1][i] * impulse.y[1] + rows[2][i] * impulse.y[2];
   }
 }
 
-void load_impulse(OneRowRecord& k, const double* r, BodyVelocity* velocity) {
-  k.y = k.inverse_normal > 0.0 ? r[0] : 0.0;
+void load_impulse(const OneRowRecord& k, const double* r, double& impulse, BodyVelocity* velocity) {
+  impulse = k.inverse_normal > 0.0 ? r[0] : 0.0;
   for (int s = 0; s < 2; ++s)
-    for (int i = 0; i < body_width; ++i) velocity[k.body[s]].w[i] += k.rows[s][i] * k.y;
+    for (int i = 0; i < row_width; ++i) velocity[k.body[s]].w[i] += k.rows[s][i] * impulse;
+}
+
+void store_impulse(const FrictionRecord& k, const TangentTurn& turn, const FrictionImpulse& impulse, double* r) {
+  double t1 = impulse.y[1], t2 = impulse.y[2];
+  r[0] = impulse.y[0] - k.local.c1 * t1 - k.local.c2 * t2;
+  turn.from_principal(t1, t2);
+  r[1] = t1;
+  r[2] = t2;
 }
 
 /// Arguments in registers: through memory, the vectors that the caller's clone makes of them would not be forwarded.
@@ -178,26 +205,18 @@ void load_impulse(OneRowRecord& k, const double* r, BodyVelocity* velocity) {
 }
 
 BALLAST_FOR_EACH_CPU
-double natural_map(const FrictionRecord& k, double lambda_max, const BodyVelocity* velocity) {
+double natural_map(const FrictionRecord& k, const FrictionImpulse& r, double lambda_max, const BodyVelocity* velocity) {
   const Vector4 moved = relative_velocity(k, load8(velocity[k.body[0]].w), load8(velocity[k.body[1]].w));
   const double un = moved[0] + k.bias[0];
-  return judged(k.y[0] - k.local.c1 * k.y[1] - k.local.c2 * k.y[2], k.y[1], k.y[2], un,
+  return judged(r.y[0] - k.local.c1 * r.y[1] - k.local.c2 * r.y[2], r.y[1], r.y[2], un,
                 moved[1] + k.bias[1] + k.local.c1 * un, moved[2] + k.bias[2] + k.local.c2 * un, k.local.mu, lambda_max);
 }
 
-double natural_map(const OneRowRecord& k, double lambda_max, const BodyVelocity* velocity) {
+double natural_map(const OneRowRecord& k, double r, double lambda_max, const BodyVelocity* velocity) {
   double u = k.bias;
   for (int s = 0; s < 2; ++s)
-    for (int i = 0; i < body_width; ++i) u += k.rows[s][i] * velocity[k.body[s]].w[i];
-  return ContactJudge::scaled_natural_map({k.y, 0.0, 0.0}, {u, 0.0, 0.0}, 0.0, lambda_max);
-}
-
-void FrictionRecord::impulse(const TangentTurn& turn, double* r) const {
-  double t1 = y[1], t2 = y[2];
-  r[0] = y[0] - local.c1 * t1 - local.c2 * t2;
-  turn.from_principal(t1, t2);
-  r[1] = t1;
-  r[2] = t2;
+    for (int i = 0; i < row_width; ++i) u += k.rows[s][i] * velocity[k.body[s]].w[i];
+  return ContactJudge::scaled_natural_map({r, 0.0, 0.0}, {u, 0.0, 0.0}, 0.0, lambda_max);
 }
 
 }  // namespace ballast

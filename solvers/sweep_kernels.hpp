@@ -11,49 +11,59 @@
 namespace ballast {
 
 constexpr int body_width = 8;
+constexpr int row_width = 6;
 
 /// L^T v of one body; unused entries are zero.
 struct alignas(64) BodyVelocity {
   double w[body_width];
 };
 
-/// All a sweep needs of a contact with friction: eight cache lines.
+/// What a sweep reads of a contact with friction: six cache lines. Rows are six wide and read eight at a time: what follows a row is
+/// finite, and meets the two entries of a body's velocity that are zero.
 struct alignas(64) FrictionRecord {
-  double rows[2][3][body_width];  ///< G for body a, then b
-  double bias[3];                 ///< in the coordinates of the rows
-  double y[3];                    ///< (y, r_T): the impulse
+  double rows[2][3][row_width];  ///< G for body a, then b
+  double bias[3];                ///< in the coordinates of the rows
   PrincipalContact local;
-  double slip;  ///< the last slip root, first guess of the next
   int body[2];  ///< a and b in the velocities
-
-  void impulse(const TangentTurn& turn, double* r) const;  ///< r in the given contact frame
 };
-static_assert(sizeof(FrictionRecord) == 8 * 64);
+static_assert(sizeof(FrictionRecord) == 6 * 64);
+
+/// What a sweep writes of it, apart: methods that combine iterates pass over these alone.
+struct alignas(32) FrictionImpulse {
+  double y[3];  ///< (y, r_T)
+  double slip;  ///< the last slip root, first guess of the next
+};
 
 struct alignas(64) OneRowRecord {
-  double rows[2][body_width];
-  double bias, y, inverse_normal;
+  double rows[2][row_width];
+  double bias, inverse_normal;
   int body[2];
 };
 
 /// Every record once, in order.
-void sweep_friction(FrictionRecord* records, int count, BodyVelocity* velocity);
-void sweep_one_row(OneRowRecord* records, int count, BodyVelocity* velocity);
+void sweep_friction(const FrictionRecord* records, FrictionImpulse* impulses, int count, BodyVelocity* velocity);
+void sweep_one_row(const OneRowRecord* records, double* impulses, int count, BodyVelocity* velocity);
 
 /// One record another way (sweep_variant.hpp).
-void resolve_by_variant(const SweepVariant& variant, FrictionRecord& record, double lambda_max, BodyVelocity* velocity);
-void resolve_by_variant(const SweepVariant& variant, OneRowRecord& record, double lambda_max, BodyVelocity* velocity);
+void resolve_by_variant(const SweepVariant& variant, const FrictionRecord& record, FrictionImpulse& impulse,
+                        double lambda_max, BodyVelocity* velocity);
+void resolve_by_variant(const SweepVariant& variant, const OneRowRecord& record, double& impulse,
+                        BodyVelocity* velocity);
 
 /// From H L^-T and the given bias in the record to its principal coordinates; also lambda_max(W_cc).
 void make_principal(FrictionRecord& record, double mu, TangentTurn& turn, double& lambda_max);
 void make_principal(OneRowRecord& record, double& lambda_max);
 
-/// w += G^T (y, r_T) for impulses that start a solve; those that move nothing along the normal are dropped.
-void load_impulse(FrictionRecord& record, const TangentTurn& turn, const double* r, BodyVelocity* velocity);
-void load_impulse(OneRowRecord& record, const double* r, BodyVelocity* velocity);
+/// w += G^T (y, r_T) for impulses that start a solve; those that move nothing along the normal are dropped. `r`: in the given frame.
+void load_impulse(const FrictionRecord& record, const TangentTurn& turn, const double* r, FrictionImpulse& impulse,
+                  BodyVelocity* velocity);
+void load_impulse(const OneRowRecord& record, const double* r, double& impulse, BodyVelocity* velocity);
+/// The impulse in the given contact frame.
+void store_impulse(const FrictionRecord& record, const TangentTurn& turn, const FrictionImpulse& impulse, double* r);
 
 /// The judge's scaled natural map at the current iterate [m/s].
-double natural_map(const FrictionRecord& record, double lambda_max, const BodyVelocity* velocity);
-double natural_map(const OneRowRecord& record, double lambda_max, const BodyVelocity* velocity);
+double natural_map(const FrictionRecord& record, const FrictionImpulse& impulse, double lambda_max,
+                   const BodyVelocity* velocity);
+double natural_map(const OneRowRecord& record, double impulse, double lambda_max, const BodyVelocity* velocity);
 
 }  // namespace ballast

@@ -1,5 +1,7 @@
 #include "solvers/gauss_seidel.hpp"
 
+#include <numeric>
+
 #include "problems/contact_error.hpp"
 #include "problems/delassus.hpp"
 #include "problems/known_solutions.hpp"
@@ -13,9 +15,10 @@ using namespace ballast;
 
 namespace {
 
-/// The textbook's sweep: dense W, one contact after the other.
-void slow_sweep(const FrictionProblem& problem, const Eigen::MatrixXd& w, const Eigen::VectorXd& q, Impulses& r) {
-  for (int c = 0; c < problem.contact_count(); ++c) {
+/// The textbook's sweep: dense W, one contact after the other in the given order.
+void slow_sweep(const FrictionProblem& problem, const std::vector<int>& order, const Eigen::MatrixXd& w,
+                const Eigen::VectorXd& q, Impulses& r) {
+  for (const int c : order) {
     const int first = problem.row_begin[c], rows = problem.contact_rows(c);
     const Eigen::MatrixXd block = w.block(first, first, rows, rows);
     const Eigen::VectorXd local_q =
@@ -31,6 +34,13 @@ void slow_sweep(const FrictionProblem& problem, const Eigen::MatrixXd& w, const 
   }
 }
 
+std::vector<int> order_of(const BodySweep& sweep, int) { return sweep.order(); }
+std::vector<int> order_of(const DelassusSweep&, int contacts) {
+  std::vector<int> order(contacts);
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
 template <typename Sweep>
 void check_sweeps(const FrictionProblem& given, const FrictionProblem& dense) {
   const Eigen::MatrixXd w = oracle::dense_delassus(dense);
@@ -40,7 +50,7 @@ void check_sweeps(const FrictionProblem& given, const FrictionProblem& dense) {
   sweep.prepare(given);
   sweep.load(given, fast);
   for (int k = 0; k < 10; ++k) {
-    slow_sweep(dense, w, q, slow);
+    slow_sweep(dense, order_of(sweep, dense.contact_count()), w, q, slow);
     sweep.sweep();
     sweep.store(given, fast);
     REQUIRE((fast - slow).norm() <= 1e-11 * (1.0 + slow.norm()));
