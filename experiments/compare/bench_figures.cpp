@@ -92,7 +92,7 @@ Curve styled(size_t k, const std::string& title) {
   return curve;
 }
 
-int height_for(size_t entries) { return 440 + 22 * static_cast<int>(entries / 6); }
+int height_for(size_t entries) { return 440 + 22 * static_cast<int>(entries / 3); }
 
 std::string figure_name(const std::string& text) {
   std::string name;
