@@ -47,6 +47,7 @@ class Run {
         key_(content_key(text_)),
         folder_(RunFolder::of(options, scene_.name)),
         manifest_(scene_.name, options.overrides, key_) {
+    scene_.solver.threads = options.threads;
     make_solver(scene_.solver.name);  // a backend that is missing is said before anything is written
   }
 

@@ -22,6 +22,7 @@ struct RunOptions {
   bool overwrite = false;              ///< replace a run found in the folder
   bool new_packing = false;            ///< deposit again even if the cache has the packing
   std::string capture;                 ///< which steps to keep as problem files (CaptureSettings::parse); empty: none
+  int threads = 1;                     ///< of the solver; the results are the same whatever their number
   bool report = true;                  ///< figures and page at the end
   double max_seconds = 1e30;           ///< wall clock: checkpoint and exit code 3 after this
 };

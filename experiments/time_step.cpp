@@ -74,7 +74,9 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& set
       assembler_(system),
       correction_(system, settings.correction),
       solver_(make_solver(settings.solver.name)),
-      reach_(system.bodies.size(), 0.0) {}
+      reach_(system.bodies.size(), 0.0) {
+  solver_->use_threads(settings.solver.threads);
+}
 
 void TimeStepper::free_motion(const MotionState& state, double mid_time) {
   assembler_.pack(state, v_before_);

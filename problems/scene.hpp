@@ -109,6 +109,7 @@ struct SolverSpec {
   int max_iterations = 150;
   double max_seconds = 1e30; ///< per step: breaks reproducibility, so off
   bool warm_start = true;
+  int threads = 1;  ///< set by the program, never by the file: results do not depend on it
 };
 
 /// Overlap correction by displacements only: grains are moved apart without changing velocities; driven walls stay.

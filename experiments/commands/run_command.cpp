@@ -41,6 +41,10 @@ void add_run_command(CLI::App& program, Action& action) {
                    "Keeps the friction problems of steps as FCLIB files in <output>/capture: every=50 (two consecutive "
                    "ones each; steps=3: three), from=1000,to=1020")
       ->type_name("WHICH");
+  command
+      ->add_option("--threads", options->threads, "Threads of the solver (1); the results are the same to the last bit")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
   command->add_flag_callback(
       "--no-report", [options] { options->report = false; }, "No figures and no page at the end");
   command
@@ -50,6 +54,7 @@ void add_run_command(CLI::App& program, Action& action) {
   command->footer(
       "Examples:\n  ballast run vibrated_box\n"
       "  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 --output results/fine\n"
+      "  ballast run vibrated_box --threads 2\n"
       "  ballast run vibrated_box --capture every=500 --output results/captured\n"
       "  ballast run incline --set 'gravity.direction=[0.3, 0, -1]'");
   command->callback([options, &action] {
