@@ -60,19 +60,26 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
   return period;
 }
 
-/// Marks the stretch of |v| <= limit around the load's maximum of a period, from sample `first` on; false when the wall moves there.
-bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit, size_t first, WallCycles& cycles) {
-  size_t top = period.first;
-  for (size_t k = period.first; k < period.last; ++k)
-    if (steps[k].load > steps[top].load) top = k;
+/// Marks the longest stretch of |v| <= limit, `least` samples or more, that holds a load above the period's mean, from sample `first` on; false when there is none.
+bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit, size_t least, size_t first,
+                 WallCycles& cycles) {
+  double mean = 0.0;
+  for (size_t k = period.first; k < period.last; ++k) mean += steps[k].load / static_cast<double>(period.last - period.first);
   const auto is_slow = [&](size_t k) { return std::abs(cycles.velocity[k]) <= limit; };
-  if (!is_slow(top)) return false;
-  const auto mark = [&](size_t k) {
-    if (k >= first) cycles.phase[k] = WallPhase::jammed;
-  };
-  for (size_t k = top; k < steps.size() && is_slow(k); ++k) mark(k);
-  for (size_t k = top; k-- > first && is_slow(k);) mark(k);
-  return true;
+  size_t longest_begin = 0, longest_end = 0;
+  for (size_t k = period.first; k < period.last; ++k) {
+    if (!is_slow(k) || !(steps[k].load > mean)) continue;
+    size_t begin = k, end = k + 1;  // it may reach beyond the period
+    while (begin > first && is_slow(begin - 1)) --begin;
+    while (end < steps.size() && is_slow(end)) ++end;
+    if (end - begin >= least && end - begin > longest_end - longest_begin) {
+      longest_begin = begin;
+      longest_end = end;
+    }
+    k = end;
+  }
+  for (size_t k = std::max(longest_begin, first); k < longest_end; ++k) cycles.phase[k] = WallPhase::jammed;
+  return longest_end > longest_begin;
 }
 
 void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h, const WallSettings& settings, WallCycles& cycles) {
@@ -81,6 +88,7 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
   for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
   cycles.v_peak = statistics(speed).max;
   const double limit = settings.jammed_speed * cycles.v_peak;
+  const size_t least = static_cast<size_t>(settings.jammed_least * duration_of_period / h);
   bool has_moved = false;  // a wall that rests at the end of the transient has no phase yet, unless it is jammed since
   for (size_t k = first; k < steps.size(); ++k) {
     const double v = cycles.velocity[k];
@@ -90,9 +98,9 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
   // the jam before the first whole period reaches into it
   const double begin = cycles.periods.empty() ? 0.0 : cycles.periods.front().begin;
   if (begin >= duration_of_period - 0.25 * h)
-    mark_jammed(steps, make_period(steps, begin - duration_of_period, begin, h), limit, first, cycles);
+    mark_jammed(steps, make_period(steps, begin - duration_of_period, begin, h), limit, least, first, cycles);
   for (const WallPeriod& period : cycles.periods)
-    if (mark_jammed(steps, period, limit, first, cycles)) ++cycles.jammed_periods;
+    if (mark_jammed(steps, period, limit, least, first, cycles)) ++cycles.jammed_periods;
   for (WallPeriod& period : cycles.periods) {
     const auto jammed = std::count(cycles.phase.begin() + static_cast<long>(period.first),
                                    cycles.phase.begin() + static_cast<long>(period.last), WallPhase::jammed);

@@ -2,9 +2,10 @@
 // The driven wall's periods and phases (paper, sec. 3), found in a record of steps.
 //
 // Phases. Outward velocity v is taken from the record and smoothed; v_peak is its largest magnitude after the first transient.
-//   jammed   the unbroken stretch of |v| <= 2 % of v_peak that contains the load's maximum of a period. The bound is loose on purpose:
+//   jammed   the longest unbroken stretch of |v| <= 2 % of v_peak in a period that holds a load above its mean (at the load's maximum
+//            itself a loose packing may still creep). The bound is loose on purpose:
 //            the residual velocity and f_g - f = m_w dv/dt inside are results of the solver, so they must not be what selects the samples.
-//            A turning point (v = 0 at the largest x) is not jammed: its stretch doesn't contain the load's maximum.
+//            A turning point (v = 0 at the largest x) is not jammed: its load is low.
 //   active   v > 0 elsewhere: the packing unloads and pushes the wall out.
 //   passive  v < 0 elsewhere: the wall is pressed in.
 
@@ -22,6 +23,7 @@ struct WallSettings {
   double first_transient = 0.2;   ///< cut off at the start [s]: the paper's time lag of the first contraction
   double smoothing = 4e-3;        ///< width of the low-pass on f_g and v [s], but at most 1/20 period
   double jammed_speed = 0.02;     ///< of v_peak
+  double jammed_least = 0.04;     ///< of a period: what is slow for a shorter time only turns
   double fit_from = 0.1, fit_to = 0.9;  ///< part of each stroke that is fitted: without the transients at both ends
   int loop_periods = 4;           ///< the paper's Fig. 4
 };
