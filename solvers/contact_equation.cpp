@@ -77,6 +77,12 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
   const Vector3d z = jordan_norm(x, y);
   const Vector3d from_x = to_x.cwiseInverse();  // F is quoted as an impulse in the frame of r
   l.f = from_x.cwiseProduct(x + y - z);
+  if (z[0] == 0.0) {  // x = y = 0: the limit from where both move along the axis
+    const double slope = 1.0 - std::sqrt(0.5);
+    l.by_r = slope * Matrix3d::Identity();
+    l.by_u = slope * from_x.cwiseProduct(to_y).asDiagonal() * modified_velocity_jacobian(u, mu);
+    return l;
+  }
   Matrix3d lz = arrow(z);
   const double smallest = z[0] - std::hypot(z[1], z[2]);
   if (smallest < 1e-10 * z[0]) lz += (1e-10 * z[0] + 1e-300) * Matrix3d::Identity();

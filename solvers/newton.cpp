@@ -36,13 +36,20 @@ class Newton final : public Solver {
     Best best{step_.impulses(), step_.error()};
     iteration.evaluated(best.error);
     int failures = 0;
+    double weight = smallest_weight;
     while (iteration.next()) {
+      const double before = step_.residual();
       // where no shorter step descends, the whole one may leave the kink
       failures = step_.newton(failures % 2 ? 0 : settings_.line_search) ? 0 : failures + 1;
       step_.centre();
       best.offer(step_.impulses(), step_.error());
       iteration.evaluated(best.error);
       if (failures >= 8) break;
+      if (step_.residual() < 0.5 * before)
+        weight = std::max(smallest_weight, 0.1 * weight);
+      else if (failures > 0)
+        weight = std::min(largest_weight, 10.0 * weight);
+      step_.set_proximal(weight);
     }
     Solved solved;
     iteration.finish(solved);
@@ -53,8 +60,9 @@ class Newton final : public Solver {
   }
 
  private:
-  /// alpha rho where none is wanted: velocity-space elimination needs a regular contact block.
-  static constexpr double smallest_weight = 1e-7;
+  /// alpha rho where none is wanted: velocity-space elimination needs a regular contact block. Where W is singular, 1 / weight
+  /// times the rounding of u, about 1e-16 |q|, comes into r: a step without descent is taken for that and the weight grows.
+  static constexpr double smallest_weight = 1e-7, largest_weight = 1e-3;
   NewtonSettings settings_;
   NewtonStep step_;
 };

@@ -38,7 +38,9 @@ class Spg final : public Solver {
     while (iteration.next()) {
       if (iteration.count() % settings_.shift_every == 1 || settings_.shift_every == 1) renew_energy();
       advance(r);
-      if (iteration.error_due()) iteration.evaluated(w_.error(r, u_));
+      if (!iteration.error_due()) continue;
+      w_.velocity(r, u_);  // without the rounding that the steps have left in it
+      iteration.evaluated(w_.error(r, u_));
     }
     Solved solved;
     iteration.finish(solved);
@@ -62,12 +64,13 @@ class Spg final : public Solver {
       const double rho = w_.rho()[c];
       const Eigen::Vector3d d =
           rho > 0.0 ? (project_cone(rc - alpha_ * rho * g, w_.friction(c)) - rc).eval() : Eigen::Vector3d::Zero();
-      slope += g.dot(d);
+      // A projection gives g.d <= -|d|^2 / (alpha rho); with g large and d small the product itself is all rounding.
+      if (rho > 0.0) slope += std::min(g.dot(d), -d.squaredNorm() / (alpha_ * rho));
       w_.put(d_, c, d);
     }
     next_ = r + d_;
-    w_.velocity(next_, next_u_);
-    wd_ = next_u_ - u_;
+    w_.multiply(d_, wd_);  // not a difference of velocities: near the solution nothing of it would be left
+    next_u_ = u_ + wd_;
     const double curvature = d_.dot(wd_);
     const double t = line_search(slope, curvature);
     energy_ += t * (slope + 0.5 * t * curvature);
@@ -79,7 +82,7 @@ class Spg final : public Solver {
       u_.swap(next_u_);
     } else {
       r += t * d_;
-      w_.velocity(r, u_);
+      u_ += t * wd_;
     }
   }
 
