@@ -17,9 +17,9 @@ using Eigen::VectorXd;
 struct Recipe {
   const char* name;
   nlopt_algorithm algorithm;
-  int largest, largest_with_friction;  ///< contacts
-  int evaluations;                     ///< of one round, at most
-  const char* because;                 ///< of the limits
+  SizeLimit largest;
+  int evaluations;      ///< of one round, at most
+  const char* because;  ///< of the limits
 };
 
 /// What NLopt's callbacks see: the cone program over the contacts that are not left at zero.
@@ -59,13 +59,11 @@ class Nlopt final : public Solver {
   explicit Nlopt(const Recipe& recipe) : recipe_(recipe) {}
 
   void prepare(const FrictionProblem& problem) override {
-    const long with_friction =
-        std::count_if(problem.friction.begin(), problem.friction.end(), [](double mu) { return mu > 0.0; });
-    if (problem.contact_count() > recipe_.largest || with_friction > recipe_.largest_with_friction)
+    if (!recipe_.largest.admits(problem))
       throw UnsupportedProblem(std::string(recipe_.name) + ": " + std::to_string(problem.contact_count()) +
-                               " contacts, " + std::to_string(with_friction) + " with friction; at most " +
-                               std::to_string(recipe_.largest) + " and " +
-                               std::to_string(recipe_.largest_with_friction) + " (" + recipe_.because + ")");
+                               " contacts, " + std::to_string(contacts_with_friction(problem)) +
+                               " with friction; at most " + std::to_string(recipe_.largest.contacts) + " and " +
+                               std::to_string(recipe_.largest.with_friction) + " (" + recipe_.because + ")");
     cones_.take(problem);
   }
 
@@ -146,9 +144,9 @@ class Nlopt final : public Solver {
 
 // Svanberg's approximations have one curvature for all variables: the sharpest of the cones slows every contact down.
 // 40 contacts with friction and a singular W end at 1e-5 m/s after 20 s.
-const Recipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, 60, 60, 400, "a dense quadratic program per step"};
-const Recipe mma{"nlopt_mma", NLOPT_LD_MMA, 400, 12, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
-const Recipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, 400, 12, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
+const Recipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, nlopt_slsqp_limit, 400, "a dense quadratic program per step"};
+const Recipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
+const Recipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, nlopt_ccsaq_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
 
 template <const Recipe& recipe>
 std::unique_ptr<Solver> make_nlopt() {

@@ -26,11 +26,11 @@ class PyramidLemke final : public Solver {
     moving_.take(problem);
     begin_.assign(1, 0);
     for (int k = 0; k < moving_.contact_count(); ++k)
-      begin_.push_back(begin_.back() + (has_friction(k) ? settings_.sides + 2 : 1));
+      begin_.push_back(begin_.back() + (has_friction(k) ? settings_.unknowns_per_contact() : 1));
     if (begin_.back() > settings_.largest)
       throw UnsupportedProblem("pyramid_lemke: " + std::to_string(begin_.back()) + " unknowns, at most " +
                                std::to_string(settings_.largest) + " (dense pivoting; " +
-                               std::to_string(settings_.sides + 2) + " per contact with friction)");
+                               std::to_string(settings_.unknowns_per_contact()) + " per contact with friction)");
     assemble();
   }
 

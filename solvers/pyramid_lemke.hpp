@@ -3,6 +3,7 @@
 // Stewart, Trinkle 1996, "An implicit time-stepping scheme for rigid body dynamics with inelastic collisions and
 // Coulomb friction", eq. (15); Anitescu, Potra 1997 (where it is shown to be solvable).
 
+#include "solvers/size_limit.hpp"
 #include "solvers/solver.hpp"
 
 namespace ballast {
@@ -10,6 +11,9 @@ namespace ballast {
 struct PyramidLemkeSettings {
   int sides = 8;       ///< directions of friction per contact, even, >= 4; their hull is inside the circle
   int largest = 1000;  ///< unknowns of the complementarity problem: sides + 2 per contact with friction, 1 without
+
+  int unknowns_per_contact() const { return sides + 2; }  ///< with friction
+  SizeLimit limit() const { return {largest / unknowns_per_contact(), largest / unknowns_per_contact()}; }
 };
 
 /// Judged on Coulomb's law like every backend: with sliding contacts that do not move along one of the directions it

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "solvers/size_limit.hpp"
 #include "solvers/solver.hpp"
 
 namespace ballast {
@@ -15,6 +16,7 @@ struct SolverEntry {
   ContactLaw law;
   SolverMaker make;     ///< null: built without the library it needs
   const char* missing;  ///< what to install when make is null
+  SizeLimit largest = {};  ///< what it promises to take
 };
 
 std::span<const SolverEntry> solver_list();

@@ -18,11 +18,12 @@ namespace ballast {
 namespace {
 
 void print_solvers() {
-  std::cout << std::left << std::setw(14) << "name" << std::setw(19) << "law" << std::setw(10) << "built"
-            << "what it is\n";
+  std::cout << std::left << std::setw(16) << "name" << std::setw(19) << "law" << std::setw(7) << "built"
+            << std::setw(10) << "largest" << "what it is (largest: contacts with friction that it takes)\n";
   for (const SolverEntry& entry : solver_list()) {
-    std::cout << std::setw(14) << entry.name << std::setw(19) << name_of(entry.law) << std::setw(10)
-              << (entry.make ? "yes" : "no") << entry.description;
+    std::cout << std::setw(16) << entry.name << std::setw(19) << name_of(entry.law) << std::setw(7)
+              << (entry.make ? "yes" : "no") << std::setw(10)
+              << (entry.largest.none() ? "any" : std::to_string(entry.largest.with_friction)) << entry.description;
     if (!entry.make) std::cout << " [install " << entry.missing << "]";
     std::cout << '\n';
   }
@@ -34,6 +35,7 @@ void print_solvers_json() {
     list.push_back({{"name", entry.name},
                     {"law", name_of(entry.law)},
                     {"built", entry.make != nullptr},
+                    {"largest", {{"contacts", entry.largest.contacts}, {"with_friction", entry.largest.with_friction}}},
                     {"missing", entry.make ? "" : entry.missing},
                     {"description", entry.description}});
   std::cout << list.dump(2) << '\n';

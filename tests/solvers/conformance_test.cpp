@@ -1,92 +1,11 @@
-// What every registered backend must do. Adding a row to solver_list.cpp is enough to be tested here.
+// What every registered backend must do: answers. Adding a row to solver_list.cpp is enough to be tested here.
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "problems/delassus.hpp"
-#include "problems/known_solutions.hpp"
-#include "solvers/run_solver.hpp"
-#include "solvers/solver_list.hpp"
-#include "tests/catch.hpp"
+#include "tests/solvers/conformance_support.hpp"
 
 using namespace ballast;
-
-namespace {
-
-/// Runs `check(entry)` for every backend that was built, each in a section of its own: `solvers_test -c NAME` tests
-/// one.
-template <typename Check>
-void for_each_backend(const Check& check) {
-  for (const SolverEntry& entry : solver_list())
-    if (entry.make) DYNAMIC_SECTION(entry.name) {
-        try {
-          check(entry);
-        } catch (const UnsupportedProblem& declined) {  // the limit is in its header; it must say so here, too
-          CHECK(std::string(declined.what()).find(entry.name) != std::string::npos);
-        }
-      }
-}
-
-/// Nothing when the backend declines the problem's form.
-std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget,
-                             const Impulses& start = {}) {
-  try {
-    const auto solver = entry.make();
-    return SolverRunner().run(*solver, problem, start, budget);
-  } catch (const UnsupportedProblem&) {
-    return std::nullopt;
-  }
-}
-
-FrictionProblem only_delassus(FrictionProblem problem) {
-  add_delassus_form(problem);
-  problem.has_dynamics = false;
-  return problem;
-}
-
-/// Problems up to this size every backend takes; a method of dense matrices may decline more.
-constexpr int always_taken = 8;  // contacts
-
-/// The dynamics form, or W for a backend that takes only that. Throws UnsupportedProblem where it declines the size.
-SolverRun run_either(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget,
-                     const Impulses& start = {}) {
-  if (std::optional<SolverRun> result = run(entry, problem, budget, start)) return *result;
-  try {
-    return SolverRunner().run(*entry.make(), only_delassus(problem), start, budget);
-  } catch (const UnsupportedProblem&) {
-    REQUIRE(problem.contact_count() > always_taken);
-    throw;
-  }
-}
-
-std::optional<SolverRun> run_unless_large(const SolverEntry& entry, const FrictionProblem& problem,
-                                          const Budget& budget) {
-  try {
-    return run_either(entry, problem, budget);
-  } catch (const UnsupportedProblem&) {
-    return std::nullopt;
-  }
-}
-
-KnownSolution known(int bodies, int contacts, double friction, double mass_ratio, std::uint64_t seed = 1) {
-  KnownSolutionSettings settings;
-  settings.bodies = bodies;
-  settings.contacts = contacts;
-  settings.friction_max = friction;
-  settings.mass_ratio = mass_ratio;
-  settings.seed = seed;
-  return make_known_solution(settings);
-}
-
-const Budget patient{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 20.0};
-const Budget hurried{.tolerance = 1e-8, .max_iterations = 2000, .max_seconds = 0.5};
-
-/// Frictionless problems are the same under every law.
-bool solves_coulomb(const SolverEntry& entry) { return entry.law == ContactLaw::coulomb; }
-
-}  // namespace
 
 TEST_CASE("problems with a known solution are solved, whatever their size and rank") {
   struct Size {
@@ -137,6 +56,7 @@ TEST_CASE("hard problems may not be solved, but no claim is false") {
 TEST_CASE("contacts without friction, of one row or three") {
   for_each_backend([](const SolverEntry& entry) {
     KnownSolutionSettings settings;
+    settings.contacts = contacts_for(entry, settings.contacts);
     settings.frictionless_fraction = 1.0;
     const SolverRun one_row = run_either(entry, make_known_solution(settings).problem, patient);
     CHECK(one_row.success);
@@ -173,6 +93,7 @@ TEST_CASE("no contacts, no bodies, and contacts that nothing moves") {
 TEST_CASE("contacts that all open take no impulse") {
   for_each_backend([](const SolverEntry& entry) {
     KnownSolutionSettings settings;
+    settings.contacts = contacts_for(entry, settings.contacts);
     settings.open_fraction = 1.0;
     // The relaxation presses contacts that leave more slowly than mu |u_T|.
     if (entry.law == ContactLaw::convex_relaxation) settings.friction_max = 0.0;
@@ -197,76 +118,6 @@ TEST_CASE("a start that is no start never reaches the backend") {
     FrictionProblem broken = problem;
     broken.dynamics.h[0] = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_AS(run(entry, broken, patient), InvalidProblem);
-  });
-}
-
-TEST_CASE("limits of iterations and of time are kept") {
-  for_each_backend([](const SolverEntry& entry) {
-    FrictionProblem problem = known(200, 600, 0.8, 1e4).problem;
-    for (const int contacts : {60, 8})
-      if (!run_unless_large(entry, problem, {.max_iterations = 0})) problem = known(20, contacts, 0.8, 1e4).problem;
-    for (const int limit : {0, 1, 3}) {
-      Budget budget{.tolerance = 0.0, .max_iterations = limit};
-      const SolverRun result = run_either(entry, problem, budget);
-      CHECK(result.solved.iterations <= limit);
-      CHECK(result.error.finite);
-    }
-    Budget budget{.tolerance = 0.0, .max_iterations = std::numeric_limits<int>::max(), .max_seconds = 0.05};
-    const SolverRun result = run_either(entry, problem, budget);
-    CHECK(result.solve_seconds < 2.0);
-    CHECK(result.solved.reason != StopReason::iteration_limit);
-  });
-}
-
-TEST_CASE("a start from the solution stops at once") {
-  for_each_backend([](const SolverEntry& entry) {
-    const FrictionProblem problem = known(50, 40, solves_coulomb(entry) ? 0.5 : 0.0, 1.0).problem;
-    const SolverRun cold = run_either(entry, problem, patient);
-    REQUIRE(cold.success);
-    const SolverRun warm = run_either(entry, problem, patient, cold.solved.impulses);
-    CHECK(warm.success);
-    CHECK(warm.solved.iterations <= 1);
-  });
-}
-
-TEST_CASE("both forms of a problem give the same answer") {
-  for_each_backend([](const SolverEntry& entry) {
-    const FrictionProblem problem = known(50, 40, 0.5, 1.0).problem;
-    const Budget budget{.tolerance = 1e-10, .max_iterations = 100000, .max_seconds = 20.0};
-    const auto dynamics = run(entry, problem, budget), delassus = run(entry, only_delassus(problem), budget);
-    if (!dynamics && !delassus) throw UnsupportedProblem(std::string(entry.name) + " declines 40 contacts");
-    if (!dynamics || !delassus) return;
-    Eigen::VectorXd u, w;
-    contact_velocity(problem, dynamics->solved.impulses, u);
-    contact_velocity(problem, delassus->solved.impulses, w);
-    CHECK((u - w).norm() < 1e-7 * u.norm());
-  });
-}
-
-TEST_CASE("the same problem gives the same bits") {
-  for_each_backend([](const SolverEntry& entry) {
-    const FrictionProblem problem = known(30, 60, 0.5, 10.0).problem;
-    const Budget budget{.tolerance = 1e-6, .max_iterations = 200};
-    const SolverRun once = run_either(entry, problem, budget), again = run_either(entry, problem, budget);
-    CHECK(once.solved.impulses == again.solved.impulses);
-  });
-}
-
-TEST_CASE("history is kept on request, and ends with what is returned") {
-  for_each_backend([](const SolverEntry& entry) {
-    const FrictionProblem problem = known(50, 40, solves_coulomb(entry) ? 0.5 : 0.0, 1.0).problem;
-    Budget budget = patient;
-    const SolverRun silent = run_either(entry, problem, budget);
-    CHECK(silent.solved.history.empty());
-    budget.keep_history = true;
-    const SolverRun result = run_either(entry, problem, budget);
-    REQUIRE_FALSE(result.solved.history.empty());
-    CHECK(result.solved.history.back().iteration == result.solved.iterations);
-    CHECK(result.solved.history.back().error == Approx(result.error.natural_map_rms).epsilon(1e-3).margin(1e-14));
-    for (std::size_t i = 1; i < result.solved.history.size(); ++i) {
-      CHECK(result.solved.history[i].iteration > result.solved.history[i - 1].iteration);
-      CHECK(result.solved.history[i].seconds >= result.solved.history[i - 1].seconds);
-    }
   });
 }
 

@@ -1,0 +1,79 @@
+#pragma once
+// What the conformance tests share: every backend, problems of a size that it promises to take, budgets.
+
+#include <algorithm>
+#include <optional>
+
+#include "problems/delassus.hpp"
+#include "problems/known_solutions.hpp"
+#include "solvers/run_solver.hpp"
+#include "solvers/solver_list.hpp"
+#include "tests/catch.hpp"
+
+namespace ballast {
+
+/// Runs `check(entry)` for every backend that was built, each in a section of its own: `solvers_test -c NAME` tests
+/// one.
+template <typename Check>
+void for_each_backend(const Check& check) {
+  for (const SolverEntry& entry : solver_list())
+    if (entry.make) DYNAMIC_SECTION(entry.name) { check(entry); }
+}
+
+/// `wanted` contacts, or as many as the backend takes with friction on all of them.
+inline int contacts_for(const SolverEntry& entry, int wanted) {
+  return entry.largest.none() ? wanted : std::min({wanted, entry.largest.contacts, entry.largest.with_friction});
+}
+
+/// Nothing when the backend declines the problem's form or size.
+inline std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget,
+                                    const Impulses& start = {}) {
+  try {
+    const auto solver = entry.make();
+    return SolverRunner().run(*solver, problem, start, budget);
+  } catch (const UnsupportedProblem& declined) {
+    CHECK(std::string(declined.what()).find(entry.name) != std::string::npos);
+    return std::nullopt;
+  }
+}
+
+inline FrictionProblem only_delassus(FrictionProblem problem) {
+  add_delassus_form(problem);
+  problem.has_dynamics = false;
+  return problem;
+}
+
+/// The dynamics form, or W for a backend that takes only that. Nothing where it declines both: only beyond its limit.
+inline std::optional<SolverRun> run_unless_large(const SolverEntry& entry, const FrictionProblem& problem,
+                                                 const Budget& budget, const Impulses& start = {}) {
+  if (std::optional<SolverRun> result = run(entry, problem, budget, start)) return result;
+  std::optional<SolverRun> result = run(entry, only_delassus(problem), budget, start);
+  if (!result) REQUIRE_FALSE(entry.largest.admits(problem));
+  return result;
+}
+
+/// For problems within the backend's limit.
+inline SolverRun run_either(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget,
+                            const Impulses& start = {}) {
+  std::optional<SolverRun> result = run_unless_large(entry, problem, budget, start);
+  REQUIRE(result);
+  return *std::move(result);
+}
+
+inline KnownSolution known(int bodies, int contacts, double friction, double mass_ratio, std::uint64_t seed = 1) {
+  KnownSolutionSettings settings;
+  settings.bodies = bodies;
+  settings.contacts = contacts;
+  settings.friction_max = friction;
+  settings.mass_ratio = mass_ratio;
+  settings.seed = seed;
+  return make_known_solution(settings);
+}
+
+inline const Budget patient{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 20.0};
+inline const Budget hurried{.tolerance = 1e-8, .max_iterations = 2000, .max_seconds = 0.5};
+
+/// Frictionless problems are the same under every law.
+inline bool solves_coulomb(const SolverEntry& entry) { return entry.law == ContactLaw::coulomb; }
+
+}  // namespace ballast
