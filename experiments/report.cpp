@@ -6,6 +6,7 @@
 #include "experiments/figures.hpp"
 #include "experiments/html_page.hpp"
 #include "experiments/plot.hpp"
+#include "experiments/report_origin.hpp"
 #include "experiments/report_tables.hpp"
 #include "experiments/run.hpp"
 #include "experiments/run_data.hpp"

@@ -18,7 +18,7 @@
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/interrupt.hpp"
 #include "experiments/manifest.hpp"
-#include "experiments/report_tables.hpp"
+#include "experiments/report_origin.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

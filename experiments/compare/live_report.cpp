@@ -8,7 +8,7 @@
 #include "experiments/compare/bench_figures.hpp"
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/page_drawing.hpp"
-#include "experiments/report_tables.hpp"
+#include "experiments/report_origin.hpp"
 
 namespace ballast {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "experiments/curve_fit.hpp"
-#include "experiments/report_tables.hpp"
+#include "experiments/report_origin.hpp"
 #include "tests/catch.hpp"
 
 namespace ballast {
