@@ -15,7 +15,7 @@ namespace {
 using Vector8 = double __attribute__((vector_size(64)));
 using Vector4 = double __attribute__((vector_size(32)));
 
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #define BALLAST_FOR_EACH_CPU __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define BALLAST_FOR_EACH_CPU
