@@ -27,9 +27,6 @@ ReportFigure figure_4(const RunData& data, const RunSummary& summary);
 ReportFigure figure_12(const RunData& data, const RunSummary& summary);
 ReportFigure jammed_figure(const RunData& data, const RunSummary& summary);
 
-/// One column, each value times `factor`.
-std::vector<double> scaled_column(std::span<const StepRecord> steps, double StepRecord::*value, double factor = 1.0);
-
 /// A line of at most 3000 samples that look like all.
 Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink, double width = 1.6);
 

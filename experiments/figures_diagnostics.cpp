@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/figures.hpp"
+#include "experiments/record_column.hpp"
 
 namespace ballast {
 namespace {
@@ -21,7 +22,7 @@ Panel time_panel(const RunData& data, const std::string& y_label, bool log_y) {
 }
 
 Curve column_line(const RunData& data, double StepRecord::*value, double factor, const char* title, Ink ink, double width) {
-  return line_of(scaled_column(data.steps, &StepRecord::time), scaled_column(data.steps, value, factor), title, ink, width);
+  return line_of(record_column(data.steps, &StepRecord::time), record_column(data.steps, value, factor), title, ink, width);
 }
 
 bool is_zero(const RunData& data, double StepRecord::*value) {
@@ -141,9 +142,9 @@ ReportFigure cost_figure(const RunData& data, const RunSummary& summary) {
 
 ReportFigure energy_figure(const RunData& data, const RunSummary& summary) {
   const size_t count = data.steps.size();
-  const auto time = scaled_column(data.steps, &StepRecord::time);
+  const auto time = record_column(data.steps, &StepRecord::time);
   const auto cumulative = [&](double StepRecord::*value) {
-    auto sums = scaled_column(data.steps, value);
+    auto sums = record_column(data.steps, value);
     for (size_t k = 1; k < count; ++k) sums[k] += sums[k - 1];
     return sums;
   };
@@ -179,13 +180,6 @@ ReportFigure energy_figure(const RunData& data, const RunSummary& summary) {
 }
 
 }  // namespace
-
-std::vector<double> scaled_column(std::span<const StepRecord> steps, double StepRecord::*value, double factor) {
-  std::vector<double> values;
-  values.reserve(steps.size());
-  for (const StepRecord& step : steps) values.push_back(factor * (step.*value));
-  return values;
-}
 
 Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink, double width) {
   Curve curve;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "experiments/figures.hpp"
+#include "experiments/record_column.hpp"
 
 namespace ballast {
 namespace {
@@ -75,13 +76,13 @@ Html fit_caption(const RunSummary& summary) {
 
 ReportFigure figure_3(const RunData& data, const RunSummary& summary) {
   const ForceUnit unit = force_unit(summary.facts.f_max);
-  const auto time = scaled_column(data.steps, &StepRecord::time);
+  const auto time = record_column(data.steps, &StepRecord::time);
   Panel above, below;
   above.x_label = below.x_label = time_axis;
   above.y_label = "{/:Italic x}  (mm)";
   below.y_label = std::string("{/:Italic f}  (") + unit.name + ")";
-  above.curves = {line_of(time, scaled_column(data.steps, &StepRecord::wall_x, 1e3), "", Ink::blue, 2.0)};
-  below.curves = {line_of(time, scaled_column(data.steps, &StepRecord::load, unit.factor), "", Ink::vermilion, 2.0)};
+  above.curves = {line_of(time, record_column(data.steps, &StepRecord::wall_x, 1e3), "", Ink::blue, 2.0)};
+  below.curves = {line_of(time, record_column(data.steps, &StepRecord::load, unit.factor), "", Ink::vermilion, 2.0)};
   above.x_min = below.x_min = 0.0;
   above.x_max = below.x_max = data.steps.back().time;
   above.lines = {{0.0, "", false, Ink::light}};
@@ -151,12 +152,12 @@ ReportFigure figure_4(const RunData& data, const RunSummary& summary) {
 
 ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
   const Compaction& compaction = summary.compaction;
-  auto change = scaled_column(data.steps, &StepRecord::solid_fraction);
+  auto change = record_column(data.steps, &StepRecord::solid_fraction);
   for (double& value : change) value -= compaction.initial;
   Panel panel;
   panel.x_label = time_axis;
   panel.y_label = "Δ{/:Italic ρ}";
-  panel.curves = {line_of(scaled_column(data.steps, &StepRecord::time), change, "Δ{/:Italic ρ}", Ink::blue, 1.8)};
+  panel.curves = {line_of(record_column(data.steps, &StepRecord::time), change, "Δ{/:Italic ρ}", Ink::blue, 1.8)};
   panel.x_min = 0.0;
   panel.x_max = data.steps.back().time;
   panel.lines = {{paper::reference_time, "0.2 s", true, Ink::grey}};
@@ -191,7 +192,7 @@ ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
 
 ReportFigure jammed_figure(const RunData& data, const RunSummary& summary) {
   const WallCycles& cycles = summary.wall;
-  const auto time = scaled_column(data.steps, &StepRecord::time);
+  const auto time = record_column(data.steps, &StepRecord::time);
   std::vector<double> miss, speed, jammed_miss, jammed_speed;
   for (size_t k = 0; k < data.steps.size(); ++k) {
     const bool is_jammed = cycles.phase[k] == WallPhase::jammed;

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/record_column.hpp"
+
 namespace ballast {
 namespace {
-
-std::vector<double> column(std::span<const StepRecord> steps, double StepRecord::*value) {
-  std::vector<double> values;
-  values.reserve(steps.size());
-  for (const StepRecord& step : steps) values.push_back(step.*value);
-  return values;
-}
 
 bool is_any_nonzero(std::span<const StepRecord> steps, double StepRecord::*value) {
   return std::any_of(steps.begin(), steps.end(), [&](const StepRecord& s) { return std::isfinite(s.*value) && s.*value != 0.0; });
@@ -33,7 +28,7 @@ double frequency_of(std::span<const StepRecord> steps, double middle) {
 
 /// NaN when the column has no finite value at all, so that a missing column isn't reported as zero.
 double sum_of(std::span<const StepRecord> steps, double StepRecord::*value) {
-  const Statistics values = statistics(column(steps, value));
+  const Statistics values = statistics(record_column(steps, value));
   return values.samples ? values.mean * static_cast<double>(values.samples) : not_known;
 }
 
@@ -47,7 +42,7 @@ void summarise_cost(std::span<const StepRecord> steps, RunSummary& summary) {
   double total = 0.0;
   bool is_known = false;
   for (PhaseCost& phase : summary.cost) {
-    phase.ms_per_step = 1e3 * statistics(column(steps, phase.seconds)).mean;
+    phase.ms_per_step = 1e3 * statistics(record_column(steps, phase.seconds)).mean;
     if (!std::isfinite(phase.ms_per_step)) continue;
     total += phase.ms_per_step;
     is_known = true;
@@ -60,9 +55,9 @@ void summarise_cost(std::span<const StepRecord> steps, RunSummary& summary) {
 
 void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
-  const std::vector<double> rms = column(steps, &StepRecord::error_rms);
+  const std::vector<double> rms = record_column(steps, &StepRecord::error_rms);
   summary.error_rms = statistics(rms);
-  summary.error_max = statistics(column(steps, &StepRecord::error_max));
+  summary.error_max = statistics(record_column(steps, &StepRecord::error_max));
   summary.error_mean_relative = summary.error_rms.mean / scale;
   summary.error_max_relative = summary.error_rms.max / scale;
   summary.error_worst_contact = summary.error_max.max / scale;
@@ -70,7 +65,7 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
     const auto above = std::count_if(rms.begin(), rms.end(), [&](double e) { return e > target::error_mean * scale; });
     summary.above_target = static_cast<double>(above) / static_cast<double>(summary.error_rms.samples);
   }
-  summary.penetration_mean = statistics(column(steps, &StepRecord::penetration_mean)).mean;
+  summary.penetration_mean = statistics(record_column(steps, &StepRecord::penetration_mean)).mean;
   for (const StepRecord& step : steps)
     if (step.penetration_max > summary.penetration_max || std::isnan(summary.penetration_max)) {
       summary.penetration_max = step.penetration_max;
@@ -170,7 +165,7 @@ RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
   if (!facts.has_wall) facts.has_wall = is_any_nonzero(steps, &StepRecord::load);
   if (!facts.has_packing) facts.has_packing = is_any_nonzero(steps, &StepRecord::solid_fraction);
   if (*facts.has_wall) {
-    const Statistics load = statistics(column(steps, &StepRecord::load));
+    const Statistics load = statistics(record_column(steps, &StepRecord::load));
     fill(facts.f_max, load.max);
     fill(facts.f_min, load.min);
     fill(facts.frequency, frequency_of(steps, 0.5 * (load.min + load.max)));
@@ -186,9 +181,9 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given, c
   summarise_cost(steps, summary);
   if (steps.empty()) return summary;
   summary.duration = steps.back().time;
-  summary.iterations = statistics(column(steps, &StepRecord::iterations));
-  summary.contacts = statistics(column(steps, &StepRecord::contacts));
-  summary.active_contacts = statistics(column(steps, &StepRecord::active_contacts));
+  summary.iterations = statistics(record_column(steps, &StepRecord::iterations));
+  summary.contacts = statistics(record_column(steps, &StepRecord::contacts));
+  summary.active_contacts = statistics(record_column(steps, &StepRecord::active_contacts));
   summarise_accuracy(steps, summary);
   summary.energy = energy_balance(steps);
   if (*summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)

@@ -4,15 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "experiments/record_column.hpp"
+
 namespace ballast {
 namespace {
-
-std::vector<double> column(std::span<const StepRecord> steps, double StepRecord::*value) {
-  std::vector<double> values;
-  values.reserve(steps.size());
-  for (const StepRecord& step : steps) values.push_back(step.*value);
-  return values;
-}
 
 /// First sample later than t, with a quarter of a step for the rounding of multiples of h.
 size_t first_after(std::span<const StepRecord> steps, double t, double h) {
@@ -117,8 +112,8 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   cycles.smoothing = std::min(settings.smoothing, duration_of_period / 20.0);
   const int width = static_cast<int>(std::lround(cycles.smoothing / h));
   cycles.smoothing_samples = static_cast<size_t>(width);
-  cycles.force = low_pass(column(steps, &StepRecord::wall_force), width);
-  cycles.velocity = low_pass(column(steps, &StepRecord::wall_v), width);
+  cycles.force = low_pass(record_column(steps, &StepRecord::wall_force), width);
+  cycles.velocity = low_pass(record_column(steps, &StepRecord::wall_v), width);
   cycles.phase.assign(steps.size(), WallPhase::none);
   if (steps.empty()) return cycles;
 

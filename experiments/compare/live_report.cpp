@@ -8,6 +8,7 @@
 #include "experiments/compare/bench_figures.hpp"
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/page_drawing.hpp"
+#include "experiments/record_column.hpp"
 #include "experiments/report_origin.hpp"
 
 namespace ballast {
@@ -29,7 +30,7 @@ struct LiveRow {
 LiveRow row_of(const Trajectory& t, const LiveComparison& comparison) {
   LiveRow row{&t};
   if (t.steps.empty()) return row;
-  const auto column = [&](double StepRecord::*value) { return statistics(scaled_column(t.steps, value)); };
+  const auto column = [&](double StepRecord::*value) { return statistics(record_column(t.steps, value)); };
   const Statistics error = column(&StepRecord::error_rms);
   row.error_mean = error.mean / comparison.velocity_scale;
   row.error_max = error.max / comparison.velocity_scale;

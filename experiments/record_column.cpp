@@ -1,0 +1,12 @@
+#include "experiments/record_column.hpp"
+
+namespace ballast {
+
+std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value, double factor) {
+  std::vector<double> values;
+  values.reserve(steps.size());
+  for (const StepRecord& step : steps) values.push_back(factor * (step.*value));
+  return values;
+}
+
+}  // namespace ballast
