@@ -42,6 +42,7 @@ AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
 AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis) {
   const std::optional<SeparatingAxis> last = evaluate_axis(pair, hint, heights_);
   if (!last) return search(pair, alert, nullptr, hint, axis);
+  axis.separation = last->separation;
   if (last->separation > alert) return AxisOutcome::separated_by_hint;
   if (!is_proved_best(pair, *last)) return search(pair, alert, &*last, hint, axis);
   axis = *last;
@@ -63,6 +64,7 @@ AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const Separa
     apart = search_edges(pair, alert);
   }
   hint = apart ? best_feature_ : choose(pair);
+  axis.separation = best_;
   if (apart) return AxisOutcome::separated;
   axis = *evaluate_axis(pair, hint, heights_);
   return AxisOutcome::found;

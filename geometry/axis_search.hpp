@@ -25,8 +25,9 @@ class AxisSearch {
   explicit AxisSearch(std::span<const CollisionShape> shapes);
 
   /// The best axis of the pair, unless some facet's separation exceeds `alert` [m]: then no more than that is found
-  /// out. `hint`: a facet to start from, of any kind or none; on return the one that decided. Outcome (separated or
-  /// not) and axis do not depend on the hint, to the last bit.
+  /// out: of `axis` then the separation alone is set, that of the facet found. `hint`: a facet to start from, of any
+  /// kind or none; on return the one that decided. Outcome (separated or not) and, unless separated, axis do not depend
+  /// on the hint, to the last bit.
   AxisOutcome find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis);
 
  private:

@@ -5,17 +5,12 @@
 #include <utility>
 
 namespace ballast {
-namespace {
 
-/// Bound on how far a point of the body, at most `radius` from its frame's origin, is from where it was. The chord of a
-/// rotation by phi is 2 r sin(phi/2) <= 2 r * 2 sin(phi/4), and 2 sin(phi/4) is the distance of the unit quaternions.
-double displacement_bound(const Pose& from, const Pose& to, double radius) {
+Travel step_bound(const Pose& from, const Pose& to) {
   const double same = (to.rotation.coeffs() - from.rotation.coeffs()).squaredNorm();
   const double opposite = (to.rotation.coeffs() + from.rotation.coeffs()).squaredNorm();
-  return (to.position - from.position).norm() + 2.0 * radius * std::sqrt(std::min(same, opposite));
+  return {(to.position - from.position).norm(), 2.0 * std::sqrt(std::min(same, opposite))};
 }
-
-}  // namespace
 
 Box bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position) {
   const AffineRows& vertices = shape.vertices();
@@ -33,6 +28,7 @@ Box bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& 
 BroadPhase::BroadPhase(std::vector<Body> bodies, double skin) : bodies_(std::move(bodies)), skin_(skin) {
   boxes_.resize(bodies_.size());
   for (size_t i = 0; i < bodies_.size(); ++i) {
+    radius_.push_back(bodies_[i].shape ? bodies_[i].shape->circumradius() : 0.0);
     if (bodies_[i].shape) order_.push_back(static_cast<int>(i));
   }
   first_.assign(bodies_.size() + 1, 0);
@@ -44,7 +40,7 @@ void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotat
   sweep();
   std::swap(pairs_, old_pairs_);
   sort_pairs();
-  carry_axes();
+  carry_memory();
   ++rebuilds_;
 }
 
@@ -52,8 +48,8 @@ bool BroadPhase::still_valid(std::span<const Pose> poses, std::span<const double
   if (listed_pose_.empty()) return false;
   for (size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].shape) continue;
-    const double moved = displacement_bound(listed_pose_[i], poses[i], bodies_[i].shape->circumradius());
-    if (!(moved + reach[i] <= allowance_[i])) return false;
+    const Travel moved = step_bound(listed_pose_[i], poses[i]);
+    if (!(moved.shift + radius_[i] * moved.turn + reach[i] <= allowance_[i])) return false;
   }
   return true;
 }
@@ -108,7 +104,8 @@ void BroadPhase::sort_pairs() {
   for (const auto& [a, b] : found_) ++first_[a + 1];
   for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
   pairs_.resize(found_.size());
-  for (const auto& [a, b] : found_) pairs_[first_[a]++] = {a, b, {}};  // first_[a] ends where a + 1 begins
+  for (const auto& [a, b] : found_)
+    pairs_[first_[a]++] = {a, b, {}, -1.0, 0.0, 0.0};  // first_[a] ends where a + 1 begins
   for (size_t a = bodies_.size(); a > 0; --a) first_[a] = first_[a - 1];
   first_[0] = 0;
   for (size_t a = 0; a < bodies_.size(); ++a) {
@@ -117,13 +114,13 @@ void BroadPhase::sort_pairs() {
   }
 }
 
-void BroadPhase::carry_axes() {
+void BroadPhase::carry_memory() {
   size_t old = 0;
   for (CandidatePair& pair : pairs_) {
     while (old < old_pairs_.size() && std::pair(old_pairs_[old].a, old_pairs_[old].b) < std::pair(pair.a, pair.b))
       ++old;
     if (old == old_pairs_.size()) break;
-    if (old_pairs_[old].a == pair.a && old_pairs_[old].b == pair.b) pair.axis = old_pairs_[old].axis;
+    if (old_pairs_[old].a == pair.a && old_pairs_[old].b == pair.b) pair = old_pairs_[old];
   }
 }
 

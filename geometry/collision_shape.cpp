@@ -112,7 +112,7 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
     face_rows_.set(p, normal, -offset);
     faces_.push_back({normal, offset, 1.0, static_cast<int>(corners_.size()), static_cast<int>(loop.size())});
     for (const int v : loop) {
-      corners_.push_back({v, -1});
+      corners_.push_back({v, -1, polyhedron.vertex(v)});
       unevenness_ = std::max(unevenness_, offset - heights[v]);
     }
   }

@@ -59,6 +59,7 @@ class CollisionShape {
   /// Corner k of a face's loop and the edge from there to corner k+1.
   struct Corner {
     int vertex, edge;
+    Vec3 position;
   };
   /// The plane through that edge which stands on the face: inside the face outward.x <= offset.
   struct Side {

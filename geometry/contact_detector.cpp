@@ -54,7 +54,12 @@ struct ContactDetector::State {
         tables(shapes),
         broad_phase(broad_phase_bodies(), chosen_skin(settings.skin, tables.tables)),
         search(tables.tables),
-        rotations(shapes.size()) {
+        rotations(shapes.size()),
+        travel(shapes.size()) {
+    for (size_t i = 0; i < shapes.size(); ++i) {
+      const CollisionShape* table = shape(static_cast<int>(i));
+      radius.push_back(table ? table->circumradius() : 0.0);
+    }
     size_t vertices = 0;
     for (const CollisionShape& shape : tables.tables)
       vertices = std::max(vertices, static_cast<size_t>(shape.vertices().padded()));
@@ -75,6 +80,11 @@ struct ContactDetector::State {
                     std::vector<ContactPoint>& contacts);
   void detect_pair(CandidatePair& pair, std::span<const Pose> poses, std::span<const double> reach,
                    std::vector<ContactPoint>& contacts);
+  void advance(std::span<const Pose> poses);
+  void choose_pairs(std::span<const double> reach);
+  void bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const;
+  void bound_separated(CandidatePair& pair, double distance, double separation) const;
+  double bound_use(const CandidatePair& pair) const;
   bool boxes_within_reach(const CandidatePair& pair, std::span<const Pose> poses, double alert) const;
 
   std::vector<ContactShape> shapes;
@@ -84,6 +94,10 @@ struct ContactDetector::State {
   AxisSearch search;
   ContactManifold manifold;
   std::vector<Mat3> rotations;  // R_WB at the poses of this call
+  std::vector<double> radius;   // circumradii, 0 for planes
+  std::vector<Pose> previous;   // poses of the last call
+  std::vector<Travel> travel;   // since the first call
+  std::vector<int> chosen;      // candidate pairs that must be looked at
   Heights heights;
   DetectionCounters counters;
 };
@@ -105,11 +119,62 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   s.counters = DetectionCounters{};
   s.counters.candidate_pairs = static_cast<long>(s.broad_phase.pairs().size());
   s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
+  s.advance(poses);
+  s.choose_pairs(reach);
+  size_t next = 0;
   for (int a = 0; a < static_cast<int>(s.shapes.size()); ++a) {
     if (!s.shape(a)) s.detect_plane(a, poses, reach, contacts);
-    for (int k = s.broad_phase.first(a); k < s.broad_phase.first(a + 1); ++k)
-      s.detect_pair(s.broad_phase.pairs()[k], poses, reach, contacts);
+    for (; next < s.chosen.size() && s.chosen[next] < s.broad_phase.first(a + 1); ++next)
+      s.detect_pair(s.broad_phase.pairs()[s.chosen[next]], poses, reach, contacts);
   }
+}
+
+void ContactDetector::State::advance(std::span<const Pose> poses) {
+  for (size_t i = 0; i < previous.size(); ++i) {
+    const Travel step = step_bound(previous[i], poses[i]);
+    travel[i].shift += step.shift;
+    travel[i].turn += step.turn;
+  }
+  previous.assign(poses.begin(), poses.end());
+}
+
+/// What the bodies of a pair have used up of its bound, less their reaches.
+double ContactDetector::State::bound_use(const CandidatePair& pair) const {
+  const Travel &a = travel[pair.a], &b = travel[pair.b];
+  return (a.shift + b.shift) + (pair.arm_a * a.turn + pair.arm_b * b.turn);
+}
+
+/// All candidates but those whose separation is proved without a look at their shapes.
+void ContactDetector::State::choose_pairs(std::span<const double> reach) {
+  chosen.clear();
+  const std::span<const CandidatePair> pairs = broad_phase.pairs();
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const CandidatePair& pair = pairs[k];
+    if (settings.use_cache && bound_use(pair) + (reach[pair.a] + reach[pair.b]) < pair.apart_below)
+      counters.cached_separations += pair.arm_a > 0.0;  // by an axis, not by the spheres alone
+    else
+      chosen.push_back(static_cast<int>(k));
+  }
+}
+
+/// `separation` shrinks by no more than the origins move and the arms times the turns.
+void ContactDetector::State::bound_separation(CandidatePair& pair, double arm_a, double arm_b,
+                                              double separation) const {
+  pair.arm_a = arm_a;
+  pair.arm_b = arm_b;
+  const double use = bound_use(pair);
+  // far above the rounding of separations and of sums over 1e7 steps
+  pair.apart_below = separation + use - 1e-9 * (radius[pair.a] + radius[pair.b] + use);
+}
+
+/// Of a pair whose axis separates it, at this `distance` of the origins. A face's separation is the least n.(x - p) of
+/// the other body's points x, less the face's offset: it shrinks by no more than x and the face's body p move, and by
+/// that body's turn times |x - p|. A separating face is found whatever the hint, hence the outcome is the one without a
+/// bound. An edge pair may cease to be a facet: no bound.
+void ContactDetector::State::bound_separated(CandidatePair& pair, double distance, double separation) const {
+  const double radius_a = radius[pair.a], radius_b = radius[pair.b];
+  if (pair.axis.kind == AxisKind::face_of_a) bound_separation(pair, distance + radius_b, radius_b, separation);
+  if (pair.axis.kind == AxisKind::face_of_b) bound_separation(pair, radius_a, distance + radius_a, separation);
 }
 
 void ContactDetector::State::check(std::span<const Pose> poses, std::span<const double> reach) const {
@@ -133,7 +198,7 @@ void ContactDetector::State::detect_plane(int plane, std::span<const Pose> poses
     if (!body || (shapes[plane].fixed && shapes[b].fixed)) continue;
     const double alert = reach[plane] + reach[b];
     const double height = normal.dot(poses[b].position - origin);
-    if (height > body->circumradius() + alert) continue;
+    if (height > radius[b] + alert) continue;
     body->vertices().evaluate(rotations[b].transpose() * normal, heights.data());
     const size_t before = contacts.size();
     for (int v = 0; v < body->vertices().count(); ++v) {
@@ -153,18 +218,25 @@ void ContactDetector::State::detect_pair(CandidatePair& candidate, std::span<con
   const CollisionShape &shape_a = *shape(a), &shape_b = *shape(b);
   const double alert = reach[a] + reach[b];
   const Vec3 between = poses[b].position - poses[a].position;
-  const double touching = shape_a.circumradius() + shape_b.circumradius() + alert;
-  if (between.squaredNorm() > touching * touching) return;
+  const double touching = radius[a] + radius[b] + alert;
+  if (between.squaredNorm() > touching * touching) {
+    bound_separation(candidate, 0.0, 0.0, between.norm() - (radius[a] + radius[b]));  // of the spheres
+    return;
+  }
 
   const Mat3& rotation = rotations[a];
   const ShapePair pair(shape_a, shape_b, {rotation.transpose() * rotations[b], rotation.transpose() * between});
   if (!settings.use_cache) candidate.axis = {};
+  candidate.apart_below = -1.0;
   SeparatingAxis axis;
   const AxisOutcome outcome = search.find(pair, alert, candidate.axis, axis);
   if (outcome == AxisOutcome::separated_by_hint) ++counters.cached_separations;
   if (outcome == AxisOutcome::proved_by_hint) ++counters.proved_axes;
   if (outcome == AxisOutcome::separated || outcome == AxisOutcome::found) ++counters.full_tests;
-  if (is_separated(outcome)) return;
+  if (is_separated(outcome)) {
+    bound_separated(candidate, between.norm(), axis.separation);
+    return;
+  }
   // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says. Which of them count
   // must not depend on which the broad phase happened to list: those that it lists with no margin at all.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, poses, alert)) return;

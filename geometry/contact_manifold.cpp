@@ -33,6 +33,16 @@ ClippedPoint touching_vertex(const ShapePair& pair, int reference, int face, int
   return point;
 }
 
+/// The face beside an edge that looks along d most. The edge's record knows both normals: the faces' are left alone.
+struct BesideEdge {
+  int face;
+  double cosine;
+};
+BesideEdge most_aligned(const CollisionShape::Edge& edge, const Vec3& d) {
+  const double left = edge.left_normal.dot(d), right = edge.right_normal.dot(d);
+  return left >= right ? BesideEdge{edge.left, left} : BesideEdge{edge.right, right};
+}
+
 double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const ClippedPoint& r) {
   return 0.5 * (q.position - p.position).cross(r.position - p.position).norm();
 }
@@ -74,15 +84,13 @@ void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxi
   crossing.next_edge = -1;
 
   const Vec3 normal_in_b = pair.other[1].rotation * axis.normal;
-  const auto most_aligned = [](const CollisionShape::Edge& edge, const Vec3& d) {
-    return edge.left_normal.dot(d) >= edge.right_normal.dot(d) ? edge.left : edge.right;
-  };
-  const int face_a = most_aligned(edge_a, axis.normal), face_b = most_aligned(edge_b, -normal_in_b);
-  // An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to see it
-  // this step: without the other end contact jumps from end to end as the body rocks by micrometres. An edge along the
-  // face's own side has no second end on the face.
-  const bool flat_on_a = a.face(face_a).normal.dot(axis.normal) > nearly_parallel;
-  const bool flat_on_b = -b.face(face_b).normal.dot(normal_in_b) > nearly_parallel;
+  const BesideEdge beside_a = most_aligned(edge_a, axis.normal), beside_b = most_aligned(edge_b, -normal_in_b);
+  const int face_a = beside_a.face, face_b = beside_b.face;
+  // An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to
+  // see it this step: without the other end contact jumps from end to end as the body rocks by micrometres. An edge
+  // along the face's own side has no second end on the face.
+  const bool flat_on_a = beside_a.cosine > nearly_parallel;
+  const bool flat_on_b = beside_b.cosine > nearly_parallel;
   const Vec3 along_b = pair.other[0].rotation * edge_b.along;
   const bool across =
       edge_a.along.cross(along_b).squaredNorm() > 0.01 * edge_a.along.squaredNorm() * along_b.squaredNorm();

@@ -20,8 +20,8 @@ std::span<const ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int
   start(pair, reference, incident);
   const std::span<const CollisionShape::Corner> corners = shape.corners(face);
   for (size_t k = 0; k < corners.size() && !polygon_.empty(); ++k) {
-    const Vec3 from = shape.vertices().xyz(corners[k].vertex);
-    const Vec3 along = shape.vertices().xyz(corners[k + 1 < corners.size() ? k + 1 : 0].vertex) - from;
+    const Vec3& from = corners[k].position;
+    const Vec3 along = corners[k + 1 < corners.size() ? k + 1 : 0].position - from;
     const Vec3 outward = along.cross(direction).normalized();
     clip_by_side(pair, reference, face, static_cast<int>(k), {outward, outward.dot(from)}, thickness);
   }
@@ -37,7 +37,7 @@ void FaceClipper::start(const ShapePair& pair, int reference, int incident) {
   for (const CollisionShape::Corner& corner : other.corners(incident)) {
     const std::uint64_t key = reference == 0 ? feature_key(PointKind::vertex_of_b, 0, corner.vertex)
                                              : feature_key(PointKind::vertex_of_a, corner.vertex, 0);
-    polygon_.push_back({pair.other[reference] * other.vertices().xyz(corner.vertex), 0.0, key, corner.edge});
+    polygon_.push_back({pair.other[reference] * corner.position, 0.0, key, corner.edge});
   }
 }
 

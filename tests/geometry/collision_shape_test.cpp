@@ -52,7 +52,7 @@ TEST_CASE("tables agree with the polyhedron they come from") {
         CHECK((edge.left == f ? edge.tail : edge.head) == corner);
         CHECK((edge.left == f || edge.right == f));
         CHECK(std::abs(side.outward.dot(normal)) <= small);
-        for (const auto& [v, e] : shape.corners(f))
+        for (const auto& [v, e, p] : shape.corners(f))
           CHECK(side.outward.dot(shape.vertices().xyz(v)) - side.offset <= small);
         const auto faces = shape.vertex_faces(corner);
         CHECK(std::find(faces.begin(), faces.end(), f) != faces.end());

@@ -51,8 +51,8 @@ std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int r
   }
   const Vec3 up = own.faces().xyz(face), n = pose.rotation * other.faces().xyz(incident);
   const Vec3 on_plane = pose * other.vertices().xyz(other.corners(incident)[0].vertex);
-  for (const auto& [v, e] : own.corners(face)) {
-    const Vec3 corner = own.vertices().xyz(v);
+  for (const auto& [v, e, position] : own.corners(face)) {
+    const Vec3 corner = position;
     const Vec3 p = corner + up * (n.dot(on_plane - corner) / n.dot(up));
     double worst = -1.0;
     for (const CollisionShape::Side& side : other.sides(incident))
