@@ -90,7 +90,8 @@ class Spg final : public Solver {
   double line_search(double slope, double curvature) const {
     const double worst = *std::max_element(energies_.begin(), energies_.end());
     if (energy_ + slope + 0.5 * curvature <= worst + 1e-4 * slope) return 1.0;
-    // However short: a step held to a tenth climbs where W is nearly singular and alpha long (a stack of mass ratio 1e6).
+    // However short: a step held to a tenth climbs where W is nearly singular and alpha long (a stack of mass ratio
+    // 1e6).
     return curvature > 0.0 ? std::clamp(-slope / curvature, 0.0, 1.0) : 1.0;
   }
 

@@ -17,7 +17,9 @@ namespace ballast {
 template <typename Check>
 void for_each_backend(const Check& check) {
   for (const SolverEntry& entry : solver_list())
-    if (entry.make) DYNAMIC_SECTION(entry.name) { check(entry); }
+    if (entry.make) DYNAMIC_SECTION(entry.name) {
+        check(entry);
+      }
 }
 
 /// `wanted` contacts, or as many as the backend takes with friction on all of them.

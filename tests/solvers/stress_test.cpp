@@ -83,10 +83,11 @@ TEST_CASE("stress: every backend, every problem") {
 
 /// Velocities of 250 cm/s with 1e-8 cm/s asked for, and a start at which Fischer and Burmeister's function has a kink.
 TEST_CASE("stress: rounding and kinks do not stop Newton's methods and spg") {
-  const std::vector<std::pair<const char*, const char*>> solved = {
-      {"newton_ac", "units of gram and cm"}, {"newton_nm", "units of gram and cm"},
-      {"newton_fb", "units of gram and cm"}, {"spg", "units of gram and cm"},
-      {"newton_fb", "stack of 2, top 1000.0 kg"}};
+  const std::vector<std::pair<const char*, const char*>> solved = {{"newton_ac", "units of gram and cm"},
+                                                                   {"newton_nm", "units of gram and cm"},
+                                                                   {"newton_fb", "units of gram and cm"},
+                                                                   {"spg", "units of gram and cm"},
+                                                                   {"newton_fb", "stack of 2, top 1000.0 kg"}};
   for (const auto& [name, problem_name] : solved) {
     const SolverEntry& entry = find_solver(name);
     if (!entry.make) continue;
