@@ -5,7 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "solvers/anderson_pgs.hpp"
 #include "solvers/gauss_seidel.hpp"
+#include "solvers/interior_point.hpp"
 #include "solvers/newton.hpp"
 #include "solvers/nncg.hpp"
 
@@ -76,13 +78,16 @@ class Rounds {
 class Auto final : public Solver {
  public:
   Auto()
-      : matrix_sweeps_(make_gauss_seidel({})),
+      : matrix_opening_(make_anderson_pgs({})),
+        matrix_sweeps_(make_gauss_seidel({})),
         body_sweeps_(make_nncg()),
         newton_(make_proximal_newton({.start_sweeps = 0})) {}
 
   void prepare(const FrictionProblem& problem) override {
     sweeps_ = problem.has_dynamics ? body_sweeps_.get() : matrix_sweeps_.get();
-    sweeps_->prepare(problem);
+    opening_ = problem.has_dynamics ? body_sweeps_.get() : matrix_opening_.get();
+    opening_->prepare(problem);
+    if (opening_ != sweeps_) sweeps_->prepare(problem);
     newton_is_prepared_ = false;
     const double rows = problem.row_count();
     if (problem.has_dynamics) {
@@ -116,8 +121,13 @@ class Auto final : public Solver {
       const double newton_cost = (rounds.iterations() - begin) * factor_cost_;
       const double newton_rate = std::log(error / rounds.error()) / newton_cost;
       const double share = newton_rate < sweep_rate_ ? 2.0 : 0.2;
-      sweep(rounds, problem, std::clamp(static_cast<int>(share * newton_cost / sweep_cost_), 50, 20000));
+      sweep(*sweeps_, rounds, problem, std::clamp(static_cast<int>(share * newton_cost / sweep_cost_), 50, 20000));
       standing_still = rounds.error() < 0.5 * before ? 0 : standing_still + 1;
+      if (standing_still == from_elsewhere) {
+        const std::unique_ptr<Solver> interior_point = interior_point_maker()();
+        interior_point->prepare(problem);
+        rounds.run(*interior_point, problem, 2000);
+      }
       before = rounds.error();
     }
     return rounds.take();
@@ -125,18 +135,18 @@ class Auto final : public Solver {
 
  private:
   /// A round of sweeps, and what it brought: ln of the error per second of the model.
-  void sweep(Rounds& rounds, const FrictionProblem& problem, int count) {
+  void sweep(Solver& solver, Rounds& rounds, const FrictionProblem& problem, int count) {
     const double before = rounds.error();
-    rounds.run(*sweeps_, problem, count);
+    rounds.run(solver, problem, count);
     sweep_rate_ = std::log(before / rounds.error()) / (count * sweep_cost_);
   }
 
   /// Doubling rounds of sweeps, until the rate of the last one promises less than Newton costs: 20-60 factorisations on stored problems
   /// of up to 500 contacts, about a hundred on packings of 5000.
   void sweep_while_it_pays(Rounds& rounds, const FrictionProblem& problem, double tolerance) {
-    rounds.run(*sweeps_, problem, 8);
+    rounds.run(*opening_, problem, 8);
     for (int round = 8; !rounds.over(); round *= 2) {
-      sweep(rounds, problem, round);
+      sweep(*opening_, rounds, problem, round);
       const double needed = tolerance > 0.0 && sweep_rate_ > 0.0 ? std::log(rounds.error() / tolerance) / sweep_rate_ : 1e300;
       const bool far_away = needed > (20.0 + 0.02 * problem.contact_count()) * factor_cost_;
       const bool fair_share = rounds.iterations() * sweep_cost_ > fair_factorisations * factor_cost_;
@@ -146,11 +156,14 @@ class Auto final : public Solver {
 
   /// Rounds of Newton and sweeps without halving the error.
   static constexpr int patience = 60;
+  /// After so many of them, an interior point looks for another place to begin.
+  static constexpr int from_elsewhere = 4;
   /// Sweeps first, for as long as this many factorisations take.
-  static constexpr double fair_factorisations = 0.5;
+  static constexpr double fair_factorisations = 2.0;
 
-  std::unique_ptr<Solver> matrix_sweeps_, body_sweeps_, newton_;
-  Solver* sweeps_ = nullptr;
+  std::unique_ptr<Solver> matrix_opening_, matrix_sweeps_, body_sweeps_, newton_;
+  Solver* opening_ = nullptr;  ///< the first sweeps: accelerated
+  Solver* sweeps_ = nullptr;   ///< those between Newton's: acceleration has shown by then that it does not help
   bool newton_is_prepared_ = false;
   double sweep_cost_ = 0.0, factor_cost_ = 0.0;  ///< model [s]
   double sweep_rate_ = 0.0;                      ///< of the last round [1/s]
