@@ -18,7 +18,16 @@ using namespace ballast;
 namespace {
 
 const Budget short_budget{.tolerance = 1e-8, .max_iterations = 20000, .max_seconds = 0.5};
+/// Where an answer is demanded: how fast the machine is must not decide.
+const Budget unhurried{.tolerance = 1e-8, .max_iterations = 20000, .max_seconds = 20.0};
 const Budget table_budget{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 2.0};
+
+/// By which a solve may overrun its time: AddressSanitizer's forks alone take a second on a loaded machine.
+#ifdef __SANITIZE_ADDRESS__
+constexpr double overrun = 10.0;
+#else
+constexpr double overrun = 2.0;
+#endif
 
 std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget) {
   try {
@@ -71,7 +80,7 @@ TEST_CASE("stress: every backend, every problem") {
         if (!result) continue;
         CAPTURE(name_of(result->solved.reason), result->error.natural_map_rms);
         CHECK(result->error.finite);
-        CHECK(result->solve_seconds < short_budget.max_seconds + 2.0);
+        CHECK(result->solve_seconds < short_budget.max_seconds + overrun);
         CHECK(result->solved.iterations <= short_budget.max_iterations);
         if (result->solved.reason == StopReason::reached_tolerance && entry.law == ContactLaw::coulomb)
           CHECK(result->success);
@@ -95,7 +104,7 @@ TEST_CASE("stress: rounding and kinks do not stop Newton's methods and spg") {
     for (const StressProblem& stress : stress_problems()) {
       if (stress.name != problem_name) continue;
       CAPTURE(name, problem_name);
-      const std::optional<SolverRun> result = run(entry, stress.problem, short_budget);
+      const std::optional<SolverRun> result = run(entry, stress.problem, unhurried);
       REQUIRE(result);
       CHECK(result->success);
       CHECK(result->solved.iterations < 500);
@@ -146,7 +155,7 @@ TEST_CASE("stress: sliding tells the laws apart") {
     CAPTURE(entry.name);
     const double mu = 0.4;
     const StressProblem stress = sliding_block(mu, M_PI / 8.0);  // half-way between the directions of a pyramid
-    const std::optional<SolverRun> result = run(entry, stress.problem, short_budget);
+    const std::optional<SolverRun> result = run(entry, stress.problem, unhurried);
     if (!result) continue;
     Eigen::VectorXd u;
     contact_velocity(stress.problem, result->solved.impulses, u);
