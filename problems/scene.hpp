@@ -106,7 +106,7 @@ struct DriveSpec {
 struct SolverSpec {
   std::string name = "nncg";
   double tolerance = 1e-3;   ///< natural map rms, in g h (in m/s where there is no gravity)
-  int max_iterations = 150;
+  int max_iterations = 200;
   double max_seconds = 1e30; ///< per step: breaks reproducibility, so off
   bool warm_start = true;
   int threads = 1;  ///< set by the program, never by the file: results do not depend on it
