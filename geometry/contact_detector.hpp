@@ -43,7 +43,7 @@ struct DetectionSettings {
 /// Counters of the last detect().
 struct DetectionCounters {
   long candidate_pairs = 0;       ///< pairs in the broad phase's list
-  long cached_separations = 0;    ///< pairs dismissed by the axis that separated them last time
+  long cached_separations = 0;    ///< pairs dismissed by the axis that separated them last time, or by what is left of its proven distance
   long proved_axes = 0;           ///< pairs whose last axis was proved to be the best still
   long full_tests = 0;            ///< pairs that needed the whole separating-axis search
   long manifolds = 0;             ///< pairs with at least one contact point
