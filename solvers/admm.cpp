@@ -50,10 +50,7 @@ class Admm final : public Solver {
       if (iteration.count() >= next_look_) adapt(iteration.count());
       if (iteration.error_due()) iteration.evaluated(w_.error(r, u_));
     }
-    Solved solved;
-    iteration.finish(solved);
-    solved.impulses = std::move(r);
-    return solved;
+    return iteration.finish(std::move(r));
   }
 
  private:

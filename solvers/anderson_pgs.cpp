@@ -52,10 +52,7 @@ class AndersonPgs final : public Solver {
       extrapolate();
       sweep.restore(x_);
     }
-    Solved solved;
-    iteration.finish(solved);
-    solved.impulses = std::move(r);
-    return solved;
+    return iteration.finish(std::move(r));
   }
 
   template <typename Sweep>

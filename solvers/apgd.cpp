@@ -20,8 +20,7 @@ class Apgd final : public Solver {
 
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
-    const double lambda = largest_scaled_eigenvalue(w_);
-    first_step_ = lambda > 0.0 ? 1.0 / lambda : 1.0;
+    first_step_ = gradient_step(w_);
     const int rows = problem.row_count();
     for (Eigen::VectorXd* x : {&u_, &y_, &uy_, &next_, &next_u_, &moved_}) x->resize(rows);
   }
@@ -46,10 +45,7 @@ class Apgd final : public Solver {
       }
       if (iteration.error_due()) iteration.evaluated(w_.error(r, u_));
     }
-    Solved solved;
-    iteration.finish(solved);
-    solved.impulses = std::move(r);
-    return solved;
+    return iteration.finish(std::move(r));
   }
 
  private:

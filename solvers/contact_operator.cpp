@@ -77,4 +77,9 @@ double largest_scaled_eigenvalue(ContactOperator& w) {
   });
 }
 
+double gradient_step(ContactOperator& w) {
+  const double lambda = largest_scaled_eigenvalue(w);
+  return lambda > 0.0 ? 1.0 / lambda : 1.0;
+}
+
 }  // namespace ballast

@@ -51,10 +51,7 @@ class GaussSeidel final : public Solver {
       }
       iteration.evaluated(error);
     }
-    Solved solved;
-    iteration.finish(solved);
-    solved.impulses = std::move(r);
-    return solved;
+    return iteration.finish(std::move(r));
   }
 
   CheckSchedule schedule_;

@@ -85,10 +85,8 @@ class InteriorPoint final : public Solver {
       go_back();
       steps = 0;
     }
-    Solved solved;
-    iteration.finish(solved);
+    Solved solved = iteration.finish(std::move(best));
     if (solved.reason == StopReason::numerical_failure) solved.reason = StopReason::stalled;
-    solved.impulses = std::move(best);
     return solved;
   }
 

@@ -53,11 +53,14 @@ void Iteration::evaluated(double error) {
     stopped_ = false;
 }
 
-void Iteration::finish(Solved& solved) {
+Solved Iteration::finish(Impulses impulses) {
+  Solved solved;
+  solved.impulses = std::move(impulses);
   solved.reason = reason_;
   solved.iterations = count_;
   solved.own_residual = error_;
   solved.history = std::move(history_);
+  return solved;
 }
 
 }  // namespace ballast

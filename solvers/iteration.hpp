@@ -14,7 +14,7 @@ struct CheckSchedule {
   double growth = 1.0;
 };
 
-/// Use:  evaluated(error);  while (next()) { one iteration; if (error_due()) evaluated(error); }  finish(solved);
+/// Use:  evaluated(error);  while (next()) { one iteration; if (error_due()) evaluated(error); }  finish(std::move(r));
 class Iteration {
  public:
   /// Iterations without any digit of the error changing, after which it never will.
@@ -35,8 +35,8 @@ class Iteration {
 
   int count() const { return count_; }
   double seconds() const;
-  /// Moves reason, count, error and history into `solved`.
-  void finish(Solved& solved);
+  /// What a backend returns: `impulses`, with the reason, count, error and history, which are moved out.
+  Solved finish(Impulses impulses);
 
   static constexpr double margin = 1e-3;
 

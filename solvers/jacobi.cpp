@@ -42,10 +42,7 @@ class Jacobi final : public Solver {
       if (error > 2.0 * last_error) theta = std::max(0.5 * theta, 1e-3 * damping_);
       last_error = error;
     }
-    Solved solved;
-    iteration.finish(solved);
-    solved.impulses = std::move(r);
-    return solved;
+    return iteration.finish(std::move(r));
   }
 
  private:

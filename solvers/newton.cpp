@@ -51,11 +51,9 @@ class Newton final : public Solver {
         weight = std::min(largest_weight, 10.0 * weight);
       step_.set_proximal(weight);
     }
-    Solved solved;
-    iteration.finish(solved);
+    Solved solved = iteration.finish(std::move(best.r));
     if (failures >= 8 && solved.reason != StopReason::reached_tolerance) solved.reason = StopReason::stalled;
     solved.own_residual = step_.residual();
-    solved.impulses = std::move(best.r);
     return solved;
   }
 
@@ -106,11 +104,9 @@ class ProximalNewton final : public Solver {
         best.offer(step_.impulses(), step_.error());
       }
     }
-    Solved solved;
-    iteration.finish(solved);
+    Solved solved = iteration.finish(std::move(best.r));
     if (solved.reason == StopReason::numerical_failure) solved.reason = StopReason::stalled;
     solved.own_residual = step_.residual();
-    solved.impulses = std::move(best.r);
     return solved;
   }
 

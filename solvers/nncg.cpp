@@ -52,10 +52,7 @@ class Nncg final : public Solver {
       if (!accelerates) forget();
       last_error = error;
     }
-    Solved solved;
-    iteration.finish(solved);
-    solved.impulses = std::move(r);
-    return solved;
+    return iteration.finish(std::move(r));
   }
 
  private:

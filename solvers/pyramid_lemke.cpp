@@ -55,13 +55,12 @@ class PyramidLemke final : public Solver {
       if (iteration.error_due() || state != LemkeState::running)
         iteration.evaluated(judge.judge(problem, r).natural_map_rms);
     }
-    Solved solved;
-    iteration.finish(solved);
+    Solved solved = iteration.finish(std::move(r));
     if (z.size() > 0) solved.own_residual = residual(z);
     // Ended by itself: there is nothing more that this method could do, for its own law or for Coulomb's.
-    if (state != LemkeState::running && solved.reason == StopReason::numerical_failure && r.allFinite())
+    if (state != LemkeState::running && solved.reason == StopReason::numerical_failure &&
+        solved.impulses.allFinite())
       solved.reason = StopReason::stalled;
-    solved.impulses = std::move(r);
     return solved;
   }
 

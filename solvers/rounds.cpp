@@ -55,13 +55,11 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
     iteration.evaluated(best_error);
     stalled = idle >= patience;
   }
-  Solved solved;
-  iteration.finish(solved);
+  moving.scatter(problem, best, r);
+  Solved solved = iteration.finish(std::move(r));
   // The loop ended by itself, and none of the budget's reasons applies.
   if (stalled && solved.reason == StopReason::numerical_failure && std::isfinite(best_error))
     solved.reason = StopReason::stalled;
-  moving.scatter(problem, best, r);
-  solved.impulses = std::move(r);
   return solved;
 }
 

@@ -50,11 +50,10 @@ class Sap final : public Solver {
       centre_ = gamma_;
       newtons = 0;
     }
-    Solved solved;
-    iteration.finish(solved);
+    const double own_residual = no_shift_.convex_error(w_, gamma_, true_u_);
+    Solved solved = iteration.finish(std::move(gamma_));
     if (done && solved.reason != StopReason::reached_tolerance) solved.reason = StopReason::stalled;
-    solved.own_residual = no_shift_.convex_error(w_, gamma_, true_u_);
-    solved.impulses = std::move(gamma_);
+    solved.own_residual = own_residual;
     gamma_.resize(problem.row_count());
     return solved;
   }

@@ -23,8 +23,7 @@ class Spg final : public Solver {
 
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
-    const double lambda = largest_scaled_eigenvalue(w_);
-    first_step_ = lambda > 0.0 ? 1.0 / lambda : 1.0;
+    first_step_ = gradient_step(w_);
     for (Eigen::VectorXd* x : {&u_, &d_, &next_u_, &next_}) x->resize(problem.row_count());
   }
 
@@ -42,10 +41,7 @@ class Spg final : public Solver {
       w_.velocity(r, u_);  // without the rounding that the steps have left in it
       iteration.evaluated(w_.error(r, u_));
     }
-    Solved solved;
-    iteration.finish(solved);
-    solved.impulses = std::move(r);
-    return solved;
+    return iteration.finish(std::move(r));
   }
 
  private:

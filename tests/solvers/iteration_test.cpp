@@ -16,9 +16,7 @@ Solved run(const Budget& budget, const CheckSchedule& schedule, Error error_at) 
   iteration.evaluated(error_at(0));
   while (iteration.next())
     if (iteration.error_due()) iteration.evaluated(error_at(iteration.count()));
-  Solved solved;
-  iteration.finish(solved);
-  return solved;
+  return iteration.finish({});
 }
 
 }  // namespace
