@@ -1,0 +1,34 @@
+#pragma once
+// A plan: named runs of scenes. The seam between who asks for runs (a sweep file, a figure of the paper) and who sees to it that they are there.
+// A run is known by its content: two figures that ask for the same run share it.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ballast {
+
+struct PlannedRun {
+  std::string name;                    ///< unique in its plan: letters, digits, _ - . =
+  std::string scene;                   ///< name or path, as for `ballast run`
+  std::vector<std::string> overrides;  ///< "dotted.key=value"
+};
+
+struct Plan {
+  std::string name;
+  std::vector<PlannedRun> runs;
+};
+
+/// Reads a plan file (docs/sweeps.md). Throws SceneFileError naming file, key and value: also for a run that is not a valid scene.
+Plan read_plan(const std::filesystem::path& file);
+
+/// Key of the resolved scene: the same for runs that compute the same.
+std::string run_key(const PlannedRun& run);
+
+/// Where the run's results are: <results>/runs/<key>. Its packing: <results>/packings.
+std::filesystem::path folder_of(const std::filesystem::path& results, const PlannedRun& run);
+
+/// Finished: every step is there and the records are closed.
+bool is_finished(const std::filesystem::path& results, const PlannedRun& run);
+
+}  // namespace ballast
