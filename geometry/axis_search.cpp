@@ -44,7 +44,7 @@ AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& h
   if (!last) return search(pair, alert, nullptr, hint, axis);
   axis.separation = last->separation;
   if (last->separation > alert) return AxisOutcome::separated_by_hint;
-  if (!is_proved_best(pair, *last)) return search(pair, alert, &*last, hint, axis);
+  if (!is_proved_best(pair, face_isolation(pair, hint), *last)) return search(pair, alert, &*last, hint, axis);
   axis = *last;
   return AxisOutcome::proved_by_hint;
 }
@@ -77,8 +77,8 @@ void AxisSearch::start_side(const ShapePair& pair, int own) {
   Side& side = side_[own];
   side.witnesses = 0;
   side.edges.clear();
-  faces.evaluate(pair.other[own] * other.ball_centre(), side.bound.data());
-  for (int f = 0; f < faces.padded(); ++f) side.bound[f] -= other.ball_radius();
+  faces.evaluate(pair.other[own] * other.bounds().ball_centre, side.bound.data());
+  for (int f = 0; f < faces.padded(); ++f) side.bound[f] -= other.bounds().ball_radius;
   std::fill_n(side.value.begin(), faces.padded(), kMinusInfinity);
 }
 
@@ -143,7 +143,7 @@ void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   Side& side = side_[own];
   const size_t stride = shape.faces().padded();
   // 1e-8 covers that nearly parallel edges know their normal to rounding / kParallelSine only
-  const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.unevenness();
+  const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.bounds().unevenness;
   side.edges.clear();
   const std::span<const CollisionShape::Edge> edges = shape.edges();
   for (size_t e = 0; e < edges.size(); ++e) {

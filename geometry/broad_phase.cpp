@@ -105,7 +105,7 @@ void BroadPhase::sort_pairs() {
   for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
   pairs_.resize(found_.size());
   for (const auto& [a, b] : found_)
-    pairs_[first_[a]++] = {a, b, {}, -1.0, 0.0, 0.0};  // first_[a] ends where a + 1 begins
+    pairs_[first_[a]++] = {a, b, {}, -1.0, 0.0, 0.0, -1};  // first_[a] ends where a + 1 begins
   for (size_t a = bodies_.size(); a > 0; --a) first_[a] = first_[a - 1];
   first_[0] = 0;
   for (size_t a = 0; a < bodies_.size(); ++a) {

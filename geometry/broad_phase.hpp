@@ -34,6 +34,7 @@ struct CandidatePair {
   /// Proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a + reach_b stays below this [m].
   double apart_below = -1.0;
   double arm_a = 0.0, arm_b = 0.0;  ///< [m]
+  int touching = -1;                ///< its record among the pairs that touch; -1: none
 };
 
 /// The list holds every pair whose boxes, each grown by its body's reach, overlap at the given poses. It may hold more:
@@ -54,6 +55,7 @@ class BroadPhase {
 
   /// Sorted by (a, b).
   std::span<CandidatePair> pairs() { return pairs_; }
+  std::span<const CandidatePair> pairs() const { return pairs_; }
   /// Pairs with a given a: pairs()[first(a)] to pairs()[first(a + 1)].
   int first(int a) const { return first_[a]; }
   long rebuilds() const { return rebuilds_; }

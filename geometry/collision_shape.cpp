@@ -59,7 +59,8 @@ void AffineRows::evaluate(const Vec3& d, double* __restrict values) const {
   for (int i = 0; i < padded_; ++i) values[i] = ((dx * x[i] + dy * y[i]) + dz * z[i]) + w[i];
 }
 
-CollisionShape::CollisionShape(const Polyhedron& polyhedron) : circumradius_(polyhedron.circumradius()) {
+CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
+  bounds_.circumradius = polyhedron.circumradius();
   vertices_ = AffineRows(polyhedron.vertex_count(), kFar);
   for (int v = 0; v < polyhedron.vertex_count(); ++v) vertices_.set(v, polyhedron.vertex(v), 0.0);
   const std::vector<int> patch = merge_coplanar(polyhedron);
@@ -113,7 +114,7 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
     faces_.push_back({normal, offset, 1.0, static_cast<int>(corners_.size()), static_cast<int>(loop.size())});
     for (const int v : loop) {
       corners_.push_back({v, -1, polyhedron.vertex(v)});
-      unevenness_ = std::max(unevenness_, offset - heights[v]);
+      bounds_.unevenness = std::max(bounds_.unevenness, offset - heights[v]);
     }
   }
   for (Face& face : faces_) {
@@ -177,8 +178,8 @@ void CollisionShape::build_ball(const Polyhedron& polyhedron) {
     for (const Face& face : faces_) nearest = std::min(nearest, face.offset - face.normal.dot(centre));
     return nearest;
   };
-  if (radius_about(mean) > radius_about(Vec3::Zero())) ball_centre_ = mean;
-  ball_radius_ = radius_about(ball_centre_);
+  if (radius_about(mean) > radius_about(Vec3::Zero())) bounds_.ball_centre = mean;
+  bounds_.ball_radius = radius_about(bounds_.ball_centre);
 }
 
 }  // namespace ballast

@@ -33,6 +33,14 @@ class AffineRows {
   std::vector<double> table_;
 };
 
+/// What every test of a pair asks of a body: one cache line.
+struct alignas(64) BodyBounds {
+  Vec3 ball_centre = Vec3::Zero();  ///< of a ball inside the solid
+  double ball_radius = 0.0;
+  double circumradius = 0.0;  ///< largest distance of a vertex from the frame's origin
+  double unevenness = 0.0;    ///< largest distance of a corner from its face's plane [m]: rounding, or what the polyhedron's tolerance allowed
+};
+
 /// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated boxes) are one face
 /// here, so that a contact patch does not end at a diagonal. Frame: that of the polyhedron [m].
 class CollisionShape {
@@ -82,13 +90,8 @@ class CollisionShape {
   std::span<const int> vertex_faces(int v) const {
     return {vertex_faces_.data() + vertex_begin_[v], static_cast<size_t>(vertex_begin_[v + 1] - vertex_begin_[v])};
   }
-  /// Largest distance of a corner from its face's plane [m]: rounding, or what the polyhedron's tolerance allowed.
-  double unevenness() const { return unevenness_; }
-  /// A ball inside the solid.
-  const Vec3& ball_centre() const { return ball_centre_; }
-  double ball_radius() const { return ball_radius_; }
-  /// Largest distance of a vertex from the frame's origin.
-  double circumradius() const { return circumradius_; }
+  const BodyBounds& bounds() const { return bounds_; }
+  double circumradius() const { return bounds_.circumradius; }
 
  private:
   size_t corner_span(int f) const { return static_cast<size_t>(faces_[f].corner_count); }
@@ -104,8 +107,7 @@ class CollisionShape {
   std::vector<Corner> corners_;
   std::vector<Side> sides_;
   std::vector<int> vertex_begin_, vertex_faces_;
-  Vec3 ball_centre_ = Vec3::Zero();
-  double unevenness_ = 0.0, ball_radius_ = 0.0, circumradius_ = 0.0;
+  BodyBounds bounds_;
 };
 
 }  // namespace ballast

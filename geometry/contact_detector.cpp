@@ -6,37 +6,11 @@
 
 #include "geometry/axis_search.hpp"
 #include "geometry/broad_phase.hpp"
-#include "geometry/contact_manifold.hpp"
+#include "geometry/shape_tables.hpp"
+#include "geometry/touching_pair.hpp"
 
 namespace ballast {
 namespace {
-
-/// One table per distinct polyhedron, in the order of first use; `index[i]`: that of body i, -1 for planes.
-struct ShapeTables {
-  explicit ShapeTables(std::span<const ContactShape> bodies) {
-    std::vector<const Polyhedron*> polyhedra;
-    for (const ContactShape& body : bodies) {
-      if (body.polyhedron) polyhedra.push_back(body.polyhedron);
-    }
-    std::vector<const Polyhedron*> distinct = polyhedra;
-    std::sort(distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    std::vector<int> table_of(distinct.size(), -1);
-    tables.reserve(distinct.size());
-    for (const ContactShape& body : bodies) {
-      index.push_back(-1);
-      if (!body.polyhedron) continue;
-      int& table = table_of[std::lower_bound(distinct.begin(), distinct.end(), body.polyhedron) - distinct.begin()];
-      if (table < 0) {
-        table = static_cast<int>(tables.size());
-        tables.emplace_back(*body.polyhedron);
-      }
-      index.back() = table;
-    }
-  }
-  std::vector<CollisionShape> tables;
-  std::vector<int> index;
-};
 
 double chosen_skin(double skin, std::span<const CollisionShape> shapes) {
   if (skin > 0.0 || shapes.empty()) return skin;
@@ -58,7 +32,7 @@ struct ContactDetector::State {
         travel(shapes.size()) {
     for (size_t i = 0; i < shapes.size(); ++i) {
       const CollisionShape* table = shape(static_cast<int>(i));
-      radius.push_back(table ? table->circumradius() : 0.0);
+      bounds.push_back(table ? table->bounds() : BodyBounds{});
     }
     size_t vertices = 0;
     for (const CollisionShape& shape : tables.tables)
@@ -80,6 +54,9 @@ struct ContactDetector::State {
                     std::vector<ContactPoint>& contacts);
   void detect_pair(CandidatePair& pair, std::span<const Pose> poses, std::span<const double> reach,
                    std::vector<ContactPoint>& contacts);
+  void remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis, double turn);
+  void sort_touching();
+  void fetch(size_t next) const;
   void advance(std::span<const Pose> poses);
   void choose_pairs(std::span<const double> reach);
   void bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const;
@@ -93,11 +70,12 @@ struct ContactDetector::State {
   BroadPhase broad_phase;
   AxisSearch search;
   ContactManifold manifold;
-  std::vector<Mat3> rotations;  // R_WB at the poses of this call
-  std::vector<double> radius;   // circumradii, 0 for planes
-  std::vector<Pose> previous;   // poses of the last call
-  std::vector<Travel> travel;   // since the first call
-  std::vector<int> chosen;      // candidate pairs that must be looked at
+  std::vector<Mat3> rotations;     // R_WB at the poses of this call
+  std::vector<BodyBounds> bounds;  // of all bodies, in one place; zero for planes
+  std::vector<Pose> previous;      // poses of the last call
+  std::vector<Travel> travel;      // since the first call
+  std::vector<TouchingPair> touching, old_touching;
+  std::vector<int> chosen;  // candidate pairs that must be looked at
   Heights heights;
   DetectionCounters counters;
 };
@@ -115,7 +93,9 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   s.check(poses, reach);
   contacts.clear();
   for (size_t i = 0; i < poses.size(); ++i) s.rotations[i] = poses[i].rotation.toRotationMatrix();
+  const long rebuilds = s.broad_phase.rebuilds();
   s.broad_phase.update(poses, s.rotations, reach);
+  if (s.broad_phase.rebuilds() != rebuilds) s.sort_touching();
   s.counters = DetectionCounters{};
   s.counters.candidate_pairs = static_cast<long>(s.broad_phase.pairs().size());
   s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
@@ -124,8 +104,10 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   size_t next = 0;
   for (int a = 0; a < static_cast<int>(s.shapes.size()); ++a) {
     if (!s.shape(a)) s.detect_plane(a, poses, reach, contacts);
-    for (; next < s.chosen.size() && s.chosen[next] < s.broad_phase.first(a + 1); ++next)
+    for (; next < s.chosen.size() && s.chosen[next] < s.broad_phase.first(a + 1); ++next) {
+      s.fetch(next + 4);
       s.detect_pair(s.broad_phase.pairs()[s.chosen[next]], poses, reach, contacts);
+    }
   }
 }
 
@@ -164,7 +146,7 @@ void ContactDetector::State::bound_separation(CandidatePair& pair, double arm_a,
   pair.arm_b = arm_b;
   const double use = bound_use(pair);
   // far above the rounding of separations and of sums over 1e7 steps
-  pair.apart_below = separation + use - 1e-9 * (radius[pair.a] + radius[pair.b] + use);
+  pair.apart_below = separation + use - 1e-9 * (bounds[pair.a].circumradius + bounds[pair.b].circumradius + use);
 }
 
 /// Of a pair whose axis separates it, at this `distance` of the origins. A face's separation is the least n.(x - p) of
@@ -172,7 +154,7 @@ void ContactDetector::State::bound_separation(CandidatePair& pair, double arm_a,
 /// that body's turn times |x - p|. A separating face is found whatever the hint, hence the outcome is the one without a
 /// bound. An edge pair may cease to be a facet: no bound.
 void ContactDetector::State::bound_separated(CandidatePair& pair, double distance, double separation) const {
-  const double radius_a = radius[pair.a], radius_b = radius[pair.b];
+  const double radius_a = bounds[pair.a].circumradius, radius_b = bounds[pair.b].circumradius;
   if (pair.axis.kind == AxisKind::face_of_a) bound_separation(pair, distance + radius_b, radius_b, separation);
   if (pair.axis.kind == AxisKind::face_of_b) bound_separation(pair, radius_a, distance + radius_a, separation);
 }
@@ -198,7 +180,7 @@ void ContactDetector::State::detect_plane(int plane, std::span<const Pose> poses
     if (!body || (shapes[plane].fixed && shapes[b].fixed)) continue;
     const double alert = reach[plane] + reach[b];
     const double height = normal.dot(poses[b].position - origin);
-    if (height > radius[b] + alert) continue;
+    if (height > bounds[b].circumradius + alert) continue;
     body->vertices().evaluate(rotations[b].transpose() * normal, heights.data());
     const size_t before = contacts.size();
     for (int v = 0; v < body->vertices().count(); ++v) {
@@ -215,36 +197,81 @@ void ContactDetector::State::detect_plane(int plane, std::span<const Pose> poses
 void ContactDetector::State::detect_pair(CandidatePair& candidate, std::span<const Pose> poses,
                                          std::span<const double> reach, std::vector<ContactPoint>& contacts) {
   const int a = candidate.a, b = candidate.b;
-  const CollisionShape &shape_a = *shape(a), &shape_b = *shape(b);
   const double alert = reach[a] + reach[b];
   const Vec3 between = poses[b].position - poses[a].position;
-  const double touching = radius[a] + radius[b] + alert;
-  if (between.squaredNorm() > touching * touching) {
-    bound_separation(candidate, 0.0, 0.0, between.norm() - (radius[a] + radius[b]));  // of the spheres
+  const double radii = bounds[a].circumradius + bounds[b].circumradius;
+  if (between.squaredNorm() > (radii + alert) * (radii + alert)) {
+    bound_separation(candidate, 0.0, 0.0, between.norm() - radii);  // of the spheres
     return;
   }
 
   const Mat3& rotation = rotations[a];
-  const ShapePair pair(shape_a, shape_b, {rotation.transpose() * rotations[b], rotation.transpose() * between});
-  if (!settings.use_cache) candidate.axis = {};
+  const RelativePose b_in_a{rotation.transpose() * rotations[b], rotation.transpose() * between};
+  const auto add = [&](const SeparatingAxis& axis, std::span<const ManifoldPoint> points) {
+    ++counters.manifolds;
+    const Vec3 normal = rotation * axis.normal;
+    for (const ManifoldPoint& point : points)
+      contacts.push_back({a, b, point.key, normal, poses[a].position + rotation * point.position, point.gap});
+  };
   candidate.apart_below = -1.0;
   SeparatingAxis axis;
+  const double turn = travel[a].turn + travel[b].turn;
+  if (settings.use_cache && candidate.touching >= 0) {
+    ManifoldPoint point;
+    switch (touching[candidate.touching].look(PairFrame(bounds[a], bounds[b], b_in_a), turn, alert, axis, point)) {
+      case TouchingPair::Look::touching:
+        ++counters.proved_axes;
+        return add(axis, {&point, 1});
+      case TouchingPair::Look::apart:
+        ++counters.cached_separations;
+        return bound_separated(candidate, between.norm(), axis.separation);
+      case TouchingPair::Look::undecided:
+        break;
+    }
+  }
+
+  const ShapePair pair(*shape(a), *shape(b), b_in_a);
+  if (!settings.use_cache) candidate.axis = {};
   const AxisOutcome outcome = search.find(pair, alert, candidate.axis, axis);
   if (outcome == AxisOutcome::separated_by_hint) ++counters.cached_separations;
   if (outcome == AxisOutcome::proved_by_hint) ++counters.proved_axes;
   if (outcome == AxisOutcome::separated || outcome == AxisOutcome::found) ++counters.full_tests;
-  if (is_separated(outcome)) {
-    bound_separated(candidate, between.norm(), axis.separation);
-    return;
-  }
+  if (is_separated(outcome)) return bound_separated(candidate, between.norm(), axis.separation);
   // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says. Which of them count
   // must not depend on which the broad phase happened to list: those that it lists with no margin at all.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, poses, alert)) return;
+  add(axis, manifold.points(pair, axis, alert, settings.max_points));
+  if (settings.use_cache) remember(candidate, pair, axis, turn);
+}
 
-  ++counters.manifolds;
-  const Vec3 normal = rotation * axis.normal;
-  for (const ManifoldPoint& point : manifold.points(pair, axis, alert, settings.max_points))
-    contacts.push_back({a, b, point.key, normal, poses[a].position + rotation * point.position, point.gap});
+void ContactDetector::State::remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis,
+                                      double turn) {
+  if (candidate.touching < 0) {
+    candidate.touching = static_cast<int>(touching.size());
+    touching.emplace_back();
+  }
+  touching[candidate.touching].record(pair, axis, turn);
+}
+
+/// Brings the records into the order of the new list and drops those of pairs that left it.
+void ContactDetector::State::sort_touching() {
+  old_touching.swap(touching);
+  touching.clear();
+  touching.reserve(broad_phase.pairs().size());
+  for (CandidatePair& pair : broad_phase.pairs()) {
+    if (pair.touching < 0) continue;
+    touching.push_back(old_touching[pair.touching]);
+    pair.touching = static_cast<int>(touching.size()) - 1;
+  }
+}
+
+/// The record is needed four pairs from now; the list of pairs is read in order, its records nearly so.
+void ContactDetector::State::fetch(size_t next) const {
+  if (next >= chosen.size()) return;
+  const int record = broad_phase.pairs()[chosen[next]].touching;
+  if (record < 0) return;
+  const char* lines = reinterpret_cast<const char*>(&touching[record]);
+  for (size_t line = 0; line < sizeof(TouchingPair); line += 64) __builtin_prefetch(lines + line);
 }
 
 bool ContactDetector::State::boxes_within_reach(const CandidatePair& pair, std::span<const Pose> poses,

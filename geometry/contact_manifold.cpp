@@ -22,25 +22,53 @@ int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
   return incident;
 }
 
-ClippedPoint touching_vertex(const ShapePair& pair, int reference, int face, int vertex) {
-  const CollisionShape::Face& plane = pair.shape[reference]->face(face);
+/// `vertex` of the body beside the reference's, in its own frame.
+ClippedPoint touching_vertex(const PairFrame& pair, int reference, const CollisionShape::Face& plane, int index,
+                             const Vec3& vertex) {
   ClippedPoint point;
-  point.position = pair.other[reference] * pair.shape[1 - reference]->vertices().xyz(vertex);
+  point.position = pair.other[reference] * vertex;
   point.height = plane.normal.dot(point.position) - plane.offset;
   point.key =
-      reference == 0 ? feature_key(PointKind::vertex_of_b, 0, vertex) : feature_key(PointKind::vertex_of_a, vertex, 0);
+      reference == 0 ? feature_key(PointKind::vertex_of_b, 0, index) : feature_key(PointKind::vertex_of_a, index, 0);
   point.next_edge = -1;
   return point;
 }
 
+ClippedPoint edges_meet(const PairFrame& pair, const SeparatingAxis& axis, const CollisionShape::Edge& edge_a,
+                        const CollisionShape::Edge& edge_b) {
+  const Vec3 on_a = edge_a.from + std::clamp(axis.at_a, 0.0, 1.0) * edge_a.along;
+  const Vec3 on_b = pair.other[0] * (edge_b.from + std::clamp(axis.at_b, 0.0, 1.0) * edge_b.along);
+  ClippedPoint crossing;
+  crossing.key = feature_key(PointKind::edges, axis.feature.a, axis.feature.b);
+  crossing.height = axis.separation;
+  crossing.position = 0.5 * (on_a + on_b) + 0.5 * axis.separation * axis.normal;
+  crossing.next_edge = -1;
+  return crossing;
+}
+
+int reference_of(const SeparatingAxis& axis) { return axis.feature.kind == AxisKind::face_of_b ? 1 : 0; }
+
+/// Corners lie on the incident body's surface, in the reference body's frame: that is a's surface for a reference face
+/// of b.
+ManifoldPoint midway(const PairFrame& pair, const SeparatingAxis& axis, const ClippedPoint& p) {
+  const bool of_b = reference_of(axis) == 1;
+  const double half = of_b ? 0.5 : -0.5;
+  const Vec3 in_a = of_b ? pair.other[0] * p.position : p.position;
+  return {p.key, in_a + half * p.height * axis.normal, p.height};
+}
+
+constexpr double thickness_of(double size) { return 1e-9 * size; }
+
 /// The face beside an edge that looks along d most. The edge's record knows both normals: the faces' are left alone.
 struct BesideEdge {
   int face;
+  Vec3 normal;
   double cosine;
 };
 BesideEdge most_aligned(const CollisionShape::Edge& edge, const Vec3& d) {
   const double left = edge.left_normal.dot(d), right = edge.right_normal.dot(d);
-  return left >= right ? BesideEdge{edge.left, left} : BesideEdge{edge.right, right};
+  return left >= right ? BesideEdge{edge.left, edge.left_normal, left}
+                       : BesideEdge{edge.right, edge.right_normal, right};
 }
 
 double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const ClippedPoint& r) {
@@ -49,58 +77,103 @@ double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const Clipped
 
 }  // namespace
 
+/// All else of the other body rises from the vertex at `slope` at least.
+bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double alert) {
+  const double thickness = thickness_of(pair.size());
+  const double slope = axis.clearance / (2.0 * pair.bounds[1 - reference_of(axis)]->circumradius);
+  return axis.inside > thickness && axis.separation + slope * axis.inside > alert + thickness &&
+         axis.separation + axis.clearance > alert + thickness;
+}
+
+ManifoldPoint lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, const CollisionShape::Face& face,
+                          const Vec3& vertex) {
+  return midway(pair, axis, touching_vertex(pair, reference_of(axis), face, axis.support, vertex));
+}
+
+// An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to
+// see it this step: without the other end contact jumps from end to end as the body rocks by micrometres. An edge
+// along the face's own side has no second end on the face.
+EdgeCrossing::EdgeCrossing(const PairFrame& pair, const SeparatingAxis& axis, const CollisionShape::Edge& a,
+                           const CollisionShape::Edge& b) {
+  constexpr double nearly_parallel = 0.99;  // cosine
+  const BesideEdge beside_a = most_aligned(a, axis.normal);
+  const Vec3 towards_a = -(pair.other[1].rotation * axis.normal);
+  const BesideEdge beside_b = most_aligned(b, towards_a);
+  face_a = beside_a.face;
+  face_b = beside_b.face;
+  flat_on_a = beside_a.cosine > nearly_parallel;
+  flat_on_b = beside_b.cosine > nearly_parallel;
+  const Vec3 along_b = pair.other[0].rotation * b.along;
+  across = a.along.cross(along_b).squaredNorm() > 0.01 * a.along.squaredNorm() * along_b.squaredNorm();
+  const Vec3 along_a = pair.other[1].rotation * a.along;
+  rise_a = std::abs(beside_b.normal.dot(along_a)) / (a.length * beside_b.cosine);
+  rise_b = std::abs(beside_a.normal.dot(along_b)) / (b.length * beside_a.cosine);
+}
+
+SidesBesideEdge sides_beside(const CollisionShape& shape, int face, int edge) {
+  const std::span<const CollisionShape::Corner> corners = shape.corners(face);
+  int own = 0;
+  while (corners[own].edge != edge) ++own;
+  return {shape.sides(face), own};
+}
+
+/// Over the faces' common part the height between them is linear, least at the crossing x0, and its corner there lies
+/// between the directions of the two edges (each tilted along the axis into the incident plane, which stretches it by
+/// sqrt(1 + rise^2)). Nearer than `room` to x0 no other side cuts, so that all other corners are at least that far, and
+/// `room` times the lesser slope higher. Of the reference face, sides stand along the axis instead of its normal: cos
+/// >= 0.99.
+bool EdgeCrossing::rises_out_of_reach(const PairFrame& pair, const SeparatingAxis& axis, const CollisionShape::Edge& a,
+                                      const CollisionShape::Edge& b, const SidesBesideEdge& beside_a,
+                                      const SidesBesideEdge& beside_b, double alert) const {
+  const double thickness = thickness_of(pair.size());
+  if (!across || !(axis.inside > thickness)) return false;
+  double room = pair.size();
+  const auto narrow = [&](const SidesBesideEdge& beside, const Vec3& at) {
+    for (size_t k = 0; k < beside.sides.size(); ++k) {
+      const CollisionShape::Side& side = beside.sides[k];
+      if (static_cast<int>(k) != beside.own) room = std::min(room, side.offset - side.outward.dot(at));
+    }
+  };
+  narrow(beside_a, a.from + axis.at_a * a.along);
+  narrow(beside_b, b.from + axis.at_b * b.along);
+  const double slope = std::min(rise_a / std::sqrt(1.0 + rise_a * rise_a), rise_b / std::sqrt(1.0 + rise_b * rise_b));
+  return room > 4.0 * thickness && axis.separation + 0.98 * room * slope > alert + 4.0 * thickness;
+}
+
+ManifoldPoint crossing_point(const PairFrame& pair, const SeparatingAxis& axis, const CollisionShape::Edge& a,
+                             const CollisionShape::Edge& b) {
+  return midway(pair, axis, edges_meet(pair, axis, a, b));
+}
+
 std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair, const SeparatingAxis& axis, double alert,
                                                        int max_points) {
   candidates_.clear();
-  const bool of_b = axis.feature.kind == AxisKind::face_of_b;
   if (axis.feature.kind == AxisKind::edges)
     edge_candidates(pair, axis, alert);
   else
     face_candidates(pair, axis, alert);
   reduce(max_points, pair.size());
   points_.clear();
-  // candidates lie on the incident body's surface, which is a's for a reference face of b
-  const double half = of_b ? 0.5 : -0.5;
-  for (const ClippedPoint& p : candidates_) {
-    const Vec3 in_a = of_b ? pair.other[0] * p.position : p.position;
-    points_.push_back({p.key, in_a + half * p.height * axis.normal, p.height});
-  }
+  for (const ClippedPoint& p : candidates_) points_.push_back(midway(pair, axis, p));
   if (points_.size() > 1)
     std::sort(points_.begin(), points_.end(), [](const auto& p, const auto& q) { return p.key < q.key; });
   return points_;
 }
 
-/// The lines' closest points; those of bodies apart may lie beyond the edges' ends and are held there.
 void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxis& axis, double alert) {
-  constexpr double nearly_parallel = 0.99;  // cosine
-  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
-  const CollisionShape::Edge &edge_a = a.edges()[axis.feature.a], &edge_b = b.edges()[axis.feature.b];
-  const Vec3 on_a = edge_a.from + std::clamp(axis.at_a, 0.0, 1.0) * edge_a.along;
-  const Vec3 on_b = pair.other[0] * (edge_b.from + std::clamp(axis.at_b, 0.0, 1.0) * edge_b.along);
-  ClippedPoint crossing;
-  crossing.key = feature_key(PointKind::edges, axis.feature.a, axis.feature.b);
-  crossing.height = axis.separation;
-  crossing.position = 0.5 * (on_a + on_b) + 0.5 * axis.separation * axis.normal;
-  crossing.next_edge = -1;
-
-  const Vec3 normal_in_b = pair.other[1].rotation * axis.normal;
-  const BesideEdge beside_a = most_aligned(edge_a, axis.normal), beside_b = most_aligned(edge_b, -normal_in_b);
-  const int face_a = beside_a.face, face_b = beside_b.face;
-  // An edge that lies nearly flat on a face touches at both ends of their overlap, not only where the axis happens to
-  // see it this step: without the other end contact jumps from end to end as the body rocks by micrometres. An edge
-  // along the face's own side has no second end on the face.
-  const bool flat_on_a = beside_a.cosine > nearly_parallel;
-  const bool flat_on_b = beside_b.cosine > nearly_parallel;
-  const Vec3 along_b = pair.other[0].rotation * edge_b.along;
-  const bool across =
-      edge_a.along.cross(along_b).squaredNorm() > 0.01 * edge_a.along.squaredNorm() * along_b.squaredNorm();
+  const CollisionShape::Edge& edge_a = pair.shape[0]->edges()[axis.feature.a];
+  const CollisionShape::Edge& edge_b = pair.shape[1]->edges()[axis.feature.b];
+  const ClippedPoint crossing = edges_meet(pair, axis, edge_a, edge_b);
+  const EdgeCrossing edges(pair, axis, edge_a, edge_b);
   bool has_crossing = false;
-  if ((flat_on_a && flat_on_b) || (across && (flat_on_a || flat_on_b))) {
-    const int reference = flat_on_a ? 0 : 1;
-    const std::span<const ClippedPoint> clipped =
-        flat_on_a ? clipper_.clip_along(pair, 0, face_a, face_b, axis.normal, 1e-9 * pair.size())
-                  : clipper_.clip_along(pair, 1, face_b, face_a, -normal_in_b, 1e-9 * pair.size());
-    for (ClippedPoint p : clipped) {
+  if (!edges.is_sharp() &&
+      !edges.rises_out_of_reach(pair, axis, edge_a, edge_b, sides_beside(*pair.shape[0], edges.face_a, axis.feature.a),
+                                sides_beside(*pair.shape[1], edges.face_b, axis.feature.b), alert)) {
+    const int reference = edges.flat_on_a ? 0 : 1;
+    const Vec3 direction = reference == 0 ? axis.normal : Vec3(-(pair.other[1].rotation * axis.normal));
+    const int face = reference == 0 ? edges.face_a : edges.face_b,
+              incident = reference == 0 ? edges.face_b : edges.face_a;
+    for (ClippedPoint p : clipper_.clip_along(pair, reference, face, incident, direction, thickness_of(pair.size()))) {
       if (p.height > alert) continue;
       has_crossing |= p.key == crossing.key;
       if (reference == 1) p.position = pair.other[0] * p.position + p.height * axis.normal;  // from a's surface to b's
@@ -111,22 +184,18 @@ void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxi
 }
 
 void ContactManifold::face_candidates(const ShapePair& pair, const SeparatingAxis& axis, double alert) {
-  const int reference = axis.feature.kind == AxisKind::face_of_a ? 0 : 1;
+  const int reference = reference_of(axis);
   const int face = reference == 0 ? axis.feature.a : axis.feature.b;
-  const double size = pair.size(), thickness = 1e-9 * size;
-  const ClippedPoint touching = touching_vertex(pair, reference, face, axis.support);
-
-  // Most contacts are one vertex on a face. All else of the other body rises from the vertex at `slope` at least, so
-  // nothing within reach gets to the sides or to another vertex: what clipping would return is known.
-  const double slope = axis.clearance / (2.0 * pair.shape[1 - reference]->circumradius());
-  if (axis.inside > thickness && axis.separation + slope * axis.inside > alert + thickness &&
-      axis.separation + axis.clearance > alert + thickness) {
+  const double size = pair.size();
+  const ClippedPoint touching = touching_vertex(pair, reference, pair.shape[reference]->face(face), axis.support,
+                                                pair.shape[1 - reference]->vertices().xyz(axis.support));
+  if (is_lone_vertex(pair, axis, alert)) {  // what clipping would return is known
     candidates_.push_back(touching);
     return;
   }
   double deepest = alert + size;
   const int incident = incident_face(pair, reference, face, axis.support);
-  for (const ClippedPoint& point : clipper_.clip(pair, reference, face, incident, thickness)) {
+  for (const ClippedPoint& point : clipper_.clip(pair, reference, face, incident, thickness_of(size))) {
     deepest = std::min(deepest, point.height);
     if (point.height <= alert) candidates_.push_back(point);
   }

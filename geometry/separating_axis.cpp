@@ -39,94 +39,112 @@ Vec3 refined_cross(const Vec3& u, const Vec3& v) {
   return n;
 }
 
-SeparatingAxis face_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights) {
+}  // namespace
+
+SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature, const CollisionShape::Face& face,
+                         std::span<const CollisionShape::Side> sides, const Vec3& vertex, double separation) {
   const int own = feature.kind == AxisKind::face_of_a ? 0 : 1;
-  const int f = own == 0 ? feature.a : feature.b;
-  const CollisionShape &shape = *pair.shape[own], &other = *pair.shape[1 - own];
-  const FaceSeparation found = face_separation(pair, own, f, heights);
   SeparatingAxis axis;
   axis.feature = feature;
-  axis.separation = found.separation;
-  axis.support = found.support;
-  axis.clearance = found.clearance;
-  const Vec3& normal = shape.face(f).normal;
-  axis.normal = own == 0 ? normal : Vec3(-(pair.other[0].rotation * normal));
-  const Vec3 support = pair.other[own] * other.vertices().xyz(found.support);
+  axis.separation = separation;
+  axis.normal = own == 0 ? face.normal : Vec3(-(pair.other[0].rotation * face.normal));
+  const Vec3 support = pair.other[own] * vertex;
   axis.inside = pair.size();
-  for (const CollisionShape::Side& side : shape.sides(f))
+  for (const CollisionShape::Side& side : sides)
     axis.inside = std::min(axis.inside, side.offset - side.outward.dot(support));
   return axis;
 }
 
-std::optional<SeparatingAxis> edge_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights) {
-  const std::optional<EdgeSeparation> found = edge_separation(pair, feature.a, feature.b, heights);
-  if (!found) return std::nullopt;
+SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature, const CollisionShape::Edge& a,
+                         const CollisionShape::Edge& b, const EdgeSeparation& found) {
   SeparatingAxis axis;
   axis.feature = feature;
-  axis.normal = found->normal;
-  axis.separation = found->separation;
-  const CollisionShape::Edge &edge_a = pair.shape[0]->edges()[feature.a], &edge_b = pair.shape[1]->edges()[feature.b];
-  const Vec3 between = pair.other[0] * edge_b.from - edge_a.from;
-  axis.at_a = between.cross(found->along_b).dot(found->normal) / found->cross;
-  axis.at_b = between.cross(edge_a.along).dot(found->normal) / found->cross;
+  axis.normal = found.normal;
+  axis.separation = found.separation;
+  const Vec3 between = pair.other[0] * b.from - a.from;
+  axis.at_a = between.cross(found.along_b).dot(found.normal) / found.cross;
+  axis.at_b = between.cross(a.along).dot(found.normal) / found.cross;
   // the facet is the parallelogram of the two edges: distances to its sides are lengths times the sine
-  const double cross = std::abs(found->cross);
-  axis.inside = cross * std::min(std::min(axis.at_a, 1.0 - axis.at_a) / edge_b.length,
-                                 std::min(axis.at_b, 1.0 - axis.at_b) / edge_a.length);
-  axis.clearance = std::min(found->weight_a * edge_a.drop, found->weight_b * edge_b.drop) / cross;
+  const double cross = std::abs(found.cross);
+  axis.inside = cross * std::min(std::min(axis.at_a, 1.0 - axis.at_a) / b.length,
+                                 std::min(axis.at_b, 1.0 - axis.at_b) / a.length);
+  axis.clearance = std::min(found.weight_a * a.drop, found.weight_b * b.drop) / cross;
   return axis;
 }
-
-}  // namespace
 
 FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& heights) {
   const CollisionShape::Face& face = pair.shape[own]->face(f);
   const AffineRows& vertices = pair.shape[1 - own]->vertices();
   vertices.evaluate(pair.other[1 - own].rotation * face.normal, heights.data());
   const Lowest low = lowest(heights.data(), vertices.padded());
-  return {low.value + (face.normal.dot(pair.other[own].position) - face.offset), low.row, low.next - low.value};
+  return {face_separation_at(pair, own, face, low.value), low.row, low.next - low.value};
+}
+
+std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape::Edge& a,
+                                    const CollisionShape::Edge& b) {
+  const RelativePose& b_in_a = pair.other[0];
+  const Vec3 along_a = a.along, along_b = b_in_a.rotation * b.along;
+  // The arc left -> right of an edge turns around `along`. The arc of a and the reversed arc of b cross where both are
+  // perpendicular to both edges: each edge must separate the ends of the other's arc, on the same half of the sphere.
+  const double left_a = a.left_normal.dot(along_b), right_a = a.right_normal.dot(along_b);
+  if (!(left_a * right_a < 0.0)) return std::nullopt;
+  const Vec3 along_a_in_b = pair.other[1].rotation * along_a;
+  const double left_b = -b.left_normal.dot(along_a_in_b), right_b = -b.right_normal.dot(along_a_in_b);
+  if (!(left_b * right_b < 0.0) || !(left_a * right_b > 0.0)) return std::nullopt;
+
+  EdgeFacet facet;
+  facet.along_b = along_b;
+  facet.weight_a = std::min(std::abs(left_a), std::abs(right_a));
+  facet.weight_b = std::min(std::abs(left_b), std::abs(right_b));
+  const Vec3 cross = along_a.cross(along_b);
+  const double sign = left_a > 0.0 ? 1.0 : -1.0, length = cross.norm(), sine = length / (a.length * b.length);
+  if (sine < kParallelSine) return std::nullopt;
+  facet.cross = sign * length;
+  facet.nearly_parallel = !(sine > 1e-3);
+  if (facet.nearly_parallel) return facet;
+  facet.normal = cross / facet.cross;
+  facet.separation = facet.normal.dot(b_in_a * b.from - a.from);
+  return facet;
 }
 
 std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb, Heights& heights) {
   const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
-  const RelativePose& b_in_a = pair.other[0];
   const CollisionShape::Edge &edge_a = a.edges()[ea], &edge_b = b.edges()[eb];
-  const Vec3 along_a = edge_a.along, along_b = b_in_a.rotation * edge_b.along;
-  // The arc left -> right of an edge turns around `along`. The arc of a and the reversed arc of b cross where both are
-  // perpendicular to both edges: each edge must separate the ends of the other's arc, on the same half of the sphere.
-  const double left_a = edge_a.left_normal.dot(along_b), right_a = edge_a.right_normal.dot(along_b);
-  if (!(left_a * right_a < 0.0)) return std::nullopt;
-  const Vec3 along_a_in_b = pair.other[1].rotation * along_a;
-  const double left_b = -edge_b.left_normal.dot(along_a_in_b), right_b = -edge_b.right_normal.dot(along_a_in_b);
-  if (!(left_b * right_b < 0.0) || !(left_a * right_b > 0.0)) return std::nullopt;
-
-  EdgeSeparation result;
-  result.along_b = along_b;
-  result.weight_a = std::min(std::abs(left_a), std::abs(right_a));
-  result.weight_b = std::min(std::abs(left_b), std::abs(right_b));
-  const Vec3 cross = along_a.cross(along_b);
-  const double sign = left_a > 0.0 ? 1.0 : -1.0, length = cross.norm(), sine = length / (edge_a.length * edge_b.length);
-  if (sine < kParallelSine) return std::nullopt;
-  result.cross = sign * length;
-  if (sine > 1e-3) {
-    result.normal = cross / result.cross;
-    result.separation = result.normal.dot(b_in_a * edge_b.from - edge_a.from);
-    return result;
-  }
-  // Nearly parallel: the arcs' crossing is uncertain by rounding / sine, so the supports are asked.
-  result.normal = sign * refined_cross(along_a, along_b).normalized();
-  a.vertices().evaluate(-result.normal, heights.data());
+  std::optional<EdgeFacet> facet = edge_facet(pair, edge_a, edge_b);
+  if (!facet || !facet->nearly_parallel) return facet;
+  // The arcs' crossing is uncertain by rounding / sine, so the supports are asked.
+  const double sign = facet->cross > 0.0 ? 1.0 : -1.0;
+  facet->normal = sign * refined_cross(edge_a.along, facet->along_b).normalized();
+  a.vertices().evaluate(-facet->normal, heights.data());
   const double top_a = -lowest(heights.data(), a.vertices().padded()).value;
-  b.vertices().evaluate(pair.other[1].rotation * result.normal, heights.data());
-  const double bottom_b = lowest(heights.data(), b.vertices().padded()).value + result.normal.dot(b_in_a.position);
-  result.separation = bottom_b - top_a;
-  return result;
+  b.vertices().evaluate(pair.other[1].rotation * facet->normal, heights.data());
+  const double bottom_b =
+      lowest(heights.data(), b.vertices().padded()).value + facet->normal.dot(pair.other[0].position);
+  facet->separation = bottom_b - top_a;
+  return facet;
 }
 
 std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights) {
   if (feature.kind == AxisKind::none) return std::nullopt;
-  if (feature.kind == AxisKind::edges) return edge_axis(pair, feature, heights);
-  return face_axis(pair, feature, heights);
+  if (feature.kind == AxisKind::edges) {
+    const std::optional<EdgeSeparation> found = edge_separation(pair, feature.a, feature.b, heights);
+    if (!found) return std::nullopt;
+    return edge_axis(pair, feature, pair.shape[0]->edges()[feature.a], pair.shape[1]->edges()[feature.b], *found);
+  }
+  const int own = feature.kind == AxisKind::face_of_a ? 0 : 1;
+  const int f = own == 0 ? feature.a : feature.b;
+  const FaceSeparation found = face_separation(pair, own, f, heights);
+  SeparatingAxis axis = face_axis(pair, feature, pair.shape[own]->face(f), pair.shape[own]->sides(f),
+                                  pair.shape[1 - own]->vertices().xyz(found.support), found.separation);
+  axis.support = found.support;
+  axis.clearance = found.clearance;
+  return axis;
+}
+
+double face_isolation(const ShapePair& pair, const AxisFeature& feature) {
+  if (feature.kind == AxisKind::face_of_a) return pair.shape[0]->face(feature.a).isolation;
+  if (feature.kind == AxisKind::face_of_b) return pair.shape[1]->face(feature.b).isolation;
+  return 1.0;
 }
 
 /// Let n0 be the axis, s0 its separation, and n = n0 cos t + e sin t another unit vector, e perpendicular to n0. The
@@ -136,21 +154,18 @@ std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFea
 /// and as f > 0 is an interval of t, two ends prove all between. The lower end: within `isolation` of n0 the supports
 /// are only the facet's own vertices, so there is no other facet. The upper end: both bodies contain balls, so with c
 /// the ball centres' difference s(n) <= n.c - r_a - r_b, and n must lie in a cap around c.
-bool is_proved_best(const ShapePair& pair, const SeparatingAxis& axis) {
+bool is_proved_best(const PairFrame& pair, double face_isolation, const SeparatingAxis& axis) {
   constexpr double isolation = 1e-8;  // [rad]
   const double size = pair.size();
-  const double margin = proof_margin(pair) + pair.shape[0]->unevenness() + pair.shape[1]->unevenness();
+  const double margin = proof_margin(pair) + pair.bounds[0]->unevenness + pair.bounds[1]->unevenness;
   const double s0 = axis.separation, r = axis.inside;
   if (!(axis.clearance > 4.0 * size * isolation)) return false;
-  if (axis.feature.kind == AxisKind::face_of_a && pair.shape[0]->face(axis.feature.a).isolation < 2.0 * isolation)
-    return false;
-  if (axis.feature.kind == AxisKind::face_of_b && pair.shape[1]->face(axis.feature.b).isolation < 2.0 * isolation)
-    return false;
+  if (face_isolation < 2.0 * isolation) return false;
   if (!(r * isolation - std::abs(s0) * isolation * isolation > margin)) return false;
 
-  const Vec3 c = pair.other[0] * pair.shape[1]->ball_centre() - pair.shape[0]->ball_centre();
+  const Vec3 c = pair.other[0] * pair.bounds[1]->ball_centre - pair.bounds[0]->ball_centre;
   const double distance = c.norm();
-  const double needed = s0 - margin + pair.shape[0]->ball_radius() + pair.shape[1]->ball_radius();
+  const double needed = s0 - margin + pair.bounds[0]->ball_radius + pair.bounds[1]->ball_radius;
   if (!(needed > -distance)) return false;
   // largest angle from n0 within the cap: the angle n0-c plus the cap's half angle
   const double cos_c = std::clamp(axis.normal.dot(c) / distance, -1.0, 1.0);

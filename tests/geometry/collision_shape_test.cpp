@@ -37,12 +37,12 @@ TEST_CASE("tables agree with the polyhedron they come from") {
     REQUIRE(shape.vertices().count() == polyhedron.vertex_count());
     const int vertices = shape.vertices().count(), edges = static_cast<int>(shape.edges().size());
     CHECK(vertices - edges + shape.faces().count() == 2);
-    CHECK(shape.unevenness() <= small);
+    CHECK(shape.bounds().unevenness <= small);
     for (int f = 0; f < shape.faces().count(); ++f) {
       const Vec3 normal = shape.faces().xyz(f);
       CHECK(normal.norm() == Approx(1.0).epsilon(1e-14));
       CHECK(-shape.faces().w(f) == Approx(normal.dot(polyhedron.vertex(polyhedron.support(normal)))).epsilon(1e-13));
-      CHECK(normal.dot(shape.ball_centre()) + shape.faces().w(f) <= -shape.ball_radius() + small);
+      CHECK(normal.dot(shape.bounds().ball_centre) + shape.faces().w(f) <= -shape.bounds().ball_radius + small);
       for (int k = 0; k < shape.face(f).corner_count; ++k) {
         const int corner = shape.corners(f)[k].vertex,
                   next = shape.corners(f)[(k + 1) % shape.face(f).corner_count].vertex;
@@ -58,7 +58,7 @@ TEST_CASE("tables agree with the polyhedron they come from") {
         CHECK(std::find(faces.begin(), faces.end(), f) != faces.end());
       }
     }
-    CHECK(shape.ball_radius() > 0.0);
+    CHECK(shape.bounds().ball_radius > 0.0);
   }
 }
 
@@ -95,6 +95,6 @@ TEST_CASE("the ball lies inside also when the origin does not") {
   std::vector<std::vector<int>> faces;
   for (int f = 0; f < box.face_count(); ++f) faces.emplace_back(box.face(f).begin(), box.face(f).end());
   const CollisionShape shape(Polyhedron(far, faces));
-  CHECK(shape.ball_radius() == Approx(0.5));
-  CHECK(shape.ball_centre().isApprox(Vec3(5, 0, 0)));
+  CHECK(shape.bounds().ball_radius == Approx(0.5));
+  CHECK(shape.bounds().ball_centre.isApprox(Vec3(5, 0, 0)));
 }

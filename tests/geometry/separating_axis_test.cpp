@@ -47,7 +47,7 @@ TEST_CASE("a face's separation is the gap to the other body's nearest vertex") {
   CHECK(box.vertices().xyz(axis->support).isApprox(Vec3(1, 1, 1)));
   CHECK(axis->inside == Approx(0.7).epsilon(1e-12));
   CHECK(axis->clearance == Approx(2.0 / std::sqrt(3.0)).epsilon(1e-12));
-  CHECK(is_proved_best(pair, *axis));
+  CHECK(is_proved_best(pair, face_isolation(pair, axis->feature), *axis));
 }
 
 TEST_CASE("crossed edges: the gap along their common normal") {
@@ -71,7 +71,7 @@ TEST_CASE("crossed edges: the gap along their common normal") {
   CHECK(found[0].separation == Approx(0.02).epsilon(1e-12));
   CHECK(found[0].normal.isApprox(on_edge.transpose() * Vec3::UnitZ(), 1e-14));
   CHECK(found[0].inside == Approx(5.0 * std::sqrt(0.75)).epsilon(1e-12));
-  CHECK(is_proved_best(pair, found[0]));
+  CHECK(is_proved_best(pair, face_isolation(pair, found[0].feature), found[0]));
   CHECK(found[0].at_a == Approx(0.5));
   CHECK(found[0].at_b == Approx(0.5));
   // the nearest other vertices: the rods' side edges, half a diagonal below
@@ -144,7 +144,7 @@ TEST_CASE("an axis proved to be the best is the best") {
     bool best_proved = false;
     const auto check = [&](const AxisFeature& feature) {
       const auto axis = evaluate_axis(pair, feature, heights);
-      if (!axis || !is_proved_best(pair, *axis)) return;
+      if (!axis || !is_proved_best(pair, face_isolation(pair, axis->feature), *axis)) return;
       if (std::isnan(oracle)) oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a).facets;
       ++proved;
       best_proved = true;
