@@ -39,11 +39,14 @@ bool load(const std::filesystem::path& part, const std::string& key, DepositStat
 
 StepSettings stage_settings(const Scene& scene, BoxStage stage) {
   Scene staged = scene;
-  if (stage != BoxStage::settle) {
-    staged.step = scene.deposit.step;
-    staged.solver.tolerance = scene.deposit.tolerance;
-    staged.solver.max_iterations = scene.deposit.max_iterations;
-  }
+  staged.step = stage == BoxStage::settle ? scene.deposit.settle_step : scene.deposit.step;
+  staged.gravity = deposit_gravity(scene);
+  const int threads = scene.solver.threads;
+  staged.solver = SolverSpec{};
+  staged.solver.name = scene.deposit.solver;
+  staged.solver.tolerance = scene.deposit.tolerance;
+  staged.solver.max_iterations = scene.deposit.max_iterations;
+  staged.solver.threads = threads;
   return step_settings(staged);
 }
 
@@ -90,7 +93,7 @@ class Depositor {
 
   bool rain_to_rest(DepositState& at) {
     // nothing rests before the highest grain has fallen
-    const double fall = std::sqrt(2.0 * rain_.height / scene_.gravity.norm());
+    const double fall = std::sqrt(2.0 * rain_.height / deposit_gravity(scene_).norm());
     bool rests = false;
     const auto stop = [&](double time, double velocity) {
       return rests = time > fall && velocity < scene_.deposit.rest_velocity;

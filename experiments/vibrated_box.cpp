@@ -109,18 +109,22 @@ Rain make_rain(const Scene& scene) {
   return rain;
 }
 
+Vec3 deposit_gravity(const Scene& scene) {
+  return scene.deposit.gravity > 0.0 ? Vec3(0, 0, -scene.deposit.gravity) : scene.gravity;
+}
+
 MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage, double lid) {
   MechanicalSystem system;
   MotionState unused;
-  const bool deposits = stage == BoxStage::rain || stage == BoxStage::press;
-  system.gravity = scene.gravity;
+  const bool deposits = stage != BoxStage::drive;
+  system.gravity = deposits ? deposit_gravity(scene) : scene.gravity;
   system.friction = deposits ? scene.deposit.friction : scene.friction;
   system.restitution = scene.restitution;
   for (const BodySpec& grain : rain.grains) add_body(system, unused, grain, grain.mass / scene.grains->density);
 
   const BoxSpec& box = scene.box;
   const double horizontal = deposits ? scene.deposit.friction : box.friction_horizontal;
-  const double mass = system.mass_of_grains(), weight = mass * scene.gravity.norm();
+  const double mass = system.mass_of_grains(), weight = mass * system.gravity.norm();
   WallSpec walls[box_wall_count];
   walls[wall_floor] = wall("floor", Vec3::UnitZ(), 0.0, horizontal);
   walls[wall_lid] = wall("lid", -Vec3::UnitZ(), -lid, horizontal);
@@ -159,20 +163,18 @@ std::string packing_key(const Scene& scene) {
   std::ostringstream text;
   text.precision(17);
   const GrainsSpec& g = *scene.grains;
-  text << "packing 1;" << g.count << ' ' << g.seed << ' ' << g.density << ' ' << static_cast<int>(g.size_convention);
+  text << "packing 2;" << g.count << ' ' << g.seed << ' ' << g.density << ' ' << static_cast<int>(g.size_convention);
   for (const SizeClass& size : g.distribution) text << ' ' << size.size << ' ' << size.fraction;
   text << ';' << g.shape.min_vertices << ' ' << g.shape.max_vertices << ' ' << g.shape.elongation_min << ' '
        << g.shape.elongation_max << ' ' << g.shape.flatness_min << ' ' << g.shape.flatness_max << ' ' << g.shape.roughness;
   for (const std::string& mesh : g.meshes) text << ';' << mesh;
   const BoxSpec& b = scene.box;
-  text << ';' << b.length << ' ' << b.width << ' ' << b.friction_horizontal << ' ' << b.friction_vertical;
+  text << ';' << b.length << ' ' << b.width << ' ' << b.friction_vertical;
   const DepositSpec& d = scene.deposit;
   text << ';' << d.step << ' ' << d.friction << ' ' << d.fill_fraction << ' ' << d.max_time << ' ' << d.rest_velocity << ' '
-       << d.lid_pressure_weight << ' ' << d.lid_time << ' ' << d.settle_time << ' ' << d.tolerance << ' ' << d.max_iterations;
-  text << ';' << scene.drive.lid_raise << ' ' << scene.step << ' ' << scene.friction << ' ' << scene.restitution << ' '
-       << scene.gravity.transpose();
-  const SolverSpec& s = scene.solver;
-  text << ';' << s.name << ' ' << s.tolerance << ' ' << s.max_iterations << ' ' << s.warm_start;
+       << d.lid_pressure_weight << ' ' << d.lid_time << ' ' << d.settle_time << ' ' << d.settle_step << ' '
+       << deposit_gravity(scene).z() << ' ' << d.solver << ' ' << d.tolerance << ' ' << d.max_iterations;
+  text << ';' << scene.drive.lid_raise << ' ' << scene.restitution;
   const CorrectionSpec& c = scene.correction;
   text << ';' << c.enabled << ' ' << c.slop << ' ' << c.fraction << ' ' << c.sweeps << ' ' << scene.detection.max_points;
   return content_key(text.str());

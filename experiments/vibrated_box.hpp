@@ -45,7 +45,11 @@ using DepositProgress = std::function<bool(BoxStage, double time, double rms_vel
 bool deposit(const Scene& scene, const Rain& rain, const std::filesystem::path& part, const DepositProgress& progress,
              Packing& packing);
 
-/// Key of everything a packing depends on: grains, box, deposit, drive friction and step, gravity, lid, format version.
+/// Gravity while depositing [m/s^2]: deposit.gravity, else the scene's.
+Vec3 deposit_gravity(const Scene& scene);
+
+/// Key of everything a packing depends on: grains, box, deposit, lid, correction, format version. Not of the drive, its solver, step or
+/// friction: runs that differ in these alone start from the same packing.
 std::string packing_key(const Scene& scene);
 
 void write_packing(const std::filesystem::path& file, const std::string& key, const Packing& packing);

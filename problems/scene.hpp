@@ -89,7 +89,10 @@ struct DepositSpec {
   double rest_velocity = 0.01;     ///< rms grain velocity that counts as rest [m/s]
   double lid_pressure_weight = 1.0;///< load on the lid while it presses, in grain weights; 0: the lid is only placed
   double lid_time = 0.3;           ///< how long it presses [s]
-  double settle_time = 0.1;        ///< rest after the lid is raised, at the drive's step and friction [s]
+  double settle_time = 0.1;        ///< rest after the lid is raised [s]
+  double settle_step = 2e-4;       ///< h of that rest [s]
+  double gravity = 0.0;            ///< magnitude while depositing [m/s^2]; 0: the scene's. One packing then serves drives under several g
+  std::string solver = "nncg";     ///< its own, so that drives by several solvers start from one packing
   double tolerance = 1e-2;         ///< natural map rms, in g h
   int max_iterations = 200;
 };
@@ -122,6 +125,7 @@ struct CorrectionSpec {
 
 struct RecordSpec {
   double pose_rate = 100.0;       ///< poses stored per simulated second
+  double state_rate = 0.0;        ///< whole states (with contacts and impulses) kept per simulated second; 0: none
   double checkpoint_seconds = 20; ///< wall clock between checkpoints
   bool paraview = false;          ///< .vtp + .pvd beside the record, at pose_rate
 };

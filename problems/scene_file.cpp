@@ -139,6 +139,9 @@ DepositSpec read_deposit(TomlTable table) {
       table.number("lid_pressure_weight", not_negative, "grain weights", deposit.lid_pressure_weight);
   deposit.lid_time = table.number("lid_time", not_negative, "s", deposit.lid_time);
   deposit.settle_time = table.number("settle_time", not_negative, "s", deposit.settle_time);
+  deposit.settle_step = table.number("settle_step", positive, "s", deposit.settle_step);
+  deposit.gravity = table.number("gravity", not_negative, "m/s^2", deposit.gravity);
+  deposit.solver = table.text("solver", deposit.solver);
   deposit.tolerance = table.number("tolerance", not_negative, "g h", deposit.tolerance);
   deposit.max_iterations = whole_int(table, "max_iterations", 1, deposit.max_iterations);
   table.finish();
@@ -197,6 +200,7 @@ void read_numerics(TomlTable& root, Scene& scene) {
 
   TomlTable record = root.section("record");
   scene.record.pose_rate = record.number("pose_rate", positive, "1/s", scene.record.pose_rate);
+  scene.record.state_rate = record.number("state_rate", not_negative, "1/s", scene.record.state_rate);
   scene.record.checkpoint_seconds = record.number("checkpoint_seconds", positive, "s", scene.record.checkpoint_seconds);
   scene.record.paraview = record.flag("paraview", scene.record.paraview);
   record.finish();
