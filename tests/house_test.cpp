@@ -37,6 +37,7 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"hdf5.h", {"problems/problem_file", "problems/fclib", "problems/hdf5", "experiments/hdf5_file", "tests/"}},
     {"toml++/", {"problems/toml_", "problems/scene_"}},
     {"CLI/", {"experiments/commands/"}},
+    {"benchmark/", {"experiments/bench/kernels"}},
     {"nlohmann/", {"experiments/", "tests/"}},
     {"cholmod.h", {"solvers/sparse_factor"}},
     {"umfpack.h", {"solvers/sparse_factor"}},

@@ -26,6 +26,7 @@ class UsageError : public std::runtime_error {
 void add_run_command(CLI::App& program, Action& action);
 void add_solve_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
+void add_bench_command(CLI::App& program, Action& action);
 void add_solvers_command(CLI::App& program, Action& action);
 void add_scenes_command(CLI::App& program, Action& action);
 void add_export_command(CLI::App& program, Action& action);

@@ -91,7 +91,7 @@ Ended step_on(const LiveOptions& options, const Scene& scene, Start start, const
   StepSettings settings = step_settings(scene);
   settings.solver.name = solver.name;
   settings.solver.tolerance = tolerance;
-  settings.solver.max_iterations = 1 << 30;
+  settings.solver.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1 << 30;
   settings.solver.max_seconds = options.max_seconds;
   TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
   const long count = std::max(1L, std::lround(options.duration / settings.h)), frame_every = std::max(1L, count / 100);
@@ -170,10 +170,11 @@ std::vector<double> read_doubles(const fs::path& file) {
 Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start, const std::string& binary,
                          const BenchSolver& solver, double tolerance) {
   char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "|%.17g %.17g %.17g %.17g", tolerance, options.duration, options.max_seconds, options.trajectory_seconds);
+  std::snprintf(numbers, sizeof numbers, "|%.17g %.17g %.17g %.17g %d", tolerance, options.duration, options.max_seconds,
+                options.trajectory_seconds, options.max_iterations);
   const fs::path file = options.folder / "trajectories" /
-                        (content_key("trajectory 1|" + binary + '|' + start.key + '|' + solver.name + numbers) + ".bin");
-  Trajectory trajectory{solver.name, name_of(solver.law), tolerance, "", {}, {}, {}};
+                        (content_key("trajectory 2|" + binary + '|' + start.key + '|' + solver.name + numbers) + ".bin");
+  Trajectory trajectory{solver.name, name_of(solver.law), tolerance, options.max_iterations, "", {}, {}, {}};
   if (!fs::exists(file)) {
     const std::vector<double> record = in_child(options, scene, start, solver, tolerance);
     if (InterruptGuard::requested()) return trajectory;
@@ -197,7 +198,10 @@ int reference_of(const std::vector<Trajectory>& trajectories) {
 
 std::string Trajectory::label() const {
   char text[32];
-  std::snprintf(text, sizeof text, " %g", tolerance);
+  if (max_iterations > 0)
+    std::snprintf(text, sizeof text, " %d iterations", max_iterations);
+  else
+    std::snprintf(text, sizeof text, " %g", tolerance);
   return solver + text + (law == name_of(ContactLaw::coulomb) ? "" : " (" + law + ")");
 }
 

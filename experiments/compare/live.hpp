@@ -23,6 +23,7 @@ struct LiveOptions {
   double start = 0.0;      ///< simulated time up to which the scene's own solver goes, once for all [s]; at least one step
   double duration = 0.1;   ///< simulated from there under each backend [s]
   double max_seconds = 60.0;         ///< wall clock of one solve
+  int max_iterations = 0;            ///< of one solve; 0: as many as the tolerance needs
   double trajectory_seconds = 600.0; ///< wall clock of one trajectory
   std::filesystem::path packing_cache;  ///< empty: <folder>/packings
   std::filesystem::path folder;         ///< start/ (a run), trajectories/<key>.bin, live.csv, live.html
@@ -32,6 +33,7 @@ struct LiveOptions {
 struct Trajectory {
   std::string solver, law;
   double tolerance = 0.0;  ///< relative
+  int max_iterations = 0;  ///< the limit; 0: none
   std::string ended;       ///< "complete", or why not: "time limit", "the child process died", a backend's own words
   std::vector<StepRecord> steps;
   std::vector<double> frame_times;            ///< [s]

@@ -1,0 +1,127 @@
+#include "experiments/bench/accuracy_bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/step_record.hpp"
+
+namespace ballast {
+namespace {
+
+AccuracyRow row_of(const Trajectory& trajectory, double scale, const Trajectory* reference) {
+  AccuracyRow row;
+  row.solver = trajectory.solver;
+  char limit[40];
+  if (trajectory.max_iterations > 0)
+    std::snprintf(limit, sizeof limit, "%d iterations", trajectory.max_iterations);
+  else
+    std::snprintf(limit, sizeof limit, "tolerance %g", trajectory.tolerance);
+  row.limit = limit;
+  row.complete = trajectory.is_complete();
+  double seconds = 0.0;
+  for (const StepRecord& s : trajectory.steps) {
+    seconds += s.seconds_detect + s.seconds_assemble + s.seconds_solve + s.seconds_judge + s.seconds_correct + s.seconds_other;
+    row.error_mean += s.error_rms / scale;
+    row.error_worst = std::max(row.error_worst, s.error_rms / scale);
+    row.iterations += s.iterations;
+    row.penetration = std::max(row.penetration, s.penetration_max);
+  }
+  const double steps = static_cast<double>(trajectory.steps.size());
+  if (steps > 1.0) {
+    const double simulated = (trajectory.steps.back().time - trajectory.steps.front().time) * steps / (steps - 1.0);
+    row.seconds_per_second = seconds / simulated;
+    row.error_mean /= steps;
+    row.iterations /= steps;
+  }
+  row.distance = std::nan("");
+  if (reference) {
+    const std::vector<double> d = distances(trajectory, *reference);
+    if (!d.empty()) row.distance = d.back();
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<AccuracyRow> measure_accuracy(const AccuracyOptions& options, const std::function<bool(const Trajectory&)>& said) {
+  std::vector<Trajectory> trajectories;
+  double scale = 1.0;
+  bool goes_on = true;
+  const auto heard = [&](const Trajectory& t) { return goes_on = said(t); };
+  const auto run = [&](const LiveOptions& live) {
+    if (!goes_on) return;
+    LiveComparison comparison = run_live(live, heard);
+    scale = comparison.velocity_scale;
+    for (Trajectory& t : comparison.trajectories) trajectories.push_back(std::move(t));
+  };
+  if (!options.live.tolerances.empty()) run(options.live);
+  for (const int iterations : options.iterations) {
+    LiveOptions live = options.live;
+    live.max_iterations = iterations;
+    live.tolerances = {1e-12};  // never reached: every step gets all of them
+    run(live);
+  }
+  // the reference: of those that reached a tolerance, the tightest
+  const Trajectory* reference = nullptr;
+  for (const Trajectory& t : trajectories)
+    if (t.max_iterations == 0 && t.is_complete() && (!reference || t.tolerance < reference->tolerance)) reference = &t;
+  std::vector<AccuracyRow> rows;
+  for (const Trajectory& t : trajectories) rows.push_back(row_of(t, scale, reference));
+  return rows;
+}
+
+std::vector<Measurement> accuracy_measurements(const std::vector<AccuracyRow>& rows) {
+  std::vector<Measurement> result;
+  for (const AccuracyRow& row : rows) {
+    if (!row.complete) continue;
+    const std::string group = row.solver + ", " + row.limit;
+    const auto add = [&](const char* name, const char* unit, double value) {
+      if (std::isfinite(value)) result.push_back(measurement_of(group, name, unit, {value}));
+    };
+    add("cost of a simulated second", "s", row.seconds_per_second);
+    add("error rms, mean over steps", "g h", row.error_mean);
+    add("error rms, worst step", "g h", row.error_worst);
+    add("iterations", "iterations", row.iterations);
+    add("distance from the reference", "um", 1e6 * row.distance);
+    add("penetration max", "um", 1e6 * row.penetration);
+  }
+  return result;
+}
+
+Figure accuracy_figure(const std::vector<AccuracyRow>& rows) {
+  const Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::orange, Ink::purple, Ink::sky, Ink::black};
+  Figure figure;
+  figure.name = "accuracy";
+  figure.title = "Error against the cost of a simulated second";
+  figure.panels.resize(1);
+  Panel& panel = figure.panels[0];
+  panel.x_label = "cost of a simulated second [s]";
+  panel.y_label = "error, mean over steps [g h]";
+  panel.log_x = panel.log_y = true;
+  std::vector<std::string> solvers;
+  for (const AccuracyRow& row : rows)
+    if (std::find(solvers.begin(), solvers.end(), row.solver) == solvers.end()) solvers.push_back(row.solver);
+  for (size_t k = 0; k < solvers.size(); ++k) {
+    std::vector<std::pair<double, double>> points;
+    for (const AccuracyRow& row : rows)
+      if (row.solver == solvers[k] && row.complete && row.error_mean > 0.0) points.emplace_back(row.seconds_per_second, row.error_mean);
+    if (points.empty()) continue;
+    std::sort(points.begin(), points.end());
+    Curve line, marks;
+    for (const auto& [x, y] : points) {
+      line.x.push_back(x);
+      line.y.push_back(y);
+    }
+    line.title = solvers[k];
+    line.ink = inks[k % std::size(inks)];
+    marks = line;
+    marks.title.clear();
+    marks.mark = Mark::points;
+    panel.curves.push_back(std::move(line));
+    panel.curves.push_back(std::move(marks));
+  }
+  panel.lines.push_back({1e-3, "1e-3", false, Ink::grey});
+  return figure;
+}
+
+}  // namespace ballast

@@ -1,0 +1,118 @@
+#include "experiments/bench/bench_packing.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <numeric>
+#include <tuple>
+
+#include "experiments/atomic_file.hpp"
+#include "experiments/interrupt.hpp"
+#include "experiments/run.hpp"
+#include "problems/scene_file.hpp"
+
+namespace ballast {
+namespace {
+
+/// Where a body of one copy is found among the tiles; -1: a wall between two copies.
+class TileMap {
+ public:
+  TileMap(int grains, int nx, int ny) : grains_(grains), nx_(nx), ny_(ny) {}
+
+  int body(int body, int ix, int iy) const {
+    if (body < grains_) return (iy * nx_ + ix) * grains_ + body;
+    const int wall = body - grains_;
+    const bool between = (wall == wall_x_min && ix > 0) || (wall == wall_x_max && ix < nx_ - 1) || (wall == wall_y_min && iy > 0) ||
+                         (wall == wall_y_max && iy < ny_ - 1);
+    return between ? -1 : nx_ * ny_ * grains_ + wall;
+  }
+
+ private:
+  int grains_, nx_, ny_;
+};
+
+/// Contacts and impulses in the order of their keys.
+void sort_memory(StepMemory& memory) {
+  std::vector<size_t> order(memory.contacts.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  const auto key = [&](size_t k) {
+    const ContactPoint& c = memory.contacts[k];
+    return std::tuple(c.body_a, c.body_b, c.feature);
+  };
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
+  StepMemory sorted;
+  for (const size_t k : order) {
+    sorted.contacts.push_back(memory.contacts[k]);
+    sorted.impulses.push_back(memory.impulses[k]);
+  }
+  memory = std::move(sorted);
+}
+
+}  // namespace
+
+DepositedBox deposited_box(const std::string& name, const std::vector<std::string>& overrides, const std::filesystem::path& cache) {
+  DepositedBox box;
+  box.scene = read_scene(find_scene(name), overrides);
+  if (!box.scene.grains) throw RunError(name + ": has no grains: a bench needs a deposited packing");
+  box.rain = make_rain(box.scene);
+  const std::string key = packing_key(box.scene);
+  const std::filesystem::path file = cache / ("packing-" + key + ".bin"), part = file.string() + ".part";
+  if (read_packing(file, key, box.packing)) return box;
+  create_folder(cache);
+  std::cout << "depositing " << box.rain.grains.size() << " grains (kept in " << file.string() << ")" << std::endl;
+  const InterruptGuard guard;
+  const auto goes_on = [](BoxStage, double, double, const StepRecord&) { return !InterruptGuard::requested(); };
+  if (!deposit(box.scene, box.rain, part, goes_on, box.packing)) throw RunError("interrupted; the same command goes on depositing");
+  write_packing(file, key, box.packing);
+  std::filesystem::remove(part);
+  return box;
+}
+
+BenchStart driven_start(const DepositedBox& box) {
+  BenchStart start;
+  start.system = drive_system(box.scene, box.rain, box.packing, start.state);
+  start.memory = box.packing.memory;
+  return start;
+}
+
+BenchStart tiled_start(const DepositedBox& box, int nx, int ny) {
+  Scene scene = box.scene;
+  scene.box.length *= nx;
+  scene.box.width *= ny;
+  const int grains = static_cast<int>(box.rain.grains.size());
+  const TileMap map(grains, nx, ny);
+  Rain rain;
+  BenchStart start;
+  MotionState& state = start.state;
+  for (int iy = 0; iy < ny; ++iy)
+    for (int ix = 0; ix < nx; ++ix) {
+      const Vec3 shift(ix * box.scene.box.length, iy * box.scene.box.width, 0.0);
+      rain.grains.insert(rain.grains.end(), box.rain.grains.begin(), box.rain.grains.end());
+      for (int b = 0; b < grains; ++b) {
+        state.pose.push_back({box.packing.state.pose[b].position + shift, box.packing.state.pose[b].rotation});
+        state.velocity.push_back(box.packing.state.velocity[b]);
+        state.spin.push_back(box.packing.state.spin[b]);
+      }
+      for (size_t c = 0; c < box.packing.memory.contacts.size(); ++c) {
+        ContactPoint contact = box.packing.memory.contacts[c];
+        contact.body_a = map.body(contact.body_a, ix, iy);
+        contact.body_b = map.body(contact.body_b, ix, iy);
+        if (contact.body_a < 0 || contact.body_b < 0) continue;
+        contact.position += shift;
+        start.memory.contacts.push_back(contact);
+        start.memory.impulses.push_back(box.packing.memory.impulses[c]);
+      }
+    }
+  sort_memory(start.memory);
+  start.system = box_system(scene, rain, BoxStage::settle, box.packing.lid);
+  for (int w = 0; w < box_wall_count; ++w) {
+    const WallSpec& wall = start.system.bodies[start.system.grain_count + w].wall;
+    Pose pose;
+    pose.position = wall.offset * wall.normal;
+    state.pose.push_back(pose);
+  }
+  state.velocity.resize(state.pose.size(), Vec3::Zero());
+  state.spin.resize(state.pose.size(), Vec3::Zero());
+  return start;
+}
+
+}  // namespace ballast

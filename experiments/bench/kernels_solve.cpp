@@ -1,0 +1,114 @@
+// Assembly, judge, sweeps and single contacts.
+
+#include <memory>
+
+#include "experiments/bench/kernels.hpp"
+#include "geometry/random.hpp"
+#include "problems/contact_error.hpp"
+#include "solvers/body_sweep.hpp"
+
+namespace ballast {
+namespace {
+
+struct ProblemWork {
+  KernelProblem at;
+  ProblemAssembler assembler;
+  Eigen::VectorXd v_free;
+  FrictionProblem problem;
+  ContactJudge judge;
+  std::vector<Vec3> world;
+  Impulses rows;
+
+  explicit ProblemWork(const KernelProblem& problem_) : at(problem_), assembler(at.start.system) {
+    assembler.pack(at.start.state, v_free);
+    assemble();
+    assembler.to_world(rows = at.impulses.head(problem.row_count()), at.contacts, world);
+  }
+  void assemble() { assembler.assemble(at.start.state, v_free, at.h, at.start.state.time + at.h, at.contacts, problem); }
+};
+
+struct SweepWork {
+  FrictionProblem problem;
+  Impulses start, end;
+  BodySweep sweep;
+
+  SweepWork(const KernelProblem& from, int copies, int threads)
+      : problem(repeated(from.problem, copies)), start(repeated(from.warm, copies)), end(start.size()) {
+    sweep.use_threads(threads);
+    sweep.prepare(problem);
+    sweep.load(problem, start);
+  }
+};
+
+/// Contacts that all end in one status, each with the velocity that others give it.
+struct OneContactWork {
+  struct Case {
+    PrincipalContact contact;
+    TangentTurn turn;
+    double u[3];
+  };
+  std::vector<Case> cases;
+  double sum = 0.0;
+
+  explicit OneContactWork(ContactStatus wanted) {
+    Random random(7);
+    constexpr size_t count = 256;
+    while (cases.size() < count) {
+      Eigen::Matrix3d root;
+      for (int k = 0; k < 9; ++k) root(k) = random.uniform(-0.5, 0.5);
+      const Eigen::Matrix3d w = Eigen::Matrix3d::Identity() + root * root.transpose();
+      const double mu = 0.4, reach = wanted == ContactStatus::stick ? 0.2 : 2.0;
+      Case one;
+      make_principal(w, mu, one.contact, one.turn);
+      one.u[0] = wanted == ContactStatus::open ? 1.0 : -1.0;
+      for (int k = 1; k < 3; ++k) one.u[k] = random.uniform(-reach, reach);
+      Eigen::Vector3d r = Eigen::Vector3d::Zero();
+      double lambda = 0.0;
+      if (solve_one_contact(w, Eigen::Vector3d(one.u[0], one.u[1], one.u[2]), mu, r, lambda) == wanted) cases.push_back(one);
+    }
+  }
+  void all() {
+    for (const Case& one : cases) {
+      double r[3] = {0.0, 0.0, 0.0}, slip = 0.0;
+      resolve_contact(one.contact, one.turn, one.u, r, slip);
+      sum += r[0] + r[1] + r[2];
+    }
+  }
+};
+
+}  // namespace
+
+void add_problem_kernels(const KernelProblem& problem, std::vector<Kernel>& kernels) {
+  const auto work = std::make_shared<ProblemWork>(problem);
+  const double contacts = work->problem.contact_count();
+  const auto add = [&](const char* name, std::function<void()> call) { kernels.push_back({"problem", name, "ns/contact", contacts, std::move(call)}); };
+  add("assembly", [work] { work->assemble(); });
+  add("validation", [work] { work->problem.validate(); });
+  add("judge", [work] { work->judge.judge(work->problem, work->rows); });
+  add("rows to world", [work] { work->assembler.to_world(work->rows, work->at.contacts, work->world); });
+  add("world to rows", [work] { work->assembler.to_rows(work->world, work->rows); });
+}
+
+void add_sweep_kernels(const KernelProblem& problem, int streaming_copies, std::vector<Kernel>& kernels) {
+  const auto cached = std::make_shared<SweepWork>(problem, 1, 1), streaming = std::make_shared<SweepWork>(problem, streaming_copies, 1);
+  const auto add = [&](const char* name, const std::shared_ptr<SweepWork>& work, std::function<void()> call) {
+    kernels.push_back({"sweep", name, "ns/contact", static_cast<double>(work->problem.contact_count()), std::move(call)});
+  };
+  add("sweep, the packing alone", cached, [cached] { cached->sweep.sweep(); });
+  add("sweep, streaming copies of it", streaming, [streaming] { streaming->sweep.sweep(); });
+  add("error", cached, [cached] { cached->sweep.error(); });
+  add("prepare", cached, [cached] { cached->sweep.prepare(cached->problem); });
+  add("load", cached, [cached] { cached->sweep.load(cached->problem, cached->start); });
+  add("store", cached, [cached] { cached->sweep.store(cached->problem, cached->end); });
+}
+
+void add_one_contact_kernels(std::vector<Kernel>& kernels) {
+  const std::pair<const char*, ContactStatus> statuses[] = {
+      {"take-off", ContactStatus::open}, {"stick", ContactStatus::stick}, {"slip, cold root", ContactStatus::slip}};
+  for (const auto& [name, status] : statuses) {
+    const auto work = std::make_shared<OneContactWork>(status);
+    kernels.push_back({"one contact", name, "ns/contact", static_cast<double>(work->cases.size()), [work] { work->all(); }});
+  }
+}
+
+}  // namespace ballast

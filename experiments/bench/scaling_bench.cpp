@@ -1,0 +1,184 @@
+#include "experiments/bench/scaling_bench.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "experiments/run.hpp"
+#include "solvers/body_sweep.hpp"
+#include "solvers/child_process.hpp"
+#include "solvers/solver_list.hpp"
+
+namespace ballast {
+namespace {
+
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+double median_of(std::vector<double> values) { return measurement_of("", "", "", std::move(values)).median; }
+
+/// Wall clock of a sweep [s].
+double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int sweeps, int threads) {
+  BodySweep sweep;
+  sweep.use_threads(threads);
+  sweep.prepare(problem);
+  sweep.load(problem, start);
+  std::vector<double> seconds;
+  for (int k = 0; k < sweeps; ++k) {
+    const auto begin = std::chrono::steady_clock::now();
+    sweep.sweep();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  return median_of(std::move(seconds));
+}
+
+double iterations_to(const std::string& solver, const FrictionProblem& problem, const Impulses& start, const Budget& budget, int threads) {
+  const std::unique_ptr<Solver> backend = make_solver(solver);
+  backend->use_threads(threads);
+  SolverRunner runner;
+  return runner.run(*backend, problem, start, budget).solved.iterations;
+}
+
+/// What the child does.
+ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint point) {
+  const double before = peak_bytes();
+  BenchStart start = tiled_start(box, point.nx, point.ny);
+  StepSettings settings = step_settings(box.scene);
+  settings.solver.threads = point.threads;
+  std::vector<double> detect, assemble, solve, step;
+  TimeStepper stepper(start.system, settings, -1);
+  const double ns = 1e9 / point.grains;
+  for (int k = -options.warm_up; k < options.steps; ++k) {
+    const StepRecord r = stepper.step(start.state, start.memory);
+    if (k < 0) continue;
+    point.contacts = r.contacts;
+    detect.push_back(ns * r.seconds_detect);
+    assemble.push_back(ns * r.seconds_assemble);
+    solve.push_back(ns * r.seconds_solve);
+    step.push_back(ns * (r.seconds_detect + r.seconds_assemble + r.seconds_solve + r.seconds_judge + r.seconds_correct + r.seconds_other));
+  }
+  point.detect = median_of(std::move(detect));
+  point.assemble = median_of(std::move(assemble));
+  point.solve = median_of(std::move(solve));
+  point.step = median_of(std::move(step));
+  point.bytes = (peak_bytes() - before) / point.grains;
+  Impulses warm;
+  stepper.warm_start(warm);
+  point.sweep = ns * sweep_seconds(stepper.problem(), warm, options.sweeps, point.threads);
+  Budget budget;
+  budget.tolerance = options.tolerance * settings.velocity_scale();
+  budget.max_iterations = options.max_iterations;
+  for (const std::string& solver : options.solvers)
+    point.iterations.push_back(iterations_to(solver, stepper.problem(), warm, budget, point.threads));
+  return point;
+}
+
+std::vector<double> packed(const ScalingPoint& p) {
+  std::vector<double> record{p.contacts, p.detect, p.assemble, p.solve, p.step, p.sweep, p.bytes};
+  record.insert(record.end(), p.iterations.begin(), p.iterations.end());
+  return record;
+}
+
+ScalingPoint unpacked(const std::vector<double>& record, ScalingPoint p) {
+  double* const values[] = {&p.contacts, &p.detect, &p.assemble, &p.solve, &p.step, &p.sweep, &p.bytes};
+  for (size_t k = 0; k < std::size(values); ++k) *values[k] = record.at(k);
+  p.iterations.assign(record.begin() + std::size(values), record.end());
+  return p;
+}
+
+}  // namespace
+
+std::pair<int, int> tiles_for(long grains, int block) {
+  const double tiles = std::max(1.0, static_cast<double>(grains) / block);
+  const int nx = std::max(1, static_cast<int>(std::lround(std::sqrt(tiles))));
+  return {nx, std::max(1, static_cast<int>(std::lround(tiles / nx)))};
+}
+
+std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
+                                          const std::function<void(const ScalingPoint&)>& said) {
+  std::vector<ScalingPoint> points;
+  const int block = static_cast<int>(box.rain.grains.size());
+  for (const long grains : options.grains)
+    for (const int threads : options.threads) {
+      ScalingPoint point;
+      point.threads = threads;
+      std::tie(point.nx, point.ny) = tiles_for(grains, block);
+      point.grains = static_cast<double>(point.nx) * point.ny * block;
+      const ChildResult child =
+          run_in_child(options.max_seconds, [&](std::vector<double>& record) { record = packed(measure_packing(box, options, point)); });
+      if (child.end != ChildEnd::complete)
+        throw RunError("bench scaling: " + std::to_string(static_cast<long>(point.grains)) + " grains: the child " +
+                       (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
+      points.push_back(unpacked(child.record, point));
+      said(points.back());
+    }
+  return points;
+}
+
+std::vector<Measurement> scaling_measurements(const ScalingOptions& options, const std::vector<ScalingPoint>& points) {
+  std::vector<Measurement> result;
+  for (const ScalingPoint& p : points) {
+    const std::string group = std::to_string(p.threads) + (p.threads == 1 ? " thread, " : " threads, ") +
+                              std::to_string(static_cast<long>(p.grains)) + " grains";
+    const auto add = [&](const std::string& name, const char* unit, double value) { result.push_back(measurement_of(group, name, unit, {value})); };
+    add("contacts", "contacts", p.contacts);
+    add("detect", "ns/grain", p.detect);
+    add("assemble", "ns/grain", p.assemble);
+    add("solve", "ns/grain", p.solve);
+    add("step", "ns/grain", p.step);
+    add("sweep", "ns/grain", p.sweep);
+    add("sweep per contact", "ns/contact", p.contacts > 0.0 ? p.sweep * p.grains / p.contacts : 0.0);
+    add("memory", "B/grain", p.bytes);
+    for (size_t k = 0; k < p.iterations.size(); ++k) add("iterations needed, " + options.solvers[k], "iterations", p.iterations[k]);
+  }
+  return result;
+}
+
+Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPoint>& points) {
+  struct Line {
+    const char* title;
+    double ScalingPoint::*value;
+    Ink ink;
+  };
+  const Line lines[] = {{"detection", &ScalingPoint::detect, Ink::vermilion}, {"assembly", &ScalingPoint::assemble, Ink::orange},
+                        {"a sweep", &ScalingPoint::sweep, Ink::blue}};
+  const Ink solver_inks[] = {Ink::blue, Ink::green, Ink::purple, Ink::sky};
+  Figure figure;
+  figure.name = "scaling";
+  figure.title = "Cost per grain over grains";
+  figure.height = 620;
+  figure.panels.resize(2);
+  const auto add = [&](Panel& panel, int threads, const std::string& title, Ink ink, const auto& value) {
+    Curve curve;
+    for (const ScalingPoint& p : points)
+      if (p.threads == threads) {
+        curve.x.push_back(p.grains);
+        curve.y.push_back(value(p));
+      }
+    curve.title = title + (threads == 1 ? "" : ", " + std::to_string(threads) + " threads");
+    curve.ink = ink;
+    curve.dashed = threads != 1;
+    panel.curves.push_back(std::move(curve));
+  };
+  for (const int threads : options.threads)
+    for (const Line& line : lines) add(figure.panels[0], threads, line.title, line.ink, [&](const ScalingPoint& p) { return p.*line.value; });
+  for (size_t k = 0; k < options.solvers.size(); ++k)
+    add(figure.panels[1], options.threads.front(), options.solvers[k], solver_inks[k % std::size(solver_inks)],
+        [k](const ScalingPoint& p) { return p.iterations.at(k); });
+  figure.panels[0].y_label = "ns per grain";
+  figure.panels[1].y_label = "iterations needed";
+  for (Panel& panel : figure.panels) {
+    panel.x_label = "grains";
+    panel.log_x = true;
+  }
+  figure.panels[0].log_y = true;
+  figure.panels[1].y_min = 0.0;
+  return figure;
+}
+
+}  // namespace ballast
