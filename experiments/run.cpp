@@ -171,6 +171,9 @@ class Run {
       if (paraview) paraview->add(run_.state, run_.memory.contacts, run_.memory.impulses, settings.h);
     };
     if (run_.state.step == 0) store_pose();
+    const double state_rate = scene_.record.state_rate;
+    const long state_every = state_rate > 0.0 ? std::max(1L, std::lround(1.0 / (state_rate * settings.h))) : 0;
+    if (state_every > 0) create_folder(folder_.states());
 
     Progress progress;
     SimulationLoop loop;
@@ -194,6 +197,8 @@ class Run {
       }
       recorder.add_step(record);
       if (state.step % pose_every == 0) store_pose();
+      if (state_every > 0 && state.step % state_every == 0)
+        write_checkpoint(folder_.state_at(state.step), {key_, loop.phase, state, run_.memory.contacts, run_.memory.impulses, {}});
       progress.show(scene_.name, state.time, scene_.duration, record);
     };
     const auto begin = Clock::now();

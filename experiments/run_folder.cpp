@@ -1,5 +1,7 @@
 #include "experiments/run_folder.hpp"
 
+#include <cstdio>
+
 #include "experiments/atomic_file.hpp"
 
 namespace ballast {
@@ -15,12 +17,18 @@ void RunFolder::begin(const std::string& scene_text, bool overwrite) const {
   create_folder(path_);
   if (overwrite)  // only what a run writes: never a folder as a whole
     for (const char* name : {"scene.toml", "manifest.json", "checkpoint.bin", "steps.csv", "record.h5", "report.html", "log",
-                             "figures", "paraview", "capture"}) {
+                             "figures", "paraview", "capture", "states"}) {
       std::error_code error;
       fs::remove_all(path_ / name, error);
       if (error) throw RunError((path_ / name).string() + ": cannot remove: " + error.message());
     }
   write_whole_file(scene(), scene_text);
+}
+
+fs::path RunFolder::state_at(long step) const {
+  char name[40];
+  std::snprintf(name, sizeof name, "step_%08ld.bin", step);
+  return states() / name;
 }
 
 void RunFolder::reopen(const std::string& scene_text) const {

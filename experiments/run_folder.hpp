@@ -19,6 +19,9 @@ class RunFolder {
   std::filesystem::path manifest() const { return path_ / "manifest.json"; }
   std::filesystem::path checkpoint() const { return path_ / "checkpoint.bin"; }
   std::filesystem::path capture() const { return path_ / "capture"; }
+  /// Whole states kept at record.state_rate: checkpoint files of single steps.
+  std::filesystem::path states() const { return path_ / "states"; }
+  std::filesystem::path state_at(long step) const;
   bool has_run() const { return std::filesystem::exists(scene()); }
 
   /// A fresh run: refuses a folder that holds one (unless `overwrite`, which clears what a run writes), writes scene.toml.
