@@ -112,6 +112,11 @@ void Manifest::summary(const std::string& name, const std::string& value) { (*js
 std::string Manifest::scene() const { return json_->at("scene").get<std::string>(); }
 std::string Manifest::key() const { return json_->at("key").get<std::string>(); }
 
+std::string Manifest::commit() const {
+  const Json& ballast = json_->at("ballast");
+  return ballast.value("commit", "") + (ballast.value("modified", false) ? "-dirty" : "");
+}
+
 double Manifest::summary_number(const std::string& name) const {
   const Json& summary = json_->at("summary");
   const auto found = summary.find(name);

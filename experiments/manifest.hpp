@@ -38,6 +38,8 @@ class Manifest {
 
   std::string scene() const;
   std::string key() const;
+  /// Of the program that began the run; "-dirty" when it was not quite that.
+  std::string commit() const;
   /// NaN when there is no such number.
   double summary_number(const std::string& name) const;
 

@@ -8,21 +8,19 @@
 #include <string>
 #include <string_view>
 
+#include "experiments/status_line.hpp"
 #include "experiments/step_record.hpp"
 
 namespace ballast {
 
 class Progress {
  public:
-  enum class Style { quiet, lines, bar };
+  using Style = StatusLine::Style;
 
   /// To stderr: a bar if that is a terminal, else lines.
   explicit Progress(bool quiet = false);
   /// `clock`: seconds from anywhere, increasing.
   Progress(Style style, std::ostream& out, std::function<double()> clock);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
 
   /// After each step: `time` of `total` [s] in the phase `label`. Steps are counted by the calls; rate and time left
   /// are those since the first call. `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is
@@ -39,16 +37,14 @@ class Progress {
   std::string line(double now) const;
   void write(double now);
 
-  Style style_;
-  std::ostream& out_;
+  StatusLine line_;
   std::function<double()> clock_;
   // of the phase
   bool started_ = false;
   long steps_ = 0;  // calls after the first
   double first_clock_ = 0.0, first_time_ = 0.0;
-  double last_written_ = 0.0;               // on the clock
-  bool line_open_ = false, stale_ = false;  // stale: shown later than written
-  size_t line_length_ = 0;
+  double last_written_ = 0.0;  // on the clock
+  bool stale_ = false;         // shown later than written
   // what was shown last
   std::string label_;
   double time_ = 0.0, total_ = 0.0, error_ = 0.0, contacts_ = 0.0, velocity_ = 0.0;

@@ -9,6 +9,7 @@
 #include "experiments/capture.hpp"
 #include "experiments/checkpoint.hpp"
 #include "experiments/content_key.hpp"
+#include "experiments/file_lock.hpp"
 #include "experiments/interrupt.hpp"
 #include "experiments/manifest.hpp"
 #include "experiments/paraview.hpp"
@@ -48,12 +49,14 @@ class Run {
         folder_(RunFolder::of(options, scene_.name)),
         manifest_(scene_.name, options.overrides, key_) {
     scene_.solver.threads = options.threads;
-    make_solver(scene_.solver.name);  // a backend that is missing is said before anything is written
+    make_solver(scene_.solver.name);
+    if (scene_.grains) make_solver(scene_.deposit.solver);  // a backend that is missing is said before anything is written
   }
 
   ExitCode execute() {
-    open_folder();
-    if (!prepare()) return stopped(InterruptGuard::requested() ? LoopEnd::interrupted : LoopEnd::time_limit);
+    if (options_.deposit_only) return deposit_only();
+    if (!open_folder()) return ExitCode::ok;
+    if (!prepare()) return stopped(why_stopped());
     const LoopEnd end = loop();
     manifest_.write(folder_.manifest());
     if (end != LoopEnd::finished) return stopped(end);
@@ -65,14 +68,32 @@ class Run {
  private:
   double seconds_left() const { return options_.max_seconds - seconds_since(begin_); }
 
-  void open_folder() {
-    if (!options_.resume) {
-      folder_.begin(text_, options_.overwrite);
-    } else {
-      folder_.reopen(text_);
-      if (std::filesystem::exists(folder_.manifest())) manifest_ = Manifest::read(folder_.manifest());
+  LoopEnd why_stopped() const { return InterruptGuard::requested() ? LoopEnd::interrupted : LoopEnd::time_limit; }
+
+  /// Nobody else works in the folder from here on. False: there is nothing to do in it.
+  bool open_folder() {
+    if (options_.resume) folder_.reopen(text_);
+    create_folder(folder_.path());
+    lock_.emplace(folder_.path() / "run.lock", briefly);
+    if (!lock_->is_held()) throw RunError(folder_.path().string() + ": " + lock_->holder() + " is working there");
+    if (options_.begin_or_resume && folder_.is_finished(key_)) {
+      std::cout << folder_.path().string() << ": finished already" << std::endl;
+      return false;
     }
+    if (options_.begin_or_resume && folder_.has_run()) {
+      folder_.reopen(text_);
+      options_.resume = true;
+    }
+    if (!options_.resume) folder_.begin(text_, options_.overwrite);
+    else if (std::filesystem::exists(folder_.manifest())) manifest_ = Manifest::read(folder_.manifest());
     manifest_.write(folder_.manifest());
+    return true;
+  }
+
+  ExitCode deposit_only() {
+    if (!scene_.grains) throw RunError(options_.scene + ": --deposit-only: has no [grains] to deposit");
+    Packing packing;
+    return take_packing(make_rain(scene_), packing) ? ExitCode::ok : stopped(why_stopped());
   }
 
   /// System, state and warm start: from the scene, the packing, or the checkpoint. False: stopped while depositing.
@@ -100,22 +121,31 @@ class Run {
     return true;
   }
 
+  static bool find_packing(const std::filesystem::path& file, const std::string& key, Packing& packing) {
+    if (!read_packing(file, key, packing)) return false;
+    std::cout << "packing from the cache: " << file.string() << std::endl;
+    return true;
+  }
+
   /// Takes the packing from the cache, or deposits it.
   bool take_packing(const Rain& rain, Packing& packing) {
     const std::filesystem::path cache =
         options_.packing_cache.empty() ? folder_.path() / ".." / "packings" : options_.packing_cache;
     const std::string key = packing_key(scene_);
-    const std::filesystem::path file = (cache / ("packing-" + key + ".bin")).lexically_normal();
-    const std::filesystem::path part = file.string() + ".part";
-    if (options_.new_packing && !options_.resume) {
+    const std::filesystem::path file = packing_file(cache, key), part = file.string() + ".part";
+    const bool anew = options_.new_packing && !options_.resume;
+    if (!anew && find_packing(file, key, packing)) return true;
+    create_folder(cache);
+    const FileLock lock(file.string() + ".lock", [this](double waited) {
+      if (waited == 0.0) std::cout << "waiting for the packing that another run deposits" << std::endl;
+      return !InterruptGuard::requested() && seconds_left() > 0.0;
+    });
+    if (!lock.is_held()) return false;
+    if (anew) {
       std::filesystem::remove(file);
       std::filesystem::remove(part);
     }
-    if (read_packing(file, key, packing)) {
-      std::cout << "packing from the cache: " << file.string() << std::endl;
-      return true;
-    }
-    create_folder(cache);
+    if (find_packing(file, key, packing)) return true;  // made by whoever held the lock
     std::cout << "depositing " << rain.grains.size() << " grains (kept in " << file.string() << ")" << std::endl;
     const auto begin = Clock::now();
     Progress progress;
@@ -210,8 +240,23 @@ class Run {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     manifest_.summary("peak_memory_MB", usage.ru_maxrss / 1024.0);
+    manifest_.summary(steps_left_entry, static_cast<double>(loop.last_step - run_.state.step));
     recorder.finish(text_, manifest_.text());
+    describe_record(settings.velocity_scale());
     return end;
+  }
+
+  /// Of all steps, also those before the run was last resumed.
+  void describe_record(double velocity_scale) {
+    const std::vector<StepRecord> steps = read_steps(folder_.path());
+    double seconds = 0.0, error = 0.0;
+    for (const StepRecord& row : steps) {
+      error += row.error_rms / velocity_scale / static_cast<double>(steps.size());
+      for (const StepColumn& column : step_columns())
+        if (std::string_view(column.name).starts_with("seconds_")) seconds += row.*column.value;
+    }
+    manifest_.summary("drive_seconds", seconds);
+    manifest_.summary("error_mean_relative", error);
   }
 
   /// What a stopped run tells its user: how to go on.
@@ -220,9 +265,10 @@ class Run {
     for (const std::string& set : options_.overrides) command += " --set '" + set + "'";
     if (!options_.capture.empty()) command += " --capture " + options_.capture;
     if (!options_.output.empty()) command += " --output " + options_.output.string();
+    if (!options_.packing_cache.empty()) command += " --packing-cache " + options_.packing_cache.string();
+    command += options_.deposit_only ? " --deposit-only" : " --resume";
     const std::string why = end == LoopEnd::time_limit ? "time limit reached" : "interrupted";
-    std::cout << why << " at t = " << run_.state.time << " s; nothing is lost. Continue with:\n  " << command << " --resume"
-              << std::endl;
+    std::cout << why << " at t = " << run_.state.time << " s; nothing is lost. Continue with:\n  " << command << std::endl;
     return end == LoopEnd::time_limit ? ExitCode::time_limit : ExitCode::failure;
   }
 
@@ -241,6 +287,7 @@ class Run {
   Scene scene_;
   std::string text_, key_;
   RunFolder folder_;
+  std::optional<FileLock> lock_;
   Manifest manifest_;
   Prepared run_;
 };

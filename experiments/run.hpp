@@ -19,6 +19,8 @@ struct RunOptions {
   std::filesystem::path output;        ///< the run's folder; empty: results/<scene name>
   std::filesystem::path packing_cache; ///< where deposited packings are kept; empty: <output>/../packings
   bool resume = false;                 ///< continue the run found in the folder; without it an existing run is an error
+  bool begin_or_resume = false;        ///< continue the run found in the folder, or begin one; a finished one is left as it is
+  bool deposit_only = false;           ///< only see to it that the packing is in the cache; the folder is not touched
   bool overwrite = false;              ///< replace a run found in the folder
   bool new_packing = false;            ///< deposit again even if the cache has the packing
   std::string capture;                 ///< which steps to keep as problem files (CaptureSettings::parse); empty: none
@@ -28,6 +30,7 @@ struct RunOptions {
 };
 
 /// Runs to the end, to the time limit, or to SIGINT/SIGTERM (checkpoint, then ExitCode::failure with the line that resumes).
+/// A folder is one process's at a time: another one that runs there throws, and a packing that another run deposits is waited for.
 /// Throws SceneFileError, InvalidProblem, MissingSolver, UnknownSolver, RunError: each with a one-line what().
 ///
 /// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5, checkpoint.bin, capture/ (if asked for), log/ (append-only raw

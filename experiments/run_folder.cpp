@@ -3,12 +3,20 @@
 #include <cstdio>
 
 #include "experiments/atomic_file.hpp"
+#include "experiments/manifest.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
 
 RunFolder RunFolder::of(const RunOptions& options, const std::string& scene_name) {
   return RunFolder(options.output.empty() ? fs::path("results") / scene_name : options.output);
+}
+
+bool RunFolder::is_finished(const std::string& key) const {
+  for (const fs::path& file : {manifest(), path_ / "steps.csv", path_ / "record.h5"})
+    if (!fs::exists(file)) return false;
+  const Manifest found = Manifest::read(manifest());
+  return found.key() == key && found.summary_number(steps_left_entry) == 0.0;
 }
 
 void RunFolder::begin(const std::string& scene_text, bool overwrite) const {
@@ -36,6 +44,10 @@ void RunFolder::reopen(const std::string& scene_text) const {
     throw RunError(path_.string() + ": no run to resume: " + scene().filename().string() + " is missing");
   if (read_whole_file(scene()) != scene_text)
     throw RunError(path_.string() + ": holds a run of other settings: give the same scene and --set, or --overwrite");
+}
+
+fs::path packing_file(const fs::path& cache, const std::string& key) {
+  return (cache / ("packing-" + key + ".bin")).lexically_normal();
 }
 
 }  // namespace ballast

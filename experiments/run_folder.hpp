@@ -22,7 +22,10 @@ class RunFolder {
   /// Whole states kept at record.state_rate: checkpoint files of single steps.
   std::filesystem::path states() const { return path_ / "states"; }
   std::filesystem::path state_at(long step) const;
+  std::filesystem::path steps_log() const { return path_ / "log" / "steps.bin"; }
   bool has_run() const { return std::filesystem::exists(scene()); }
+  /// It holds all of the run of this key: every step, and records that have been closed.
+  bool is_finished(const std::string& key) const;
 
   /// A fresh run: refuses a folder that holds one (unless `overwrite`, which clears what a run writes), writes scene.toml.
   void begin(const std::string& scene_text, bool overwrite) const;
@@ -32,5 +35,11 @@ class RunFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Entry of a manifest's summary: steps that are still to be done. 0 is written last of all.
+inline constexpr const char* steps_left_entry = "steps_left";
+
+/// The packing of this key (packing_key of a scene) in the folder where packings are kept.
+std::filesystem::path packing_file(const std::filesystem::path& cache, const std::string& key);
 
 }  // namespace ballast

@@ -49,7 +49,7 @@ const std::vector<std::pair<std::string, Words>> third_party = {
 };
 
 /// POSIX; every other header of the C or C++ library has neither a slash nor a suffix.
-const Words posix = {"fcntl.h", "glob.h", "poll.h", "signal.h", "spawn.h", "stdlib.h", "unistd.h", "sys/"};
+const Words posix = {"fcntl.h", "fnmatch.h", "glob.h", "poll.h", "signal.h", "spawn.h", "stdlib.h", "unistd.h", "sys/"};
 
 constexpr int longest_file = 350;  // lines
 

@@ -30,7 +30,14 @@ void add_run_command(CLI::App& program, Action& action) {
       ->expected(1);
   command->add_option("--output", options->output, "The run's folder (results/<scene>)")->type_name("DIR");
   CLI::Option* resume = command->add_flag("--resume", options->resume, "Continues the run found in the folder");
-  command->add_flag("--overwrite", options->overwrite, "Replaces the run found in the folder")->excludes(resume);
+  CLI::Option* overwrite =
+      command->add_flag("--overwrite", options->overwrite, "Replaces the run found in the folder")->excludes(resume);
+  command
+      ->add_flag("--continue", options->begin_or_resume,
+                 "Continues the run found in the folder or begins one; does nothing when it is finished")
+      ->excludes(resume)
+      ->excludes(overwrite);
+  command->add_flag("--deposit-only", options->deposit_only, "Only sees to it that the packing is in the cache");
   command->add_flag("--new-packing", options->new_packing, "Deposits the grains again, whatever the cache has");
   command
       ->add_option("--packing-cache", options->packing_cache,

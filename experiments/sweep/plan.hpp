@@ -15,14 +15,20 @@ struct PlannedRun {
 };
 
 struct Plan {
-  std::string name;
+  std::string name;  ///< as a run's; also a file's
   std::vector<PlannedRun> runs;
 };
 
 /// Reads a plan file (docs/sweeps.md). Throws SceneFileError naming file, key and value: also for a run that is not a valid scene.
 Plan read_plan(const std::filesystem::path& file);
 
-/// Key of the resolved scene: the same for runs that compute the same.
+/// The plan as a file that read_plan reads to the same plan: every run written out. Throws RunError when it cannot be written.
+void write_plan(const Plan& plan, const std::filesystem::path& file);
+
+/// Throws SceneFileError "<origin>: ..." when a name cannot be one or stands twice, or a run is no valid scene.
+void validate(const Plan& plan, const std::string& origin);
+
+/// Key of the resolved scene: the same for runs that compute the same. Throws SceneFileError.
 std::string run_key(const PlannedRun& run);
 
 /// Where the run's results are: <results>/runs/<key>. Its packing: <results>/packings.

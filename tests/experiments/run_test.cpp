@@ -8,11 +8,9 @@
 #include <iostream>
 #include <sstream>
 
-#include "experiments/checkpoint.hpp"
-#include "experiments/recorder.hpp"
 #include "experiments/run.hpp"
-#include "experiments/run_folder.hpp"
 #include "tests/catch.hpp"
+#include "tests/experiments/same_bits.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
@@ -46,26 +44,6 @@ RunOptions small_run(const fs::path& output, const fs::path& packings) {
   options.packing_cache = packings;
   options.report = false;
   return options;
-}
-
-/// All columns but the wall clocks, as bytes.
-std::string physics_of(const fs::path& folder) {
-  std::string bytes;
-  for (const StepRecord& row : read_steps(folder))
-    for (const StepColumn& column : step_columns())
-      if (std::string(column.name).rfind("seconds_", 0) != 0)
-        bytes.append(reinterpret_cast<const char*>(&(row.*column.value)), sizeof(double));
-  return bytes;
-}
-
-std::string state_of(const fs::path& folder) {
-  const MotionState state = read_checkpoint(RunFolder(folder).checkpoint()).state;
-  std::string bytes;
-  for (const Pose& pose : state.pose) {
-    bytes.append(reinterpret_cast<const char*>(pose.position.data()), 3 * sizeof(double));
-    bytes.append(reinterpret_cast<const char*>(pose.rotation.coeffs().data()), 4 * sizeof(double));
-  }
-  return bytes;
 }
 
 /// Runs in a child process and kills it after `milliseconds`; true if it was still running.
@@ -144,6 +122,26 @@ TEST_CASE("what a run shows: no grain escapes, overlap stays small, the energy a
       const Vec3& normal = system.bodies[w].wall.normal;
       CHECK(normal.dot(state.pose[b].position - state.pose[w].position) > 0.0);
     }
+}
+
+TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is") {
+  const Workplace place;
+  const fs::path folder = place.folder / "run";
+  RunOptions options = small_run(folder, place.folder / "p");
+  options.deposit_only = true;
+  REQUIRE(run(options) == ExitCode::ok);
+  CHECK_FALSE(fs::exists(folder));
+  CHECK(std::distance(fs::directory_iterator(place.folder / "p"), fs::directory_iterator()) == 1);  // no lock, no part left
+  options.deposit_only = false;
+  options.begin_or_resume = true;
+  options.max_seconds = 0.1;
+  int stops = 0;
+  for (; run(options) == ExitCode::time_limit; ++stops) REQUIRE(stops < 100);
+  CHECK(stops >= 1);
+  const auto written = fs::last_write_time(RunFolder(folder).manifest());
+  CHECK(run(options) == ExitCode::ok);
+  CHECK(fs::last_write_time(RunFolder(folder).manifest()) == written);
+  CHECK_FALSE(fs::exists(folder / "run.lock"));
 }
 
 TEST_CASE("a folder refuses what would lose a run") {
