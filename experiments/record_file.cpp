@@ -98,26 +98,31 @@ void add_bodies(Hdf5Writer& file, const MechanicalSystem& system) {
   add(file, "bodies/inertia", inertia, {count, 3}, "kg m^2", "principal moments of inertia");
   add(file, "bodies/wall_normal", normal, {count, 3}, "1", "body frame, into the free side; 0 for grains");
   file.add("bodies/shape", shape, {count});
-  describe(file, "bodies/shape", "1", "k of /shapes/<k>; -1 for walls");
+  describe(file, "bodies/shape", "1", "number of the shape in /shapes; -1 for walls");
 }
 
+/// All shapes in four datasets: a group for each shape took HDF5 20 MB for 1200 of them.
 void add_shapes(Hdf5Writer& file, const MechanicalSystem& system) {
-  file.add_group("shapes");
-  for (size_t k = 0; k < system.shapes.size(); ++k) {
-    const Polyhedron& shape = *system.shapes[k];
-    const std::string group = "shapes/" + std::to_string(k);
-    std::vector<double> vertices;
+  std::vector<double> vertices;
+  std::vector<std::int32_t> triangles, vertex_begin{0}, triangle_begin{0};
+  for (const auto& pointer : system.shapes) {
+    const Polyhedron& shape = *pointer;
     for (const Vec3& vertex : shape.vertices()) vertices.insert(vertices.end(), vertex.begin(), vertex.end());
-    std::vector<std::int32_t> triangles;
     for (int f = 0; f < shape.face_count(); ++f) {
       const auto loop = shape.face(f);
       for (size_t i = 2; i < loop.size(); ++i) triangles.insert(triangles.end(), {loop[0], loop[i - 1], loop[i]});
     }
-    file.add_group(group);
-    add(file, group + "/vertices", vertices, {vertices.size() / 3, 3}, "m", "body frame");
-    file.add(group + "/faces", triangles, {triangles.size() / 3, 3});
-    describe(file, group + "/faces", "1", "triangles of vertex indices, counter-clockwise from outside");
+    vertex_begin.push_back(static_cast<std::int32_t>(vertices.size() / 3));
+    triangle_begin.push_back(static_cast<std::int32_t>(triangles.size() / 3));
   }
+  file.add_group("shapes");
+  add(file, "shapes/vertices", vertices, {vertices.size() / 3, 3}, "m", "body frame; shape after shape");
+  file.add("shapes/triangles", triangles, {triangles.size() / 3, 3});
+  describe(file, "shapes/triangles", "1", "numbers of vertices within the shape, counter-clockwise from outside");
+  file.add("shapes/vertex_begin", vertex_begin, {vertex_begin.size()});
+  describe(file, "shapes/vertex_begin", "1", "shape k has the vertices vertex_begin[k] to vertex_begin[k + 1]");
+  file.add("shapes/triangle_begin", triangle_begin, {triangle_begin.size()});
+  describe(file, "shapes/triangle_begin", "1", "shape k has the triangles triangle_begin[k] to triangle_begin[k + 1]");
 }
 
 }  // namespace
@@ -159,7 +164,7 @@ PoseFrame unpack_pose_row(std::span<const double> row) {
 void write_record_file(const std::filesystem::path& path, const MechanicalSystem& system, RowReader& steps,
                        RowReader& poses, const std::string& scene_text, const std::string& manifest_text) {
   Hdf5Writer file(path);
-  file.add_text("/", "format", "ballast record 1");
+  file.add_text("/", "format", "ballast record 2");
   file.add_text("/", "scene", scene_text);
   file.add_text("/", "manifest", manifest_text);
   add_steps(file, steps);

@@ -1,13 +1,14 @@
 #pragma once
 // record.h5: all that a run recorded, in one file that explains itself.
 //
-//   /                attributes format ("ballast record 1"), scene (TOML), manifest (JSON)
+//   /                attributes format ("ballast record 2"), scene (TOML), manifest (JSON)
 //   /steps/<column>  (steps): one dataset for each column of step_columns()
 //   /poses/time, step                 (frames)
 //   /poses/position, velocity, spin   (frames, bodies, 3): world frame; spin in the body frame
 //   /poses/rotation                   (frames, bodies, 4): body to world, w x y z
 //   /bodies/name, mass, volume, inertia (3), shape (-1: a wall), wall_normal (3, into the free side; 0 for grains)
-//   /shapes/<k>/vertices (n, 3) in the body frame, faces (m, 3): triangles, counter-clockwise from outside
+//   /shapes/vertices (all shapes' n, 3) in the body frame, triangles (m, 3): numbers within the shape, counter-clockwise from outside
+//   /shapes/vertex_begin, triangle_begin (shapes + 1): where shape k begins and ends
 //
 // Every dataset of numbers has the attributes unit and description.
 

@@ -68,6 +68,11 @@ CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
   build_sides(polyhedron, patch);
   build_vertex_faces(polyhedron, patch);
   build_ball(polyhedron);
+  faces_.shrink_to_fit();  // thousands of shapes are kept
+  edges_.shrink_to_fit();
+  corners_.shrink_to_fit();
+  vertex_begin_.shrink_to_fit();
+  vertex_faces_.shrink_to_fit();
 }
 
 /// Number of the patch that each face belongs to; patches are numbered by their first face. A face joins when it is
