@@ -19,6 +19,7 @@ constexpr const char* examples = R"(Examples:
   ballast compare problems/*.hdf5 --solvers all  every backend on the same problems, figures and a page
   ballast sweep frequencies.toml --jobs 2        many runs, several at a time, each only once
   ballast bench step vibrated_box --steps 1000   where the time of a step goes
+  ballast paper fig9                             runs and draws a figure of the paper; all: every one, and a report
   ballast check myscene.toml grain.stl           what is wrong with my files?
   ballast export results/10Hz --format vtp --output last.vtp
 
@@ -71,6 +72,7 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
   add_solve_command(program, action);
   add_compare_command(program, action);
   add_sweep_command(program, action);
+  add_paper_command(program, action);
   add_bench_command(program, action);
   add_solvers_command(program, action);
   add_scenes_command(program, action);

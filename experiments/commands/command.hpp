@@ -30,6 +30,7 @@ void add_bench_command(CLI::App& program, Action& action);
 void add_solvers_command(CLI::App& program, Action& action);
 void add_scenes_command(CLI::App& program, Action& action);
 void add_export_command(CLI::App& program, Action& action);
+void add_paper_command(CLI::App& program, Action& action);
 void add_sweep_command(CLI::App& program, Action& action);
 void add_check_command(CLI::App& program, Action& action);
 void add_version_command(CLI::App& program, Action& action);

@@ -1,0 +1,116 @@
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "experiments/commands/command.hpp"
+#include "experiments/interrupt.hpp"
+#include "experiments/paper/paper_report.hpp"
+#include "experiments/sweep/sweep.hpp"
+
+namespace ballast {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string target;
+  CampaignSettings campaign;
+  SweepOptions sweep;
+  fs::path output;
+};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void print_plan(const Campaign& campaign, const fs::path& results) {
+  const PaperData data(campaign, results);
+  std::cout << std::left << std::setw(16) << "stage" << std::setw(52) << "run" << std::right << std::setw(8) << "steps" << std::setw(10)
+            << "core-s" << "  state\n";
+  double left = 0.0;
+  for (size_t k = 0; k < campaign.runs.size(); ++k) {
+    const CampaignRun& run = campaign.runs[k];
+    if (!data.has(k)) left += run.seconds;
+    std::cout << std::left << std::setw(16) << run.stage << std::setw(52) << run.planned.name << std::right << std::setw(8) << run.steps
+              << std::setw(10) << std::lround(run.seconds) << (data.has(k) ? "  finished\n" : "  –\n");
+  }
+  std::cout << '\n' << campaign.runs.size() << " runs, " << campaign.steps() << " steps, " << campaign.packings << " packings: about "
+            << std::lround(campaign.seconds()) << " core-seconds (1200 grains, a core to each run); " << data.finished()
+            << " finished, about " << std::lround(left) << " core-seconds of drives left" << std::endl;
+}
+
+/// Stage by stage, so that time running out leaves whole figures.
+ExitCode run_stages(const Campaign& campaign, const Options& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  ExitCode worst = ExitCode::ok;
+  for (const Plan& stage : stages_of(campaign, options.target)) {
+    SweepOptions sweep = options.sweep;
+    sweep.max_seconds -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (!(sweep.max_seconds > 0.0)) return ExitCode::time_limit;
+    std::cout << "stage " << stage.name << ": " << stage.runs.size() << " runs" << std::endl;
+    const ExitCode code = run_sweep(stage, sweep);
+    if (code == ExitCode::time_limit) return code;
+    if (code != ExitCode::ok) worst = code;
+    if (code != ExitCode::ok && InterruptGuard::requested()) return code;
+  }
+  return worst;
+}
+
+ExitCode reproduce(Options options) {
+  if (!(options.sweep.max_seconds > 0.0)) throw UsageError("paper: --max-seconds: expected a number > 0");
+  const std::vector<std::string> targets = paper_targets();
+  const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
+  if (!is_target && options.target != "plan" && options.target != "report")
+    throw UsageError("paper: '" + options.target + "' is none of plan, report, " + joined(targets));
+  const Campaign campaign = make_campaign(options.campaign);
+  if (options.output.empty()) options.output = options.sweep.results / "report";
+  if (options.target == "plan") {
+    print_plan(campaign, options.sweep.results);
+    return ExitCode::ok;
+  }
+  ExitCode code = ExitCode::ok;
+  if (options.target == "report") options.target = "all";
+  else code = run_stages(campaign, options);
+  PaperData data(campaign, options.sweep.results);
+  write_paper_report(data, make_sections(data, options.target), options.output);
+  std::cout << data.finished() << " of " << campaign.runs.size() << " runs; report in " << (options.output / "paper.html").string() << std::endl;
+  return code;
+}
+
+}  // namespace
+
+void add_paper_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("paper", "Reproduces the paper: runs, figures 3 to 13, one report");
+  auto options = std::make_shared<Options>();
+  options->sweep.results = "results/paper";
+  options->sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command
+      ->add_option("target", options->target,
+                   "What: all; " + joined(paper_targets()) + "; plan (lists the runs); report (draws what is there, runs nothing)")
+      ->required();
+  command->add_option("--jobs", options->sweep.jobs, "Runs at a time (as many as there are processors)")->type_name("N")->check(CLI::Range(1, 4096));
+  command->add_option("--results", options->sweep.results, "The folder of runs (results/paper)")->type_name("DIR");
+  command->add_option("--output", options->output, "The folder of the report (<results>/report)")->type_name("DIR");
+  command->add_option("--max-seconds", options->sweep.max_seconds, "Wall clock after which runs write checkpoints; the report is written all the same")
+      ->type_name("S");
+  command->add_option("--scene", options->campaign.scene, "Another vibrated box (vibrated_box)")->type_name("SCENE");
+  command->add_option("--set", options->campaign.overrides, "Overrides one value in every run")->type_name("KEY=VALUE")->take_all()->expected(1);
+  command->add_option("--seeds", options->campaign.seeds, "Samples of each scaling point (3)")->type_name("N")->check(CLI::Range(1, 1000));
+  command->add_option("--iterations", options->campaign.iterations, "Solver iterations a step, where they are not what is varied")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  command->footer(
+      "Finished runs are not made again; stopped ones go on. What is missing is said in the report.\n\n"
+      "Examples:\n  ballast paper all --jobs 2\n  ballast paper fig9\n  ballast paper plan\n"
+      "  ballast paper report --results results/paper --output docs/paper");
+  command->callback([options, &action] { action = [options] { return reproduce(*options); }; });
+}
+
+}  // namespace ballast

@@ -1,0 +1,116 @@
+// Fig. 11 and Eq. 3: all sweeps on one line?
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/paper/sections.hpp"
+
+namespace ballast {
+namespace {
+
+struct Branch {
+  Sweep sweep;
+  const char* title;
+  Ink ink;
+};
+constexpr Branch branches[] = {{Sweep::frequency, "ν", Ink::blue},
+                               {Sweep::force, "f_{max}", Ink::vermilion},
+                               {Sweep::gravity, "g", Ink::green},
+                               {Sweep::wall_mass, "m_w", Ink::purple}};
+constexpr const char* branch_names[] = {"ν", "f_max", "g", "m_w"};
+
+/// Points of one sweep: right side of Eq. 3 and Delta x_max [m].
+struct Points {
+  std::vector<double> x, y, error;
+};
+
+Points points_on_eq3(const std::vector<SweepValue>& values) {
+  Points points;
+  for (const SweepValue& value : values) {
+    const SampleMean rise = value.mean(&Observation::rise);
+    if (!std::isfinite(rise.mean)) continue;
+    std::vector<double> sides;
+    for (const Observation& sample : value.samples) sides.push_back(sample.eq3());
+    points.x.push_back(sample_mean(sides).mean);
+    points.y.push_back(rise.mean);
+    points.error.push_back(rise.error);
+  }
+  return points;
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+Panel eq3_panel(const std::vector<Points>& all, const Proportion& line, bool is_log) {
+  Panel panel;
+  panel.x_label = "right side of Eq. 3 without {/:Italic C}  (mm)";
+  panel.y_label = "Δ{/:Italic x}_{max}  (mm)";
+  panel.log_x = panel.log_y = is_log;
+  double low = 1e300, high = 0.0;
+  for (size_t b = 0; b < all.size(); ++b) {
+    if (all[b].x.empty()) continue;
+    panel.curves.push_back(points_of(scaled(all[b].x, 1e3), scaled(all[b].y, 1e3), scaled(all[b].error, 1e3), branches[b].title, branches[b].ink));
+    low = std::min(low, 1e3 * *std::min_element(all[b].x.begin(), all[b].x.end()));
+    high = std::max(high, 1e3 * *std::max_element(all[b].x.begin(), all[b].x.end()));
+  }
+  if (!is_log) low = 0.0;
+  panel.curves.push_back(curve_of([&](double x) { return line.factor * x; }, low, high, is_log, "C = " + digits(line.factor), Ink::black));
+  panel.curves.push_back(curve_of([](double x) { return 0.01 * x; }, low, high, is_log, "the paper’s C = 0.01", Ink::grey));
+  return panel;
+}
+
+double prefactor_by_grain(const std::vector<SweepValue>& values) {
+  std::vector<double> x, y;
+  for (const SweepValue& value : values)
+    for (const Observation& sample : value.samples) x.push_back(sample.eq3_one_grain()), y.push_back(sample.rise);
+  return fit_proportion(x, y).factor;
+}
+
+}  // namespace
+
+PaperSection fig11_section(PaperData& data) {
+  PaperSection section = new_section("fig11", "Figure 11 and Equation 3: one line for all sweeps");
+  section.text = {"Eq. 3: Δx_max = C · m/(m + m_w) · m g/f_max · g/ν², with m the mass of all grains in both places (and beside it with m the mean mass "
+                  "of one grain, which the paper does not exclude). C is the geometric mean of the ratio, with its 95 % interval over the points; the "
+                  "spread is the factor by which a point typically misses the line."};
+  const char* names[] = {"frequencies", "values of f_max", "values of g", "values of m_w"};
+  std::vector<Points> all;
+  Points pooled;
+  TextTable table{"C of each sweep by itself", {"sweep", "points", "C", "95 % interval", "spread (factor)", "exponent (1: proportional)"}, {}};
+  double by_grain = not_known;
+  for (size_t b = 0; b < 4; ++b) {
+    if (const std::string missing = data.missing(branches[b].sweep, names[b]); !missing.empty()) section.notes.push_back(missing);
+    const std::vector<SweepValue> values = data.sweep(branches[b].sweep);
+    all.push_back(points_on_eq3(values));
+    const Points& points = all.back();
+    pooled.x.insert(pooled.x.end(), points.x.begin(), points.x.end());
+    pooled.y.insert(pooled.y.end(), points.y.begin(), points.y.end());
+    if (b == 0) by_grain = prefactor_by_grain(values);
+    const Proportion line = fit_proportion(points.x, points.y);
+    table.rows.push_back({branch_names[b], std::to_string(line.samples), digits(line.factor), interval(line.low, line.high), digits(line.spread),
+                          words_of(fit_power(points.x, points.y))});
+  }
+  if (pooled.x.empty()) return section;
+  const Proportion line = fit_proportion(pooled.x, pooled.y);
+  const PowerFit power = fit_power(pooled.x, pooled.y);
+  PaperFigure figure;
+  figure.plot.name = "fig11";
+  figure.plot.title = "Maximum displacement against the right side of Equation 3";
+  figure.plot.height = 820;
+  figure.plot.panels = {eq3_panel(all, line, true), eq3_panel(all, line, false)};
+  figure.paper = "All data on one line through the origin, “in excellent agreement with Eq. 3”, C ~ 0.01.";
+  figure.found = "C = " + digits(line.factor) + " " + interval(line.low, line.high) + ", points lie off the line by a factor of " + digits(line.spread) +
+                 "; a free exponent gives " + words_of(power) + ". With m one grain’s mean mass C would be " + digits(by_grain) + ".";
+  section.figures = {figure};
+  section.tables = {table};
+  const bool is_line = line.samples > 4 && line.spread < 1.25;
+  section.rows = {{"Fig. 11, Eq. 3", "one line through all sweeps", "spread about the line: factor " + digits(line.spread) + "; exponent " + words_of(power),
+                   line.samples < 5 ? Agreement::reported : is_line ? Agreement::agrees : line.spread < 1.6 ? Agreement::partly : Agreement::differs},
+                  {"Eq. 3", "C ~ 0.01", "C = " + digits(line.factor) + " " + interval(line.low, line.high) + " (m all grains); " + digits(by_grain) + " (m one grain)",
+                   line.factor > 0.005 && line.factor < 0.02 ? Agreement::agrees : line.factor > 0.0025 && line.factor < 0.04 ? Agreement::partly : Agreement::differs}};
+  return section;
+}
+
+}  // namespace ballast

@@ -1,0 +1,123 @@
+// Fig. 5: the phenomenological model. f_g(x) as fitted in Fig. 4 is put into Eq. 2 and integrated over one period.
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/figures.hpp"
+#include "experiments/paper/motion.hpp"
+#include "experiments/paper/wall_model.hpp"
+
+namespace ballast {
+namespace {
+
+ModelMotion model_of(const RunSummary& s) {
+  WallModel model;
+  model.active = s.loop.active;
+  model.passive = s.loop.passive;
+  model.contraction = std::max(0.0, -s.net.mean);
+  model.wall_mass = s.facts.wall_mass;
+  model.load = {s.facts.f_min, s.facts.f_max, s.facts.frequency};
+  return integrate(model);
+}
+
+bool can_be_modelled(const RunSummary& s) {
+  return !s.wall.periods.empty() && std::isfinite(s.loop.active.rate) && std::isfinite(s.loop.passive.slope) && std::isfinite(s.facts.wall_mass);
+}
+
+Curve line(std::vector<double> x, std::vector<double> y, const char* title, Ink ink, bool dashed) {
+  Curve curve = line_of(std::move(x), std::move(y), title, ink, 2.0);
+  curve.dashed = dashed;
+  return curve;
+}
+
+/// The last period: x from the jamming position [mm], v [mm/s], f_g smoothed [kN or N].
+struct LastPeriod {
+  std::vector<double> time, x, v, force;
+};
+
+LastPeriod last_period(const MotionRun& run, double unit) {
+  const WallPeriod& period = run.summary.wall.periods.back();
+  LastPeriod result;
+  for (size_t k = period.first; k < period.last; ++k) {
+    result.time.push_back(run.data.steps[k].time - period.begin);
+    result.x.push_back(1e3 * (run.data.steps[k].wall_x - period.x_before));
+    result.v.push_back(1e3 * run.summary.wall.velocity[k]);
+    result.force.push_back(unit * run.summary.wall.force[k]);
+  }
+  return result;
+}
+
+std::vector<double> times(const std::vector<double>& values, double factor) {
+  std::vector<double> result;
+  for (const double value : values) result.push_back(factor * value);
+  return result;
+}
+
+Figure draw(const MotionRun& run, const ModelMotion& model) {
+  const ForceUnit unit = force_unit(run.summary.facts.f_max);
+  const LastPeriod seen = last_period(run, unit.factor);
+  Panel above, below;
+  above.x_label = "{/:Italic t} in the period  (s)";
+  above.y_label = "{/:Italic x} − {/:Italic x}_{jam}  (mm)";
+  above.curves = {line(seen.time, seen.x, "simulation", Ink::blue, false), line(model.time, times(model.x, 1e3), "model", Ink::black, true)};
+  below.x_label = "{/:Italic v}  (mm/s)";
+  below.y_label = std::string("{/:Italic f}_g  (") + unit.name + ")";
+  Curve loop;
+  loop.x = seen.v;
+  loop.y = seen.force;
+  loop.title = "simulation";
+  Curve model_loop;
+  for (size_t k = 0; k < model.v.size(); k += 20) {
+    model_loop.x.push_back(1e3 * model.v[k]);
+    model_loop.y.push_back(unit.factor * model.force[k]);
+  }
+  model_loop.title = "model";
+  model_loop.ink = Ink::black;
+  model_loop.dashed = true;
+  below.curves = {loop, model_loop};
+  Figure figure;
+  figure.name = "fig05";
+  figure.title = "One period: displacement against time and force against velocity, with the model";
+  figure.height = 760;
+  figure.panels = {above, below};
+  return figure;
+}
+
+}  // namespace
+
+PaperSection fig5_section(PaperData& data) {
+  PaperSection section = new_section("fig5", "Figure 5 and Equation 2: the phenomenological model");
+  section.text = {"The wall’s equation m_w dv/dt = f_g − f(t), x outward, with f_g the fitted exponential while the wall moves out and the fitted line while it "
+                  "moves in, starting jammed at the load’s falling mean; the wall leaves when f falls below f_g(0) and jams where it comes back to, by the mean net "
+                  "contraction further in. Nothing else is fitted."};
+  const std::vector<MotionRun> runs = read_motion(data, section);
+  TextTable table{"Model beside simulation (means over periods), sample by sample",
+                  {"sample", "Δx_max simulated (mm)", "model (mm)", "deviation", "v_max simulated (mm/s)", "model (mm/s)", "deviation"}, {}};
+  std::vector<double> rises, speeds;
+  for (size_t k = 0; k < runs.size(); ++k) {
+    const RunSummary& s = runs[k].summary;
+    if (!can_be_modelled(s)) continue;
+    const ModelMotion model = model_of(s);
+    rises.push_back(model.rise / s.rise.mean - 1.0);
+    speeds.push_back(model.speed_in / s.speed_in.mean - 1.0);
+    table.rows.push_back({std::to_string(k + 1), digits(1e3 * s.rise.mean), digits(1e3 * model.rise), digits(100.0 * rises.back(), 2) + " %",
+                          digits(1e3 * s.speed_in.mean), digits(1e3 * model.speed_in), digits(100.0 * speeds.back(), 2) + " %"});
+    if (!section.figures.empty()) continue;
+    PaperFigure figure;
+    figure.plot = draw(runs[k], model);
+    figure.paper = "The model gives “a fairly good approximation” outside the jamming and unjamming transients; the largest contraction velocity is under-estimated.";
+    section.figures.push_back(figure);
+  }
+  if (rises.empty()) return section;
+  const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds);
+  section.figures.front().found = "Last period of sample " + table.rows.front().front() + ". The model’s Δx_max deviates by " + digits(100.0 * rise.mean, 2) +
+                                  " % on average over samples, its v_max by " + digits(100.0 * speed.mean, 2) + " %.";
+  section.tables = {table};
+  section.rows = {{"Fig. 5", "model’s Δx_max close to the simulation’s (asked for: 15 %)", digits(100.0 * rise.mean, 2) + " %",
+                   std::abs(rise.mean) <= 0.15 ? Agreement::agrees : std::abs(rise.mean) <= 0.3 ? Agreement::partly : Agreement::differs},
+                  {"Fig. 5", "model under-estimates the largest contraction velocity", digits(100.0 * speed.mean, 2) + " %",
+                   speed.mean < 0.0 ? Agreement::agrees : Agreement::differs}};
+  return section;
+}
+
+}  // namespace ballast

@@ -1,0 +1,119 @@
+// Fig. 6: velocities of the grains in the passive state, in a section along the middle; mean vorticity of the xz plane.
+
+#include <cmath>
+
+#include "experiments/paper/stored_states.hpp"
+
+namespace ballast {
+namespace {
+
+constexpr double half_section = 0.05;  // grains whose centres are this near the middle plane are drawn [m]: two layers
+
+/// Arrows as lines: shaft and two barbs, NaN between them. Lengths in the plot's units (axes of equal scale).
+void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
+  const auto add = [&](double a, double b) {
+    curve.x.push_back(a);
+    curve.y.push_back(b);
+  };
+  const double length = std::hypot(dx, dz);
+  if (!(length > 0.0)) return;
+  const double barb = 0.3 * length, c = std::cos(2.6), s = std::sin(2.6);
+  add(x, z);
+  add(x + dx, z + dz);
+  for (const double side : {-s, s}) {
+    add(not_known, not_known);
+    add(x + dx, z + dz);
+    add(x + dx + barb * (c * dx - side * dz) / length, z + dz + barb * (side * dx + c * dz) / length);
+  }
+  add(not_known, not_known);
+}
+
+struct Field {
+  Figure figure;
+  double speed = 0.0;  ///< rms of the grains drawn [m/s]
+};
+
+Field draw(const StoredState& state) {
+  const MotionState& motion = state.at.state;
+  const auto wall = [&](BoxWall which) { return wall_place(state.system, motion, which); };
+  const double middle = 0.5 * (wall(wall_y_min).y() + wall(wall_y_max).y());
+  std::vector<size_t> section;
+  double squares = 0.0;
+  for (size_t k = 0; k < static_cast<size_t>(state.system.grain_count); ++k)
+    if (std::abs(motion.pose[k].position.y() - middle) < half_section) {
+      section.push_back(k);
+      squares += motion.velocity[k].squaredNorm();
+    }
+  Field field;
+  field.speed = std::sqrt(squares / std::max<double>(1.0, static_cast<double>(section.size())));
+  Curve arrows, box;
+  const double scale = field.speed > 0.0 ? 0.025 / field.speed : 0.0;  // an rms arrow is 2.5 cm long
+  for (const size_t k : section)
+    add_arrow(arrows, motion.pose[k].position.x(), motion.pose[k].position.z(), scale * motion.velocity[k].x(), scale * motion.velocity[k].z());
+  arrows.width = 1.2;
+  const double left = wall(wall_x_min).x(), right = wall(wall_x_max).x(), top = wall(wall_lid).z();
+  box.x = {left, right, right, left, left};
+  box.y = {0.0, 0.0, top, top, 0.0};
+  box.ink = Ink::black;
+  Panel panel;
+  panel.x_label = "{/:Italic x}  (m): the driven wall is on the right";
+  panel.y_label = "{/:Italic z}  (m)";
+  panel.curves = {box, arrows};
+  const double margin = 0.03;
+  panel.x_min = left - margin, panel.x_max = right + margin;
+  panel.y_min = -margin, panel.y_max = top + margin;
+  field.figure.name = "fig06";
+  field.figure.title = "Velocities of the grains while the wall moves in";
+  field.figure.width = 800;
+  field.figure.height = static_cast<int>(78.0 + 680.0 * (top + 2.0 * margin) / (right - left + 2.0 * margin));  // equal scales: margins of plot_script
+  field.figure.panels = {panel};
+  return field;
+}
+
+}  // namespace
+
+PaperSection fig6_section(PaperData& data) {
+  PaperSection section = new_section("fig6", "Figure 6: velocities of the grains in the passive state");
+  section.text = {"Mean vorticity of the xz plane: v = v₀ + L (x − x₀) is fitted to all grains’ velocities by least squares weighted by mass; the vorticity is "
+                  "∂v_x/∂z − ∂v_z/∂x = L_xz − L_zx, positive when clockwise with x to the right (where the driven wall is) and z up. States of moving wall are "
+                  "those above 20 % of its largest speed."};
+  const std::vector<MotionRun> runs = read_motion(data, section);
+  std::vector<double> passive, active, relative;
+  double fastest = 0.0;
+  Field field;
+  for (const MotionRun& run : runs) {
+    std::vector<double> in, out;
+    for_each_state(run, [&](const StoredState& state) {
+      const double vorticity = vorticity_xz(velocity_gradient(state.system, state.at.state));
+      if (state.phase == WallPhase::active) out.push_back(vorticity);
+      if (state.phase != WallPhase::passive) return;
+      in.push_back(vorticity);
+      if (&run == &runs.front() && -state.wall_speed > fastest) {
+        fastest = -state.wall_speed;
+        field = draw(state);
+      }
+    });
+    passive.push_back(statistics(in).mean);
+    active.push_back(statistics(out).mean);
+    relative.push_back(passive.back() / (run.summary.speed_in.mean / run.data.scene->box.length));
+  }
+  const SampleMean seen = sample_mean(passive), back = sample_mean(active), share = sample_mean(relative);
+  if (seen.samples == 0 || field.figure.panels.empty()) {
+    section.notes.push_back("PARTIAL: no stored state in the passive phase.");
+    return section;
+  }
+  PaperFigure figure;
+  figure.plot = field.figure;
+  figure.paper = "During the inward motion of the wall the grains undergo “a clockwise convective motion in the cell”.";
+  figure.found = "Sample 1, the stored state with the fastest inward wall (" + digits(1e3 * fastest) + " mm/s); grains within 5 cm of the middle plane, an arrow of "
+                 "2.5 cm is " + digits(1e3 * field.speed) + " mm/s (their rms). Mean vorticity, passive: " + with_error(seen.mean, seen.error) +
+                 " 1/s, that is " + digits(share.mean, 2) + " of v_max over the box’s length; active: " + with_error(back.mean, back.error) + " 1/s.";
+  section.figures = {figure};
+  const bool is_sure = seen.samples > 1 && std::abs(seen.mean) > 2.0 * seen.error;
+  section.rows = {{"Fig. 6", "convection roll in the passive state (clockwise in the paper’s view)",
+                   "vorticity " + with_error(seen.mean, seen.error) + " 1/s (" + (seen.mean > 0.0 ? "clockwise" : "counter-clockwise") + ", driven wall on the right)",
+                   is_sure ? (seen.mean > 0.0 ? Agreement::agrees : Agreement::partly) : Agreement::reported}};
+  return section;
+}
+
+}  // namespace ballast

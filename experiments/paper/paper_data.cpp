@@ -1,0 +1,85 @@
+#include "experiments/paper/paper_data.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace ballast {
+
+SampleMean SweepValue::mean(double Observation::*quantity) const {
+  std::vector<double> values;
+  for (const Observation& sample : samples) values.push_back(sample.*quantity);
+  return sample_mean(values);
+}
+
+PaperData::PaperData(Campaign campaign, std::filesystem::path results) : campaign_(std::move(campaign)), results_(std::move(results)) {
+  for (const CampaignRun& run : campaign_.runs) finished_.push_back(is_finished(results_, run.planned));
+}
+
+bool PaperData::has(size_t run) const { return finished_.at(run); }
+
+std::filesystem::path PaperData::folder(size_t run) const { return folder_of(results_, campaign_.runs.at(run).planned); }
+
+RunData PaperData::read(size_t run) const { return read_run_data(folder(run)); }
+
+int PaperData::finished() const { return static_cast<int>(std::count(finished_.begin(), finished_.end(), true)); }
+
+std::vector<size_t> PaperData::motion() const {
+  std::vector<size_t> runs;
+  for (const size_t run : campaign_.motion)
+    if (has(run)) runs.push_back(run);
+  return runs;
+}
+
+std::optional<size_t> PaperData::at_frequency(double frequency) const {
+  for (const CampaignPoint& point : campaign_.points)
+    if (point.sweep == Sweep::frequency && point.value == frequency && has(point.run)) return point.run;
+  return {};
+}
+
+const Observation* PaperData::observation(const CampaignPoint& point) {
+  if (!has(point.run)) return nullptr;
+  const auto key = std::make_pair(point.run, point.window.end);
+  if (const auto found = seen_.find(key); found != seen_.end()) return &found->second;
+  const RunData data = read(point.run);
+  return &seen_.emplace(key, observe(data.steps, data.facts, grain_count(data), point.window)).first->second;
+}
+
+std::vector<SweepValue> PaperData::sweep(Sweep which) {
+  std::map<double, SweepValue> values;
+  for (const CampaignPoint& point : campaign_.points) {
+    if (point.sweep != which) continue;
+    SweepValue& value = values[point.value];
+    value.value = point.value;
+    value.label = point.label;
+    ++value.planned;
+    if (const Observation* seen = observation(point)) value.samples.push_back(*seen);
+  }
+  std::vector<SweepValue> list;
+  for (auto& [at, value] : values)
+    if (!value.samples.empty()) list.push_back(std::move(value));
+  return list;
+}
+
+std::string PaperData::missing(Sweep which, const char* what) {
+  std::set<double> planned, there;
+  int runs = 0, done = 0;
+  for (const CampaignPoint& point : campaign_.points) {
+    if (point.sweep != which) continue;
+    planned.insert(point.value);
+    ++runs;
+    if (!has(point.run)) continue;
+    there.insert(point.value);
+    ++done;
+  }
+  if (done == runs) return {};
+  return "PARTIAL: " + std::to_string(there.size()) + " of " + std::to_string(planned.size()) + ' ' + what + ", " + std::to_string(done) +
+         " of " + std::to_string(runs) + " runs.";
+}
+
+double grain_count(const RunData& data) {
+  const double noted = data.summary_number("grains");
+  if (std::isfinite(noted)) return noted;
+  return data.scene && data.scene->grains ? data.scene->grains->count : not_known;
+}
+
+}  // namespace ballast

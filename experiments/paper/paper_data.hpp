@@ -1,0 +1,57 @@
+#pragma once
+// What a campaign has produced so far: finished runs, measured. Whatever is missing is counted and said, never an error.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/paper/campaign.hpp"
+
+namespace ballast {
+
+/// One value of a sweep with what its seeds gave.
+struct SweepValue {
+  double value = 0.0;
+  std::string label;
+  int planned = 0;                  ///< seeds that the campaign has
+  std::vector<Observation> samples; ///< seeds that are finished
+  SampleMean mean(double Observation::*quantity) const;
+};
+
+class PaperData {
+ public:
+  PaperData(Campaign campaign, std::filesystem::path results);
+
+  const Campaign& campaign() const { return campaign_; }
+  const std::filesystem::path& results() const { return results_; }
+
+  /// Values in growing order; those without a finished run are left out.
+  std::vector<SweepValue> sweep(Sweep which);
+  /// "3 of 10 frequencies; 5 of 30 runs": empty when everything planned is there.
+  std::string missing(Sweep which, const char* what);
+
+  bool has(size_t run) const;
+  std::filesystem::path folder(size_t run) const;
+  /// A finished run's record. Throws RunError.
+  RunData read(size_t run) const;
+  /// Finished ones of Campaign::motion.
+  std::vector<size_t> motion() const;
+  /// A run of the frequency sweep, the least seed that is finished.
+  std::optional<size_t> at_frequency(double frequency) const;
+  int finished() const;
+
+ private:
+  const Observation* observation(const CampaignPoint& point);
+
+  Campaign campaign_;
+  std::filesystem::path results_;
+  std::vector<bool> finished_;
+  std::map<std::pair<size_t, double>, Observation> seen_;  // by run and window
+};
+
+/// The grains of a run, from its manifest's summary.
+double grain_count(const RunData& data);
+
+}  // namespace ballast

@@ -1,0 +1,36 @@
+// What the sections on scaling share.
+
+#include <cmath>
+
+#include "experiments/paper/sections.hpp"
+
+namespace ballast {
+
+SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observation::*quantity, double factor) {
+  SweepCurve curve;
+  for (const SweepValue& value : values) {
+    const SampleMean mean = value.mean(quantity);
+    curve.x.push_back(value.value);
+    curve.y.push_back(factor * mean.mean);
+    curve.error.push_back(factor * mean.error);
+  }
+  return curve;
+}
+
+std::string words_of(const PowerFit& fit) {
+  if (!std::isfinite(fit.exponent)) return "–";
+  std::string text = digits(fit.exponent);
+  if (std::isfinite(fit.half_width)) text += " " + interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
+  return text + " (R² " + digits(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
+}
+
+Agreement judge_exponent(const PowerFit& fit, double expected, double tolerance) {
+  if (!std::isfinite(fit.exponent) || !std::isfinite(fit.half_width)) return Agreement::reported;
+  const double miss = std::abs(fit.exponent - expected);
+  // an interval so wide that it would hold anything proves nothing
+  const bool is_sharp = fit.half_width < 0.5 * std::abs(expected);
+  if (miss <= tolerance || (fit.covers(expected) && is_sharp)) return Agreement::agrees;
+  return miss <= 3.0 * tolerance || fit.covers(expected) ? Agreement::partly : Agreement::differs;
+}
+
+}  // namespace ballast

@@ -1,0 +1,105 @@
+#include "experiments/paper/section.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace ballast {
+namespace {
+
+std::string print(const char* format, int precision, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, precision, value);
+  return text;
+}
+
+/// For a cell of CSV: quoted, quotes doubled.
+std::string cell(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return quoted + '"';
+}
+
+std::string csv_number(double value) {
+  if (!std::isfinite(value)) return "";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+}  // namespace
+
+const char* word_of(Agreement agreement) {
+  switch (agreement) {
+    case Agreement::agrees: return "agrees";
+    case Agreement::partly: return "partly";
+    case Agreement::differs: return "DIFFERS";
+    case Agreement::reported: return "reported";
+  }
+  return "?";
+}
+
+PaperSection new_section(const std::string& id, const std::string& heading) {
+  PaperSection section;
+  section.id = id;
+  section.heading = heading;
+  return section;
+}
+
+std::string digits(double value, int count) {
+  if (!std::isfinite(value)) return "–";
+  if (value == 0.0) return "0";
+  std::string text = print("%.*e", count - 1, value);
+  const int exponent = std::atoi(std::strchr(text.c_str(), 'e') + 1);
+  if (exponent >= -3 && exponent < 6) text = print("%.*f", std::max(0, count - 1 - exponent), value);
+  if (text[0] == '-') text.replace(0, 1, "−");
+  return text;
+}
+
+std::string with_error(double value, double error) {
+  if (!std::isfinite(value) || !std::isfinite(error) || error == 0.0) return digits(value);
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(error))));
+  if (exponent < -6 || exponent > 5) return digits(value) + " ± " + digits(error, 2);
+  const int places = std::max(0, 1 - exponent);
+  std::string text = print("%.*f", places, value);
+  if (text[0] == '-') text.replace(0, 1, "−");
+  return text + " ± " + print("%.*f", places, error);
+}
+
+std::string interval(double low, double high) { return "[" + digits(low) + ", " + digits(high) + "]"; }
+
+Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title, Ink ink) {
+  for (double& bar : error)
+    if (!std::isfinite(bar)) bar = 0.0;  // one sample: no bar
+  Curve curve;
+  curve.x = std::move(x);
+  curve.y = std::move(y);
+  curve.y_error = std::move(error);
+  curve.title = title;
+  curve.ink = ink;
+  curve.mark = Mark::points;
+  curve.width = 2.4;
+  return curve;
+}
+
+std::string figure_csv(const Figure& figure) {
+  std::string text = "panel,y_label,curve,x_label,x,y,y_error,y_low\n";
+  for (size_t p = 0; p < figure.panels.size(); ++p) {
+    const Panel& panel = figure.panels[p];
+    for (size_t c = 0; c < panel.curves.size(); ++c) {
+      const Curve& curve = panel.curves[c];
+      const std::string lead = std::to_string(p + 1) + ',' + cell(panel.y_label) + ',' +
+                               cell(curve.title.empty() ? std::to_string(c + 1) : curve.title) + ',' + cell(panel.x_label) + ',';
+      for (size_t k = 0; k < curve.x.size(); ++k)
+        text += lead + csv_number(curve.x[k]) + ',' + csv_number(curve.y[k]) + ',' +
+                (curve.y_error.empty() ? "" : csv_number(curve.y_error[k])) + ',' + (curve.y_low.empty() ? "" : csv_number(curve.y_low[k])) + '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace ballast

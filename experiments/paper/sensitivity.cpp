@@ -1,0 +1,56 @@
+// What the choices that the paper leaves open do: step, size convention, friction.
+
+#include <cmath>
+
+#include "experiments/paper/sections.hpp"
+
+namespace ballast {
+namespace {
+
+TextTable table_of(const std::vector<SweepValue>& values, const char* caption, const char* first) {
+  TextTable table{caption, {first, "samples"}, {}};
+  for (const ObservableColumn& column : observable_columns()) table.head.push_back(std::string(column.name) + " (" + column.unit + ")");
+  table.head.insert(table.head.end(), {"C of Eq. 3", "error (g·h)", "ms a step"});
+  for (const SweepValue& value : values) {
+    table.rows.push_back({value.label, std::to_string(value.samples.size())});
+    for (const ObservableColumn& column : observable_columns()) {
+      const SampleMean mean = value.mean(column.value);
+      table.rows.back().push_back(with_error(column.factor * mean.mean, column.factor * mean.error));
+    }
+    std::vector<double> factors;
+    for (const Observation& sample : value.samples) factors.push_back(sample.rise / sample.eq3());
+    table.rows.back().push_back(digits(sample_mean(factors).mean));
+    table.rows.back().push_back(digits(value.mean(&Observation::error_mean).mean, 2));
+    table.rows.back().push_back(digits(1e3 * value.mean(&Observation::seconds_per_step).mean));
+  }
+  return table;
+}
+
+struct Question {
+  Sweep sweep;
+  const char* what;
+  const char* caption;
+  const char* first;
+};
+constexpr Question questions[] = {{Sweep::time_step, "steps", "Step h, sample 1 at 10 Hz (the iterations a step stay the same)", "h"},
+                                  {Sweep::size, "size conventions", "Size convention at 10 Hz: the paper’s “diameter” read as barycentre–vertex distance, or twice it; box and grains at half scale", "size"},
+                                  {Sweep::friction, "frictions", "Friction between grains, floor and lid, sample 1 at 10 Hz", "μ"}};
+
+}  // namespace
+
+PaperSection sensitivity_section(PaperData& data) {
+  PaperSection section = new_section("sensitivity", "What the open choices do: step, size, friction");
+  for (const Question& question : questions) {
+    if (const std::string missing = data.missing(question.sweep, question.what); !missing.empty()) section.notes.push_back(missing);
+    const std::vector<SweepValue> values = data.sweep(question.sweep);
+    if (values.empty()) continue;
+    section.tables.push_back(table_of(values, question.caption, question.first));
+    if (values.size() < 2) continue;
+    std::string found;
+    for (const SweepValue& value : values) found += (found.empty() ? "" : "; ") + value.label + ": " + digits(1e3 * value.mean(&Observation::rise).mean) + " mm";
+    section.rows.push_back({"beyond", "–", std::string("Δx_max by ") + question.what + ": " + found, Agreement::reported});
+  }
+  return section;
+}
+
+}  // namespace ballast
