@@ -35,8 +35,10 @@ void Iteration::evaluated(double error) {
   if (budget_.keep_history) history_.push_back({count_, now, error});
   if (!(error == error_)) unchanged_since_ = count_;
   error_ = error;
+  const bool is_far = error > CheckSchedule::far * budget_.tolerance;
+  const double growth = is_far ? schedule_.growth_far : schedule_.growth;
   while (next_check_ <= count_)
-    next_check_ = std::max(next_check_ + 1, static_cast<int>(std::ceil(next_check_ * schedule_.growth)));
+    next_check_ = std::max(next_check_ + 1, static_cast<int>(std::ceil(next_check_ * growth)));
 
   stopped_ = true;
   if (!std::isfinite(error))

@@ -8,10 +8,13 @@
 
 namespace ballast {
 
-/// When the error is evaluated: at `first`, and then after `growth` times as many iterations.
+/// When the error is evaluated: at `first`, and then after `growth` times as many iterations; `growth_far` while it was last
+/// above `far` tolerances. Of a sweeping method an evaluation costs more than an iteration, and only near the end does it matter when.
 struct CheckSchedule {
+  static constexpr double far = 8.0;
   int first = 1;
   double growth = 1.0;
+  double growth_far = growth;
 };
 
 /// Use:  evaluated(error);  while (next()) { one iteration; if (error_due()) evaluated(error); }  finish(std::move(r));

@@ -27,7 +27,7 @@ class Nncg final : public Solver {
   void use_threads(int threads) override { sweep_.use_threads(threads); }
 
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
-    Iteration iteration(budget, {4, 1.25});
+    Iteration iteration(budget, {8, 1.2, 1.5});
     load(problem, r);
     sweep_.store(problem, r);
     double last_error = sweep_.error();

@@ -41,6 +41,14 @@ TEST_CASE("the error is looked at by schedule, and at the limit") {
   CHECK(solved.history[8].seconds >= solved.history[1].seconds);
 }
 
+TEST_CASE("far from the tolerance the error is looked at more seldom") {
+  const Solved solved = run({.tolerance = 1e-2, .keep_history = true}, {4, 1.5, 2.0}, [](int n) { return 1.0 / (n + 1); });
+  std::vector<int> looked;
+  for (const HistoryPoint& point : solved.history) looked.push_back(point.iteration);
+  CHECK(looked == std::vector<int>{0, 4, 8, 16, 24, 36, 54, 81, 122});
+  CHECK(solved.reason == StopReason::reached_tolerance);
+}
+
 TEST_CASE("without asking there is no history") {
   CHECK(run({.max_iterations = 10}, {}, [](int) { return 1.0; }).history.empty());
 }
