@@ -9,7 +9,9 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/run_folder.hpp"
 #include "experiments/sweep/resolved_run.hpp"
+#include "experiments/sweep/snakemake.hpp"
 #include "experiments/sweep/sweep.hpp"
+#include "experiments/sweep/worker.hpp"
 
 namespace ballast {
 namespace {
@@ -20,6 +22,7 @@ struct Options {
   fs::path plan;
   SweepOptions sweep;
   bool dry_run = false;
+  fs::path snakemake;
 };
 
 /// What would be run.
@@ -47,6 +50,12 @@ ExitCode sweep(Options options) {
     list_runs(plan, options.sweep);
     return ExitCode::ok;
   }
+  if (!options.snakemake.empty()) {
+    write_snakemake({plan.name, select(plan, options.sweep.only)}, options.sweep.results, own_program(), options.snakemake);
+    std::cout << "cd " << options.snakemake.string() << "\n  snakemake -s Snakefile --profile slurm   on a cluster with Slurm\n"
+              << "  snakemake -s Snakefile --cores 4         on this machine" << std::endl;
+    return ExitCode::ok;
+  }
   return run_sweep(plan, options.sweep);
 }
 
@@ -64,7 +73,13 @@ void add_sweep_command(CLI::App& program, Action& action) {
   command->add_option("--output", options->sweep.results, "The folder of results (results/<plan>); plans may share one")
       ->type_name("DIR");
   command->add_option("--only", options->sweep.only, "Only runs whose names match: 'nu-*seed=1'")->type_name("PATTERN");
-  command->add_flag("--dry-run", options->dry_run, "Lists the runs, their keys and how far they are; runs nothing");
+  CLI::Option* dry_run =
+      command->add_flag("--dry-run", options->dry_run, "Lists the runs, their keys and how far they are; runs nothing");
+  command
+      ->add_option("--snakemake", options->snakemake,
+                   "Runs nothing, but writes the plan as a Snakefile with a profile for Slurm into this folder")
+      ->type_name("DIR")
+      ->excludes(dry_run);
   command
       ->add_option("--max-seconds", options->sweep.max_seconds,
                    "Wall clock after which everything writes a checkpoint and the sweep exits with 3")
@@ -74,7 +89,8 @@ void add_sweep_command(CLI::App& program, Action& action) {
       "the same command continues after Ctrl-C, kill -9 or a power cut.\n\n"
       "Examples:\n  ballast sweep frequencies.toml --jobs 2\n"
       "  ballast sweep frequencies.toml --dry-run\n"
-      "  ballast sweep frequencies.toml --only 'nu-drive.frequency=5-*' --output results/shared");
+      "  ballast sweep frequencies.toml --only 'nu-drive.frequency=5-*' --output results/shared\n"
+      "  ballast sweep frequencies.toml --snakemake cluster && cd cluster && snakemake -s Snakefile --profile slurm");
   command->callback([options, &action] { action = [options] { return sweep(*options); }; });
 }
 

@@ -1,5 +1,7 @@
 // The engine: each run once, in any number of processes, whatever becomes of the others.
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/atomic_file.hpp"
 #include "experiments/sweep/plan.hpp"
 #include "experiments/sweep/worker.hpp"
@@ -107,6 +109,30 @@ TEST_CASE("the time limit stops a sweep with checkpoints, and the same command g
   }
   CHECK(stops > 0);
   CHECK(result.succeeded());
+}
+
+TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is run") {
+  const TemporaryFolder folder;
+  const fs::path results = folder.path() / "results", jobs = folder.path() / "jobs", file = folder.write("plan.toml", small_sweep);
+  REQUIRE(sweep(file, results, {"--snakemake", jobs.string()}).succeeded());
+  CHECK(fs::is_empty(results / "runs"));
+  const auto list = nlohmann::json::parse(read_whole_file(jobs / "runs.json"));
+  CHECK(list["runs"].size() == 4);
+  CHECK(list["packings"].size() == 2);
+  const Plan plan = read_plan(file), again = read_plan(jobs / "plan.toml");
+  for (size_t k = 0; k < plan.runs.size(); ++k) {
+    const std::string key = run_key(plan.runs[k]);
+    CHECK(run_key(again.runs[k]) == key);
+    REQUIRE(list["runs"].contains(key));
+    std::vector<std::string> words = list["runs"][key]["arguments"];
+    CHECK(fs::path(words[1]).is_absolute());
+    CHECK(std::find(words.begin(), words.end(), folder_of(results, plan.runs[k]).string()) != words.end());
+    if (k > 0) continue;
+    REQUIRE(ballast_program(words).succeeded());  // as a job would
+    CHECK(is_finished(results, plan.runs[k]));
+  }
+  CHECK((fs::status(jobs / "slurm" / "status.sh").permissions() & fs::perms::owner_exec) != fs::perms::none);
+  check_failure(sweep(file, results, {"--snakemake", (folder.path() / "with blank").string()}), ExitCode::failure, {"with blank"});
 }
 
 TEST_CASE("a sweep's command line and plan are checked before anything is written") {

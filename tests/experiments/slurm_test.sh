@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# The plan on a cluster: `ballast sweep --snakemake` on a one-node Slurm that this script starts and ends, a worker killed with -9
+# in the middle of its run, against the local engine: the same bits.
+#
+#   slurm_test.sh BALLAST      exit code 77: skipped, with the reason on standard output
+#
+# Needs munge, slurmctld, slurmd, slurm-client and snakemake (apt-packages-cluster.txt) and root, whose daemons they are. Nothing of
+# an installed Slurm is used or touched: configuration, keys, sockets and state are in a temporary folder, the ports are unusual.
+set -uo pipefail
+
+ballast=$(realpath "$1")
+skip() { echo "SKIPPED: $*"; exit 77; }
+fail() { echo "FAILED: $*"; exit 1; }
+
+for program in munged slurmctld slurmd sbatch scontrol sinfo scancel snakemake; do
+  PATH=$PATH:/usr/sbin command -v "$program" >/dev/null || skip "$program is missing (packages: apt-packages-cluster.txt)"
+done
+case $(snakemake --version) in 7.*) ;; *) skip "the profile is for Snakemake 7, this is $(snakemake --version)" ;; esac
+[ "$(id -u)" = 0 ] || skip "a Slurm of one's own needs root"
+PATH=$PATH:/usr/sbin
+
+folder=$(mktemp -d /tmp/ballast_slurm_XXXXXX)
+chmod 755 "$folder"
+children=()
+finish() {
+  [ -n "${snakemake_id:-}" ] && kill "$snakemake_id" 2>/dev/null
+  scancel --user=root 2>/dev/null  # of the Slurm that SLURM_CONF names: ours
+  for child in "${children[@]}"; do kill "$child" 2>/dev/null; done
+  for child in "${children[@]}"; do wait "$child" 2>/dev/null; done
+  [ -n "${KEEP:-}" ] && echo "kept: $folder" || rm -rf "$folder"
+}
+trap finish EXIT
+
+# --- one node ---------------------------------------------------------------------------------------------------------------------
+start_slurm() {
+  local host port=$((20000 + $$ % 20000)) munge=$folder/munge
+  host=$(hostname -s)
+  mkdir "$munge" "$folder/state" "$folder/spool" "$folder/log"
+  head -c 64 /dev/urandom >"$munge/key"
+  chmod 600 "$munge/key"
+  cat >"$folder/slurm.conf" <<END
+ClusterName=ballast
+SlurmctldHost=$host(127.0.0.1)
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket=$munge/socket
+SlurmctldPort=$port
+SlurmdPort=$((port + 1))
+StateSaveLocation=$folder/state
+SlurmdSpoolDir=$folder/spool
+SlurmctldPidFile=$folder/slurmctld.pid
+SlurmdPidFile=$folder/slurmd.pid
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+ReturnToService=2
+MpiDefault=none
+SlurmdParameters=config_overrides
+NodeName=$host NodeAddr=127.0.0.1 CPUs=2 RealMemory=2000 State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+END
+  export SLURM_CONF=$folder/slurm.conf
+  munged --foreground --force --key-file="$munge/key" --socket="$munge/socket" --pid-file="$munge/pid" --log-file="$munge/log" \
+    --seed-file="$munge/seed" >"$folder/log/munged" 2>&1 &
+  children+=($!)
+  for _ in $(seq 50); do [ -S "$munge/socket" ] && break; sleep 0.1; done
+  slurmctld -D >"$folder/log/slurmctld" 2>&1 &
+  children+=($!)
+  slurmd -D -N "$host" >"$folder/log/slurmd" 2>&1 &
+  children+=($!)
+  for _ in $(seq 100); do
+    [ "$(sinfo -h -o %t 2>/dev/null)" = idle ] && return
+    sleep 0.2
+  done
+  tail -n 5 "$folder"/log/* | cat
+  skip "Slurm cannot be started here: its last words are above"
+}
+
+# --- the plan ---------------------------------------------------------------------------------------------------------------------
+cat >"$folder/plan.toml" <<'END'
+name = "cluster"
+scene = "vibrated_box_small"
+set = ["grains.count=20", "box.length=0.14", "box.width=0.14", "scene.duration=0.6", "record.checkpoint_seconds=0.1"]
+
+[[sweep]]
+name = "nu"
+vary."drive.frequency" = [20, 50]
+vary."grains.seed" = [1, 2]
+END
+
+# All columns of a record but the wall clocks.
+physics() {
+  awk -F, -v OFS=, 'NR == 1 { for (i = 1; i <= NF; ++i) keep[i] = $i !~ /^seconds_/ }
+                    { line = ""; for (i = 1; i <= NF; ++i) if (keep[i]) line = line OFS $i; print line }' "$1"
+}
+
+# Kills the first run found in the middle of its drive: a checkpoint is there, the record is not. Prints the run's folder.
+kill_a_worker() {
+  local run id
+  for _ in $(seq 1200); do
+    for run in "$folder"/cluster/runs/*/; do
+      [ -e "$run/checkpoint.bin" ] && [ ! -e "$run/steps.csv" ] || continue
+      id=$(sed -n 's/^process \([0-9]*\) on .*/\1/p' "$run/run.lock" 2>/dev/null)
+      [ -n "$id" ] && [ "$(readlink "/proc/$id/exe")" = "$ballast" ] && kill -9 "$id" && { echo "$run"; return; }
+    done
+    kill -0 "$snakemake_id" 2>/dev/null || return
+    sleep 0.05
+  done
+}
+
+start_slurm
+echo "Slurm $(slurmctld -V | cut -d' ' -f2), Snakemake $(snakemake --version)"
+"$ballast" sweep "$folder/plan.toml" --output "$folder/local" --jobs 2 >"$folder/log/local" 2>&1 || { cat "$folder/log/local"; fail "the local sweep"; }
+"$ballast" sweep "$folder/plan.toml" --output "$folder/cluster" --snakemake "$folder/jobs" >/dev/null || fail "--snakemake"
+cd "$folder/jobs" || exit 1
+HOME=$folder snakemake -s Snakefile --profile slurm >"$folder/log/snakemake" 2>&1 &
+snakemake_id=$!
+killed=$(kill_a_worker)
+wait "$snakemake_id" || { cat "$folder/log/snakemake"; fail "snakemake"; }
+snakemake_id=
+
+[ -n "$killed" ] || fail "no worker was found in the middle of its run"
+echo "killed with -9: $(basename "$killed")"
+jobs=$(find slurm/jobs -name '*.log' | wc -l)  # Slurm made one per job
+[ "$jobs" -ge 7 ] || fail "$jobs jobs ran in Slurm; 2 packings, 4 runs and one that was killed are 7"
+grep -q '"step": [1-9]' <(sed -n '/"resumed"/,/\]/p' "$killed/manifest.json") || fail "the killed run was not resumed at a checkpoint"
+compared=0
+for run in "$folder"/local/runs/*/; do
+  key=$(basename "$run")
+  cmp <(physics "$run/steps.csv") <(physics "$folder/cluster/runs/$key/steps.csv") || fail "$key: not the same as the local engine's"
+  compared=$((compared + 1))
+done
+[ "$compared" = 4 ] || fail "$compared runs compared, not 4"
+[ "$(grep -c ',finished,' "$folder/cluster/index.csv")" = 4 ] || fail "index.csv"
+echo "PASSED: 4 runs of $(($(wc -l <"$folder/cluster/runs/$key/steps.csv") - 1)) steps, bit for bit those of the local engine"
