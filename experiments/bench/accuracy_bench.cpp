@@ -8,7 +8,7 @@
 namespace ballast {
 namespace {
 
-AccuracyRow row_of(const Trajectory& trajectory, double scale, const Trajectory* reference) {
+AccuracyRow row_of(const Trajectory& trajectory, double scale) {
   AccuracyRow row;
   row.solver = trajectory.solver;
   char limit[40];
@@ -34,11 +34,15 @@ AccuracyRow row_of(const Trajectory& trajectory, double scale, const Trajectory*
     row.iterations /= steps;
   }
   row.distance = std::nan("");
-  if (reference) {
-    const std::vector<double> d = distances(trajectory, *reference);
-    if (!d.empty()) row.distance = d.back();
-  }
   return row;
+}
+
+/// Of the complete trajectories; rows.size() when there is none.
+size_t least_error(const std::vector<AccuracyRow>& rows) {
+  size_t best = rows.size();
+  for (size_t k = 0; k < rows.size(); ++k)
+    if (rows[k].complete && (best == rows.size() || rows[k].error_mean < rows[best].error_mean)) best = k;
+  return best;
 }
 
 }  // namespace
@@ -61,12 +65,13 @@ std::vector<AccuracyRow> measure_accuracy(const AccuracyOptions& options, const 
     live.tolerances = {1e-12};  // never reached: every step gets all of them
     run(live);
   }
-  // the reference: of those that reached a tolerance, the tightest
-  const Trajectory* reference = nullptr;
-  for (const Trajectory& t : trajectories)
-    if (t.max_iterations == 0 && t.is_complete() && (!reference || t.tolerance < reference->tolerance)) reference = &t;
   std::vector<AccuracyRow> rows;
-  for (const Trajectory& t : trajectories) rows.push_back(row_of(t, scale, reference));
+  for (const Trajectory& t : trajectories) rows.push_back(row_of(t, scale));
+  const size_t best = least_error(rows);
+  for (size_t k = 0; k < rows.size() && best < rows.size(); ++k) {
+    const std::vector<double> d = distances(trajectories[k], trajectories[best]);
+    if (!d.empty()) rows[k].distance = d.back();
+  }
   return rows;
 }
 

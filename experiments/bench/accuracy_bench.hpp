@@ -20,7 +20,7 @@ struct AccuracyRow {
   double seconds_per_second = 0.0;  ///< wall clock of steps per simulated second
   double error_mean = 0.0, error_worst = 0.0;  ///< judge: rms natural map over contacts [g h], over steps
   double iterations = 0.0;                     ///< mean
-  double distance = 0.0;     ///< rms over grains at the end from the reference [m]; NaN without one
+  double distance = 0.0;     ///< rms over grains at the end [m] from the reference: the trajectory of the least mean error; NaN without one
   double penetration = 0.0;  ///< [m] largest
   bool complete = false;
 };

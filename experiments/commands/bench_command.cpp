@@ -124,7 +124,8 @@ ExitCode bench_accuracy(const BenchWords& words) {
   if (!(words.duration > 0.0)) throw UsageError("bench: --duration: expected a number > 0");
   if (!(words.from >= 0.0)) throw UsageError("bench: --from: expected a number >= 0");
   options.live.solvers = usage("--solvers", [&] { return bench_solvers(words.solvers); });
-  options.live.tolerances = usage("--tolerances", [&] { return bench_tolerances(words.tolerances); });
+  options.live.tolerances.clear();
+  if (words.tolerances != "none") options.live.tolerances = usage("--tolerances", [&] { return bench_tolerances(words.tolerances); });
   options.live.packing_cache = words.packing_cache;
   options.live.folder = words.output / "live";
   options.iterations = ints_of("--iterations", words.iterations, 1'000'000'000);
@@ -207,7 +208,7 @@ void add_bench_command(CLI::App& program, Action& action) {
     words->solvers = "nncg,pgs,anderson_pgs,apgd";
     CLI::App* command = add_measuring(bench, words, action, "accuracy", "What a simulated second costs at which error", "vibrated_box", bench_accuracy);
     command->add_option("--solvers", words->solvers, "Separated by commas")->capture_default_str();
-    command->add_option("--tolerances", words->tolerances, "Solved to these [g h]")->capture_default_str();
+    command->add_option("--tolerances", words->tolerances, "Solved to these [g h]; none: not")->capture_default_str();
     command->add_option("--iterations", words->iterations, "And with so many iterations in every step")->capture_default_str();
     command->add_option("--from", words->from, "Simulated time where all begin [s]")->capture_default_str();
     command->add_option("--duration", words->duration, "Simulated from there [s]")->capture_default_str();
