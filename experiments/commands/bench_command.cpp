@@ -111,7 +111,10 @@ ExitCode bench_scaling(const BenchWords& words) {
               << " us a grain and step, " << p.bytes << " B a grain" << std::endl;
   });
   const Figure figure = scaling_figure(options, points);
-  return finish(words, "scaling", command_of(words, "scaling --grains " + words.grains + " --threads " + words.threads), facts,
+  char rest[120];
+  std::snprintf(rest, sizeof rest, " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d", words.steps, words.warm_up,
+                words.tolerance, words.max_iterations);
+  return finish(words, "scaling", command_of(words, "scaling --grains " + words.grains + " --threads " + words.threads + rest), facts,
                 scaling_measurements(options, points), &figure);
 }
 
@@ -136,7 +139,8 @@ ExitCode bench_accuracy(const BenchWords& words) {
   const Figure figure = accuracy_figure(rows);
   char window[80];
   std::snprintf(window, sizeof window, "accuracy --from %g --duration %g", words.from, words.duration);
-  return finish(words, "accuracy", command_of(words, window), measure_machine(), accuracy_measurements(rows), &figure);
+  const std::string limits = " --solvers " + words.solvers + " --tolerances " + words.tolerances + " --iterations " + words.iterations;
+  return finish(words, "accuracy", command_of(words, window + limits), measure_machine(), accuracy_measurements(rows), &figure);
 }
 
 ExitCode bench_diff(const BenchWords& words) {

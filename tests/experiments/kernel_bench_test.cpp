@@ -221,8 +221,13 @@ TEST_CASE("More iterations cost more and err less") {
   options.live.folder = folder.path();
   options.iterations = {2, 30};
   const Silence silence;
-  const auto rows = measure_accuracy(options, [](const Trajectory&) { return true; });
+  std::vector<std::string> labels;
+  const auto rows = measure_accuracy(options, [&](const Trajectory& t) {
+    labels.push_back(t.label());
+    return true;
+  });
   REQUIRE(rows.size() == 3);
+  CHECK(labels == std::vector<std::string>{"pgs 1e-08", "pgs 2 iterations", "pgs 30 iterations"});
   for (const AccuracyRow& row : rows) CHECK(row.complete);
   CHECK(rows[0].error_worst <= 1e-8);
   CHECK(rows[0].distance == 0.0);
