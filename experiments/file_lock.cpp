@@ -21,7 +21,7 @@ bool is_current(int descriptor, const std::filesystem::path& file) {
 
 }  // namespace
 
-bool briefly(double seconds_waited) { return seconds_waited < 5.0; }
+bool briefly(double seconds_waited) { return seconds_waited < 3.0; }
 
 FileLock::FileLock(std::filesystem::path file, const Patience& patience) : file_(std::move(file)) {
   constexpr double pause = 0.05;  // [s]

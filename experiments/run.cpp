@@ -3,7 +3,9 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "experiments/atomic_file.hpp"
 #include "experiments/capture.hpp"
@@ -12,13 +14,13 @@
 #include "experiments/file_lock.hpp"
 #include "experiments/interrupt.hpp"
 #include "experiments/manifest.hpp"
+#include "experiments/packing_cache.hpp"
 #include "experiments/paraview.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/recorder.hpp"
 #include "experiments/report.hpp"
 #include "experiments/run_folder.hpp"
 #include "experiments/simulation.hpp"
-#include "experiments/vibrated_box.hpp"
 #include "problems/scene_file.hpp"
 #include "problems/solid_fraction.hpp"
 #include "solvers/solver_list.hpp"
@@ -121,48 +123,14 @@ class Run {
     return true;
   }
 
-  static bool find_packing(const std::filesystem::path& file, const std::string& key, Packing& packing) {
-    if (!read_packing(file, key, packing)) return false;
-    std::cout << "packing from the cache: " << file.string() << std::endl;
-    return true;
-  }
-
-  /// Takes the packing from the cache, or deposits it.
   bool take_packing(const Rain& rain, Packing& packing) {
-    const std::filesystem::path cache =
-        options_.packing_cache.empty() ? folder_.path() / ".." / "packings" : options_.packing_cache;
-    const std::string key = packing_key(scene_);
-    const std::filesystem::path file = packing_file(cache, key), part = file.string() + ".part";
-    const bool anew = options_.new_packing && !options_.resume;
-    if (!anew && find_packing(file, key, packing)) return true;
-    create_folder(cache);
-    const FileLock lock(file.string() + ".lock", [this](double waited) {
-      if (waited == 0.0) std::cout << "waiting for the packing that another run deposits" << std::endl;
-      return !InterruptGuard::requested() && seconds_left() > 0.0;
-    });
-    if (!lock.is_held()) return false;
-    if (anew) {
-      std::filesystem::remove(file);
-      std::filesystem::remove(part);
-    }
-    if (find_packing(file, key, packing)) return true;  // made by whoever held the lock
-    std::cout << "depositing " << rain.grains.size() << " grains (kept in " << file.string() << ")" << std::endl;
-    const auto begin = Clock::now();
-    Progress progress;
-    BoxStage last = BoxStage::rain;
-    const auto show = [&](BoxStage stage, double time, double velocity, const StepRecord& record) {
-      if (stage != last) progress.restart();
-      last = stage;
-      const DepositSpec& deposit = scene_.deposit;
-      const double most[] = {deposit.max_time, deposit.lid_time, deposit.settle_time};
-      progress.show(name_of(stage), time, most[static_cast<int>(stage)], record, velocity);
-      return !InterruptGuard::requested() && seconds_left() > 0.0;
-    };
-    if (!deposit(scene_, rain, part, show, packing)) return false;
-    progress.finish();
-    write_packing(file, key, packing);
-    std::filesystem::remove(part);
-    manifest_.summary("deposit_seconds", seconds_since(begin));
+    PackingOrder order;
+    order.cache = options_.packing_cache.empty() ? folder_.path() / ".." / "packings" : options_.packing_cache;
+    order.anew = options_.new_packing && !options_.resume;
+    order.goes_on = [this] { return !InterruptGuard::requested() && seconds_left() > 0.0; };
+    double deposit_seconds = std::numeric_limits<double>::quiet_NaN();
+    if (!ballast::take_packing(scene_, rain, order, packing, deposit_seconds)) return false;
+    if (!std::isnan(deposit_seconds)) manifest_.summary("deposit_seconds", deposit_seconds);
     return true;
   }
 

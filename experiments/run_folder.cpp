@@ -46,8 +46,4 @@ void RunFolder::reopen(const std::string& scene_text) const {
     throw RunError(path_.string() + ": holds a run of other settings: give the same scene and --set, or --overwrite");
 }
 
-fs::path packing_file(const fs::path& cache, const std::string& key) {
-  return (cache / ("packing-" + key + ".bin")).lexically_normal();
-}
-
 }  // namespace ballast

@@ -39,7 +39,4 @@ class RunFolder {
 /// Entry of a manifest's summary: steps that are still to be done. 0 is written last of all.
 inline constexpr const char* steps_left_entry = "steps_left";
 
-/// The packing of this key (packing_key of a scene) in the folder where packings are kept.
-std::filesystem::path packing_file(const std::filesystem::path& cache, const std::string& key);
-
 }  // namespace ballast

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "experiments/commands/command.hpp"
+#include "experiments/packing_cache.hpp"
 #include "experiments/run_folder.hpp"
 #include "experiments/sweep/resolved_run.hpp"
 #include "experiments/sweep/snakemake.hpp"

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "experiments/packing_cache.hpp"
 #include "experiments/run.hpp"
 #include "experiments/run_folder.hpp"
 

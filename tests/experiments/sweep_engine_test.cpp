@@ -1,5 +1,7 @@
 // The engine: each run once, in any number of processes, whatever becomes of the others.
 
+#include <unistd.h>
+
 #include <nlohmann/json.hpp>
 
 #include "experiments/atomic_file.hpp"
@@ -109,6 +111,25 @@ TEST_CASE("the time limit stops a sweep with checkpoints, and the same command g
   }
   CHECK(stops > 0);
   CHECK(result.succeeded());
+}
+
+TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else sweeps there") {
+  const TemporaryFolder folder;
+  const fs::path results = folder.path() / "results", log = folder.path() / "log";
+  const fs::path file = folder.write(
+      "plan.toml", std::string(small_sweep) + "[[run]]\nname = \"long\"\nset = [\"scene.duration=100\", \"record.checkpoint_seconds=1000\"]\n");
+  const fs::path run = folder_of(results, read_plan(file).runs[0]);
+  Worker long_sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string(), "--only", "long"}, log);
+  for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_sweep.has_ended(); ++k) usleep(10'000);
+  REQUIRE(fs::exists(run / "log" / "steps.bin"));
+  check_failure(sweep(file, results), ExitCode::failure, {results.string(), "is sweeping there"});
+  CHECK_FALSE(fs::exists(run / "checkpoint.bin"));
+  long_sweep.stop();
+  for (int k = 0; k < 6000 && !long_sweep.has_ended(); ++k) usleep(10'000);
+  REQUIRE(long_sweep.has_ended());
+  CHECK(long_sweep.status() == static_cast<int>(ExitCode::failure));
+  CHECK_THAT(last_line(log), Catch::Contains("the same command goes on"));
+  CHECK(read_checkpoint(run / "checkpoint.bin").state.step > 0);
 }
 
 TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is run") {
