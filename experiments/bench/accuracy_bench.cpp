@@ -20,7 +20,8 @@ AccuracyRow row_of(const Trajectory& trajectory, double scale) {
   row.complete = trajectory.is_complete();
   double seconds = 0.0;
   for (const StepRecord& s : trajectory.steps) {
-    seconds += s.seconds_detect + s.seconds_assemble + s.seconds_solve + s.seconds_judge + s.seconds_correct + s.seconds_other;
+    seconds +=
+        s.seconds_detect + s.seconds_assemble + s.seconds_solve + s.seconds_judge + s.seconds_correct + s.seconds_other;
     row.error_mean += s.error_rms / scale;
     row.error_worst = std::max(row.error_worst, s.error_rms / scale);
     row.iterations += s.iterations;
@@ -47,7 +48,8 @@ size_t least_error(const std::vector<AccuracyRow>& rows) {
 
 }  // namespace
 
-std::vector<AccuracyRow> measure_accuracy(const AccuracyOptions& options, const std::function<bool(const Trajectory&)>& said) {
+std::vector<AccuracyRow> measure_accuracy(const AccuracyOptions& options,
+                                          const std::function<bool(const Trajectory&)>& said) {
   std::vector<Trajectory> trajectories;
   double scale = 1.0;
   bool goes_on = true;
@@ -109,7 +111,8 @@ Figure accuracy_figure(const std::vector<AccuracyRow>& rows) {
   for (size_t k = 0; k < solvers.size(); ++k) {
     std::vector<std::pair<double, double>> points;
     for (const AccuracyRow& row : rows)
-      if (row.solver == solvers[k] && row.complete && row.error_mean > 0.0) points.emplace_back(row.seconds_per_second, row.error_mean);
+      if (row.solver == solvers[k] && row.complete && row.error_mean > 0.0)
+        points.emplace_back(row.seconds_per_second, row.error_mean);
     if (points.empty()) continue;
     std::sort(points.begin(), points.end());
     Curve line, marks;

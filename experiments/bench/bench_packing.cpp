@@ -21,8 +21,8 @@ class TileMap {
   int body(int body, int ix, int iy) const {
     if (body < grains_) return (iy * nx_ + ix) * grains_ + body;
     const int wall = body - grains_;
-    const bool between = (wall == wall_x_min && ix > 0) || (wall == wall_x_max && ix < nx_ - 1) || (wall == wall_y_min && iy > 0) ||
-                         (wall == wall_y_max && iy < ny_ - 1);
+    const bool between = (wall == wall_x_min && ix > 0) || (wall == wall_x_max && ix < nx_ - 1) ||
+                         (wall == wall_y_min && iy > 0) || (wall == wall_y_max && iy < ny_ - 1);
     return between ? -1 : nx_ * ny_ * grains_ + wall;
   }
 
@@ -49,7 +49,8 @@ void sort_memory(StepMemory& memory) {
 
 }  // namespace
 
-DepositedBox deposited_box(const std::string& name, const std::vector<std::string>& overrides, const std::filesystem::path& cache) {
+DepositedBox deposited_box(const std::string& name, const std::vector<std::string>& overrides,
+                           const std::filesystem::path& cache) {
   DepositedBox box;
   box.scene = read_scene(find_scene(name), overrides);
   if (!box.scene.grains) throw RunError(name + ": has no grains: a bench needs a deposited packing");
@@ -61,7 +62,8 @@ DepositedBox deposited_box(const std::string& name, const std::vector<std::strin
   std::cout << "depositing " << box.rain.grains.size() << " grains (kept in " << file.string() << ")" << std::endl;
   const InterruptGuard guard;
   const auto goes_on = [](BoxStage, double, double, const StepRecord&) { return !InterruptGuard::requested(); };
-  if (!deposit(box.scene, box.rain, part, goes_on, box.packing)) throw RunError("interrupted; the same command goes on depositing");
+  if (!deposit(box.scene, box.rain, part, goes_on, box.packing))
+    throw RunError("interrupted; the same command goes on depositing");
   write_packing(file, key, box.packing);
   std::filesystem::remove(part);
   return box;

@@ -105,7 +105,8 @@ GrainPairs grain_pairs(int vertices, bool touching, int count) {
     base.push_back({place + Vec3(touch + (touching ? -4e-3 : 0.1) * grain_radius, 0, 0), turn[1]});
   }
   constexpr int visits = 32;
-  const double amplitude = 4e-4 * visits / (2.0 * std::numbers::pi);  // the fastest step is 4e-4, half of it motion and half turn
+  const double amplitude =
+      4e-4 * visits / (2.0 * std::numbers::pi);  // the fastest step is 4e-4, half of it motion and half turn
   for (int visit = 0; visit < visits; ++visit) {
     const double at = 0.5 * amplitude * std::sin(2.0 * std::numbers::pi * visit / visits);
     std::vector<Pose> poses = base;

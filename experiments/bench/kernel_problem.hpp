@@ -15,11 +15,13 @@ struct KernelProblem {
 };
 KernelProblem kernel_problem(const DepositedBox& box, int steps);
 
-/// `copies` of the problem that know nothing of each other, as one (dynamics form): a working set as large as one likes.
+/// `copies` of the problem that know nothing of each other, as one (dynamics form): a working set as large as one
+/// likes.
 FrictionProblem repeated(const FrictionProblem& problem, int copies);
 Impulses repeated(const Impulses& r, int copies);
 
-/// Pairs of grains far from other pairs, and poses that follow one another as in a driven packing: 4e-4 of the radius a step.
+/// Pairs of grains far from other pairs, and poses that follow one another as in a driven packing: 4e-4 of the radius a
+/// step.
 struct GrainPairs {
   std::vector<std::shared_ptr<const Polyhedron>> shapes;  ///< bodies 2 k and 2 k + 1 are pair k
   std::vector<std::vector<Pose>> poses;                   ///< of all bodies, to be visited in turn, again and again

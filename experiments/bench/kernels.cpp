@@ -38,7 +38,8 @@ int streaming_copies(const KernelProblem& problem, const KernelBenchOptions& opt
 
 }  // namespace
 
-std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelBenchOptions& options, const MachineFacts& facts) {
+std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelBenchOptions& options,
+                                     const MachineFacts& facts) {
   std::vector<Kernel> kernels;
   add_detection_kernels(kernels);
   add_problem_kernels(problem, kernels);
@@ -51,10 +52,13 @@ std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelB
   for (const Kernel& kernel : kernels) {
     const std::string name = kernel.group + "/" + kernel.name;
     items[name] = kernel.items;
-    benchmark::RegisterBenchmark(name.c_str(), [&kernel](benchmark::State& state) {
-      kernel.call();  // what is made at the first call is not part of the next
-      for (auto _ : state) kernel.call();
-    })->MinTime(options.min_time)->Repetitions(options.repeats);
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [&kernel](benchmark::State& state) {
+                                   kernel.call();  // what is made at the first call is not part of the next
+                                   for (auto _ : state) kernel.call();
+                                 })
+        ->MinTime(options.min_time)
+        ->Repetitions(options.repeats);
   }
   SampleReporter reporter(items);
   std::ostringstream unsaid;  // the library's own complaint about a filter: ours is an exception
@@ -65,7 +69,8 @@ std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelB
   std::vector<Measurement> measurements;
   for (const Kernel& kernel : kernels) {
     const auto found = reporter.samples.find(kernel.group + "/" + kernel.name);
-    if (found != reporter.samples.end()) measurements.push_back(measurement_of(kernel.group, kernel.name, kernel.unit, found->second));
+    if (found != reporter.samples.end())
+      measurements.push_back(measurement_of(kernel.group, kernel.name, kernel.unit, found->second));
   }
   if (measurements.empty()) throw std::invalid_argument("no kernel is called like '" + options.filter + "'");
   for (Measurement& m : floor_measurements(problem.problem, facts)) measurements.push_back(std::move(m));

@@ -17,9 +17,10 @@ struct KernelBenchOptions {
   double streaming_MB = 0.0;  ///< least size of the streaming sweep's records; 0: twice the last cache
 };
 
-/// Every kernel's CPU time per item in ns, medians over the repetitions. Throws MissingSolver where the program was built without Google
-/// Benchmark, std::invalid_argument when the filter matches nothing.
-std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelBenchOptions& options, const MachineFacts& facts);
+/// Every kernel's CPU time per item in ns, medians over the repetitions. Throws MissingSolver where the program was
+/// built without Google Benchmark, std::invalid_argument when the filter matches nothing.
+std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelBenchOptions& options,
+                                     const MachineFacts& facts);
 
 /// One kernel: `call` is timed, and does `items` items.
 struct Kernel {

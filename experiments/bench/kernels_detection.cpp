@@ -70,11 +70,13 @@ void add_detection_kernels(std::vector<Kernel>& kernels) {
     for (const bool touching : {true, false})
       for (const bool cached : {false, true}) {
         const auto work = std::make_shared<DetectionWork>(vertices, touching, cached);
-        kernels.push_back({"pair", std::string(touching ? "touching" : "apart") + (cached ? " cached" : " cold") + suffix, "ns/pair",
-                           pair_count, [work] { work->next(); }});
+        kernels.push_back({"pair",
+                           std::string(touching ? "touching" : "apart") + (cached ? " cached" : " cold") + suffix,
+                           "ns/pair", pair_count, [work] { work->next(); }});
       }
     const auto work = std::make_shared<ManifoldWork>(vertices);
-    kernels.push_back({"manifold", "clip and reduce" + suffix, "ns/pair", static_cast<double>(work->tests.size()), [work] { work->all(); }});
+    kernels.push_back({"manifold", "clip and reduce" + suffix, "ns/pair", static_cast<double>(work->tests.size()),
+                       [work] { work->all(); }});
   }
 }
 

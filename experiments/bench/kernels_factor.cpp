@@ -28,11 +28,14 @@ void add_factor_kernels(const KernelProblem& problem, std::vector<Kernel>& kerne
     work->shift.push_back(penalty * Eigen::Matrix3d::Identity());
     work->sigma.push_back(Eigen::Matrix3d::Identity() / penalty);
   }
-  if (!work->shifted.factor(work->shift, work->sigma)) throw std::runtime_error("bench kernels: W + P of the packing is not definite");
+  if (!work->shifted.factor(work->shift, work->sigma))
+    throw std::runtime_error("bench kernels: W + P of the packing is not definite");
   free_contact_velocity(problem.problem, work->b);
   const double contacts = problem.problem.contact_count();
-  kernels.push_back({"factor", "factorisation of the packing", "ns/contact", contacts, [work] { work->shifted.factor(work->shift, work->sigma); }});
-  kernels.push_back({"factor", "solve with it", "ns/contact", contacts, [work] { work->shifted.solve(work->b, work->x); }});
+  kernels.push_back({"factor", "factorisation of the packing", "ns/contact", contacts,
+                     [work] { work->shifted.factor(work->shift, work->sigma); }});
+  kernels.push_back(
+      {"factor", "solve with it", "ns/contact", contacts, [work] { work->shifted.solve(work->b, work->x); }});
 }
 
 }  // namespace ballast

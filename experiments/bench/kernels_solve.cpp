@@ -24,7 +24,9 @@ struct ProblemWork {
     assemble();
     assembler.to_world(rows = at.impulses.head(problem.row_count()), at.contacts, world);
   }
-  void assemble() { assembler.assemble(at.start.state, v_free, at.h, at.start.state.time + at.h, at.contacts, problem); }
+  void assemble() {
+    assembler.assemble(at.start.state, v_free, at.h, at.start.state.time + at.h, at.contacts, problem);
+  }
 };
 
 struct SweepWork {
@@ -64,7 +66,8 @@ struct OneContactWork {
       for (int k = 1; k < 3; ++k) one.u[k] = random.uniform(-reach, reach);
       Eigen::Vector3d r = Eigen::Vector3d::Zero();
       double lambda = 0.0;
-      if (solve_one_contact(w, Eigen::Vector3d(one.u[0], one.u[1], one.u[2]), mu, r, lambda) == wanted) cases.push_back(one);
+      if (solve_one_contact(w, Eigen::Vector3d(one.u[0], one.u[1], one.u[2]), mu, r, lambda) == wanted)
+        cases.push_back(one);
     }
   }
   void all() {
@@ -81,7 +84,9 @@ struct OneContactWork {
 void add_problem_kernels(const KernelProblem& problem, std::vector<Kernel>& kernels) {
   const auto work = std::make_shared<ProblemWork>(problem);
   const double contacts = work->problem.contact_count();
-  const auto add = [&](const char* name, std::function<void()> call) { kernels.push_back({"problem", name, "ns/contact", contacts, std::move(call)}); };
+  const auto add = [&](const char* name, std::function<void()> call) {
+    kernels.push_back({"problem", name, "ns/contact", contacts, std::move(call)});
+  };
   add("assembly", [work] { work->assemble(); });
   add("validation", [work] { work->problem.validate(); });
   add("judge", [work] { work->judge.judge(work->problem, work->rows); });
@@ -90,9 +95,11 @@ void add_problem_kernels(const KernelProblem& problem, std::vector<Kernel>& kern
 }
 
 void add_sweep_kernels(const KernelProblem& problem, int streaming_copies, std::vector<Kernel>& kernels) {
-  const auto cached = std::make_shared<SweepWork>(problem, 1, 1), streaming = std::make_shared<SweepWork>(problem, streaming_copies, 1);
+  const auto cached = std::make_shared<SweepWork>(problem, 1, 1),
+             streaming = std::make_shared<SweepWork>(problem, streaming_copies, 1);
   const auto add = [&](const char* name, const std::shared_ptr<SweepWork>& work, std::function<void()> call) {
-    kernels.push_back({"sweep", name, "ns/contact", static_cast<double>(work->problem.contact_count()), std::move(call)});
+    kernels.push_back(
+        {"sweep", name, "ns/contact", static_cast<double>(work->problem.contact_count()), std::move(call)});
   };
   add("sweep, the packing alone", cached, [cached] { cached->sweep.sweep(); });
   add("sweep, streaming copies of it", streaming, [streaming] { streaming->sweep.sweep(); });
@@ -107,7 +114,8 @@ void add_one_contact_kernels(std::vector<Kernel>& kernels) {
       {"take-off", ContactStatus::open}, {"stick", ContactStatus::stick}, {"slip, cold root", ContactStatus::slip}};
   for (const auto& [name, status] : statuses) {
     const auto work = std::make_shared<OneContactWork>(status);
-    kernels.push_back({"one contact", name, "ns/contact", static_cast<double>(work->cases.size()), [work] { work->all(); }});
+    kernels.push_back(
+        {"one contact", name, "ns/contact", static_cast<double>(work->cases.size()), [work] { work->all(); }});
   }
 }
 

@@ -10,7 +10,8 @@
 // Vectors stay inside inlined functions, so GCC's note about their calling convention does not apply.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__clang__)
 #define BALLAST_FOR_EACH_CPU __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define BALLAST_FOR_EACH_CPU
@@ -21,7 +22,9 @@ namespace {
 
 using Vector8 = double __attribute__((vector_size(64)));
 
-double seconds_now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// Keeps a result from being optimised away.
 volatile double kept;
@@ -42,7 +45,8 @@ BALLAST_FOR_EACH_CPU void triad(double* a, const double* b, const double* c, dou
 
 /// 2 * 8 * 10 flops a round: ten chains hide the latency.
 BALLAST_FOR_EACH_CPU double multiply_and_add(long rounds) {
-  Vector8 x0 = {1, 2, 3, 4, 5, 6, 7, 8}, x1 = x0, x2 = x0, x3 = x0, x4 = x0, x5 = x0, x6 = x0, x7 = x0, x8 = x0, x9 = x0;
+  Vector8 x0 = {1, 2, 3, 4, 5, 6, 7, 8}, x1 = x0, x2 = x0, x3 = x0, x4 = x0, x5 = x0, x6 = x0, x7 = x0, x8 = x0,
+          x9 = x0;
   const Vector8 factor = x0 * 0.0 + 0.999999, shift = x0 * 0.0 + 1e-6;
   for (long i = 0; i < rounds; ++i) {
     x0 = x0 * factor + shift;
@@ -77,7 +81,9 @@ std::vector<CacheSize> cache_sizes() {
   for (int index = 0; index < 8; ++index) {
     const std::filesystem::path folder = "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index);
     std::string level, type, size;
-    if (!(std::ifstream(folder / "level") >> level && std::ifstream(folder / "type") >> type && std::ifstream(folder / "size") >> size)) continue;
+    if (!(std::ifstream(folder / "level") >> level && std::ifstream(folder / "type") >> type &&
+          std::ifstream(folder / "size") >> size))
+      continue;
     if (type == "Instruction") continue;
     caches.push_back({"L" + level + (type == "Data" ? "d" : ""), std::stod(size)});  // "32K"
   }
@@ -98,7 +104,9 @@ struct AlignedDoubles {
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -123,7 +131,8 @@ MachineFacts measure_machine() {
   facts.triad_GB_s = 1e-9 * 3.0 * sizeof(double) * static_cast<double>(count) /
                      best_seconds(5, [&] { triad(a.first, b.first, c.first, 0.5, count); });
   const long rounds = 200000;
-  facts.gflops = 1e-9 * 160.0 * static_cast<double>(rounds) / best_seconds(10, [&] { kept = multiply_and_add(rounds); });
+  facts.gflops =
+      1e-9 * 160.0 * static_cast<double>(rounds) / best_seconds(10, [&] { kept = multiply_and_add(rounds); });
   return facts;
 }
 

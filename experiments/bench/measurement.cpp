@@ -25,7 +25,10 @@ double quantile(const std::vector<double>& sorted, double fraction) {
 }
 
 Json json_of(const MachineFacts& facts) {
-  Json json = {{"read_GB_s", facts.read_GB_s}, {"triad_GB_s", facts.triad_GB_s}, {"gflops", facts.gflops}, {"caches_kB", Json::object()}};
+  Json json = {{"read_GB_s", facts.read_GB_s},
+               {"triad_GB_s", facts.triad_GB_s},
+               {"gflops", facts.gflops},
+               {"caches_kB", Json::object()}};
   for (const CacheSize& cache : facts.caches) json["caches_kB"][cache.name] = cache.kilobytes;
   return json;
 }
@@ -38,12 +41,19 @@ std::string in_digits(double value) {
 
 }  // namespace
 
-Measurement measurement_of(const std::string& group, const std::string& name, const std::string& unit, std::vector<double> values) {
+Measurement measurement_of(const std::string& group, const std::string& name, const std::string& unit,
+                           std::vector<double> values) {
   if (values.empty()) throw std::invalid_argument("no value of " + group + "/" + name);
   std::sort(values.begin(), values.end());
   const double count = static_cast<double>(values.size());
-  return {group, name, unit, quantile(values, 0.5), std::accumulate(values.begin(), values.end(), 0.0) / count,
-          quantile(values, 0.25), quantile(values, 0.75), static_cast<long>(values.size())};
+  return {group,
+          name,
+          unit,
+          quantile(values, 0.5),
+          std::accumulate(values.begin(), values.end(), 0.0) / count,
+          quantile(values, 0.25),
+          quantile(values, 0.75),
+          static_cast<long>(values.size())};
 }
 
 void write_bench_result(const std::filesystem::path& folder, const std::string& kind, const std::string& command,
@@ -58,8 +68,14 @@ void write_bench_result(const std::filesystem::path& folder, const std::string& 
   json["measurements"] = Json::array();
   std::string csv = "group,name,unit,median,mean,quartile_low,quartile_high,samples\n";
   for (const Measurement& m : measurements) {
-    json["measurements"].push_back({{"group", m.group}, {"name", m.name}, {"unit", m.unit}, {"median", m.median}, {"mean", m.mean},
-                                    {"low", m.low}, {"high", m.high}, {"samples", m.samples}});
+    json["measurements"].push_back({{"group", m.group},
+                                    {"name", m.name},
+                                    {"unit", m.unit},
+                                    {"median", m.median},
+                                    {"mean", m.mean},
+                                    {"low", m.low},
+                                    {"high", m.high},
+                                    {"samples", m.samples}});
     char numbers[160];
     std::snprintf(numbers, sizeof numbers, ",%.6g,%.6g,%.6g,%.6g,%ld\n", m.median, m.mean, m.low, m.high, m.samples);
     csv += m.group + ',' + m.name + ',' + m.unit + numbers;
@@ -71,12 +87,13 @@ void write_bench_result(const std::filesystem::path& folder, const std::string& 
 BenchResult read_bench_result(const std::filesystem::path& file) {
   try {
     const Json json = Json::parse(read_whole_file(file));
-    BenchResult result{json.at("kind"), json.at("command"), json.at("ballast").at("commit"), json.at("machine").at("cpu"), {}};
+    BenchResult result{
+        json.at("kind"), json.at("command"), json.at("ballast").at("commit"), json.at("machine").at("cpu"), {}};
     // a number that was not finite was written as null
     const auto number = [](const Json& value) { return value.is_null() ? std::nan("") : value.get<double>(); };
     for (const Json& m : json.at("measurements"))
-      result.measurements.push_back({m.at("group"), m.at("name"), m.at("unit"), number(m.at("median")), number(m.at("mean")),
-                                     number(m.at("low")), number(m.at("high")), m.at("samples")});
+      result.measurements.push_back({m.at("group"), m.at("name"), m.at("unit"), number(m.at("median")),
+                                     number(m.at("mean")), number(m.at("low")), number(m.at("high")), m.at("samples")});
     return result;
   } catch (const Json::exception& error) {
     throw RunError(file.string() + ": is no result of ballast bench: " + error.what());
@@ -86,10 +103,12 @@ BenchResult read_bench_result(const std::filesystem::path& file) {
 std::string bench_ratio_table(const BenchResult& a, const BenchResult& b) {
   const auto origin = [](const BenchResult& r) { return r.commit.substr(0, 12) + " (" + r.cpu + ")"; };
   std::string table = "A: " + origin(a) + ", " + a.kind + "  \nB: " + origin(b) + ", " + b.kind +
-                      "\n\n| measurement | unit | A | B | B/A |\n|---|---|---:|---:|---:|\n", alone;
+                      "\n\n| measurement | unit | A | B | B/A |\n|---|---|---:|---:|---:|\n",
+              alone;
   const auto find = [](const BenchResult& r, const Measurement& m) {
-    return std::find_if(r.measurements.begin(), r.measurements.end(),
-                        [&](const Measurement& other) { return other.full_name() == m.full_name() && other.unit == m.unit; });
+    return std::find_if(r.measurements.begin(), r.measurements.end(), [&](const Measurement& other) {
+      return other.full_name() == m.full_name() && other.unit == m.unit;
+    });
   };
   for (const Measurement& m : a.measurements) {
     const auto other = find(b, m);
@@ -98,7 +117,8 @@ std::string bench_ratio_table(const BenchResult& a, const BenchResult& b) {
       continue;
     }
     const std::string ratio = m.median == 0.0 ? "" : in_digits(other->median / m.median);
-    table += "| " + m.full_name() + " | " + m.unit + " | " + in_digits(m.median) + " | " + in_digits(other->median) + " | " + ratio + " |\n";
+    table += "| " + m.full_name() + " | " + m.unit + " | " + in_digits(m.median) + " | " + in_digits(other->median) +
+             " | " + ratio + " |\n";
   }
   for (const Measurement& m : b.measurements)
     if (find(a, m) == a.measurements.end()) alone += "only in B: " + m.full_name() + "  \n";
@@ -109,8 +129,8 @@ std::string measurement_table(const std::vector<Measurement>& measurements) {
   std::string table;
   for (const Measurement& m : measurements) {
     char line[300];
-    std::snprintf(line, sizeof line, "%-58s %11.5g  mean %11.5g  [%.4g, %.4g] %s, %ld\n", m.full_name().c_str(), m.median, m.mean, m.low,
-                  m.high, m.unit.c_str(), m.samples);
+    std::snprintf(line, sizeof line, "%-58s %11.5g  mean %11.5g  [%.4g, %.4g] %s, %ld\n", m.full_name().c_str(),
+                  m.median, m.mean, m.low, m.high, m.unit.c_str(), m.samples);
     table += line;
   }
   return table;

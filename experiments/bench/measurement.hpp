@@ -18,7 +18,8 @@ struct Measurement {
 };
 
 /// Throws std::invalid_argument when there is no value.
-Measurement measurement_of(const std::string& group, const std::string& name, const std::string& unit, std::vector<double> values);
+Measurement measurement_of(const std::string& group, const std::string& name, const std::string& unit,
+                           std::vector<double> values);
 
 /// A file of results: of one kind (kernels, step, scaling, accuracy), machine and program.
 struct BenchResult {
@@ -33,7 +34,8 @@ void write_bench_result(const std::filesystem::path& folder, const std::string& 
 /// A file made by write_bench_result. Throws RunError naming the file and what is wrong in it.
 BenchResult read_bench_result(const std::filesystem::path& file);
 
-/// What two files have in common as a Markdown table: medians, and b over a. Measurements of one file alone are named below it.
+/// What two files have in common as a Markdown table: medians, and b over a. Measurements of one file alone are named
+/// below it.
 std::string bench_ratio_table(const BenchResult& a, const BenchResult& b);
 
 /// The same measurements as a table for the terminal.

@@ -37,7 +37,8 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
   return median_of(std::move(seconds));
 }
 
-double iterations_to(const std::string& solver, const FrictionProblem& problem, const Impulses& start, const Budget& budget, int threads) {
+double iterations_to(const std::string& solver, const FrictionProblem& problem, const Impulses& start,
+                     const Budget& budget, int threads) {
   const std::unique_ptr<Solver> backend = make_solver(solver);
   backend->use_threads(threads);
   SolverRunner runner;
@@ -60,7 +61,8 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
     detect.push_back(ns * r.seconds_detect);
     assemble.push_back(ns * r.seconds_assemble);
     solve.push_back(ns * r.seconds_solve);
-    step.push_back(ns * (r.seconds_detect + r.seconds_assemble + r.seconds_solve + r.seconds_judge + r.seconds_correct + r.seconds_other));
+    step.push_back(ns * (r.seconds_detect + r.seconds_assemble + r.seconds_solve + r.seconds_judge + r.seconds_correct +
+                         r.seconds_other));
   }
   point.detect = median_of(std::move(detect));
   point.assemble = median_of(std::move(assemble));
@@ -109,8 +111,9 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
       point.threads = threads;
       std::tie(point.nx, point.ny) = tiles_for(grains, block);
       point.grains = static_cast<double>(point.nx) * point.ny * block;
-      const ChildResult child =
-          run_in_child(options.max_seconds, [&](std::vector<double>& record) { record = packed(measure_packing(box, options, point)); });
+      const ChildResult child = run_in_child(options.max_seconds, [&](std::vector<double>& record) {
+        record = packed(measure_packing(box, options, point));
+      });
       if (child.end != ChildEnd::complete)
         throw RunError("bench scaling: " + std::to_string(static_cast<long>(point.grains)) + " grains: the child " +
                        (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
@@ -125,7 +128,9 @@ std::vector<Measurement> scaling_measurements(const ScalingOptions& options, con
   for (const ScalingPoint& p : points) {
     const std::string group = std::to_string(p.threads) + (p.threads == 1 ? " thread, " : " threads, ") +
                               std::to_string(static_cast<long>(p.grains)) + " grains";
-    const auto add = [&](const std::string& name, const char* unit, double value) { result.push_back(measurement_of(group, name, unit, {value})); };
+    const auto add = [&](const std::string& name, const char* unit, double value) {
+      result.push_back(measurement_of(group, name, unit, {value}));
+    };
     add("contacts", "contacts", p.contacts);
     add("detect", "ns/grain", p.detect);
     add("assemble", "ns/grain", p.assemble);
@@ -134,7 +139,8 @@ std::vector<Measurement> scaling_measurements(const ScalingOptions& options, con
     add("sweep", "ns/grain", p.sweep);
     add("sweep per contact", "ns/contact", p.contacts > 0.0 ? p.sweep * p.grains / p.contacts : 0.0);
     add("memory", "B/grain", p.bytes);
-    for (size_t k = 0; k < p.iterations.size(); ++k) add("iterations needed, " + options.solvers[k], "iterations", p.iterations[k]);
+    for (size_t k = 0; k < p.iterations.size(); ++k)
+      add("iterations needed, " + options.solvers[k], "iterations", p.iterations[k]);
   }
   return result;
 }
@@ -145,7 +151,8 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
     double ScalingPoint::*value;
     Ink ink;
   };
-  const Line lines[] = {{"detection", &ScalingPoint::detect, Ink::vermilion}, {"assembly", &ScalingPoint::assemble, Ink::orange},
+  const Line lines[] = {{"detection", &ScalingPoint::detect, Ink::vermilion},
+                        {"assembly", &ScalingPoint::assemble, Ink::orange},
                         {"a sweep", &ScalingPoint::sweep, Ink::blue}};
   const Ink solver_inks[] = {Ink::blue, Ink::green, Ink::purple, Ink::sky};
   Figure figure;
@@ -166,7 +173,8 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
     panel.curves.push_back(std::move(curve));
   };
   for (const int threads : options.threads)
-    for (const Line& line : lines) add(figure.panels[0], threads, line.title, line.ink, [&](const ScalingPoint& p) { return p.*line.value; });
+    for (const Line& line : lines)
+      add(figure.panels[0], threads, line.title, line.ink, [&](const ScalingPoint& p) { return p.*line.value; });
   for (size_t k = 0; k < options.solvers.size(); ++k)
     add(figure.panels[1], options.threads.front(), options.solvers[k], solver_inks[k % std::size(solver_inks)],
         [k](const ScalingPoint& p) { return p.iterations.at(k); });

@@ -12,7 +12,7 @@
 namespace ballast {
 
 struct ScalingOptions {
-  std::vector<long> grains;     ///< wanted; what comes is the block's grains times a number of tiles
+  std::vector<long> grains;  ///< wanted; what comes is the block's grains times a number of tiles
   std::vector<int> threads{1};
   int warm_up = 5, steps = 10;  ///< of each packing
   int sweeps = 10;              ///< timed on the last step's problem
@@ -27,16 +27,17 @@ struct ScalingPoint {
   int threads = 1, nx = 1, ny = 1;
   double grains = 0.0, contacts = 0.0;
   double detect = 0.0, assemble = 0.0, solve = 0.0, step = 0.0;  ///< ns per grain and step, medians; wall clock
-  double sweep = 0.0;            ///< ns per grain and sweep
-  double bytes = 0.0;            ///< of the process per grain, at its most, beyond what it had before
-  std::vector<double> iterations;  ///< per solver, to the tolerance from the step's warm start; max_iterations: not reached
+  double sweep = 0.0;                                            ///< ns per grain and sweep
+  double bytes = 0.0;  ///< of the process per grain, at its most, beyond what it had before
+  std::vector<double>
+      iterations;  ///< per solver, to the tolerance from the step's warm start; max_iterations: not reached
 };
 
 /// Tiles nx * ny near grains / block, as square as can be.
 std::pair<int, int> tiles_for(long grains, int block);
 
-/// Each packing in a child process, so that its memory is its own. `said` hears of each. Throws RunError where a child fails: out of
-/// memory, out of time.
+/// Each packing in a child process, so that its memory is its own. `said` hears of each. Throws RunError where a child
+/// fails: out of memory, out of time.
 std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said);
 

@@ -16,12 +16,15 @@ struct StepQuantity {
 };
 
 double total_seconds(const StepRecord& r) {
-  return r.seconds_detect + r.seconds_assemble + r.seconds_solve + r.seconds_judge + r.seconds_correct + r.seconds_other;
+  return r.seconds_detect + r.seconds_assemble + r.seconds_solve + r.seconds_judge + r.seconds_correct +
+         r.seconds_other;
 }
 
 /// What is said of a set of steps. `scale` [m/s]: g h.
 std::vector<StepQuantity> quantities(double scale) {
-  const auto phase = [](double StepRecord::*seconds) { return [seconds](const BenchStep& s) { return 1e3 * (s.record.*seconds); }; };
+  const auto phase = [](double StepRecord::*seconds) {
+    return [seconds](const BenchStep& s) { return 1e3 * (s.record.*seconds); };
+  };
   const auto counter = [](long DetectionCounters::*count) {
     return [count](const BenchStep& s) { return static_cast<double>(s.counters.*count); };
   };
@@ -47,14 +50,16 @@ std::vector<StepQuantity> quantities(double scale) {
           {"penetration max", "um", [](const BenchStep& s) { return 1e6 * s.record.penetration_max; }}};
 }
 
-void add_group(const std::string& group, const std::vector<const BenchStep*>& steps, double scale, std::vector<Measurement>& to) {
+void add_group(const std::string& group, const std::vector<const BenchStep*>& steps, double scale,
+               std::vector<Measurement>& to) {
   if (steps.empty()) return;
   for (const StepQuantity& quantity : quantities(scale)) {
     std::vector<double> values;
     for (const BenchStep* step : steps) values.push_back(quantity.value(*step));
     const double worst = *std::max_element(values.begin(), values.end());
     to.push_back(measurement_of(group, quantity.name, quantity.unit, std::move(values)));
-    if (std::string(quantity.name) == "error rms") to.push_back(measurement_of(group, "error rms, worst step", quantity.unit, {worst}));
+    if (std::string(quantity.name) == "error rms")
+      to.push_back(measurement_of(group, "error rms, worst step", quantity.unit, {worst}));
   }
   // of means: what an iteration costs, everything of the solver counted
   double solve = 0.0, visits = 0.0;
@@ -62,7 +67,8 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
     solve += step->record.seconds_solve;
     visits += step->record.iterations * step->record.contacts;
   }
-  if (visits > 0.0) to.push_back(measurement_of(group, "solve per iteration and contact", "ns", {1e9 * solve / visits}));
+  if (visits > 0.0)
+    to.push_back(measurement_of(group, "solve per iteration and contact", "ns", {1e9 * solve / visits}));
 }
 
 }  // namespace
@@ -108,9 +114,10 @@ Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
     double StepRecord::*seconds;
     Ink ink;
   };
-  const Line lines[] = {{"solve", &StepRecord::seconds_solve, Ink::blue},     {"detect", &StepRecord::seconds_detect, Ink::vermilion},
-                        {"judge", &StepRecord::seconds_judge, Ink::green},    {"assemble", &StepRecord::seconds_assemble, Ink::orange},
-                        {"correct", &StepRecord::seconds_correct, Ink::sky},  {"other", &StepRecord::seconds_other, Ink::grey}};
+  const Line lines[] = {
+      {"solve", &StepRecord::seconds_solve, Ink::blue},    {"detect", &StepRecord::seconds_detect, Ink::vermilion},
+      {"judge", &StepRecord::seconds_judge, Ink::green},   {"assemble", &StepRecord::seconds_assemble, Ink::orange},
+      {"correct", &StepRecord::seconds_correct, Ink::sky}, {"other", &StepRecord::seconds_other, Ink::grey}};
   Figure figure;
   figure.name = "step";
   figure.title = "Where the time of a step goes";

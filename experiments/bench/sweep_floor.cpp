@@ -7,15 +7,16 @@
 namespace ballast {
 namespace {
 
-/// Of relax() in solvers/sweep_kernels.cpp, for rows `width` wide: `rows` scalar products over both bodies, the contact's own arithmetic,
-/// `rows` multiples added to both bodies.
+/// Of relax() in solvers/sweep_kernels.cpp, for rows `width` wide: `rows` scalar products over both bodies, the
+/// contact's own arithmetic, `rows` multiples added to both bodies.
 double relax_flops(int rows, int width, double own) {
   const double products = rows * (2.0 * width + (2.0 * width - 1.0));
   const double updates = 2.0 * width * 2.0 * rows;
   return products + own + updates;
 }
 
-// With friction: bias (3), candidate (2 x 3), impulse changes (3); Coulomb's test: mu (y - c1 t1 - c2 t2), t1 t1 + t2 t2, its square (9).
+// With friction: bias (3), candidate (2 x 3), impulse changes (3); Coulomb's test: mu (y - c1 t1 - c2 t2), t1 t1 + t2
+// t2, its square (9).
 constexpr double friction_own = 3 + 6 + 3 + 9;
 // One row: bias, candidate (2), change.
 constexpr double one_row_own = 4;
@@ -23,13 +24,13 @@ constexpr double one_row_own = 4;
 }  // namespace
 
 SweepCost friction_cost() {
-  return {sizeof(FrictionRecord), 2.0 * sizeof(FrictionImpulse), 4.0 * sizeof(BodyVelocity), relax_flops(3, row_width, friction_own),
-          relax_flops(3, body_width, friction_own)};
+  return {sizeof(FrictionRecord), 2.0 * sizeof(FrictionImpulse), 4.0 * sizeof(BodyVelocity),
+          relax_flops(3, row_width, friction_own), relax_flops(3, body_width, friction_own)};
 }
 
 SweepCost one_row_cost() {
-  return {sizeof(OneRowRecord), 2.0 * sizeof(double), 4.0 * sizeof(BodyVelocity), relax_flops(1, row_width, one_row_own),
-          relax_flops(1, body_width, one_row_own)};
+  return {sizeof(OneRowRecord), 2.0 * sizeof(double), 4.0 * sizeof(BodyVelocity),
+          relax_flops(1, row_width, one_row_own), relax_flops(1, body_width, one_row_own)};
 }
 
 SweepFloor sweep_floor(const FrictionProblem& problem) {
@@ -52,7 +53,9 @@ SweepFloor sweep_floor(const FrictionProblem& problem) {
 std::vector<Measurement> floor_measurements(const FrictionProblem& problem, const MachineFacts& facts) {
   const SweepFloor floor = sweep_floor(problem);
   const double near = read_bandwidth(static_cast<std::size_t>(floor.working_set));
-  const auto one = [](const char* name, const char* unit, double value) { return measurement_of("floor", name, unit, {value}); };
+  const auto one = [](const char* name, const char* unit, double value) {
+    return measurement_of("floor", name, unit, {value});
+  };
   return {one("sweep bytes streamed", "B/contact", floor.bytes),
           one("sweep flops needed", "flops/contact", floor.flops),
           one("sweep flops on eight lanes", "flops/contact", floor.executed_flops),
@@ -61,7 +64,8 @@ std::vector<Measurement> floor_measurements(const FrictionProblem& problem, cons
           one("read bandwidth streaming", "GB/s", facts.read_GB_s),
           one("flop rate", "Gflop/s", facts.gflops),
           one("sweep floor in cache", "ns/contact", std::max(floor.bandwidth_ns(near), floor.flops_ns(facts.gflops))),
-          one("sweep floor streaming", "ns/contact", std::max(floor.bandwidth_ns(facts.read_GB_s), floor.flops_ns(facts.gflops)))};
+          one("sweep floor streaming", "ns/contact",
+              std::max(floor.bandwidth_ns(facts.read_GB_s), floor.flops_ns(facts.gflops)))};
 }
 
 }  // namespace ballast

@@ -23,7 +23,8 @@ struct BenchWords {
   std::vector<std::string> overrides;
   std::filesystem::path output = "results/bench", packing_cache = "results/packings";
   bool plot = true;
-  std::string threads = "1", grains = "1000,10000,100000", iterations = "20,50,100,200", solvers, tolerances = "1e-2,1e-3";
+  std::string threads = "1", grains = "1000,10000,100000", iterations = "20,50,100,200", solvers,
+              tolerances = "1e-2,1e-3";
   long steps = 1000, warm_up = 5;
   double from = 0.0, duration = 0.01, tolerance = 1e-2;
   int max_iterations = 300;
@@ -89,7 +90,8 @@ ExitCode bench_step(const BenchWords& words) {
     if (count == threads.front()) figure = step_figure(steps, 50);
     for (Measurement& m : step_measurements(box.scene, steps, count)) measurements.push_back(std::move(m));
   }
-  return finish(words, "step", command_of(words, "step --steps " + std::to_string(words.steps) + " --threads " + words.threads), facts,
+  return finish(words, "step",
+                command_of(words, "step --steps " + std::to_string(words.steps) + " --threads " + words.threads), facts,
                 measurements, &figure);
 }
 
@@ -103,18 +105,20 @@ ExitCode bench_scaling(const BenchWords& words) {
   options.max_iterations = words.max_iterations;
   if (!(options.tolerance > 0.0)) throw UsageError("bench: --tolerance: expected a number > 0");
   options.solvers.clear();
-  for (const BenchSolver& solver : usage("--solvers", [&] { return bench_solvers(words.solvers); })) options.solvers.push_back(solver.name);
+  for (const BenchSolver& solver : usage("--solvers", [&] { return bench_solvers(words.solvers); }))
+    options.solvers.push_back(solver.name);
   const DepositedBox box = deposited_box(words.scene, words.overrides, words.packing_cache);
   const MachineFacts facts = measure_machine();
   const auto points = measure_scaling(box, options, [](const ScalingPoint& p) {
-    std::cout << p.nx << " x " << p.ny << " copies, " << p.grains << " grains, " << p.threads << " threads: " << 1e-3 * p.step
-              << " us a grain and step, " << p.bytes << " B a grain" << std::endl;
+    std::cout << p.nx << " x " << p.ny << " copies, " << p.grains << " grains, " << p.threads
+              << " threads: " << 1e-3 * p.step << " us a grain and step, " << p.bytes << " B a grain" << std::endl;
   });
   const Figure figure = scaling_figure(options, points);
   char rest[120];
-  std::snprintf(rest, sizeof rest, " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d", words.steps, words.warm_up,
-                words.tolerance, words.max_iterations);
-  return finish(words, "scaling", command_of(words, "scaling --grains " + words.grains + " --threads " + words.threads + rest), facts,
+  std::snprintf(rest, sizeof rest, " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d", words.steps,
+                words.warm_up, words.tolerance, words.max_iterations);
+  return finish(words, "scaling",
+                command_of(words, "scaling --grains " + words.grains + " --threads " + words.threads + rest), facts,
                 scaling_measurements(options, points), &figure);
 }
 
@@ -128,7 +132,8 @@ ExitCode bench_accuracy(const BenchWords& words) {
   if (!(words.from >= 0.0)) throw UsageError("bench: --from: expected a number >= 0");
   options.live.solvers = usage("--solvers", [&] { return bench_solvers(words.solvers); });
   options.live.tolerances.clear();
-  if (words.tolerances != "none") options.live.tolerances = usage("--tolerances", [&] { return bench_tolerances(words.tolerances); });
+  if (words.tolerances != "none")
+    options.live.tolerances = usage("--tolerances", [&] { return bench_tolerances(words.tolerances); });
   options.live.packing_cache = words.packing_cache;
   options.live.folder = words.output / "live";
   options.iterations = ints_of("--iterations", words.iterations, 1'000'000'000);
@@ -139,8 +144,10 @@ ExitCode bench_accuracy(const BenchWords& words) {
   const Figure figure = accuracy_figure(rows);
   char window[80];
   std::snprintf(window, sizeof window, "accuracy --from %g --duration %g", words.from, words.duration);
-  const std::string limits = " --solvers " + words.solvers + " --tolerances " + words.tolerances + " --iterations " + words.iterations;
-  return finish(words, "accuracy", command_of(words, window + limits), measure_machine(), accuracy_measurements(rows), &figure);
+  const std::string limits =
+      " --solvers " + words.solvers + " --tolerances " + words.tolerances + " --iterations " + words.iterations;
+  return finish(words, "accuracy", command_of(words, window + limits), measure_machine(), accuracy_measurements(rows),
+                &figure);
 }
 
 ExitCode bench_diff(const BenchWords& words) {
@@ -149,14 +156,20 @@ ExitCode bench_diff(const BenchWords& words) {
 }
 
 /// A subcommand of bench with what all that measure have.
-CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action, const char* name, const char* about, const char* scene,
-                        ExitCode (*act)(const BenchWords&)) {
+CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action, const char* name, const char* about,
+                        const char* scene, ExitCode (*act)(const BenchWords&)) {
   CLI::App* command = bench->add_subcommand(name, about);
   command->add_option("scene", words->scene, std::string("A scene with grains (") + scene + ")");
-  command->add_option("--set", words->overrides, "Overrides one value of the scene: dotted.key=value")->type_name("KEY=VALUE")->take_all()->expected(1);
-  command->add_option("--packing-cache", words->packing_cache, "Where deposited packings are kept")->capture_default_str()->type_name("DIR");
+  command->add_option("--set", words->overrides, "Overrides one value of the scene: dotted.key=value")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  command->add_option("--packing-cache", words->packing_cache, "Where deposited packings are kept")
+      ->capture_default_str()
+      ->type_name("DIR");
   command->add_option("--output", words->output, "Folder of the results")->capture_default_str()->type_name("DIR");
-  command->add_flag_callback("--no-plot", [words] { words->plot = false; }, "No figure");
+  command->add_flag_callback(
+      "--no-plot", [words] { words->plot = false; }, "No figure");
   command->callback([words, &action, act, command, scene] {
     if (command->count("scene") == 0) words->scene = scene;
     action = [words, act] { return act(*words); };
@@ -164,7 +177,8 @@ CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action, con
   return command;
 }
 
-constexpr const char* footer = R"(Results are <kind>.json and <kind>.csv with machine and commit; medians, means and quartiles.
+constexpr const char* footer =
+    R"(Results are <kind>.json and <kind>.csv with machine and commit; medians, means and quartiles.
 
 Examples:
   ballast bench kernels                                     on 60 grains; vibrated_box: on 1200
@@ -182,38 +196,52 @@ void add_bench_command(CLI::App& program, Action& action) {
   const auto positive = CLI::Range(1L, 1'000'000'000L);
   {
     const auto words = std::make_shared<BenchWords>();
-    CLI::App* command = add_measuring(bench, words, action, "kernels", "The inner loops on their own, beside the machine's limits", "vibrated_box_small", bench_kernels);
+    CLI::App* command =
+        add_measuring(bench, words, action, "kernels", "The inner loops on their own, beside the machine's limits",
+                      "vibrated_box_small", bench_kernels);
     command->add_option("--filter", words->kernels.filter, "Regular expression over group/name");
     command->add_option("--min-time", words->kernels.min_time, "CPU seconds of a repetition")->capture_default_str();
     command->add_option("--repeats", words->kernels.repeats, "Repetitions")->capture_default_str()->check(positive);
-    command->add_option("--streaming-MB", words->kernels.streaming_MB, "Least records of the streaming sweep (0: twice the last cache)");
+    command->add_option("--streaming-MB", words->kernels.streaming_MB,
+                        "Least records of the streaming sweep (0: twice the last cache)");
   }
   {
     const auto words = std::make_shared<BenchWords>();
-    CLI::App* command = add_measuring(bench, words, action, "step", "Whole steps by phase, from the deposited packing driven", "vibrated_box", bench_step);
+    CLI::App* command =
+        add_measuring(bench, words, action, "step", "Whole steps by phase, from the deposited packing driven",
+                      "vibrated_box", bench_step);
     command->add_option("--steps", words->steps, "Steps")->capture_default_str()->check(positive);
-    command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")->capture_default_str();
+    command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
+        ->capture_default_str();
   }
   {
     const auto words = std::make_shared<BenchWords>();
     words->steps = 10;
     words->solvers = "pgs,nncg";
-    CLI::App* command = add_measuring(bench, words, action, "scaling", "Cost per grain of growing packings: copies of the deposited one side by side", "vibrated_box", bench_scaling);
-    command->add_option("--grains", words->grains, "Grains, separated by commas: each the nearest number of copies")->capture_default_str();
-    command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")->capture_default_str();
+    CLI::App* command = add_measuring(bench, words, action, "scaling",
+                                      "Cost per grain of growing packings: copies of the deposited one side by side",
+                                      "vibrated_box", bench_scaling);
+    command->add_option("--grains", words->grains, "Grains, separated by commas: each the nearest number of copies")
+        ->capture_default_str();
+    command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
+        ->capture_default_str();
     command->add_option("--steps", words->steps, "Measured steps")->capture_default_str()->check(positive);
     command->add_option("--warm-up", words->warm_up, "Steps before them")->capture_default_str()->check(positive);
     command->add_option("--solvers", words->solvers, "Whose iterations are counted")->capture_default_str();
     command->add_option("--tolerance", words->tolerance, "To this error [g h]")->capture_default_str();
-    command->add_option("--max-iterations", words->max_iterations, "At most so many")->capture_default_str()->check(positive);
+    command->add_option("--max-iterations", words->max_iterations, "At most so many")
+        ->capture_default_str()
+        ->check(positive);
   }
   {
     const auto words = std::make_shared<BenchWords>();
     words->solvers = "nncg,pgs,anderson_pgs,apgd";
-    CLI::App* command = add_measuring(bench, words, action, "accuracy", "What a simulated second costs at which error", "vibrated_box", bench_accuracy);
+    CLI::App* command = add_measuring(bench, words, action, "accuracy", "What a simulated second costs at which error",
+                                      "vibrated_box", bench_accuracy);
     command->add_option("--solvers", words->solvers, "Separated by commas")->capture_default_str();
     command->add_option("--tolerances", words->tolerances, "Solved to these [g h]; none: not")->capture_default_str();
-    command->add_option("--iterations", words->iterations, "And with so many iterations in every step")->capture_default_str();
+    command->add_option("--iterations", words->iterations, "And with so many iterations in every step")
+        ->capture_default_str();
     command->add_option("--from", words->from, "Simulated time where all begin [s]")->capture_default_str();
     command->add_option("--duration", words->duration, "Simulated from there [s]")->capture_default_str();
   }

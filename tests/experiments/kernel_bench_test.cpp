@@ -23,7 +23,8 @@ using namespace ballast;
 
 namespace {
 
-const std::vector<std::string> tiny = {"grains.count=12", "box.length=0.12", "box.width=0.12", "control_volume.margin_x=0.02"};
+const std::vector<std::string> tiny = {"grains.count=12", "box.length=0.12", "box.width=0.12",
+                                       "control_volume.margin_x=0.02"};
 
 struct Silence {
   Silence() : old(std::cout.rdbuf(sink.rdbuf())) {}
@@ -87,7 +88,8 @@ TEST_CASE("Results are written, read and compared") {
 
 TEST_CASE("Lists of numbers are read whole or refused") {
   CHECK(whole_numbers("1,20", 100) == std::vector<long>{1, 20});
-  for (const char* wrong : {"", "1,", ",1", "0", "-3", "1.5", "101", "x", "1 2"}) CHECK_THROWS_AS(whole_numbers(wrong, 100), std::invalid_argument);
+  for (const char* wrong : {"", "1,", ",1", "0", "-3", "1.5", "101", "x", "1 2"})
+    CHECK_THROWS_AS(whole_numbers(wrong, 100), std::invalid_argument);
 }
 
 TEST_CASE("Copies side by side are the packing again and again") {
@@ -123,7 +125,8 @@ TEST_CASE("A repeated problem is its copies") {
   const FrictionProblem three = repeated(problem.problem, 3);
   three.validate();
   CHECK(three.contact_count() == 3 * problem.problem.contact_count());
-  const ContactError one = contact_error(problem.problem, problem.warm), all = contact_error(three, repeated(problem.warm, 3));
+  const ContactError one = contact_error(problem.problem, problem.warm),
+                     all = contact_error(three, repeated(problem.warm, 3));
   CHECK(one.natural_map_rms > 0.0);
   CHECK(all.natural_map_rms == Approx(one.natural_map_rms).epsilon(1e-12));
   CHECK(all.natural_map_max == one.natural_map_max);
@@ -250,7 +253,9 @@ TEST_CASE("Kernels run by name, or the library is named that is missing") {
     CHECK(value_of(measured, "one contact/stick") > 0.0);
     CHECK(value_of(measured, "problem/judge") > 0.0);
     CHECK(value_of(measured, "floor/sweep bytes streamed") > 0.0);
-    for (const Measurement& m : measured) CHECK_THAT(m.full_name(), Catch::StartsWith("one contact/") || Catch::StartsWith("floor/") || Catch::Equals("problem/judge"));
+    for (const Measurement& m : measured)
+      CHECK_THAT(m.full_name(),
+                 Catch::StartsWith("one contact/") || Catch::StartsWith("floor/") || Catch::Equals("problem/judge"));
     options.filter = "no such kernel";
     CHECK_THROWS_WITH(run_kernels(problem, options, MachineFacts{}), Catch::Contains("no such kernel"));
   } catch (const MissingSolver& missing) {
