@@ -1,12 +1,11 @@
 #include "experiments/bench/bench_packing.hpp"
 
 #include <algorithm>
-#include <iostream>
 #include <numeric>
 #include <tuple>
 
-#include "experiments/atomic_file.hpp"
 #include "experiments/interrupt.hpp"
+#include "experiments/packing_cache.hpp"
 #include "experiments/run.hpp"
 #include "problems/scene_file.hpp"
 
@@ -55,17 +54,11 @@ DepositedBox deposited_box(const std::string& name, const std::vector<std::strin
   box.scene = read_scene(find_scene(name), overrides);
   if (!box.scene.grains) throw RunError(name + ": has no grains: a bench needs a deposited packing");
   box.rain = make_rain(box.scene);
-  const std::string key = packing_key(box.scene);
-  const std::filesystem::path file = cache / ("packing-" + key + ".bin"), part = file.string() + ".part";
-  if (read_packing(file, key, box.packing)) return box;
-  create_folder(cache);
-  std::cout << "depositing " << box.rain.grains.size() << " grains (kept in " << file.string() << ")" << std::endl;
   const InterruptGuard guard;
-  const auto goes_on = [](BoxStage, double, double, const StepRecord&) { return !InterruptGuard::requested(); };
-  if (!deposit(box.scene, box.rain, part, goes_on, box.packing))
+  double deposit_seconds = 0.0;
+  const PackingOrder order{cache, false, [] { return !InterruptGuard::requested(); }};
+  if (!take_packing(box.scene, box.rain, order, box.packing, deposit_seconds))
     throw RunError("interrupted; the same command goes on depositing");
-  write_packing(file, key, box.packing);
-  std::filesystem::remove(part);
   return box;
 }
 
