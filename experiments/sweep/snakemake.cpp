@@ -114,12 +114,14 @@ void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::
   for (PlannedRun& run : absolute.runs) run.scene = fs::absolute(find_scene(run.scene)).lexically_normal();
   const std::vector<ResolvedRun> runs = resolve(absolute);
   const bool is_plain = folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") == std::string::npos;
-  if (!is_plain) throw RunError(folder.string() + ": stands in commands for a shell and Snakemake: expected a path without blanks, quotes and brackets");
+  if (!is_plain)
+    throw RunError(folder.string() + ": stands in commands for a shell and Snakemake: expected a path without blanks, quotes and brackets");
   for (const char* name : {"runs", "packings", "logs", "snakemake"}) create_folder(results / name);
   create_folder(folder / "slurm" / "jobs");
   note_plan(results, plan.name, runs);
   write_plan(absolute, folder / "plan.toml");
-  write_whole_file(folder / "runs.json", jobs_json(runs, results, program, folder).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  const Json jobs = jobs_json(runs, results, program, folder);
+  write_whole_file(folder / "runs.json", jobs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_whole_file(folder / "Snakefile", snakefile);
   write_whole_file(folder / "slurm" / "config.yaml", with_folder(slurm_config, folder));
   const fs::path status = folder / "slurm" / "status.sh";

@@ -49,6 +49,7 @@ TEST_CASE("a sweep killed with -9 twenty times at random ends with the same bits
   REQUIRE(sweep_for(100.0, file, whole) == 0);
   const double undisturbed = seconds_since(begin);
   const std::vector<std::string> bits = bits_of(plan, whole);
+  REQUIRE(bits[0] != bits[1]);
 
   // sweep after sweep until there were twenty deaths, spread over deposits and drives, on a fast machine and on a slow one
   Random random(20);
@@ -75,7 +76,8 @@ TEST_CASE("a sweep killed with -9 twenty times at random ends with the same bits
 TEST_CASE("children die with a sweep that is killed") {
   const TemporaryFolder folder;
   // long: whoever survived would still be running
-  const fs::path file = folder.write("plan.toml", "scene = \"vibrated_box_small\"\n[[run]]\nname = \"long\"\nset = [\"scene.duration=100\"]\n");
+  const fs::path file = folder.write(
+      "plan.toml", "scene = \"vibrated_box_small\"\n[[run]]\nname = \"long\"\nset = [\"scene.duration=100\"]\n");
   const fs::path results = folder.path() / "results";
   const PlannedRun run = read_plan(file).runs[0];
   const fs::path log = results / "logs" / (run_key(run) + ".log");
