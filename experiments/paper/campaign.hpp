@@ -12,7 +12,7 @@
 namespace ballast {
 
 /// What is varied.
-enum class Sweep { frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction };
+enum class Sweep { frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction, deposit, loose_frequency };
 
 struct CampaignSettings {
   std::string scene = "vibrated_box";  ///< name or path
@@ -31,7 +31,7 @@ struct CampaignRun {
 /// One place on an axis, for one seed.
 struct CampaignPoint {
   Sweep sweep;
-  double value = 0.0;    ///< nu [Hz], f_max/(m g0), g [m/s^2], m_w/m, iterations, h [s], mu; size and backend: number of the case
+  double value = 0.0;    ///< nu [Hz], f_max/(m g0), g [m/s^2], m_w/m, iterations, h [s], mu; size, backend, deposit: number of the case
   std::string label;     ///< "10 Hz", "pgs", ...
   int seed = 1;
   size_t run = 0;        ///< index into Campaign::runs

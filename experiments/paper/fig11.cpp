@@ -45,7 +45,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 Panel eq3_panel(const std::vector<Points>& all, const Proportion& line, bool is_log) {
   Panel panel;
-  panel.x_label = "right side of Eq. 3 without {/:Italic C}  (mm)";
+  panel.x_label = is_log ? "right side of Eq. 3 without {/:Italic C}  (mm)" : "the same, linear  (mm)";
   panel.y_label = "Δ{/:Italic x}_{max}  (mm)";
   panel.log_x = panel.log_y = is_log;
   double low = 1e300, high = 0.0;

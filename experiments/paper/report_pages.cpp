@@ -19,7 +19,7 @@ std::string markdown_table(const std::vector<std::string>& head, const std::vect
   const auto line = [](const std::vector<std::string>& cells) {
     std::string text = "|";
     for (std::string cell : cells) {
-      for (size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.insert(at, "\\");
+      for (size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.insert(at, 1, '\\');
       text += ' ' + cell + " |";
     }
     return text + '\n';

@@ -57,6 +57,8 @@ std::string digits(double value, int count) {
   const int exponent = std::atoi(std::strchr(text.c_str(), 'e') + 1);
   if (exponent >= -3 && exponent < 6) text = print("%.*f", std::max(0, count - 1 - exponent), value);
   if (text[0] == '-') text.replace(0, 1, "−");
+  if (const size_t mark = text.find('e'); mark != std::string::npos)  // "5e-04" to "5e-4"
+    text = text.substr(0, mark + 1) + std::to_string(exponent);
   return text;
 }
 
@@ -70,7 +72,7 @@ std::string with_error(double value, double error) {
   return text + " ± " + print("%.*f", places, error);
 }
 
-std::string interval(double low, double high) { return "[" + digits(low) + ", " + digits(high) + "]"; }
+std::string interval(double low, double high) { return std::string("[") + digits(low) + ", " + digits(high) + "]"; }
 
 Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title, Ink ink) {
   for (double& bar : error)

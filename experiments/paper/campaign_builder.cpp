@@ -1,0 +1,106 @@
+#include "experiments/paper/campaign_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "problems/scene_file.hpp"
+
+namespace ballast {
+namespace {
+
+/// Says what differs from the base, so that equal runs have equal names.
+std::string name_of(const RunSettings& s, int base_iterations) {
+  std::string name = "nu=" + campaign_number(s.frequency);
+  const auto add = [&](const char* key, const std::string& value, bool differs) {
+    if (differs) name += std::string("_") + key + '=' + value;
+  };
+  add("t", campaign_number(s.duration), s.duration != duration_at(s.frequency));
+  add("f", campaign_number(s.force), s.force != base_force);
+  add("g", campaign_number(s.gravity), s.gravity != base_gravity);
+  add("mw", campaign_number(s.wall_mass), s.wall_mass != base_wall_mass);
+  add("solver", s.solver, s.solver != "nncg");
+  add("it", std::to_string(s.iterations), s.iterations != base_iterations);
+  add("h", campaign_number(s.step), s.step != base_step);
+  add("mu", campaign_number(s.friction), s.friction != base_friction);
+  add("size", s.size, s.size != "radius");
+  add("lid", "placed", !s.pressed);
+  add("mudep", campaign_number(s.deposit_friction), s.deposit_friction != base_friction);
+  return name + "_seed=" + std::to_string(s.seed);
+}
+
+/// Core-seconds of a drive of the 1200-grain box, from the first measurements (docs/results.md, docs/comparison.md): a step's fixed part, and
+/// an iteration of each backend.
+double estimate(const RunSettings& s, long steps) {
+  constexpr double fixed = 8e-3, sweep = 0.18e-3;  // [s]
+  const double factor = s.solver == "nncg" ? 1.0 : s.solver == "anderson_pgs" ? 1.3 : 0.8;
+  return static_cast<double>(steps) * (fixed + factor * sweep * s.iterations);
+}
+
+}  // namespace
+
+std::string campaign_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+double duration_at(double frequency) { return std::max(1.0, 3.0 / frequency); }
+
+CampaignBuilder::CampaignBuilder(const CampaignSettings& settings) : scene_(read_scene(find_scene(settings.scene), settings.overrides)) {
+  if (!scene_.grains) throw SceneFileError(settings.scene + ": has no [grains], expected a vibrated box");
+  campaign.settings = settings;
+}
+
+size_t CampaignBuilder::run(RunSettings s) {
+  if (s.iterations == 0) s.iterations = campaign.settings.iterations;
+  const std::string name = name_of(s, campaign.settings.iterations);
+  for (size_t k = 0; k < campaign.runs.size(); ++k)
+    if (campaign.runs[k].planned.name == name) return k;
+  CampaignRun run;
+  run.planned = {name, campaign.settings.scene, overrides_of(s)};
+  run.steps = std::lround(s.duration / s.step);
+  run.seconds = estimate(s, run.steps);
+  run.stage = stage;
+  campaign.runs.push_back(run);
+  packings_.insert(s.size + (s.pressed ? " pressed " : " placed ") + campaign_number(s.deposit_friction) + ' ' + std::to_string(s.seed));
+  campaign.packings = static_cast<int>(packings_.size());
+  return campaign.runs.size() - 1;
+}
+
+void CampaignBuilder::point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds, TimeWindow window) {
+  for (int seed = 1; seed <= seeds; ++seed) {
+    settings.seed = seed;
+    campaign.points.push_back({sweep, value, label, seed, run(settings), window});
+  }
+}
+
+std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) const {
+  std::vector<std::string> set = campaign.settings.overrides;
+  const auto add = [&](const char* key, const std::string& value) { set.push_back(std::string(key) + '=' + value); };
+  add("grains.seed", std::to_string(s.seed));
+  add("drive.frequency", campaign_number(s.frequency));
+  add("scene.duration", campaign_number(s.duration));
+  add("scene.step", campaign_number(s.step));
+  add("drive.f_max_over_weight", campaign_number(s.force));
+  add("gravity.magnitude", campaign_number(s.gravity));
+  add("deposit.gravity", campaign_number(base_gravity));
+  add("drive.wall_mass_over_grains", campaign_number(s.wall_mass));
+  add("contact.friction", campaign_number(s.friction));
+  add("box.friction_horizontal", campaign_number(s.friction));
+  add("solver.name", s.solver);
+  add("solver.max_iterations", std::to_string(s.iterations));
+  if (s.size == "diameter") {  // the same packing at half the scale
+    add("grains.size", s.size);
+    add("box.length", campaign_number(0.5 * scene_.box.length));
+    add("box.width", campaign_number(0.5 * scene_.box.width));
+    add("control_volume.margin_x", campaign_number(0.5 * scene_.control_volume.margin_x));
+  }
+  if (!s.pressed) add("deposit.lid_pressure_weight", "0");
+  if (s.deposit_friction != base_friction) add("deposit.friction", campaign_number(s.deposit_friction));
+  add("record.pose_rate", s.states ? "100" : "1");
+  if (s.states) add("record.state_rate", "100");
+  return set;
+}
+
+}  // namespace ballast

@@ -1,0 +1,54 @@
+#pragma once
+// How the campaign's runs are put together: what may differ between them, their names, their scenes' overrides, what they cost.
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "experiments/paper/campaign.hpp"
+#include "problems/scene.hpp"
+
+namespace ballast {
+
+/// Everything in which runs of the campaign differ.
+struct RunSettings {
+  double frequency = sweep_frequency, duration = sweep_duration;  ///< [Hz], [s]
+  double force = base_force;  ///< f_max/(m g) at the run's own g
+  double gravity = base_gravity, wall_mass = base_wall_mass, step = base_step, friction = base_friction;
+  std::string solver = "nncg", size = "radius";
+  bool pressed = true;                      ///< the lid presses the deposit before it is raised
+  double deposit_friction = base_friction;  ///< while the grains are deposited
+  int iterations = 0;                       ///< 0: the campaign's
+  int seed = 1;
+  bool states = false;                      ///< keeps whole states
+};
+
+/// "%g"
+std::string campaign_number(double value);
+/// Simulated time of a run of the frequency sweep: the paper's 1 s, at least three periods [s].
+double duration_at(double frequency);
+
+/// Collects runs and points. Equal settings are one run.
+class CampaignBuilder {
+ public:
+  /// Throws SceneFileError when the scene is none, or has no grains.
+  explicit CampaignBuilder(const CampaignSettings& settings);
+
+  /// Index of the run with these settings, added when it is not there yet.
+  size_t run(RunSettings settings);
+  /// One value of a sweep, for the first `seeds` samples.
+  void point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds, TimeWindow window = scaling_window);
+
+  int seeds() const { return campaign.settings.seeds; }
+
+  Campaign campaign;
+  std::string stage;  ///< of the runs that come next
+
+ private:
+  std::vector<std::string> overrides_of(const RunSettings& settings) const;
+
+  Scene scene_;
+  std::set<std::string> packings_;
+};
+
+}  // namespace ballast
