@@ -10,23 +10,6 @@
 
 using namespace ballast;
 
-namespace {
-
-RunFacts facts_of(const SyntheticBox& box) {
-  RunFacts facts;
-  facts.gravity = box.gravity;
-  facts.grain_mass = box.grain_mass;
-  facts.wall_mass = box.wall_mass;
-  facts.solid_fraction_initial = box.solid_initial;
-  facts.frequency = box.frequency;
-  facts.f_max = box.f_max;
-  facts.f_min = 0.0;
-  facts.step = box.h;
-  return facts;
-}
-
-}  // namespace
-
 TEST_CASE("a power law's interval covers the truth as often as it says") {
   Random random(3);
   int covered = 0;

@@ -9,19 +9,6 @@
 namespace ballast {
 namespace {
 
-RunFacts facts_of(const SyntheticBox& box) {
-  RunFacts facts;
-  facts.step = box.h;
-  facts.gravity = box.gravity;
-  facts.frequency = box.frequency;
-  facts.f_max = box.f_max;
-  facts.f_min = 0.0;
-  facts.grain_mass = box.grain_mass;
-  facts.wall_mass = box.wall_mass;
-  facts.solid_fraction_initial = box.solid_initial;
-  return facts;
-}
-
 SyntheticBox bare_box() {
   SyntheticBox box;
   box.noise = 0.0;

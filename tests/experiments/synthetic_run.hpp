@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/run_summary.hpp"
 #include "experiments/step_record.hpp"
 #include "geometry/random.hpp"
 
@@ -124,6 +125,20 @@ inline std::vector<StepRecord> synthetic_box(const SyntheticBox& box = {}) {
     steps.push_back(s);
   }
   return steps;
+}
+
+/// What the record of such a box does not say.
+inline RunFacts facts_of(const SyntheticBox& box) {
+  RunFacts facts;
+  facts.step = box.h;
+  facts.gravity = box.gravity;
+  facts.frequency = box.frequency;
+  facts.f_max = box.f_max;
+  facts.f_min = 0.0;
+  facts.grain_mass = box.grain_mass;
+  facts.wall_mass = box.wall_mass;
+  facts.solid_fraction_initial = box.solid_initial;
+  return facts;
 }
 
 /// A cube of 1 kg that slides down an incline and comes to rest: no wall, no packing.
