@@ -28,9 +28,7 @@ const SweepValue* tightest(const std::vector<SweepValue>& values) {
 }
 
 std::string change(double value, double reference) {
-  if (!std::isfinite(value) || !std::isfinite(reference) || reference == 0.0) return "–";
-  const double percent = 100.0 * (value / reference - 1.0);
-  return (percent >= 0.0 ? "+" : "−") + digits(std::abs(percent), 2) + " %";
+  return reference == 0.0 ? "–" : percent(value / reference - 1.0);
 }
 
 TextTable table_of(const std::vector<SweepValue>& values, const std::string& caption) {

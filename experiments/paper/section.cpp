@@ -72,6 +72,11 @@ std::string with_error(double value, double error) {
   return text + " ± " + print("%.*f", places, error);
 }
 
+std::string percent(double relative) {
+  if (!std::isfinite(relative)) return "–";
+  return (relative >= 0.0 ? std::string("+") : std::string("−")) + digits(100.0 * std::abs(relative), 2) + " %";
+}
+
 std::string interval(double low, double high) { return std::string("[") + digits(low) + ", " + digits(high) + "]"; }
 
 Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title, Ink ink) {

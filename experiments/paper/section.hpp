@@ -47,6 +47,8 @@ PaperSection new_section(const std::string& id, const std::string& heading);
 std::string digits(double value, int count = 3);
 /// "1.23 ± 0.04": the error to two digits of its own; no error when it is not known.
 std::string with_error(double value, double error);
+/// A relative deviation: "+3.1 %", "−12 %".
+std::string percent(double relative);
 /// "[1.1, 1.4]"
 std::string interval(double low, double high);
 

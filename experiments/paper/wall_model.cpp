@@ -37,12 +37,18 @@ ModelPhase released(const WallModel& model, ModelPhase phase, double x, double l
 
 }  // namespace
 
-ModelMotion integrate(const WallModel& model, int parts) {
+ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& start, int parts) {
   const double dt = 1.0 / (model.load.frequency * parts);
   ModelMotion motion;
   ModelPhase phase = ModelPhase::jammed_before;
   Moving wall;
-  for (int k = 0; k <= parts; ++k) {
+  int first = 0;
+  if (start) {
+    phase = ModelPhase::out;
+    wall = {start->x, start->v};
+    first = static_cast<int>(std::lround(start->time / dt));
+  }
+  for (int k = first; k <= parts; ++k) {
     const double t = k * dt, load = model.load.at(t);
     const bool rests = phase != ModelPhase::out && phase != ModelPhase::in;
     if (rests) phase = released(model, phase, wall.x, load);
