@@ -8,10 +8,11 @@
 namespace ballast {
 namespace {
 
-/// Both sides' rows of G = H L^-T; a side that does not move gets zero rows and the velocity `nowhere`, which stays zero.
+/// Both sides' rows of G = H L^-T; a side that does not move gets zero rows and the velocity `nowhere`, which stays
+/// zero.
 template <int Rows>
-void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots, int c,
-                int nowhere, double (*rows)[Rows][row_width], int* body) {
+void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots, int c, int nowhere,
+                double (*rows)[Rows][row_width], int* body) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
   const int bodies[2] = {dynamics.body_a[c], dynamics.body_b[c]};
   for (int s = 0; s < 2; ++s) {
@@ -53,7 +54,7 @@ void BodySweep::prepare_ranges(const FrictionProblem& problem) {
   const auto number = [&](const std::vector<SweepPlan::Part>& parts, std::vector<Range>& ranges) {
     ranges.clear();
     for (const SweepPlan::Part& part : parts) {
-      ranges.push_back({friction, part.friction_end - part.begin, one_row, part.end - part.friction_end, 0.0, 0});
+      ranges.push_back({friction, part.friction_end - part.begin, one_row, part.end - part.friction_end, 0.0, 0.0, 0});
       for (int i = part.begin; i < part.end; ++i) {
         const int c = plan_.contacts()[i];
         nowhere_[c] = nowhere;
@@ -141,6 +142,39 @@ void BodySweep::sweep() {
     sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row, range.one_row_count,
                   velocity_.data());
   });
+}
+
+void BodySweep::start_search(SweepSearch& search) const {
+  search.friction.assign(friction_.size(), ImpulseSearch{});
+  search.one_row.assign(one_row_.size(), OneRowSearch{});
+  search.velocity_before.assign(velocity_.size(), BodyVelocity{});
+  search.velocity_direction.assign(velocity_.size(), BodyVelocity{});
+}
+
+double BodySweep::sweep(SweepSearch& search, SearchStep step) {
+  constexpr int chunks = 8;
+  team_.run(chunks, [&](int chunk) {
+    const size_t end = velocity_.size() * (chunk + 1) / chunks;
+    for (size_t b = velocity_.size() * chunk / chunks; b < end; ++b)
+      for (int i = 0; i < body_width; ++i) {
+        double &x = velocity_[b].w[i], &p = search.velocity_direction[b].w[i], &before = search.velocity_before[b].w[i];
+        const double along = step.beta * p;
+        p = along + step.gain * (x - before);
+        x += along;
+        before = x;
+      }
+  });
+  for_parts([&](Range& range) {
+    range.change_square =
+        sweep_friction(friction_.data() + range.friction, friction_impulse_.data() + range.friction,
+                       search.friction.data() + range.friction, step, range.friction_count, velocity_.data()) +
+        sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row,
+                      search.one_row.data() + range.one_row, step, range.one_row_count, velocity_.data());
+  });
+  double square = 0.0;
+  for (const std::vector<Range>* ranges : {&interiors_, &interfaces_})
+    for (const Range& range : *ranges) square += range.change_square;
+  return square;
 }
 
 void BodySweep::sweep(const SweepVariant& variant, const std::vector<int>& contacts) {

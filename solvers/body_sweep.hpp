@@ -13,6 +13,13 @@
 
 namespace ballast {
 
+/// What a search along sweeps remembers of the iterate: impulses and velocities, both linear in r, take the same steps.
+struct SweepSearch {
+  std::vector<ImpulseSearch> friction;
+  std::vector<OneRowSearch> one_row;
+  std::vector<BodyVelocity> velocity_before, velocity_direction;
+};
+
 class BodySweep {
  public:
   /// Records, masses, 1/rho: everything that does not depend on the impulses. `problem` has the dynamics form.
@@ -26,6 +33,10 @@ class BodySweep {
 
   /// Every contact once, in the order of order().
   void sweep();
+  /// The iterate moves along the search direction, `step`, and is then swept. Returns |r after the sweep - r before it|^2 over contacts, in
+  /// the records' coordinates. `search`: of start_search(), for this problem.
+  double sweep(SweepSearch& search, SearchStep step);
+  void start_search(SweepSearch& search) const;
   const std::vector<int>& order() const { return plan_.contacts(); }
   /// The contacts named, in that order, another way: for comparison, not for speed.
   void sweep(const SweepVariant& variant, const std::vector<int>& contacts);
@@ -39,17 +50,12 @@ class BodySweep {
   /// Square roots of W's diagonal in the same coordinates, for the impulses alone: their number is the vector's size.
   void impulse_weights(Eigen::VectorXd& weights) const;
 
-  /// What the sweep moves, for methods that move the iterate between sweeps: impulses and velocities must stay consistent.
-  std::vector<FrictionImpulse>& friction_impulses() { return friction_impulse_; }
-  std::vector<double>& one_row_impulses() { return one_row_impulse_; }
-  std::vector<BodyVelocity>& velocities() { return velocity_; }
-  WorkerTeam& team() { return team_; }
-
  private:
   /// The records of one part of the plan.
   struct Range {
     int friction, friction_count, one_row, one_row_count;
-    double error_square = 0.0;  ///< of error(): the part's sum, and over how many contacts
+    double change_square = 0.0;  ///< of the last sweep along a search
+    double error_square = 0.0;   ///< of error(): the part's sum, and over how many contacts
     int judged = 0;
   };
   /// Calls task(range) for the interiors, then for the interfaces; those of a kind at the same time.

@@ -25,6 +25,7 @@ using Vector4 = double __attribute__((vector_size(32)));
 
 using Loose8 = double __attribute__((vector_size(64), aligned(8), may_alias));
 using Loose4 = double __attribute__((vector_size(32), aligned(8), may_alias));
+using Lanes4 = double __attribute__((vector_size(32), may_alias));
 using Loose2 = double __attribute__((vector_size(16), aligned(8), may_alias));
 
 BALLAST_INLINE Vector8 load8(const double* x) { return *reinterpret_cast<const Vector8*>(x); }
@@ -114,6 +115,23 @@ BALLAST_INLINE void fetch(const Record* records, int now, int count, const BodyV
     for (const int body : records[now + bodies_ahead].body) __builtin_prefetch(&velocity[body], 1);
 }
 
+/// y, and the slip root in lane 3 left alone. Everything in the lanes at once: off the chain of velocities it costs nothing.
+BALLAST_INLINE void move_along(const SearchStep& step, FrictionImpulse& r, ImpulseSearch& search) {
+  const Vector4 x = *reinterpret_cast<const Lanes4*>(r.y), before = *reinterpret_cast<const Lanes4*>(search.before);
+  const Vector4 p = step.beta * *reinterpret_cast<const Lanes4*>(search.direction);
+  using Bits = long long __attribute__((vector_size(32)));
+  constexpr Bits three = {-1, -1, -1, 0};
+  const Vector4 moved = x + p;
+  *reinterpret_cast<Lanes4*>(search.direction) = (Vector4)((Bits)(p + step.gain * (x - before)) & three);
+  *reinterpret_cast<Lanes4*>(search.before) = (Vector4)((Bits)moved & three);
+  for (int i = 0; i < 3; ++i) r.y[i] = moved[i];
+}
+
+BALLAST_INLINE double change_square(const FrictionImpulse& r, const ImpulseSearch& search) {
+  const double d0 = r.y[0] - search.before[0], d1 = r.y[1] - search.before[1], d2 = r.y[2] - search.before[2];
+  return d0 * d0 + d1 * d1 + d2 * d2;
+}
+
 }  // namespace
 
 BALLAST_FOR_EACH_CPU
@@ -130,6 +148,36 @@ void sweep_one_row(const OneRowRecord* records, double* impulses, int count, Bod
     fetch(records, c, count, velocity);
     relax(records[c], impulses[c], velocity);
   }
+}
+
+BALLAST_FOR_EACH_CPU
+double sweep_friction(const FrictionRecord* records, FrictionImpulse* impulses, ImpulseSearch* search, SearchStep step,
+                      int count, BodyVelocity* velocity) {
+  double square = 0.0;
+  for (int c = 0; c < count; ++c) {
+    fetch(records, c, count, velocity);
+    move_along(step, impulses[c], search[c]);
+    relax(records[c], impulses[c], velocity);
+    square += change_square(impulses[c], search[c]);
+  }
+  return square;
+}
+
+BALLAST_FOR_EACH_CPU
+double sweep_one_row(const OneRowRecord* records, double* impulses, OneRowSearch* search, SearchStep step, int count,
+                     BodyVelocity* velocity) {
+  double square = 0.0;
+  for (int c = 0; c < count; ++c) {
+    fetch(records, c, count, velocity);
+    double &x = impulses[c], &p = search[c].direction;
+    const double along = step.beta * p;
+    p = along + step.gain * (x - search[c].before);
+    x += along;
+    search[c].before = x;
+    relax(records[c], x, velocity);
+    square += (x - search[c].before) * (x - search[c].before);
+  }
+  return square;
 }
 
 void resolve_by_variant(const SweepVariant& variant, const FrictionRecord& k, FrictionImpulse& r, double lambda_max,

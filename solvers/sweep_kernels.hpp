@@ -34,6 +34,19 @@ struct alignas(32) FrictionImpulse {
   double slip;  ///< the last slip root, first guess of the next
 };
 
+/// Of a search that combines sweeps: where the last sweep began, and the direction. Lane 3 is zero.
+struct alignas(64) ImpulseSearch {
+  double before[4], direction[4];
+};
+struct OneRowSearch {
+  double before = 0.0, direction = 0.0;
+};
+
+/// With x the impulse that the last sweep left: p := beta p + gain (x - before), x += beta p (the old p), before := x.
+struct SearchStep {
+  double beta = 0.0, gain = 0.0;
+};
+
 struct alignas(64) OneRowRecord {
   double rows[2][row_width];
   double bias, inverse_normal;
@@ -43,6 +56,13 @@ struct alignas(64) OneRowRecord {
 /// Every record once, in order.
 void sweep_friction(const FrictionRecord* records, FrictionImpulse* impulses, int count, BodyVelocity* velocity);
 void sweep_one_row(const OneRowRecord* records, double* impulses, int count, BodyVelocity* velocity);
+
+/// The same; each impulse first moves along its search direction. The velocities must have moved before: all of them, by the same step.
+/// Returns the sum over contacts of |impulse after - impulse moved|^2.
+double sweep_friction(const FrictionRecord* records, FrictionImpulse* impulses, ImpulseSearch* search, SearchStep step, int count,
+                      BodyVelocity* velocity);
+double sweep_one_row(const OneRowRecord* records, double* impulses, OneRowSearch* search, SearchStep step, int count,
+                     BodyVelocity* velocity);
 
 /// One record another way (sweep_variant.hpp).
 void resolve_by_variant(const SweepVariant& variant, const FrictionRecord& record, FrictionImpulse& impulse,
