@@ -160,7 +160,7 @@ The tolerance bounds, by --measure
 What is in the output folder is kept: the same command goes on after an interrupt; rows made by another binary are made again.
 
 Examples:
-  ballast compare ../shared/data/fclib --measure fclib --reference ../shared/data/siconos_best.csv
+  ballast compare my_problems --measure fclib --reference times_of_another.csv
   ballast compare results/captured/capture --solvers pgs,nncg,admm --starts cold,warm --tolerances 1e-3,1e-4,1e-6
   ballast compare known:contacts=200,count=5 --repeats 5
   ballast compare --live vibrated_box --from 0.25 --duration 0.02 --solvers pgs,nncg --tolerances 1e-2,1e-3,1e-4)";
