@@ -32,18 +32,22 @@ std::string joined(const std::vector<std::string>& words) {
 
 void print_plan(const Campaign& campaign, const fs::path& results) {
   const PaperData data(campaign, results);
-  std::cout << std::left << std::setw(16) << "stage" << std::setw(52) << "run" << std::right << std::setw(8) << "steps" << std::setw(10)
-            << "core-s" << "  state\n";
+  std::cout << std::left << std::setw(16) << "stage" << std::setw(52) << "run" << std::right << std::setw(8) << "steps"
+            << std::setw(10) << "core-s"
+            << "  state\n";
   double left = 0.0;
   for (size_t k = 0; k < campaign.runs.size(); ++k) {
     const CampaignRun& run = campaign.runs[k];
     if (!data.has(k)) left += run.seconds;
-    std::cout << std::left << std::setw(16) << run.stage << std::setw(52) << run.planned.name << std::right << std::setw(8) << run.steps
-              << std::setw(10) << std::lround(run.seconds) << (data.has(k) ? "  finished\n" : "  –\n");
+    std::cout << std::left << std::setw(16) << run.stage << std::setw(52) << run.planned.name << std::right
+              << std::setw(8) << run.steps << std::setw(10) << std::lround(run.seconds)
+              << (data.has(k) ? "  finished\n" : "  –\n");
   }
-  std::cout << '\n' << campaign.runs.size() << " runs, " << campaign.steps() << " steps, " << campaign.packings << " packings: about "
-            << std::lround(campaign.seconds()) << " core-seconds (1200 grains, a core to each run); " << data.finished()
-            << " finished, about " << std::lround(left) << " core-seconds of drives left" << std::endl;
+  std::cout << '\n'
+            << campaign.runs.size() << " runs, " << campaign.steps() << " steps, " << campaign.packings
+            << " packings: about " << std::lround(campaign.seconds())
+            << " core-seconds (1200 grains, a core to each run); " << data.finished() << " finished, about "
+            << std::lround(left) << " core-seconds of drives left" << std::endl;
 }
 
 /// Stage by stage, so that time running out leaves whole figures.
@@ -76,11 +80,14 @@ ExitCode reproduce(Options options) {
     return ExitCode::ok;
   }
   ExitCode code = ExitCode::ok;
-  if (options.target == "report") options.target = "all";
-  else code = run_stages(campaign, options);
+  if (options.target == "report")
+    options.target = "all";
+  else
+    code = run_stages(campaign, options);
   PaperData data(campaign, options.sweep.results);
   write_paper_report(data, make_sections(data, options.target), options.output);
-  std::cout << data.finished() << " of " << campaign.runs.size() << " runs; report in " << (options.output / "paper.html").string() << std::endl;
+  std::cout << data.finished() << " of " << campaign.runs.size() << " runs; report in "
+            << (options.output / "paper.html").string() << std::endl;
   return code;
 }
 
@@ -93,17 +100,29 @@ void add_paper_command(CLI::App& program, Action& action) {
   options->sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   command
       ->add_option("target", options->target,
-                   "What: all; " + joined(paper_targets()) + "; plan (lists the runs); report (draws what is there, runs nothing)")
+                   "What: all; " + joined(paper_targets()) +
+                       "; plan (lists the runs); report (draws what is there, runs nothing)")
       ->required();
-  command->add_option("--jobs", options->sweep.jobs, "Runs at a time (as many as there are processors)")->type_name("N")->check(CLI::Range(1, 4096));
+  command->add_option("--jobs", options->sweep.jobs, "Runs at a time (as many as there are processors)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
   command->add_option("--results", options->sweep.results, "The folder of runs (results/paper)")->type_name("DIR");
   command->add_option("--output", options->output, "The folder of the report (<results>/report)")->type_name("DIR");
-  command->add_option("--max-seconds", options->sweep.max_seconds, "Wall clock after which runs write checkpoints; the report is written all the same")
+  command
+      ->add_option("--max-seconds", options->sweep.max_seconds,
+                   "Wall clock after which runs write checkpoints; the report is written all the same")
       ->type_name("S");
   command->add_option("--scene", options->campaign.scene, "Another vibrated box (vibrated_box)")->type_name("SCENE");
-  command->add_option("--set", options->campaign.overrides, "Overrides one value in every run")->type_name("KEY=VALUE")->take_all()->expected(1);
-  command->add_option("--seeds", options->campaign.seeds, "Samples of each scaling point (3)")->type_name("N")->check(CLI::Range(1, 1000));
-  command->add_option("--iterations", options->campaign.iterations, "Solver iterations a step, where they are not what is varied")
+  command->add_option("--set", options->campaign.overrides, "Overrides one value in every run")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  command->add_option("--seeds", options->campaign.seeds, "Samples of each scaling point (3)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--iterations", options->campaign.iterations,
+                   "Solver iterations a step, where they are not what is varied")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   command->footer(

@@ -32,7 +32,8 @@ void add_frequencies(CampaignBuilder& build) {
   for (motion.seed = 1; motion.seed <= build.seeds(); ++motion.seed) build.campaign.motion.push_back(build.run(motion));
   // the corners of the range first; 1 Hz needs 3 s and is as dear as all others together can bear: last
   for (const double frequency : {10.0, 5.0, 20.0, 2.0, 60.0, 30.0, 3.0, 7.0, 15.0})
-    build.point(Sweep::frequency, frequency, campaign_number(frequency) + " Hz", at_frequency(frequency), build.seeds());
+    build.point(Sweep::frequency, frequency, campaign_number(frequency) + " Hz", at_frequency(frequency),
+                build.seeds());
 }
 
 void add_force(CampaignBuilder& build) {
@@ -45,7 +46,8 @@ void add_force(CampaignBuilder& build) {
 }
 
 void add_gravity(CampaignBuilder& build) {
-  build.point(Sweep::gravity, base_gravity, campaign_number(base_gravity) + " m/s²", sweep_base(), build.seeds(), sweep_window);
+  build.point(Sweep::gravity, base_gravity, campaign_number(base_gravity) + " m/s²", sweep_base(), build.seeds(),
+              sweep_window);
   for (const double gravity : {0.25 * base_gravity, 1.5 * base_gravity, 0.5 * base_gravity}) {
     RunSettings s;
     s.gravity = gravity;
@@ -55,7 +57,8 @@ void add_gravity(CampaignBuilder& build) {
 }
 
 void add_wall_mass(CampaignBuilder& build) {
-  build.point(Sweep::wall_mass, base_wall_mass, campaign_number(base_wall_mass), sweep_base(), build.seeds(), sweep_window);
+  build.point(Sweep::wall_mass, base_wall_mass, campaign_number(base_wall_mass), sweep_base(), build.seeds(),
+              sweep_window);
   for (const double mass : {2.0, 0.1, 1.0}) {
     RunSettings s;
     s.wall_mass = mass;
@@ -63,7 +66,9 @@ void add_wall_mass(CampaignBuilder& build) {
   }
 }
 
-void add_slowest(CampaignBuilder& build) { build.point(Sweep::frequency, 1.0, "1 Hz", at_frequency(1.0), build.seeds()); }
+void add_slowest(CampaignBuilder& build) {
+  build.point(Sweep::frequency, 1.0, "1 Hz", at_frequency(1.0), build.seeds());
+}
 
 void add_looseness(CampaignBuilder& build) {
   const int base = build.campaign.settings.iterations;
@@ -110,7 +115,8 @@ void add_sensitivity(CampaignBuilder& build) {
   }
 }
 
-/// Where the paper's and our compaction differ, the deposit is the first suspect: looser ones, and the rate against frequency from the loosest.
+/// Where the paper's and our compaction differ, the deposit is the first suspect: looser ones, and the rate against
+/// frequency from the loosest.
 void add_deposits(CampaignBuilder& build) {
   RunSettings placed = sweep_base(), loose = sweep_base();
   placed.pressed = loose.pressed = false;
@@ -125,7 +131,9 @@ void add_deposits(CampaignBuilder& build) {
 }
 
 /// Frequencies at which another deposit is driven too.
-bool is_compared_frequency(double frequency) { return frequency == 5.0 || frequency == 10.0 || frequency == 20.0 || frequency == 60.0; }
+bool is_compared_frequency(double frequency) {
+  return frequency == 5.0 || frequency == 10.0 || frequency == 20.0 || frequency == 60.0;
+}
 
 /// Sweeps that a target draws; empty: the 5 Hz runs alone.
 struct Target {
@@ -137,13 +145,24 @@ struct Target {
 const std::vector<Target>& targets() {
   using enum Sweep;
   static const std::vector<Target> list = {
-      {"fig3", {}, true},  {"fig4", {}, true},  {"fig5", {}, true},  {"fig6", {}, true},  {"fig7", {}, true},
+      {"fig3", {}, true},
+      {"fig4", {}, true},
+      {"fig5", {}, true},
+      {"fig6", {}, true},
+      {"fig7", {}, true},
       {"fig8", {frequency}, true},  // of the sweep only 5 and 10 Hz: runs_for
-      {"fig9", {frequency}, false},  {"fig10", {force}, false},  {"fig11", {frequency, force, gravity, wall_mass}, false},
-      {"fig12", {}, true},  {"fig13", {frequency}, false},  {"packing", {}, true},
+      {"fig9", {frequency}, false},
+      {"fig10", {force}, false},
+      {"fig11", {frequency, force, gravity, wall_mass}, false},
+      {"fig12", {}, true},
+      {"fig13", {frequency}, false},
+      {"packing", {}, true},
       {"looseness", {iterations, iterations_fast, backend, force}, false},
       {"sensitivity", {time_step, size, friction, deposit, loose_frequency, frequency, force}, false},
-      {"all", {frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction, deposit, loose_frequency}, true},
+      {"all",
+       {frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction, deposit,
+        loose_frequency},
+       true},
   };
   return list;
 }
@@ -161,8 +180,6 @@ double Campaign::seconds() const {
   for (const CampaignRun& run : runs) sum += run.seconds;
   return sum;
 }
-
-std::vector<double> campaign_frequencies() { return {1, 2, 3, 5, 7, 10, 15, 20, 30, 60}; }
 
 Campaign make_campaign(const CampaignSettings& settings) {
   CampaignBuilder build(settings);
@@ -189,7 +206,8 @@ std::vector<std::string> paper_targets() {
 }
 
 std::vector<size_t> runs_for(const Campaign& campaign, const std::string& name) {
-  const auto found = std::find_if(targets().begin(), targets().end(), [&](const Target& target) { return target.name == name; });
+  const auto found =
+      std::find_if(targets().begin(), targets().end(), [&](const Target& target) { return target.name == name; });
   if (found == targets().end()) {
     std::string all;
     for (const std::string& target : paper_targets()) all += (all.empty() ? "" : ", ") + target;

@@ -1,7 +1,7 @@
 #pragma once
-// The runs from which the paper is reproduced: the one place that says which. Points (a value on an axis of a figure, for one seed) refer to
-// runs; a run that serves several figures is made once. Runs are listed in the order of their importance, in stages: a campaign that is
-// stopped by time has whole figures first.
+// The runs from which the paper is reproduced: the one place that says which. Points (a value on an axis of a figure,
+// for one seed) refer to runs; a run that serves several figures is made once. Runs are listed in the order of their
+// importance, in stages: a campaign that is stopped by time has whole figures first.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,20 @@
 namespace ballast {
 
 /// What is varied.
-enum class Sweep { frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction, deposit, loose_frequency };
+enum class Sweep {
+  frequency,
+  force,
+  gravity,
+  wall_mass,
+  iterations,
+  iterations_fast,
+  backend,
+  time_step,
+  size,
+  friction,
+  deposit,
+  loose_frequency
+};
 
 struct CampaignSettings {
   std::string scene = "vibrated_box";  ///< name or path
@@ -31,11 +44,12 @@ struct CampaignRun {
 /// One place on an axis, for one seed.
 struct CampaignPoint {
   Sweep sweep;
-  double value = 0.0;    ///< nu [Hz], f_max/(m g0), g [m/s^2], m_w/m, iterations, h [s], mu; size, backend, deposit: number of the case
-  std::string label;     ///< "10 Hz", "pgs", ...
+  double value = 0.0;  ///< nu [Hz], f_max/(m g0), g [m/s^2], m_w/m, iterations, h [s], mu; size, backend, deposit:
+                       ///< number of the case
+  std::string label;   ///< "10 Hz", "pgs", ...
   int seed = 1;
-  size_t run = 0;        ///< index into Campaign::runs
-  TimeWindow window;     ///< of the periods that count
+  size_t run = 0;     ///< index into Campaign::runs
+  TimeWindow window;  ///< of the periods that count
 };
 
 struct Campaign {
@@ -46,21 +60,19 @@ struct Campaign {
   int packings = 0;            ///< different deposits
 
   long steps() const;
-  double seconds() const;      ///< estimate, core-seconds, packings included
+  double seconds() const;  ///< estimate, core-seconds, packings included
 };
 
-/// Frequencies of the paper's range [Hz].
-std::vector<double> campaign_frequencies();
 /// f_max, g, m_w, solver and the rest are varied at this frequency: many periods in a short run [Hz].
 inline constexpr double sweep_frequency = 10.0;
-inline constexpr double sweep_duration = 0.7;   ///< [s]
-inline constexpr double motion_frequency = 5.0; ///< the paper's Figs. 3-7, 12 [Hz]
-inline constexpr double fast_frequency = 60.0;  ///< where a loose solver hurts most [Hz]
-inline constexpr double fast_duration = 0.6;    ///< [s]
-inline constexpr double base_force = 3.0;       ///< f_max/(m g) at g = 9.81 m/s^2
-inline constexpr double base_gravity = 9.81;    ///< [m/s^2]; every packing is made under it
-inline constexpr double base_wall_mass = 0.5;   ///< m_w/m
-inline constexpr double base_step = 2e-4;       ///< the paper's h [s]
+inline constexpr double sweep_duration = 0.7;    ///< [s]
+inline constexpr double motion_frequency = 5.0;  ///< the paper's Figs. 3-7, 12 [Hz]
+inline constexpr double fast_frequency = 60.0;   ///< where a loose solver hurts most [Hz]
+inline constexpr double fast_duration = 0.6;     ///< [s]
+inline constexpr double base_force = 3.0;        ///< f_max/(m g) at g = 9.81 m/s^2
+inline constexpr double base_gravity = 9.81;     ///< [m/s^2]; every packing is made under it
+inline constexpr double base_wall_mass = 0.5;    ///< m_w/m
+inline constexpr double base_step = 2e-4;        ///< the paper's h [s]
 inline constexpr double base_friction = 0.4;
 
 /// Throws SceneFileError when the scene is none, or no vibrated box.
@@ -68,7 +80,8 @@ Campaign make_campaign(const CampaignSettings& settings);
 
 /// Names that `ballast paper` takes: fig3 ... fig13, packing, looseness, sensitivity, all.
 std::vector<std::string> paper_targets();
-/// Indices of the runs a target needs, in the campaign's order. Throws std::invalid_argument naming the target and what there is.
+/// Indices of the runs a target needs, in the campaign's order. Throws std::invalid_argument naming the target and what
+/// there is.
 std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target);
 /// What a target needs as plans, one for each stage: to be run in this order. Throws as runs_for.
 std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target);

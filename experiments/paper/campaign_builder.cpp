@@ -29,8 +29,8 @@ std::string name_of(const RunSettings& s, int base_iterations) {
   return name + "_seed=" + std::to_string(s.seed);
 }
 
-/// Core-seconds of a drive of the 1200-grain box, from the first measurements (docs/results.md, docs/comparison.md): a step's fixed part, and
-/// an iteration of each backend.
+/// Core-seconds of a drive of the 1200-grain box, from the first measurements (docs/results.md, docs/comparison.md): a
+/// step's fixed part, and an iteration of each backend.
 double estimate(const RunSettings& s, long steps) {
   constexpr double fixed = 8e-3, sweep = 0.18e-3;  // [s]
   const double factor = s.solver == "nncg" ? 1.0 : s.solver == "anderson_pgs" ? 1.3 : 0.8;
@@ -47,7 +47,8 @@ std::string campaign_number(double value) {
 
 double duration_at(double frequency) { return std::max(1.0, 3.0 / frequency); }
 
-CampaignBuilder::CampaignBuilder(const CampaignSettings& settings) : scene_(read_scene(find_scene(settings.scene), settings.overrides)) {
+CampaignBuilder::CampaignBuilder(const CampaignSettings& settings)
+    : scene_(read_scene(find_scene(settings.scene), settings.overrides)) {
   if (!scene_.grains) throw SceneFileError(settings.scene + ": has no [grains], expected a vibrated box");
   campaign.settings = settings;
 }
@@ -63,12 +64,14 @@ size_t CampaignBuilder::run(RunSettings s) {
   run.seconds = estimate(s, run.steps);
   run.stage = stage;
   campaign.runs.push_back(run);
-  packings_.insert(s.size + (s.pressed ? " pressed " : " placed ") + campaign_number(s.deposit_friction) + ' ' + std::to_string(s.seed));
+  packings_.insert(s.size + (s.pressed ? " pressed " : " placed ") + campaign_number(s.deposit_friction) + ' ' +
+                   std::to_string(s.seed));
   campaign.packings = static_cast<int>(packings_.size());
   return campaign.runs.size() - 1;
 }
 
-void CampaignBuilder::point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds, TimeWindow window) {
+void CampaignBuilder::point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds,
+                            TimeWindow window) {
   for (int seed = 1; seed <= seeds; ++seed) {
     settings.seed = seed;
     campaign.points.push_back({sweep, value, label, seed, run(settings), window});

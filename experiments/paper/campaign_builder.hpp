@@ -1,5 +1,6 @@
 #pragma once
-// How the campaign's runs are put together: what may differ between them, their names, their scenes' overrides, what they cost.
+// How the campaign's runs are put together: what may differ between them, their names, their scenes' overrides, what
+// they cost.
 
 #include <set>
 #include <string>
@@ -13,14 +14,14 @@ namespace ballast {
 /// Everything in which runs of the campaign differ.
 struct RunSettings {
   double frequency = sweep_frequency, duration = sweep_duration;  ///< [Hz], [s]
-  double force = base_force;  ///< f_max/(m g) at the run's own g
+  double force = base_force;                                      ///< f_max/(m g) at the run's own g
   double gravity = base_gravity, wall_mass = base_wall_mass, step = base_step, friction = base_friction;
   std::string solver = "nncg", size = "radius";
   bool pressed = true;                      ///< the lid presses the deposit before it is raised
   double deposit_friction = base_friction;  ///< while the grains are deposited
   int iterations = 0;                       ///< 0: the campaign's
   int seed = 1;
-  bool states = false;                      ///< keeps whole states
+  bool states = false;  ///< keeps whole states
 };
 
 /// "%g"
@@ -37,7 +38,8 @@ class CampaignBuilder {
   /// Index of the run with these settings, added when it is not there yet.
   size_t run(RunSettings settings);
   /// One value of a sweep, for the first `seeds` samples.
-  void point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds, TimeWindow window = scaling_window);
+  void point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds,
+             TimeWindow window = scaling_window);
 
   int seeds() const { return campaign.settings.seeds; }
 

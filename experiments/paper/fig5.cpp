@@ -30,7 +30,8 @@ std::optional<ModelStart> after_unjamming(const MotionRun& run, const WallPeriod
   return {};
 }
 
-/// The model beside one run: from the jam, and taken up after the unjamming transient of each period (means over periods).
+/// The model beside one run: from the jam, and taken up after the unjamming transient of each period (means over
+/// periods).
 struct Modelled {
   double rise_from_jam = not_known, rise = not_known, speed_in = not_known;
   ModelMotion last;  ///< of the last period
@@ -54,7 +55,8 @@ Modelled modelled(const MotionRun& run) {
 }
 
 bool can_be_modelled(const RunSummary& s) {
-  return !s.wall.periods.empty() && std::isfinite(s.loop.active.rate) && std::isfinite(s.loop.passive.slope) && std::isfinite(s.facts.wall_mass);
+  return !s.wall.periods.empty() && std::isfinite(s.loop.active.rate) && std::isfinite(s.loop.passive.slope) &&
+         std::isfinite(s.facts.wall_mass);
 }
 
 Curve line(std::vector<double> x, std::vector<double> y, const char* title, Ink ink, bool dashed) {
@@ -92,7 +94,8 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
   Panel above, below;
   above.x_label = "{/:Italic t} in the period  (s)";
   above.y_label = "{/:Italic x} − {/:Italic x}_{jam}  (mm)";
-  above.curves = {line(seen.time, seen.x, "simulation", Ink::blue, false), line(model.time, times(model.x, 1e3), "model", Ink::black, true)};
+  above.curves = {line(seen.time, seen.x, "simulation", Ink::blue, false),
+                  line(model.time, times(model.x, 1e3), "model", Ink::black, true)};
   below.x_label = "{/:Italic v}  (mm/s)";
   below.y_label = std::string("{/:Italic f}_g  (") + unit.name + ")";
   Curve loop;
@@ -120,13 +123,20 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
 
 PaperSection fig5_section(PaperData& data) {
   PaperSection section = new_section("fig5", "Figure 5 and Equation 2: the phenomenological model");
-  section.text = {"The wall’s equation m_w dv/dt = f_g − f(t), x outward, with f_g the fitted exponential while the wall moves out and the fitted line while it "
-                  "moves in; it jams where it comes back to, by the mean net contraction further in. The paper excludes the jamming and unjamming transients, in which f_g is "
-                  "neither branch: the model is therefore taken up where the fits begin, at 10 % of each period’s rise, with the simulation’s velocity there. Beside it: the same "
-                  "model from rest at the jam, released when f falls below the exponential at ξ = 0, which leaves out what f_g gives during unjamming."};
+  section.text = {
+      "The wall’s equation m_w dv/dt = f_g − f(t), x outward, with f_g the fitted exponential while the wall moves out "
+      "and the fitted line while it "
+      "moves in; it jams where it comes back to, by the mean net contraction further in. The paper excludes the "
+      "jamming and unjamming transients, in which f_g is "
+      "neither branch: the model is therefore taken up where the fits begin, at 10 % of each period’s rise, with the "
+      "simulation’s velocity there. Beside it: the same "
+      "model from rest at the jam, released when f falls below the exponential at ξ = 0, which leaves out what f_g "
+      "gives during unjamming."};
   const std::vector<MotionRun> runs = read_motion(data, section);
   TextTable table{"Model beside simulation (means over periods), sample by sample",
-                  {"sample", "Δx_max simulated (mm)", "model (mm)", "deviation", "model from the jam (mm)", "v_max simulated (mm/s)", "model (mm/s)", "deviation"}, {}};
+                  {"sample", "Δx_max simulated (mm)", "model (mm)", "deviation", "model from the jam (mm)",
+                   "v_max simulated (mm/s)", "model (mm/s)", "deviation"},
+                  {}};
   std::vector<double> rises, from_jam, speeds;
   for (size_t k = 0; k < runs.size(); ++k) {
     const RunSummary& s = runs[k].summary;
@@ -135,22 +145,31 @@ PaperSection fig5_section(PaperData& data) {
     rises.push_back(model.rise / s.rise.mean - 1.0);
     from_jam.push_back(model.rise_from_jam / s.rise.mean - 1.0);
     speeds.push_back(model.speed_in / s.speed_in.mean - 1.0);
-    table.rows.push_back({std::to_string(k + 1), digits(1e3 * s.rise.mean), digits(1e3 * model.rise), percent(rises.back()), digits(1e3 * model.rise_from_jam),
-                          digits(1e3 * s.speed_in.mean), digits(1e3 * model.speed_in), percent(speeds.back())});
+    table.rows.push_back({std::to_string(k + 1), digits(1e3 * s.rise.mean), digits(1e3 * model.rise),
+                          percent(rises.back()), digits(1e3 * model.rise_from_jam), digits(1e3 * s.speed_in.mean),
+                          digits(1e3 * model.speed_in), percent(speeds.back())});
     if (!section.figures.empty() || model.last.time.empty()) continue;
     PaperFigure figure;
     figure.plot = draw(runs[k], model.last);
-    figure.paper = "The model gives “a fairly good approximation” outside the jamming and unjamming transients; the largest contraction velocity is under-estimated.";
+    figure.paper =
+        "The model gives “a fairly good approximation” outside the jamming and unjamming transients; the largest "
+        "contraction velocity is under-estimated.";
     section.figures.push_back(figure);
   }
   const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds), jam = sample_mean(from_jam);
   if (rise.samples == 0 || section.figures.empty()) return section;
-  section.figures.front().found = "Last period of sample " + table.rows.front().front() + ". Over samples the model’s Δx_max deviates by " + percent(rise.mean) +
-                                  ", its v_max by " + percent(speed.mean) + "; started from the jam its Δx_max deviates by " + percent(jam.mean) + ".";
+  section.figures.front().found = "Last period of sample " + table.rows.front().front() +
+                                  ". Over samples the model’s Δx_max deviates by " + percent(rise.mean) +
+                                  ", its v_max by " + percent(speed.mean) +
+                                  "; started from the jam its Δx_max deviates by " + percent(jam.mean) + ".";
   section.tables = {table};
-  section.rows = {{"Fig. 5", "model’s Δx_max close to the simulation’s, transients excluded (asked for: 15 %)", percent(rise.mean) + " (from the jam: " + percent(jam.mean) + ")",
-                   std::abs(rise.mean) <= 0.15 ? Agreement::agrees : std::abs(rise.mean) <= 0.3 ? Agreement::partly : Agreement::differs},
-                  {"Fig. 5", "model under-estimates the largest contraction velocity", percent(speed.mean), speed.mean < 0.0 ? Agreement::agrees : Agreement::differs}};
+  section.rows = {{"Fig. 5", "model’s Δx_max close to the simulation’s, transients excluded (asked for: 15 %)",
+                   percent(rise.mean) + " (from the jam: " + percent(jam.mean) + ")",
+                   std::abs(rise.mean) <= 0.15  ? Agreement::agrees
+                   : std::abs(rise.mean) <= 0.3 ? Agreement::partly
+                                                : Agreement::differs},
+                  {"Fig. 5", "model under-estimates the largest contraction velocity", percent(speed.mean),
+                   speed.mean < 0.0 ? Agreement::agrees : Agreement::differs}};
   return section;
 }
 

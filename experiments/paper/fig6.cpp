@@ -49,7 +49,8 @@ Field draw(const StoredState& state) {
   Curve arrows, box;
   const double scale = field.speed > 0.0 ? 0.025 / field.speed : 0.0;  // an rms arrow is 2.5 cm long
   for (const size_t k : section)
-    add_arrow(arrows, motion.pose[k].position.x(), motion.pose[k].position.z(), scale * motion.velocity[k].x(), scale * motion.velocity[k].z());
+    add_arrow(arrows, motion.pose[k].position.x(), motion.pose[k].position.z(), scale * motion.velocity[k].x(),
+              scale * motion.velocity[k].z());
   arrows.width = 1.2;
   const double left = wall(wall_x_min).x(), right = wall(wall_x_max).x(), top = wall(wall_lid).z();
   box.x = {left, right, right, left, left};
@@ -65,7 +66,8 @@ Field draw(const StoredState& state) {
   field.figure.name = "fig06";
   field.figure.title = "Velocities of the grains while the wall moves in";
   field.figure.width = 800;
-  field.figure.height = static_cast<int>(78.0 + 680.0 * (top + 2.0 * margin) / (right - left + 2.0 * margin));  // equal scales: margins of plot_script
+  field.figure.height = static_cast<int>(
+      78.0 + 680.0 * (top + 2.0 * margin) / (right - left + 2.0 * margin));  // equal scales: margins of plot_script
   field.figure.panels = {panel};
   return field;
 }
@@ -74,9 +76,12 @@ Field draw(const StoredState& state) {
 
 PaperSection fig6_section(PaperData& data) {
   PaperSection section = new_section("fig6", "Figure 6: velocities of the grains in the passive state");
-  section.text = {"Mean vorticity of the xz plane: v = v₀ + L (x − x₀) is fitted to all grains’ velocities by least squares weighted by mass; the vorticity is "
-                  "∂v_x/∂z − ∂v_z/∂x = L_xz − L_zx, positive when clockwise with x to the right (where the driven wall is) and z up. States of moving wall are "
-                  "those above 20 % of its largest speed."};
+  section.text = {
+      "Mean vorticity of the xz plane: v = v₀ + L (x − x₀) is fitted to all grains’ velocities by least squares "
+      "weighted by mass; the vorticity is "
+      "∂v_x/∂z − ∂v_z/∂x = L_xz − L_zx, positive when clockwise with x to the right (where the driven wall is) and z "
+      "up. States of moving wall are "
+      "those above 20 % of its largest speed."};
   const std::vector<MotionRun> runs = read_motion(data, section);
   std::vector<double> passive, active, relative;
   double fastest = 0.0;
@@ -105,14 +110,23 @@ PaperSection fig6_section(PaperData& data) {
   PaperFigure figure;
   figure.plot = field.figure;
   figure.paper = "During the inward motion of the wall the grains undergo “a clockwise convective motion in the cell”.";
-  figure.found = "Sample 1, the stored state with the fastest inward wall (" + digits(1e3 * fastest) + " mm/s); grains within 5 cm of the middle plane, an arrow of "
-                 "2.5 cm is " + digits(1e3 * field.speed) + " mm/s (their rms). Mean vorticity, passive: " + with_error(seen.mean, seen.error) +
-                 " 1/s, that is " + digits(share.mean, 2) + " of v_max over the box’s length; active: " + with_error(back.mean, back.error) + " 1/s.";
+  figure.found = "Sample 1, the stored state with the fastest inward wall (" + digits(1e3 * fastest) +
+                 " mm/s); grains within 5 cm of the middle plane, an arrow of "
+                 "2.5 cm is " +
+                 digits(1e3 * field.speed) +
+                 " mm/s (their rms). Mean vorticity, passive: " + with_error(seen.mean, seen.error) + " 1/s, that is " +
+                 digits(share.mean, 2) +
+                 " of v_max over the box’s length; active: " + with_error(back.mean, back.error) + " 1/s.";
   section.figures = {figure};
   const bool is_sure = seen.samples > 1 && std::abs(seen.mean) > 2.0 * seen.error;
-  section.rows = {{"Fig. 6", "convection roll in the passive state (clockwise in the paper’s view)",
-                   "vorticity " + with_error(seen.mean, seen.error) + " 1/s (" + (seen.mean > 0.0 ? "clockwise" : "counter-clockwise") + ", driven wall on the right)",
-                   is_sure ? (seen.mean > 0.0 ? Agreement::agrees : Agreement::partly) : Agreement::reported}};
+  const std::string sense = seen.mean > 0.0 ? "clockwise" : "counter-clockwise";
+  // the text doesn't say on which side the paper's wall is: seen from the other side every roll turns round
+  section.rows = {{"Fig. 6", "a convection roll in the passive state, clockwise (its view is not said)",
+                   "vorticity " + with_error(seen.mean, seen.error) + " 1/s: " + sense +
+                       " with the driven wall on the right" + (is_sure ? "" : "; not beyond its error"),
+                   is_sure            ? Agreement::agrees
+                   : seen.samples > 1 ? Agreement::differs
+                                      : Agreement::reported}};
   return section;
 }
 

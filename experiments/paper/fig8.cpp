@@ -10,7 +10,8 @@ namespace {
 
 constexpr int phases = 200;  // of a period, at which orbits are compared
 
-/// The mean orbit over the periods that count: displacement from the period's first jamming position [m], velocity [m/s].
+/// The mean orbit over the periods that count: displacement from the period's first jamming position [m], velocity
+/// [m/s].
 struct Orbit {
   std::vector<double> x, v;
   int periods = 0;
@@ -55,7 +56,8 @@ double distance(const Orbit& a, const Orbit& b) {
   return std::sqrt(sum);
 }
 
-Panel portrait(const std::vector<std::pair<Orbit, double>>& orbits, const std::string& x_label, const std::string& v_label, double x_unit, double v_unit) {
+Panel portrait(const std::vector<std::pair<Orbit, double>>& orbits, const std::string& x_label,
+               const std::string& v_label, double x_unit, double v_unit) {
   Panel panel;
   panel.x_label = x_label;
   panel.y_label = v_label;
@@ -85,7 +87,8 @@ PaperSection fig8_section(PaperData& data) {
     return section;
   }
   const double nu[] = {motion_frequency, 2.0 * motion_frequency};
-  const std::vector<std::pair<Orbit, double>> raw = {{mean_orbit(data.read(*slow)), nu[0]}, {mean_orbit(data.read(*fast)), nu[1]}};
+  const std::vector<std::pair<Orbit, double>> raw = {{mean_orbit(data.read(*slow)), nu[0]},
+                                                     {mean_orbit(data.read(*fast)), nu[1]}};
   if (raw[0].first.periods == 0 || raw[1].first.periods == 0) {
     section.notes = {"PARTIAL: no whole period after the transient."};
     return section;
@@ -98,14 +101,20 @@ PaperSection fig8_section(PaperData& data) {
   figure.plot.title = "Phase portraits of the wall at 5 and 10 Hz, raw and scaled";
   figure.plot.height = 860;
   figure.plot.panels = {portrait(raw, "{/:Italic x} − {/:Italic x}_{jam}  (mm)", "{/:Italic v}  (mm/s)", 1e3, 1e3),
-                        portrait(collapsed, "({/:Italic x} − {/:Italic x}_{jam}) {/:Italic ν}^2  (mm/s^2)", "{/:Italic v ν}  (mm/s^2)", 1e3, 1e3)};
+                        portrait(collapsed, "({/:Italic x} − {/:Italic x}_{jam}) {/:Italic ν}^2  (mm/s^2)",
+                                 "{/:Italic v ν}  (mm/s^2)", 1e3, 1e3)};
   figure.paper = "Displacements scaled by ν⁻² and velocities by ν⁻¹ “collapse nicely on the same trajectory”.";
-  figure.found = "Orbits are means over " + std::to_string(raw[0].first.periods) + " (5 Hz) and " + std::to_string(raw[1].first.periods) +
-                 " (10 Hz) periods of one sample. Their distance (rms over the phase, each axis in units of the orbits’ mean range) is " + digits(before) +
-                 " raw and " + digits(after) + " scaled.";
+  figure.found = "Orbits are means over " + std::to_string(raw[0].first.periods) + " (5 Hz) and " +
+                 std::to_string(raw[1].first.periods) +
+                 " (10 Hz) periods of one sample. Their distance (rms over the phase, each axis in units of the "
+                 "orbits’ mean range) is " +
+                 digits(before) + " raw and " + digits(after) + " scaled.";
   section.figures = {figure};
-  section.rows = {{"Fig. 8", "orbits at 5 and 10 Hz collapse", "distance raw " + digits(before) + ", scaled " + digits(after) + " of the orbit’s size",
-                   after < 0.1 ? Agreement::agrees : after < 0.5 * before ? Agreement::partly : Agreement::differs}};
+  section.rows = {{"Fig. 8", "orbits at 5 and 10 Hz collapse",
+                   "distance raw " + digits(before) + ", scaled " + digits(after) + " of the orbit’s size",
+                   after < 0.1            ? Agreement::agrees
+                   : after < 0.5 * before ? Agreement::partly
+                                          : Agreement::differs}};
   return section;
 }
 

@@ -15,10 +15,12 @@ Panel scaling_panel(const SweepCurve& curve, const PowerFit& fit, double expecte
   panel.curves = {points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
   if (!std::isfinite(fit.exponent)) return panel;
   const double low = curve.x.front(), high = curve.x.back();
-  panel.curves.push_back(curve_of([&](double nu) { return fit.at(nu); }, low, high, true, "fit, exponent " + digits(fit.exponent), Ink::black));
+  panel.curves.push_back(curve_of([&](double nu) { return fit.at(nu); }, low, high, true,
+                                  "fit, exponent " + digits(fit.exponent), Ink::black));
   // through the data's geometric middle
   double logs = 0.0;
-  for (size_t k = 0; k < curve.x.size(); ++k) logs += std::log(curve.y[k] / std::pow(curve.x[k], expected)) / static_cast<double>(curve.x.size());
+  for (size_t k = 0; k < curve.x.size(); ++k)
+    logs += std::log(curve.y[k] / std::pow(curve.x[k], expected)) / static_cast<double>(curve.x.size());
   panel.curves.push_back(curve_of([&](double nu) { return std::exp(logs) * std::pow(nu, expected); }, low, high, true,
                                   "the paper’s exponent " + digits(expected, 1), Ink::vermilion, false));
   return panel;
@@ -35,14 +37,15 @@ PowerFit fit_part(const SweepCurve& curve, double low, double high) {
 TextTable values_table(const std::vector<SweepValue>& values) {
   TextTable table;
   table.caption = "Means over samples ± standard error";
-  table.head = {"ν (Hz)", "samples", "periods each", "Δx_max (mm)", "v_max (mm/s)", "Δx_max ν² (mm/s²)", "v_max ν (mm/s²)", "error (g·h)"};
+  table.head = {"ν (Hz)",       "samples",           "periods each",    "Δx_max (mm)",
+                "v_max (mm/s)", "Δx_max ν² (mm/s²)", "v_max ν (mm/s²)", "error (g·h)"};
   for (const SweepValue& value : values) {
     const SampleMean rise = value.mean(&Observation::rise), speed = value.mean(&Observation::speed_in);
     const double nu = value.value;
     table.rows.push_back({digits(nu), std::to_string(value.samples.size()) + " of " + std::to_string(value.planned),
                           std::to_string(value.samples.front().periods), with_error(1e3 * rise.mean, 1e3 * rise.error),
-                          with_error(1e3 * speed.mean, 1e3 * speed.error), digits(1e3 * rise.mean * nu * nu), digits(1e3 * speed.mean * nu),
-                          digits(value.mean(&Observation::error_mean).mean, 2)});
+                          with_error(1e3 * speed.mean, 1e3 * speed.error), digits(1e3 * rise.mean * nu * nu),
+                          digits(1e3 * speed.mean * nu), digits(value.mean(&Observation::error_mean).mean, 2)});
   }
   return table;
 }
@@ -52,9 +55,11 @@ TextTable values_table(const std::vector<SweepValue>& values) {
 PaperSection fig9_section(PaperData& data) {
   PaperSection section = new_section("fig9", "Figure 9: displacement and velocity against frequency");
   const std::vector<SweepValue> values = data.sweep(Sweep::frequency);
-  if (const std::string missing = data.missing(Sweep::frequency, "frequencies"); !missing.empty()) section.notes.push_back(missing);
+  if (const std::string missing = data.missing(Sweep::frequency, "frequencies"); !missing.empty())
+    section.notes.push_back(missing);
   if (values.size() < 2) return section;
-  const SweepCurve rise = curve_of_sweep(values, &Observation::rise, 1e3), speed = curve_of_sweep(values, &Observation::speed_in, 1e3);
+  const SweepCurve rise = curve_of_sweep(values, &Observation::rise, 1e3),
+                   speed = curve_of_sweep(values, &Observation::speed_in, 1e3);
   const PowerFit rise_fit = fit_power(rise.x, rise.y), speed_fit = fit_power(speed.x, speed.y);
   PaperFigure figure;
   figure.plot.name = "fig09";
@@ -63,10 +68,12 @@ PaperSection fig9_section(PaperData& data) {
   figure.plot.panels = {scaling_panel(rise, rise_fit, -2.0, "Δ{/:Italic x}_{max}  (mm)"),
                         scaling_panel(speed, speed_fit, -1.0, "{/:Italic v}_{max}  (mm/s)")};
   figure.paper = "Δx_max falls as ν⁻² and v_max as ν⁻¹ from 1 to 60 Hz; “the corresponding fits are excellent”.";
-  figure.found = "Exponent of Δx_max: " + words_of(rise_fit) + "; of v_max: " + words_of(speed_fit) +
-                 ". Least squares on logarithms of the sample means, 95 % confidence intervals. By part: Δx_max up to 10 Hz " +
-                 words_of(fit_part(rise, 0.0, 10.0)) + ", from 10 Hz " + words_of(fit_part(rise, 10.0, 1e9)) + "; v_max up to 10 Hz " +
-                 words_of(fit_part(speed, 0.0, 10.0)) + ", from 10 Hz " + words_of(fit_part(speed, 10.0, 1e9)) + ".";
+  figure.found =
+      "Exponent of Δx_max: " + words_of(rise_fit) + "; of v_max: " + words_of(speed_fit) +
+      ". Least squares on logarithms of the sample means, 95 % confidence intervals. By part: Δx_max up to 10 Hz " +
+      words_of(fit_part(rise, 0.0, 10.0)) + ", from 10 Hz " + words_of(fit_part(rise, 10.0, 1e9)) +
+      "; v_max up to 10 Hz " + words_of(fit_part(speed, 0.0, 10.0)) + ", from 10 Hz " +
+      words_of(fit_part(speed, 10.0, 1e9)) + ".";
   section.figures = {figure};
   section.tables = {values_table(values)};
   section.rows = {{"Fig. 9", "Δx_max ~ ν^−2", words_of(rise_fit), judge_exponent(rise_fit, -2.0)},

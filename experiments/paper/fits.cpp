@@ -53,8 +53,9 @@ struct PeakedProfile {
 }  // namespace
 
 double student_t95(int degrees_of_freedom) {
-  constexpr std::array table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131,
-                             2.120,  2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
+  constexpr std::array table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
+                             2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
+                             2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
   if (degrees_of_freedom < 1) return std::numeric_limits<double>::infinity();
   if (degrees_of_freedom <= static_cast<int>(table.size())) return table[static_cast<size_t>(degrees_of_freedom - 1)];
   return 1.960 + 2.4 / degrees_of_freedom;  // right to 3e-3 from here on

@@ -1,5 +1,6 @@
 #pragma once
-// What a referee asks of a fit: an interval. Sample means with standard errors, power laws, lines through the origin, Eq. 5.
+// What a referee asks of a fit: an interval. Sample means with standard errors, power laws, lines through the origin,
+// Eq. 5.
 
 #include <span>
 #include <string>
@@ -12,7 +13,8 @@ namespace ballast {
 /// Two-sided 95 % quantile of Student's t. Infinite without a degree of freedom.
 double student_t95(int degrees_of_freedom);
 
-/// Mean over independent samples (seeds) with its standard error s/sqrt(n); NaN error for one sample. Skips what is not finite.
+/// Mean over independent samples (seeds) with its standard error s/sqrt(n); NaN error for one sample. Skips what is not
+/// finite.
 struct SampleMean {
   double mean = not_known, error = not_known;
   int samples = 0;
@@ -35,16 +37,18 @@ PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 struct Proportion {
   double factor = not_known;
   double low = not_known, high = not_known;  ///< 95 % interval of the mean
-  double spread = not_known;                 ///< exp of the standard deviation of log(y/x): typical factor between a point and the line
+  double spread =
+      not_known;  ///< exp of the standard deviation of log(y/x): typical factor between a point and the line
   int samples = 0;
 };
 Proportion fit_proportion(std::span<const double> x, std::span<const double> y);
 
 /// Paper, Eq. 5: rate = D nu below nu_c, D nu_c^2 / nu above. D = Delta rho_max / rho_0.
 struct PeakedRate {
-  double gain = not_known;        ///< D
-  double critical = not_known;    ///< nu_c [Hz]
-  double low = not_known, high = not_known;  ///< 95 % interval of nu_c from the profile of the squared residuals; at an end of the data: that end
+  double gain = not_known;                   ///< D
+  double critical = not_known;               ///< nu_c [Hz]
+  double low = not_known, high = not_known;  ///< 95 % interval of nu_c from the profile of the squared residuals; at an
+                                             ///< end of the data: that end
   double r2 = not_known;
   int samples = 0;
   double at(double frequency) const;

@@ -13,7 +13,8 @@ bool is_between_grains(const MechanicalSystem& system, const PairForce& pair) {
 }
 
 /// Number of force-carrying contacts of each grain, contacts of grains that are `out` not counted.
-std::vector<int> contact_counts(const MechanicalSystem& system, std::span<const PairForce> pairs, const std::vector<bool>& out) {
+std::vector<int> contact_counts(const MechanicalSystem& system, std::span<const PairForce> pairs,
+                                const std::vector<bool>& out) {
   std::vector<int> counts(static_cast<size_t>(system.grain_count), 0);
   const auto is_grain = [&](int body) { return body < system.grain_count; };
   for (const PairForce& pair : pairs) {
@@ -73,7 +74,8 @@ Fabric fabric_of(const MechanicalSystem& system, std::span<const PairForce> pair
   return sum;
 }
 
-void find_anisotropy(const MechanicalSystem& system, const MotionState& state, std::span<const PairForce> pairs, PackingStatistics& result) {
+void find_anisotropy(const MechanicalSystem& system, const MotionState& state, std::span<const PairForce> pairs,
+                     PackingStatistics& result) {
   const Principal stress = principal_of(stress_tensor(system, state, pairs, box_volume(system, state)));
   const Vec3 e1 = stress.direction.col(0), e3 = stress.direction.col(2);
   const auto contrast = [&](const Mat3& tensor) { return 2.5 * (e1.dot(tensor * e1) - e3.dot(tensor * e3)); };
@@ -108,7 +110,8 @@ std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts, std::
   return pairs;
 }
 
-Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state, std::span<const PairForce> pairs, double volume) {
+Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state, std::span<const PairForce> pairs,
+                   double volume) {
   Mat3 sum = Mat3::Zero();
   const auto place = [&](int body, const Vec3& contact) -> Vec3 {
     return body < system.grain_count ? state.pose[static_cast<size_t>(body)].position : contact;
@@ -129,7 +132,8 @@ Principal principal_of(const Mat3& symmetric) {
 }
 
 double major_inclination(const Mat3& tensor) {
-  const double angle = 0.5 * std::atan2(tensor(0, 2) + tensor(2, 0), tensor(0, 0) - tensor(2, 2));  // in (-90, 90] degrees
+  const double angle =
+      0.5 * std::atan2(tensor(0, 2) + tensor(2, 0), tensor(0, 0) - tensor(2, 2));  // in (-90, 90] degrees
   return std::abs(angle) * 180.0 / std::numbers::pi;
 }
 
@@ -164,8 +168,8 @@ double box_volume(const MechanicalSystem& system, const MotionState& state) {
          (wall(wall_lid).z() - wall(wall_floor).z());
 }
 
-PackingStatistics packing_statistics(const MechanicalSystem& system, const MotionState& state, std::span<const ContactPoint> contacts,
-                                     std::span<const Vec3> impulses, double h) {
+PackingStatistics packing_statistics(const MechanicalSystem& system, const MotionState& state,
+                                     std::span<const ContactPoint> contacts, std::span<const Vec3> impulses, double h) {
   PackingStatistics result;
   const std::vector<PairForce> pairs = pair_forces(contacts, impulses, h);
   count_contacts(system, pairs, result);

@@ -12,7 +12,9 @@ std::vector<MotionRun> read_motion(PaperData& data, PaperSection& section) {
     runs.push_back(std::move(motion));
   }
   const size_t planned = data.campaign().motion.size();
-  if (runs.size() < planned) section.notes.push_back("PARTIAL: " + std::to_string(runs.size()) + " of " + std::to_string(planned) + " samples at 5 Hz.");
+  if (runs.size() < planned)
+    section.notes.push_back("PARTIAL: " + std::to_string(runs.size()) + " of " + std::to_string(planned) +
+                            " samples at 5 Hz.");
   return runs;
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 /// Last sample at or before t (a quarter of a step for rounding); -1 when t is before the first.
 long sample_at(std::span<const StepRecord> steps, double t, double h) {
-  const auto later = std::find_if(steps.begin(), steps.end(), [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
+  const auto later =
+      std::find_if(steps.begin(), steps.end(), [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
   return static_cast<long>(later - steps.begin()) - 1;
 }
 
@@ -56,16 +57,20 @@ double Observation::eq3() const {
 }
 
 double Observation::eq3_one_grain() const {
-  return mean_grain_mass / (mean_grain_mass + wall_mass) * mean_grain_mass * gravity / f_max * gravity / (frequency * frequency);
+  return mean_grain_mass / (mean_grain_mass + wall_mass) * mean_grain_mass * gravity / f_max * gravity /
+         (frequency * frequency);
 }
 
-double compaction_rate(std::span<const StepRecord> steps, double frequency, double step, double reference, const TimeWindow& window) {
+double compaction_rate(std::span<const StepRecord> steps, double frequency, double step, double reference,
+                       const TimeWindow& window) {
   if (steps.empty()) return not_known;
   const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
-  const double a = std::ceil((window.begin - slack) * frequency) / frequency, b = std::floor((end + slack) * frequency) / frequency;
+  const double a = std::ceil((window.begin - slack) * frequency) / frequency,
+               b = std::floor((end + slack) * frequency) / frequency;
   const long first = sample_at(steps, a, step), last = sample_at(steps, b, step);
   if (!(b > a + slack) || first < 0 || last <= first) return not_known;
-  return (steps[static_cast<size_t>(last)].solid_fraction - steps[static_cast<size_t>(first)].solid_fraction) / (reference * (b - a));
+  return (steps[static_cast<size_t>(last)].solid_fraction - steps[static_cast<size_t>(first)].solid_fraction) /
+         (reference * (b - a));
 }
 
 Observation observe(std::span<const StepRecord> steps, const RunFacts& given, double grains, const TimeWindow& window) {
@@ -97,7 +102,8 @@ Observation observe(std::span<const StepRecord> steps, const RunFacts& given, do
   seen.first_time90 = summary.contraction.time90;
   std::vector<double> errors;
   for (const StepRecord& step : steps)
-    if (step.time > settings.first_transient && step.time <= window.end + 0.25 * facts.step) errors.push_back(step.error_rms);
+    if (step.time > settings.first_transient && step.time <= window.end + 0.25 * facts.step)
+      errors.push_back(step.error_rms);
   seen.error_mean = statistics(errors).mean / facts.velocity_scale;
   seen.penetration_max = summary.penetration_max;
   seen.seconds_per_step = 1e-3 * summary.ms_per_step;

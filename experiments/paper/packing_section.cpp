@@ -9,7 +9,8 @@
 namespace ballast {
 namespace {
 
-constexpr std::array phases{std::pair{WallPhase::jammed, "jammed"}, std::pair{WallPhase::active, "active"}, std::pair{WallPhase::passive, "passive"}};
+constexpr std::array phases{std::pair{WallPhase::jammed, "jammed"}, std::pair{WallPhase::active, "active"},
+                            std::pair{WallPhase::passive, "passive"}};
 
 struct Column {
   const char* name;
@@ -66,9 +67,13 @@ struct Histogram {
 
 PaperSection packing_section(PaperData& data) {
   PaperSection section = new_section("packing", "The packing itself");
-  section.text = {"A contact is a pair of bodies with a compressive force, whatever its number of points. Z = (2 N_gg + N_gw)/N; rattlers are grains of fewer than two such "
-                  "contacts, removed until none is left. Fabric F = ⟨n ⊗ n⟩, a_c = 5/2 (F₁ − F₃) along the major and minor directions of the stress; a_n from Σ f_n n ⊗ n/Σ f_n and a_t "
-                  "from Σ f ⊗ n/Σ f_n in the same way, each less what is before it; q/p = (σ₁ − σ₃)/(σ₁ + σ₂ + σ₃), which the field expects near 2/5 (a_c + a_n + a_t)."};
+  section.text = {
+      "A contact is a pair of bodies with a compressive force, whatever its number of points. Z = (2 N_gg + N_gw)/N; "
+      "rattlers are grains of fewer than two such "
+      "contacts, removed until none is left. Fabric F = ⟨n ⊗ n⟩, a_c = 5/2 (F₁ − F₃) along the major and minor "
+      "directions of the stress; a_n from Σ f_n n ⊗ n/Σ f_n and a_t "
+      "from Σ f ⊗ n/Σ f_n in the same way, each less what is before it; q/p = (σ₁ − σ₃)/(σ₁ + σ₂ + σ₃), which the "
+      "field expects near 2/5 (a_c + a_n + a_t)."};
   const std::vector<MotionRun> runs = read_motion(data, section);
   std::array<std::array<std::vector<double>, columns.size()>, phases.size()> values;
   std::array<Histogram, phases.size()> histograms;
@@ -78,9 +83,11 @@ PaperSection packing_section(PaperData& data) {
     states += for_each_state(run, [&](const StoredState& state) {
       for (size_t p = 0; p < phases.size(); ++p) {
         if (state.phase != phases[p].first) continue;
-        const PackingStatistics found = packing_statistics(state.system, state.at.state, state.at.contacts, state.at.impulses, state.step);
+        const PackingStatistics found =
+            packing_statistics(state.system, state.at.state, state.at.contacts, state.at.impulses, state.step);
         for (size_t c = 0; c < columns.size(); ++c) of_run[p][c].push_back(found.*columns[c].value);
-        histograms[p].add(relative_normal_forces(state.system, pair_forces(state.at.contacts, state.at.impulses, state.step)));
+        histograms[p].add(
+            relative_normal_forces(state.system, pair_forces(state.at.contacts, state.at.impulses, state.step)));
       }
     });
     for (size_t p = 0; p < phases.size(); ++p)
@@ -108,15 +115,18 @@ PaperSection packing_section(PaperData& data) {
   for (size_t p = 0; p < phases.size(); ++p) {
     if (histograms[p].total == 0.0) continue;
     panel.curves.push_back(histograms[p].curve(phases[p].second, inks[p]));
-    tails += (tails.empty() ? "" : ", ") + std::string(phases[p].second) + " β = " + digits(-histograms[p].tail().slope);
+    tails +=
+        (tails.empty() ? "" : ", ") + std::string(phases[p].second) + " β = " + digits(-histograms[p].tail().slope);
   }
   if (panel.curves.empty()) return section;
   PaperFigure figure;
   figure.plot.name = "forces";
   figure.plot.title = "Distribution of normal forces by phase";
   figure.plot.panels = {panel};
-  figure.paper = "Not shown in this paper; packings of polyhedra have an exponential tail of strong forces and many weak ones.";
-  figure.found = "Grain–grain contacts of all stored states and samples. Tail exp(−β f/⟨f⟩) from one to six means: " + tails + ".";
+  figure.paper =
+      "Not shown in this paper; packings of polyhedra have an exponential tail of strong forces and many weak ones.";
+  figure.found =
+      "Grain–grain contacts of all stored states and samples. Tail exp(−β f/⟨f⟩) from one to six means: " + tails + ".";
   section.figures = {figure};
   return section;
 }

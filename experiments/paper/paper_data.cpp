@@ -11,13 +11,16 @@ SampleMean SweepValue::mean(double Observation::*quantity) const {
   return sample_mean(values);
 }
 
-PaperData::PaperData(Campaign campaign, std::filesystem::path results) : campaign_(std::move(campaign)), results_(std::move(results)) {
+PaperData::PaperData(Campaign campaign, std::filesystem::path results)
+    : campaign_(std::move(campaign)), results_(std::move(results)) {
   for (const CampaignRun& run : campaign_.runs) finished_.push_back(is_finished(results_, run.planned));
 }
 
 bool PaperData::has(size_t run) const { return finished_.at(run); }
 
-std::filesystem::path PaperData::folder(size_t run) const { return folder_of(results_, campaign_.runs.at(run).planned); }
+std::filesystem::path PaperData::folder(size_t run) const {
+  return folder_of(results_, campaign_.runs.at(run).planned);
+}
 
 RunData PaperData::read(size_t run) const { return read_run_data(folder(run)); }
 
@@ -72,8 +75,8 @@ std::string PaperData::missing(Sweep which, const char* what) {
     ++done;
   }
   if (done == runs) return {};
-  return "PARTIAL: " + std::to_string(there.size()) + " of " + std::to_string(planned.size()) + ' ' + what + ", " + std::to_string(done) +
-         " of " + std::to_string(runs) + " runs.";
+  return "PARTIAL: " + std::to_string(there.size()) + " of " + std::to_string(planned.size()) + ' ' + what + ", " +
+         std::to_string(done) + " of " + std::to_string(runs) + " runs.";
 }
 
 double grain_count(const RunData& data) {

@@ -1,5 +1,6 @@
 #pragma once
-// What a campaign has produced so far: finished runs, measured. Whatever is missing is counted and said, never an error.
+// What a campaign has produced so far: finished runs, measured. Whatever is missing is counted and said, never an
+// error.
 
 #include <filesystem>
 #include <map>
@@ -15,8 +16,8 @@ namespace ballast {
 struct SweepValue {
   double value = 0.0;
   std::string label;
-  int planned = 0;                  ///< seeds that the campaign has
-  std::vector<Observation> samples; ///< seeds that are finished
+  int planned = 0;                   ///< seeds that the campaign has
+  std::vector<Observation> samples;  ///< seeds that are finished
   SampleMean mean(double Observation::*quantity) const;
 };
 

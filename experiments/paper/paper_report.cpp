@@ -33,13 +33,15 @@ std::string draw(const Figure& figure, const fs::path& folder) {
 
 std::string text_in(const nlohmann::ordered_json& manifest, const char* part, const char* name) {
   const auto found = manifest.find(part);
-  if (found == manifest.end() || !found->is_object() || !found->contains(name) || !(*found)[name].is_string()) return "unknown";
+  if (found == manifest.end() || !found->is_object() || !found->contains(name) || !(*found)[name].is_string())
+    return "unknown";
   return (*found)[name].get<std::string>();
 }
 
 std::string listed(const std::map<std::string, int>& counts) {
   std::string text;
-  for (const auto& [name, count] : counts) text += (text.empty() ? "" : "; ") + name + " (" + std::to_string(count) + " runs)";
+  for (const auto& [name, count] : counts)
+    text += (text.empty() ? "" : "; ") + name + " (" + std::to_string(count) + " runs)";
   return text;
 }
 
@@ -56,16 +58,17 @@ std::vector<std::string> origin_of(const PaperData& data) {
     ++commits[text_in(manifest, "ballast", "commit")];
     ++machines[text_in(manifest, "machine", "cpu")];
     steps += static_cast<double>(data.campaign().runs[k].steps);
-    if (const auto summary = manifest.find("summary"); summary != manifest.end() && summary->contains("ms_per_step") && (*summary)["ms_per_step"].is_number())
+    if (const auto summary = manifest.find("summary");
+        summary != manifest.end() && summary->contains("ms_per_step") && (*summary)["ms_per_step"].is_number())
       seconds += 1e-3 * (*summary)["ms_per_step"].get<double>() * static_cast<double>(data.campaign().runs[k].steps);
   }
   const CampaignSettings& settings = data.campaign().settings;
   std::vector<std::string> origin = {
-      std::to_string(data.finished()) + " of " + std::to_string(data.campaign().runs.size()) + " runs are finished: " + digits(steps, 4) +
-          " driven steps, about " + digits(seconds, 3) + " core-seconds without the packings.",
+      std::to_string(data.finished()) + " of " + std::to_string(data.campaign().runs.size()) + " runs are finished: " +
+          digits(steps, 4) + " driven steps, about " + digits(seconds, 3) + " core-seconds without the packings.",
       "Commits: " + listed(commits) + ".", "Machines: " + listed(machines) + ".",
-      "Scene " + settings.scene + ", " + std::to_string(settings.iterations) + " solver iterations a step unless said, seeds 1 to " +
-          std::to_string(settings.seeds) + "."};
+      "Scene " + settings.scene + ", " + std::to_string(settings.iterations) +
+          " solver iterations a step unless said, seeds 1 to " + std::to_string(settings.seeds) + "."};
   return origin;
 }
 

@@ -8,11 +8,15 @@ namespace {
 
 constexpr const char* title = "The paper, figure by figure";
 constexpr const char* lede =
-    "Azéma, Radjaï, Peyroux, Dubois, Saussine: Vibrational dynamics of 3D granular media composed with polyhedral grains. Each figure is beside what "
-    "the paper says about it. Scaling points are means over seeded samples with their standard error; intervals of fits are at 95 %.";
+    "Azéma, Radjaï, Peyroux, Dubois, Saussine: Vibrational dynamics of 3D granular media composed with polyhedral "
+    "grains. Each figure is beside what "
+    "the paper says about it. Scaling points are means over seeded samples with their standard error; intervals of "
+    "fits are at 95 %.";
 
 /// One row for the table of agreement.
-std::vector<std::string> cells_of(const AgreementRow& row) { return {row.place, row.paper, row.ballast, word_of(row.agreement)}; }
+std::vector<std::string> cells_of(const AgreementRow& row) {
+  return {row.place, row.paper, row.ballast, word_of(row.agreement)};
+}
 const std::vector<std::string> agreement_head = {"figure", "paper", "Ballast", "agreement"};
 
 std::string markdown_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
@@ -58,7 +62,8 @@ std::string markdown_section(const PaperSection& section) {
     text += "[PDF](figures/" + name + ".pdf), [data](data/" + name + ".csv)\n\n";
     text += "*Paper:* " + figure.paper + "\n\n*Ballast:* " + figure.found + "\n\n";
   }
-  for (const TextTable& table : section.tables) text += table.caption + ":\n\n" + markdown_table(table.head, table.rows);
+  for (const TextTable& table : section.tables)
+    text += table.caption + ":\n\n" + markdown_table(table.head, table.rows);
   return text;
 }
 
@@ -73,10 +78,12 @@ Html html_part(const PaperSection& section, const std::vector<std::string>& pict
   for (const PaperFigure& figure : section.figures) {
     const std::string svg = picture < pictures.size() ? pictures[picture] : std::string();
     ++picture;
-    const Html caption = Html{"<b>Paper:</b> "} + escaped(figure.paper) + Html{"<br><b>Ballast:</b> "} + escaped(figure.found);
+    const Html caption =
+        Html{"<b>Paper:</b> "} + escaped(figure.paper) + Html{"<br><b>Ballast:</b> "} + escaped(figure.found);
     body += html_figure(figure.plot.name, inline_svg(svg, figure.plot.name, figure.plot.title), caption);
   }
-  for (const TextTable& table : section.tables) body += Html{"<p>"} + escaped(table.caption) + Html{":</p>\n"} + html_table(table.head, table.rows);
+  for (const TextTable& table : section.tables)
+    body += Html{"<p>"} + escaped(table.caption) + Html{":</p>\n"} + html_table(table.head, table.rows);
   return html_section(section.id, escaped(section.heading), body);
 }
 
@@ -92,12 +99,15 @@ std::string markdown_of(const std::vector<PaperSection>& sections, const std::ve
   return text;
 }
 
-std::string html_of(const std::vector<PaperSection>& sections, const std::vector<std::string>& origin, const std::vector<std::string>& pictures) {
-  Html body = Html{"<header>\n<h1>"} + escaped(title) + Html{"</h1>\n<p class=\"lede\">"} + escaped(lede) + Html{"</p>\n</header>\n"};
+std::string html_of(const std::vector<PaperSection>& sections, const std::vector<std::string>& origin,
+                    const std::vector<std::string>& pictures) {
+  Html body = Html{"<header>\n<h1>"} + escaped(title) + Html{"</h1>\n<p class=\"lede\">"} + escaped(lede) +
+              Html{"</p>\n</header>\n"};
   Html list{"<ul>\n"};
   for (const std::string& line : origin) list += Html{"<li>"} + escaped(line) + Html{"</li>\n"};
   body += html_section("origin", {"What was run"}, list + Html{"</ul>\n"});
-  body += html_section("agreement", {"Paper, Ballast, agreement"}, html_table(agreement_head, agreement_rows(sections)));
+  body +=
+      html_section("agreement", {"Paper, Ballast, agreement"}, html_table(agreement_head, agreement_rows(sections)));
   size_t picture = 0;
   for (const PaperSection& section : sections) body += html_part(section, pictures, picture);
   return html_page(title, body);

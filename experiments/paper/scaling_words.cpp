@@ -20,7 +20,8 @@ SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observat
 std::string words_of(const PowerFit& fit) {
   if (!std::isfinite(fit.exponent)) return "–";
   std::string text = digits(fit.exponent);
-  if (std::isfinite(fit.half_width)) text += std::string(" ") + interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
+  if (std::isfinite(fit.half_width))
+    text += std::string(" ") + interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
   return text + " (R² " + digits(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
 }
 

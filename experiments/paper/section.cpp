@@ -35,10 +35,14 @@ std::string csv_number(double value) {
 
 const char* word_of(Agreement agreement) {
   switch (agreement) {
-    case Agreement::agrees: return "agrees";
-    case Agreement::partly: return "partly";
-    case Agreement::differs: return "DIFFERS";
-    case Agreement::reported: return "reported";
+    case Agreement::agrees:
+      return "agrees";
+    case Agreement::partly:
+      return "partly";
+    case Agreement::differs:
+      return "DIFFERS";
+    case Agreement::reported:
+      return "reported";
   }
   return "?";
 }
@@ -79,7 +83,8 @@ std::string percent(double relative) {
 
 std::string interval(double low, double high) { return std::string("[") + digits(low) + ", " + digits(high) + "]"; }
 
-Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title, Ink ink) {
+Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title,
+                Ink ink) {
   for (double& bar : error)
     if (!std::isfinite(bar)) bar = 0.0;  // one sample: no bar
   Curve curve;
@@ -100,10 +105,12 @@ std::string figure_csv(const Figure& figure) {
     for (size_t c = 0; c < panel.curves.size(); ++c) {
       const Curve& curve = panel.curves[c];
       const std::string lead = std::to_string(p + 1) + ',' + cell(panel.y_label) + ',' +
-                               cell(curve.title.empty() ? std::to_string(c + 1) : curve.title) + ',' + cell(panel.x_label) + ',';
+                               cell(curve.title.empty() ? std::to_string(c + 1) : curve.title) + ',' +
+                               cell(panel.x_label) + ',';
       for (size_t k = 0; k < curve.x.size(); ++k)
         text += lead + csv_number(curve.x[k]) + ',' + csv_number(curve.y[k]) + ',' +
-                (curve.y_error.empty() ? "" : csv_number(curve.y_error[k])) + ',' + (curve.y_low.empty() ? "" : csv_number(curve.y_low[k])) + '\n';
+                (curve.y_error.empty() ? "" : csv_number(curve.y_error[k])) + ',' +
+                (curve.y_low.empty() ? "" : csv_number(curve.y_low[k])) + '\n';
     }
   }
   return text;

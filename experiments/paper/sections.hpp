@@ -1,5 +1,6 @@
 #pragma once
-// The report's sections, one file each: what is run (campaign.hpp), what is measured (observables.hpp, grain_fields.hpp), fitted and drawn.
+// The report's sections, one file each: what is run (campaign.hpp), what is measured (observables.hpp,
+// grain_fields.hpp), fitted and drawn.
 
 #include "experiments/paper/paper_data.hpp"
 #include "experiments/paper/section.hpp"
@@ -24,7 +25,8 @@ PaperSection sensitivity_section(PaperData& data);
 /// The sections of a target ("all": every one), in the paper's order.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 
-/// A sweep's values as the axes of a figure: x by `abscissa` of each sample's mean, y the mean of `quantity` with its standard error.
+/// A sweep's values as the axes of a figure: x by `abscissa` of each sample's mean, y the mean of `quantity` with its
+/// standard error.
 struct SweepCurve {
   std::vector<double> x, y, error;
 };

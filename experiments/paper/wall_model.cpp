@@ -19,7 +19,9 @@ double packing_force(const WallModel& model, ModelPhase phase, double x) {
 
 /// One step of Heun's rule (second order) with the force law of a phase.
 Moving advanced(const WallModel& model, ModelPhase phase, const Moving& from, double t, double dt) {
-  const auto acceleration = [&](double x, double time) { return (packing_force(model, phase, x) - model.load.at(time)) / model.wall_mass; };
+  const auto acceleration = [&](double x, double time) {
+    return (packing_force(model, phase, x) - model.load.at(time)) / model.wall_mass;
+  };
   const double a = acceleration(from.x, t);
   const Moving guess{from.x + dt * from.v, from.v + dt * a};
   const double b = acceleration(guess.x, t + dt);

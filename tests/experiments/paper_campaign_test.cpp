@@ -23,7 +23,8 @@ std::map<double, std::set<int>> values_of(const Campaign& campaign, Sweep sweep)
 
 TEST_CASE("the campaign has the sweeps that the paper needs, three samples each") {
   const Campaign campaign = make_campaign({});
-  const std::map<Sweep, size_t> least{{Sweep::frequency, 10}, {Sweep::force, 5}, {Sweep::gravity, 4}, {Sweep::wall_mass, 4}};
+  const std::map<Sweep, size_t> least{
+      {Sweep::frequency, 10}, {Sweep::force, 5}, {Sweep::gravity, 4}, {Sweep::wall_mass, 4}};
   for (const auto& [sweep, count] : least) {
     const auto values = values_of(campaign, sweep);
     CHECK(values.size() >= count);

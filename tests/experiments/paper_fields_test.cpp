@@ -34,7 +34,8 @@ MechanicalSystem points_at(const std::vector<Vec3>& places, MotionState& state) 
 
 /// Walls of a box of these sides, in the order of BoxWall.
 void add_box(MechanicalSystem& system, MotionState& state, const Vec3& size) {
-  const std::vector<Vec3> places{Vec3::Zero(), Vec3(0, 0, size.z()), Vec3::Zero(), Vec3(size.x(), 0, 0), Vec3::Zero(), Vec3(0, size.y(), 0)};
+  const std::vector<Vec3> places{Vec3::Zero(),         Vec3(0, 0, size.z()), Vec3::Zero(),
+                                 Vec3(size.x(), 0, 0), Vec3::Zero(),         Vec3(0, size.y(), 0)};
   for (const Vec3& place : places) {
     RigidBody wall;
     wall.wall_friction = 0.5;
@@ -45,14 +46,16 @@ void add_box(MechanicalSystem& system, MotionState& state, const Vec3& size) {
   }
 }
 
-ContactPoint contact(int a, int b, std::uint64_t feature, const Vec3& normal, const Vec3& position) { return {a, b, feature, normal, position, 0.0}; }
+ContactPoint contact(int a, int b, std::uint64_t feature, const Vec3& normal, const Vec3& position) {
+  return {a, b, feature, normal, position, 0.0};
+}
 
 }  // namespace
 
 TEST_CASE("points of one pair are one contact with the sum of their forces") {
   const Vec3 n = Vec3::UnitX();
-  const std::vector<ContactPoint> contacts{contact(0, 1, 1, n, Vec3(0, 0, 0)), contact(0, 1, 2, n, Vec3(0, 0, 1)), contact(0, 2, 1, n, Vec3::Zero()),
-                                           contact(1, 2, 7, n, Vec3::Zero())};
+  const std::vector<ContactPoint> contacts{contact(0, 1, 1, n, Vec3(0, 0, 0)), contact(0, 1, 2, n, Vec3(0, 0, 1)),
+                                           contact(0, 2, 1, n, Vec3::Zero()), contact(1, 2, 7, n, Vec3::Zero())};
   const std::vector<Vec3> impulses{Vec3(1, 0.5, 0), Vec3(3, 0, 0), Vec3::Zero(), Vec3(2, 0, 0)};
   const auto pairs = pair_forces(contacts, impulses, 0.5);
   REQUIRE(pairs.size() == 2);  // the open one is left out
@@ -69,7 +72,8 @@ TEST_CASE("stress of a two-grain chain between two walls") {
   add_box(system, state, Vec3(4, 2, 2));
   const int left = 2 + wall_x_min, right = 2 + wall_x_max;
   const double force = 10.0, h = 0.1;
-  const std::vector<ContactPoint> contacts{contact(0, 1, 1, Vec3::UnitX(), Vec3(2, 1, 1)), contact(left, 0, 1, Vec3::UnitX(), Vec3(0, 1, 1)),
+  const std::vector<ContactPoint> contacts{contact(0, 1, 1, Vec3::UnitX(), Vec3(2, 1, 1)),
+                                           contact(left, 0, 1, Vec3::UnitX(), Vec3(0, 1, 1)),
                                            contact(right, 1, 1, -Vec3::UnitX(), Vec3(4, 1, 1))};
   const std::vector<Vec3> impulses{Vec3(force * h, 0, 0), Vec3(force * h, 0, 0), Vec3(-force * h, 0, 0)};
   const Mat3 stress = stress_tensor(system, state, pair_forces(contacts, impulses, h), box_volume(system, state));
@@ -113,10 +117,12 @@ TEST_CASE("coordination, rattlers, sliding and anisotropy of a small chain") {
   add_box(system, state, Vec3(4, 2, 2));
   const int left = 4 + wall_x_min, right = 4 + wall_x_max;
   const Vec3 x = Vec3::UnitX();
-  std::vector<ContactPoint> contacts{contact(0, 1, 1, x, Vec3(1.5, 1, 1)), contact(0, 1, 2, x, Vec3(1.5, 1, 1.1)), contact(1, 2, 1, x, Vec3(2.5, 1, 1)),
-                                     contact(1, 3, 1, Vec3::UnitZ(), Vec3(2, 1, 1.2)), contact(left, 0, 1, x, Vec3(0, 1, 1)),
-                                     contact(right, 2, 1, -x, Vec3(4, 1, 1))};
-  const std::vector<Vec3> impulses{Vec3(1, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 1), Vec3(0, 0, 0.02), Vec3(2, 0, 0), Vec3(-2, 0, 0)};
+  std::vector<ContactPoint> contacts{
+      contact(0, 1, 1, x, Vec3(1.5, 1, 1)),  contact(0, 1, 2, x, Vec3(1.5, 1, 1.1)),
+      contact(1, 2, 1, x, Vec3(2.5, 1, 1)),  contact(1, 3, 1, Vec3::UnitZ(), Vec3(2, 1, 1.2)),
+      contact(left, 0, 1, x, Vec3(0, 1, 1)), contact(right, 2, 1, -x, Vec3(4, 1, 1))};
+  const std::vector<Vec3> impulses{Vec3(1, 0, 0),    Vec3(1, 0, 0), Vec3(2, 0, 1),
+                                   Vec3(0, 0, 0.02), Vec3(2, 0, 0), Vec3(-2, 0, 0)};
   const PackingStatistics found = packing_statistics(system, state, contacts, impulses, 1.0);
   CHECK(found.coordination == Approx((2.0 * 3 + 2) / 4.0));
   CHECK(found.rattlers == Approx(0.25));
@@ -125,8 +131,8 @@ TEST_CASE("coordination, rattlers, sliding and anisotropy of a small chain") {
   CHECK(found.sliding_share == Approx(1.0 / 3.0));  // |f_t| = 1 = 0.5 * 2
   CHECK(found.mean_force == Approx(4.02 / 3.0));
   CHECK(found.weak_share == Approx(1.0 / 3.0));
-  CHECK(found.fabric > 0.0);   // two of three contacts along the major stress
-  CHECK(found.normal > 0.0);   // and they carry nearly all of it
+  CHECK(found.fabric > 0.0);  // two of three contacts along the major stress
+  CHECK(found.normal > 0.0);  // and they carry nearly all of it
   CHECK(found.shear_ratio > 0.5);
 }
 
@@ -149,7 +155,8 @@ TEST_CASE("Eq. 2 with a constant force of the packing has the motion that can be
     const double dt = t - t0, cosine = std::cos(w * t0);
     const double v = ((force - half) * dt - half / w * (std::cos(w * t) - cosine)) / model.wall_mass;
     const double x =
-        ((force - half) * 0.5 * dt * dt - half / w * ((std::sin(w * t) - std::sin(w * t0)) / w - cosine * dt)) / model.wall_mass;
+        ((force - half) * 0.5 * dt * dt - half / w * ((std::sin(w * t) - std::sin(w * t0)) / w - cosine * dt)) /
+        model.wall_mass;
     worst = std::max({worst, std::abs(motion.x[k] - x) / motion.rise, std::abs(motion.v[k] - v) / motion.speed_in});
     ++compared;
   }
@@ -169,7 +176,8 @@ TEST_CASE("a motion taken up on its way goes on as the whole one does") {
   model.wall_mass = 50.0;
   model.load = {0.0, 1000.0, 5.0};
   const ModelMotion whole = integrate(model);
-  const auto k = static_cast<size_t>(std::find_if(whole.v.begin(), whole.v.end(), [&](double v) { return v > 0.01; }) - whole.v.begin());
+  const auto k = static_cast<size_t>(std::find_if(whole.v.begin(), whole.v.end(), [&](double v) { return v > 0.01; }) -
+                                     whole.v.begin());
   REQUIRE(k < whole.v.size());
   const ModelMotion part = integrate(model, ModelStart{whole.time[k], whole.x[k], whole.v[k]});
   CHECK(part.time.front() == Approx(whole.time[k]));

@@ -1,4 +1,5 @@
-// From folders of finished runs to the report: records with known exponents, and partial data, which are said and never an error.
+// From folders of finished runs to the report: records with known exponents, and partial data, which are said and never
+// an error.
 
 #include <cmath>
 #include <fstream>
@@ -19,9 +20,11 @@ namespace {
 constexpr double mass = 200.0;
 constexpr double prefactor = 0.02;
 
-/// A wall that goes out by C times Eq. 3 in every period and back, jammed for half of it; solid fraction with a gain per period as Eq. 5 has it.
+/// A wall that goes out by C times Eq. 3 in every period and back, jammed for half of it; solid fraction with a gain
+/// per period as Eq. 5 has it.
 std::vector<StepRecord> scaled_record(const Scene& scene) {
-  const double nu = scene.drive.frequency, g = scene.gravity.norm(), wall = scene.drive.wall_mass_over_grains, h = 0.2e-3;
+  const double nu = scene.drive.frequency, g = scene.gravity.norm(), wall = scene.drive.wall_mass_over_grains,
+               h = 0.2e-3;
   const double rise = prefactor / (1.0 + wall) / scene.drive.f_max_over_weight * g / (nu * nu);
   const double gain = 0.0025 * 0.52 * (nu < 10.0 ? 1.0 : 100.0 / (nu * nu));
   std::vector<StepRecord> steps;
@@ -83,17 +86,20 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
       if (!is_finished(folder.path(), campaign.runs[run].planned)) write_run(folder.path(), campaign.runs[run].planned);
   PaperData data(campaign, folder.path());
   std::vector<PaperSection> sections;
-  for (const char* target : {"fig9", "fig10", "fig11", "fig13"}) sections.push_back(make_sections(data, target).front());
+  for (const char* target : {"fig9", "fig10", "fig11", "fig13"})
+    sections.push_back(make_sections(data, target).front());
   for (const PaperSection& section : sections) CHECK(section.notes.empty());
-  for (const char* claim : {"Δx_max ~ ν^−2", "v_max ~ ν^−1", "Δx_max ~ f_max^−1", "Δx_max ~ g^2", "Δx_max ~ m/(m + m_w)", "one line through all sweeps",
-                            "maximum at ν_c ~ 10 Hz", "Δρ_max/ρ₀ ~ 0.0025"})
+  for (const char* claim :
+       {"Δx_max ~ ν^−2", "v_max ~ ν^−1", "Δx_max ~ f_max^−1", "Δx_max ~ g^2", "Δx_max ~ m/(m + m_w)",
+        "one line through all sweeps", "maximum at ν_c ~ 10 Hz", "Δρ_max/ρ₀ ~ 0.0025"})
     CHECK(row_of(sections, claim).agreement == Agreement::agrees);
   CHECK_THAT(row_of(sections, "Δx_max ~ ν^−2").ballast, Catch::StartsWith("−2.0"));
   CHECK_THAT(row_of(sections, "Δx_max ~ g^2").ballast, Catch::StartsWith("2.0"));
   CHECK_THAT(row_of(sections, "C ~ 0.01").ballast, Catch::StartsWith("C = 0.0") && Catch::Contains("m all grains"));
   const auto values = data.sweep(Sweep::frequency);
   for (const SweepValue& value : values)
-    CHECK(value.samples.front().rise / value.samples.front().eq3() == Approx(prefactor).epsilon(0.03));  // 41 steps in the fastest stroke
+    CHECK(value.samples.front().rise / value.samples.front().eq3() ==
+          Approx(prefactor).epsilon(0.03));  // 41 steps in the fastest stroke
 }
 
 TEST_CASE("partial data give partial figures and a loud note; no data give a report as well") {
@@ -128,7 +134,8 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   const std::string markdown = text("README.md"), html = text("paper.html");
-  CHECK_THAT(markdown, Catch::Contains("**PARTIAL: 3 of 10 frequencies, 6 of 30 runs.**") && Catch::Contains("figures/fig09.svg") &&
+  CHECK_THAT(markdown, Catch::Contains("**PARTIAL: 3 of 10 frequencies, 6 of 30 runs.**") &&
+                           Catch::Contains("figures/fig09.svg") &&
                            Catch::Contains("6 of " + std::to_string(campaign.runs.size()) + " runs are finished"));
   CHECK_THAT(html, Catch::Contains("PARTIAL: 3 of 10 frequencies"));
   CHECK_THAT(text("data/fig09.csv"), Catch::StartsWith("panel,y_label,curve,x_label,x,y,y_error,y_low\n"));
