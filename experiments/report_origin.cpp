@@ -52,6 +52,9 @@ void add_scene(const Scene& scene, HtmlTable& table) {
   row("solver", escaped(scene.solver.name) + Html{", tolerance "} + exact(scene.solver.tolerance) +
                     Html{scene.gravity.isZero() ? " m/s" : " <i>gh</i>"} + Html{", at most "} +
                     exact(scene.solver.max_iterations) + Html{scene.solver.warm_start ? " iterations, warm start" : " iterations, cold start"});
+  if (scene.sleep.enabled)
+    row("islands at rest fall asleep", Html{"after "} + exact(scene.sleep.steps) + Html{" steps below "} + exact(scene.sleep.velocity) +
+                                           Html{" <i>gh</i>"});
   row("overlap correction", scene.correction.enabled
                                 ? setting(100.0 * scene.correction.fraction, "%") + Html{" of what exceeds "} +
                                       setting(1e6 * scene.correction.slop, "µm") + Html{" per step, "} +

@@ -115,8 +115,8 @@ class Run {
     if (options_.resume && std::filesystem::exists(folder_.checkpoint())) {
       Checkpoint found = read_checkpoint(folder_.checkpoint());
       if (found.key != key_) throw RunError(folder_.checkpoint().string() + ": belongs to another scene");
+      run_.memory = memory_of(found, folder_.checkpoint());
       run_.state = std::move(found.state);
-      run_.memory = {std::move(found.contacts), std::move(found.impulses)};
       manifest_.resumed(run_.state.step);
       manifest_.write(folder_.manifest());  // what is killed later has been resumed all the same
     }
@@ -196,7 +196,7 @@ class Run {
       recorder.add_step(record);
       if (state.step % pose_every == 0) store_pose();
       if (state_every > 0 && state.step % state_every == 0)
-        write_checkpoint(folder_.state_at(state.step), {key_, loop.phase, state, run_.memory.contacts, run_.memory.impulses, {}});
+        write_checkpoint(folder_.state_at(state.step), drive_checkpoint(key_, loop.phase, state, run_.memory));
       progress.show(scene_.name, state.time, scene_.duration, record);
     };
     const auto begin = Clock::now();

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "geometry/contact_tracker.hpp"
+#include "solvers/island_solver.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -37,6 +38,7 @@ StepSettings step_settings(const Scene& scene) {
   settings.h = scene.step;
   settings.solver = scene.solver;
   settings.detection = scene.detection;
+  settings.sleep = scene.sleep;
   settings.correction = scene.correction;
   const double g = scene.gravity.norm();
   settings.scale = g > 0.0 ? g * scene.step : 1.0;
@@ -45,12 +47,8 @@ StepSettings step_settings(const Scene& scene) {
 
 double kinetic_energy(const MechanicalSystem& system, const MotionState& state) {
   double energy = 0.0;
-  for (size_t b = 0; b < system.bodies.size(); ++b) {
-    const RigidBody& body = system.bodies[b];
-    if (body.freedom.count() == 0) continue;
-    energy += 0.5 * body.mass * state.velocity[b].squaredNorm();
-    if (body.freedom.rotation) energy += 0.5 * state.spin[b].dot(body.inertia.cwiseProduct(state.spin[b]));
-  }
+  for (size_t b = 0; b < system.bodies.size(); ++b)
+    energy += kinetic_energy(system.bodies[b], state.velocity[b], state.spin[b]);
   return energy;
 }
 
@@ -74,7 +72,9 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& set
       assembler_(system),
       correction_(system, settings.correction),
       solver_(make_solver(settings.solver.name)),
+      resting_(system, settings.sleep, settings.detection, settings.velocity_scale()),
       reach_(system.bodies.size(), 0.0) {
+  if (settings.solver.islands) solver_ = make_island_solver(std::move(solver_));
   solver_->use_threads(settings.solver.threads);
 }
 
@@ -86,7 +86,7 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
   const double h = settings_.h;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
     const int first = assembler_.first_dof(static_cast<int>(b));
-    if (first < 0) continue;
+    if (first < 0 || resting_.is_asleep(static_cast<int>(b))) continue;
     const RigidBody& body = system_.bodies[b];
     Vec3 force = body.force.at(mid_time);
     if (body.is_wall()) force = body.wall.load.at(mid_time) * body.wall.normal;
@@ -108,7 +108,7 @@ void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
   const double g = system_.gravity.norm();
   for (size_t b = 0; b < system_.bodies.size(); ++b)
     reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
-  detector_.detect(mid.pose, reach_, contacts_);
+  resting_.detect(detector_, mid.pose, reach_, memory, contacts_);
   if (settings_.solver.warm_start)
     carry_impulses(memory.contacts, memory.impulses, contacts_, carried_);
   else
@@ -130,6 +130,7 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   record.seconds_solve = run.prepare_seconds + run.solve_seconds;
   memory.contacts = contacts_;
   assembler_.to_world(impulses_, contacts_, memory.impulses);
+  resting_.restore_kept(memory);
 }
 
 void TimeStepper::account(const MotionState& before, const StepMemory& memory, StepRecord& record) {
@@ -178,13 +179,15 @@ void TimeStepper::account(const MotionState& before, const StepMemory& memory, S
   record.energy_residual = record.kinetic_energy - kinetic_before -
                            (record.work_load + record.work_gravity + record.work_prescribed) + record.dissipated;
 
+  record.active_contacts += resting_.kept_active();
   double overlap = 0.0;
-  for (size_t c = 0; c < contacts_.size(); ++c) {
-    const double depth = std::max(0.0, -contacts_[c].gap);
+  for (size_t c = 0; c < memory.contacts.size(); ++c) {
+    const ContactPoint& contact = memory.contacts[c];
+    const double depth = std::max(0.0, -contact.gap);
     record.penetration_max = std::max(record.penetration_max, depth);
     if (!memory.impulses[c].isZero(0.0)) overlap += depth;
-    if (driven_wall_ >= 0 && (contacts_[c].body_a == driven_wall_ || contacts_[c].body_b == driven_wall_))
-      record.wall_force += std::abs(memory.impulses[c].dot(contacts_[c].normal)) / settings_.h;
+    if (driven_wall_ >= 0 && (contact.body_a == driven_wall_ || contact.body_b == driven_wall_))
+      record.wall_force += std::abs(memory.impulses[c].dot(contact.normal)) / settings_.h;
   }
   record.contacts = static_cast<double>(contacts_.size());
   if (record.active_contacts > 0) record.penetration_mean = overlap / record.active_contacts;
@@ -195,13 +198,16 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   PhaseClock clock;
   const double h = settings_.h;
   const double mid_time = state.time + 0.5 * h, end_time = (state.step + 1) * h;
+  resting_.begin(memory);
   mid_ = state;
   for (size_t b = 0; b < state.pose.size(); ++b)
-    mid_.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
-  free_motion(state, mid_time);
+    if (!resting_.is_asleep(static_cast<int>(b)))
+      mid_.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
   record.seconds_other = clock.lap();
   detect(mid_, memory);
   record.seconds_detect = clock.lap();
+  free_motion(state, mid_time);
+  record.seconds_other += clock.lap();
   assembler_.assemble(mid_, v_free_, h, end_time, contacts_, problem_);
   record.seconds_assemble = clock.lap();
   solve(memory, record);
@@ -211,6 +217,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   account(state, memory, record);
   assembler_.unpack(v_after_, state);
   for (size_t b = 0; b < state.pose.size(); ++b) {
+    if (resting_.is_asleep(static_cast<int>(b))) continue;
     if (system_.bodies[b].is_wall() && system_.bodies[b].wall.motion == WallMotion::prescribed)
       state.velocity[b] = prescribed_velocity(system_.bodies[b], end_time);
     state.pose[b] = moved(mid_.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
@@ -220,6 +227,10 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   record.seconds_other += clock.lap();
   record.work_correction = correction_.apply(assembler_, problem_, contacts_, v_after_, h, state);
   record.seconds_correct = clock.lap();
+  const double stopped = resting_.settle(state, memory);
+  record.kinetic_energy -= stopped;
+  record.energy_residual -= stopped;
+  record.seconds_other += clock.lap();
 
   record.time = state.time;
   if (driven_wall_ >= 0) {

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "experiments/overlap_correction.hpp"
+#include "experiments/resting_islands.hpp"
+#include "experiments/step_memory.hpp"
 #include "experiments/step_record.hpp"
 #include "geometry/contact_detector.hpp"
 #include "problems/assemble.hpp"
@@ -19,16 +21,11 @@
 
 namespace ballast {
 
-/// Warm start and contacts of the last step: with the MotionState, all that the next step depends on.
-struct StepMemory {
-  std::vector<ContactPoint> contacts;
-  std::vector<Vec3> impulses;  ///< on body b, world frame [N s]
-};
-
 struct StepSettings {
   double h = 2e-4;               ///< [s]
   SolverSpec solver;
   DetectionSettings detection;
+  SleepSpec sleep;
   CorrectionSpec correction;
   /// Tolerances are quoted relative to this velocity [m/s]: g h, or 1 m/s where there is no gravity.
   double velocity_scale() const { return scale; }
@@ -46,14 +43,15 @@ class TimeStepper {
   /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite.
   StepRecord step(MotionState& state, StepMemory& memory);
 
-  /// The problem solved last, its solution, and the contacts it came from: for capture and export.
+  /// The problem solved last, its solution, and the contacts it came from: for capture and export. Sleepers' contacts are in
+  /// the StepMemory alone.
   const FrictionProblem& problem() const { return problem_; }
   const Impulses& impulses() const { return impulses_; }
   const ProblemAssembler& assembler() const { return assembler_; }
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   /// The impulses from which its solution was begun, rows as in the problem.
   void warm_start(Impulses& rows) const { assembler_.to_rows(carried_, rows); }
-  const DetectionCounters& detection_counters() const { return detector_.counters(); }
+  const DetectionCounters& detection_counters() const { return resting_.counters(detector_); }
   const ContactError& error() const { return error_; }
 
  private:
@@ -69,6 +67,7 @@ class TimeStepper {
   ProblemAssembler assembler_;
   OverlapCorrection correction_;
   std::unique_ptr<Solver> solver_;
+  RestingIslands resting_;
   SolverRunner runner_;
 
   FrictionProblem problem_;

@@ -112,7 +112,15 @@ struct SolverSpec {
   int max_iterations = 200;
   double max_seconds = 1e30; ///< per step: breaks reproducibility, so off
   bool warm_start = true;
+  bool islands = false;      ///< heaps that don't touch are solved each on its own, each to the tolerance
   int threads = 1;  ///< set by the program, never by the file: results do not depend on it
+};
+
+/// Islands at rest fall asleep: frozen, and neither detected nor solved until something comes near (docs/method.md). Not exact.
+struct SleepSpec {
+  bool enabled = false;
+  double velocity = 0.1;  ///< |v| + |w| R below which a body counts as at rest, in g h
+  int steps = 100;        ///< for which all bodies of an island must have been at rest
 };
 
 /// Overlap correction by displacements only: grains are moved apart without changing velocities; driven walls stay.
@@ -150,6 +158,7 @@ struct Scene {
   DepositSpec deposit;
   DriveSpec drive;
   SolverSpec solver;
+  SleepSpec sleep;
   CorrectionSpec correction;
   DetectionSettings detection;
   RecordSpec record;

@@ -176,13 +176,28 @@ ControlVolumeSpec read_control_volume(TomlTable table, const BoxSpec& box) {
   return volume;
 }
 
+/// Resolved only where given: a run from before it keeps its text and its key.
+void read_sleep(TomlTable& root, Scene& scene) {
+  if (!root.has("sleep")) return;
+  TomlTable table = root.section("sleep");
+  scene.sleep.enabled = table.flag("enabled", scene.sleep.enabled);
+  scene.sleep.velocity = table.number("velocity", positive, "g h", scene.sleep.velocity);
+  scene.sleep.steps = whole_int(table, "steps", 1, scene.sleep.steps);
+  if (scene.sleep.enabled && scene.gravity.isZero(0.0))
+    table.fail("enabled", "rest is measured in g h, expected a gravity.magnitude > 0");
+  table.finish();
+}
+
 void read_numerics(TomlTable& root, Scene& scene) {
+  read_sleep(root, scene);
   TomlTable solver = root.section("solver");
   scene.solver.name = solver.text("name", scene.solver.name);
   scene.solver.tolerance = solver.number("tolerance", not_negative, "g h", scene.solver.tolerance);
   scene.solver.max_iterations = whole_int(solver, "max_iterations", 1, scene.solver.max_iterations);
   scene.solver.max_seconds = solver.number("max_seconds", positive, "s", scene.solver.max_seconds);
   scene.solver.warm_start = solver.flag("warm_start", scene.solver.warm_start);
+  solver.know("islands");  // resolved only where given: a scene.toml from before it means what it meant
+  if (solver.has("islands")) scene.solver.islands = solver.flag("islands");
   solver.finish();
 
   TomlTable correction = root.section("correction");
@@ -232,7 +247,7 @@ Scene read(const std::filesystem::path& file, std::span<const std::string> overr
   const toml::table table = load_toml(file, overrides);
   TomlTable root(file.string(), table, resolved);
   for (const char* key : {"scene", "gravity", "contact", "body", "wall", "grains", "box", "deposit", "drive", "solver",
-                          "correction", "detection", "record", "control_volume"})
+                          "sleep", "correction", "detection", "record", "control_volume"})
     root.know(key);
   root.finish();  // a misspelt section first: what follows depends on which sections there are
   Scene scene;

@@ -14,6 +14,7 @@
 #include "experiments/manifest.hpp"
 #include "experiments/run.hpp"
 #include "experiments/run_folder.hpp"
+#include "experiments/simulation.hpp"
 #include "experiments/vibrated_box.hpp"
 #include "problems/scene_file.hpp"
 #include "solvers/child_process.hpp"
@@ -77,8 +78,8 @@ Start read_start(const LiveOptions& options, const Scene& scene) {
   Start start;
   start.system = system_of_run(folder.path(), start.state);
   Checkpoint checkpoint = read_checkpoint(folder.checkpoint());
+  start.memory = memory_of(checkpoint, folder.checkpoint());
   start.state = std::move(checkpoint.state);
-  start.memory = {std::move(checkpoint.contacts), std::move(checkpoint.impulses)};
   start.key = content_key(read_whole_file(folder.checkpoint()));
   if (scene.grains)
     start.control_volume = box_control_volume(scene, Manifest::read(folder.manifest()).summary_number("packing_top_m"));

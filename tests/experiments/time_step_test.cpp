@@ -3,36 +3,9 @@
 #include "experiments/time_step.hpp"
 
 #include "tests/catch.hpp"
+#include "tests/experiments/cube_scene.hpp"
 
 using namespace ballast;
-
-namespace {
-
-BodySpec cube(const char* name, double side, double mass, const Vec3& position) {
-  BodySpec body;
-  body.name = name;
-  body.shape = std::make_shared<const Polyhedron>(make_box(Vec3::Constant(side)));
-  body.mass = mass;
-  body.inertia = Vec3::Constant(mass * side * side / 6.0);
-  body.pose.position = position;
-  return body;
-}
-
-Scene empty_scene() {
-  Scene scene;
-  scene.name = "test";
-  scene.step = 1e-3;
-  return scene;
-}
-
-WallSpec floor_at_zero(double friction) {
-  WallSpec wall;
-  wall.name = "floor";
-  wall.friction = friction;
-  return wall;
-}
-
-}  // namespace
 
 TEST_CASE("the mid-point rule keeps energy and angular momentum of a tumbling body") {
   const Vec3 inertia(1.0, 2.0, 2.5);

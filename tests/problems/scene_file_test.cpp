@@ -204,6 +204,25 @@ TEST_CASE("the resolved text keeps every bit and any text") {
   CHECK(again.friction == 3.0);
 }
 
+TEST_CASE("what is skipped stands in the resolved text only where it was given: older runs keep their key") {
+  const TemporaryFolder folder;
+  const auto bare = folder.write("bare.toml", one_wall),
+             skipping = folder.write("skipping.toml", one_wall + "[solver]\nislands = true\n[sleep]\nsteps = 7\n");
+  CHECK_FALSE(read_scene(bare).solver.islands);
+  CHECK_FALSE(read_scene(bare).sleep.enabled);
+  const std::string text = resolved_scene_text(bare);
+  CHECK_THAT(text, !Catch::Contains("islands") && !Catch::Contains("sleep"));
+
+  CHECK(read_scene(skipping).solver.islands);
+  const std::string given = resolved_scene_text(skipping);
+  for (const char* line : {"islands = true", "[sleep]", "enabled = false", "steps = 7", "velocity = 0.1"})
+    CHECK_THAT(given, Catch::Contains(line));
+  CHECK(resolved_scene_text(folder.write("skipping.toml", given)) == given);
+
+  const Scene awake = read_scene(bare, std::vector<std::string>{"sleep.enabled=true", "sleep.velocity=0.3"});
+  CHECK((awake.sleep.enabled && awake.sleep.velocity == 0.3 && awake.sleep.steps == 100));
+}
+
 TEST_CASE("scenes are found by path, by name, and in the folder that BALLAST_SCENES names") {
   const TemporaryFolder folder;
   const auto file = folder.write("mine.toml", "[scene]\ntitle = \"my own\"\n" + one_wall);
