@@ -92,13 +92,14 @@ PaperSection fig13_section(PaperData& data) {
   section.tables = {table};
   const auto judge = [&](const SweepCurve& curve, const PeakedRate& peak) {
     if (peak.samples < 5) return Agreement::reported;
-    if (!has_peak(curve, peak)) return Agreement::differs;
+    if (!has_peak(curve, peak) || !(peak.r2 > 0.5)) return Agreement::differs;  // Eq. 5 must say more than the mean does
     return peak.critical > 7.0 && peak.critical < 14.0 ? Agreement::agrees : Agreement::partly;
   };
   section.rows = {{"Fig. 13", "maximum at ν_c ~ 10 Hz", words_of(fit), judge(whole, fit)},
                   {"Fig. 13", "the same, 0.4–1 s for all", words_of(common_fit), judge(common, common_fit)},
                   {"Eq. 5", "Δρ_max/ρ₀ ~ 0.0025", digits(fit.gain),
-                   fit.gain > 0.00167 && fit.gain < 0.00375 ? Agreement::agrees
+                   !(fit.r2 > 0.5) ? Agreement::differs
+                   : fit.gain > 0.00167 && fit.gain < 0.00375 ? Agreement::agrees
                    : fit.gain > 0.0008 && fit.gain < 0.0075 ? Agreement::partly
                                                             : Agreement::differs}};
   return section;
