@@ -136,7 +136,10 @@ TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is"
   options.begin_or_resume = true;
   options.max_seconds = 0.1;
   int stops = 0;
-  for (; run(options) == ExitCode::time_limit; ++stops) REQUIRE(stops < 100);
+  for (; run(options) == ExitCode::time_limit; ++stops) {
+    REQUIRE(stops < 100);
+    options.max_seconds *= 1.1;  // under sanitizers, beside other work: it ends all the same
+  }
   CHECK(stops >= 1);
   const auto written = fs::last_write_time(RunFolder(folder).manifest());
   CHECK(run(options) == ExitCode::ok);
