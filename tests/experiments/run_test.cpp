@@ -81,6 +81,7 @@ TEST_CASE("the same input gives the same bits: deposit, drive, and whatever stop
     int stops = 0;
     while (run(options) == ExitCode::time_limit) {
       options.resume = true;
+      options.max_seconds *= 1.05;  // under sanitizers, beside other work: it ends all the same
       REQUIRE(++stops < 100);
     }
     CHECK(stops >= 2);
