@@ -18,5 +18,5 @@ ballast=$root/build/default/bin/ballast
 # a run that was stopped goes on; a finished one is not done again
 if [ $# = 1 ] && [ -e "$root/results/$1/checkpoint.bin" ]; then set -- "$1" --resume; fi
 # the same bits on one thread; a third finds nothing to do in 1200 grains
-case " $* " in *" --threads "*) ;; *) [ "$(nproc)" -lt 2 ] || set -- "$@" --threads 2 ;; esac
+case " $* " in *" --threads "* | *" --threads="*) ;; *) [ "$(nproc)" -lt 2 ] || set -- "$@" --threads 2 ;; esac
 exec "$ballast" run "$@"

@@ -50,6 +50,18 @@ ContactPoint contact(int a, int b, std::uint64_t feature, const Vec3& normal, co
   return {a, b, feature, normal, position, 0.0};
 }
 
+/// A wall that a load of 5 Hz lets out and presses in again.
+WallModel loose_packing() {
+  WallModel model;
+  model.active.amplitude = 100.0;
+  model.active.rate = 20.0;
+  model.passive.offset = 300.0;
+  model.passive.slope = -1e4;
+  model.wall_mass = 50.0;
+  model.load = {0.0, 1000.0, 5.0};
+  return model;
+}
+
 }  // namespace
 
 TEST_CASE("points of one pair are one contact with the sum of their forces") {
@@ -168,13 +180,7 @@ TEST_CASE("Eq. 2 with a constant force of the packing has the motion that can be
 }
 
 TEST_CASE("a motion taken up on its way goes on as the whole one does") {
-  WallModel model;
-  model.active.amplitude = 100.0;
-  model.active.rate = 20.0;
-  model.passive.offset = 300.0;
-  model.passive.slope = -1e4;
-  model.wall_mass = 50.0;
-  model.load = {0.0, 1000.0, 5.0};
+  const WallModel model = loose_packing();
   const ModelMotion whole = integrate(model);
   const auto k = static_cast<size_t>(std::find_if(whole.v.begin(), whole.v.end(), [&](double v) { return v > 0.01; }) -
                                      whole.v.begin());
@@ -200,14 +206,8 @@ TEST_CASE("a wall under a load that never falls below the packing's force stays 
 }
 
 TEST_CASE("the model comes back further in when the packing contracts") {
-  WallModel model;
-  model.active.amplitude = 100.0;
-  model.active.rate = 20.0;
-  model.passive.offset = 300.0;
-  model.passive.slope = -1e4;
+  WallModel model = loose_packing();
   model.contraction = 1e-3;
-  model.wall_mass = 50.0;
-  model.load = {0.0, 1000.0, 5.0};
   const ModelMotion motion = integrate(model);
   CHECK(motion.jams);
   CHECK(motion.x.back() == Approx(-1e-3));
