@@ -109,30 +109,51 @@ void add_sensitivity(CampaignBuilder& build) {
   build.point(Sweep::size, 1, "diameter", diameter, 2, sweep_window);
   build.point(Sweep::friction, base_friction, campaign_number(base_friction), sweep_base(), 1, sweep_window);
   for (const double friction : {0.2, 0.8}) {
-    RunSettings s;
+    RunSettings s = sweep_base();
     s.friction = friction;
     build.point(Sweep::friction, friction, campaign_number(friction), s, 1, sweep_window);
   }
 }
 
-/// Where the paper's and our compaction differ, the deposit is the first suspect: looser ones, and the rate against
-/// frequency from the loosest.
-void add_deposits(CampaignBuilder& build) {
+/// The frequencies at which another deposit, friction and load are driven too.
+constexpr double compared_frequencies[] = {10.0, 60.0, 5.0, 20.0};
+
+void add_variant(CampaignBuilder& build, Sweep sweep, RunSettings s) {
+  for (const double frequency : compared_frequencies) {
+    s.frequency = frequency;
+    s.duration = duration_at(frequency);
+    build.point(sweep, frequency, campaign_number(frequency) + " Hz", s, 1);
+  }
+}
+
+/// Where the paper's exponents, constant and compaction differ from ours, the deposit is the first suspect (looser ones
+/// are driven), then friction, the load (Eq. 3 supposes f_max >> m g) and, at the shortest periods, the step.
+void add_investigation(CampaignBuilder& build) {
   RunSettings placed = sweep_base(), loose = sweep_base();
   placed.pressed = loose.pressed = false;
   loose.deposit_friction = 0.8;
   build.point(Sweep::deposit, 0, "pressed, μ 0.4", sweep_base(), 1, sweep_window);
   build.point(Sweep::deposit, 1, "not pressed, μ 0.4", placed, 1, sweep_window);
   build.point(Sweep::deposit, 2, "not pressed, μ 0.8", loose, 1, sweep_window);
-  for (const double frequency : {10.0, 5.0, 20.0, 60.0}) {  // is_compared_frequency
-    loose.frequency = frequency;
-    build.point(Sweep::loose_frequency, frequency, campaign_number(frequency) + " Hz", loose, 1);
-  }
+  add_variant(build, Sweep::loose_frequency, loose);
+  RunSettings rough, strong;
+  rough.friction = 0.8;
+  strong.force = 8.0;
+  add_variant(build, Sweep::rough_frequency, rough);
+  add_variant(build, Sweep::strong_frequency, strong);
+  const TimeWindow fast{0.3, fast_duration};
+  build.point(Sweep::time_step_fast, base_step, campaign_number(base_step) + " s", at_frequency(fast_frequency), 1,
+              fast);
+  RunSettings fine;
+  fine.step = 5e-5;
+  fine.frequency = fast_frequency;
+  fine.duration = fast_duration;
+  build.point(Sweep::time_step_fast, fine.step, campaign_number(fine.step) + " s", fine, 1, fast);
 }
 
-/// Frequencies at which another deposit is driven too.
 bool is_compared_frequency(double frequency) {
-  return frequency == 5.0 || frequency == 10.0 || frequency == 20.0 || frequency == 60.0;
+  return std::find(std::begin(compared_frequencies), std::end(compared_frequencies), frequency) !=
+         std::end(compared_frequencies);
 }
 
 /// Sweeps that a target draws; empty: the 5 Hz runs alone.
@@ -158,10 +179,13 @@ const std::vector<Target>& targets() {
       {"fig13", {frequency}, false},
       {"packing", {}, true},
       {"looseness", {iterations, iterations_fast, backend, force}, false},
-      {"sensitivity", {time_step, size, friction, deposit, loose_frequency, frequency, force}, false},
+      {"sensitivity",
+       {time_step, size, friction, deposit, loose_frequency, rough_frequency, strong_frequency, time_step_fast,
+        frequency, force},
+       false},
       {"all",
        {frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction, deposit,
-        loose_frequency},
+        loose_frequency, rough_frequency, strong_frequency, time_step_fast},
        true},
   };
   return list;
@@ -195,7 +219,7 @@ Campaign make_campaign(const CampaignSettings& settings) {
   stage("slowest", add_slowest);
   stage("sensitivity", add_backends);
   stage("sensitivity", add_sensitivity);
-  stage("deposit", add_deposits);
+  stage("investigation", add_investigation);
   return build.campaign;
 }
 

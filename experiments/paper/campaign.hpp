@@ -24,7 +24,10 @@ enum class Sweep {
   size,
   friction,
   deposit,
-  loose_frequency
+  loose_frequency,   ///< nu, from the loosest deposit
+  rough_frequency,   ///< nu, with twice the friction
+  strong_frequency,  ///< nu, under the largest load
+  time_step_fast
 };
 
 struct CampaignSettings {
