@@ -80,16 +80,10 @@ END
 }
 
 # --- the plan ---------------------------------------------------------------------------------------------------------------------
-cat >"$folder/plan.toml" <<'END'
-name = "cluster"
-scene = "vibrated_box_small"
-set = ["grains.count=20", "box.length=0.14", "box.width=0.14", "scene.duration=0.6", "record.checkpoint_seconds=0.1"]
-
-[[sweep]]
-name = "nu"
-vary."drive.frequency" = [20, 50]
-vary."grains.seed" = [1, 2]
-END
+# That of small_sweep.hpp, ten times as long, so that a worker can be found in the middle of its run.
+sed -n '/R"(/,/^)";/{//!p}' "$(dirname "$(realpath "$0")")/small_sweep.hpp" |
+  sed 's/duration=0.06/duration=0.6/; s/checkpoint_seconds=0.02/checkpoint_seconds=0.1/' >"$folder/plan.toml"
+grep -q 'duration=0.6"' "$folder/plan.toml" && grep -q 'checkpoint_seconds=0.1"' "$folder/plan.toml" || fail "the plan of small_sweep.hpp has changed"
 
 # All columns of a record but the wall clocks.
 physics() {
