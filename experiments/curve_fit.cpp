@@ -43,32 +43,6 @@ double determination(double residual_squares, double total) {
   return total > 0.0 ? 1.0 - residual_squares / total : not_known;
 }
 
-/// For a fixed rate the best amplitude is linear: what is left is a function of the rate alone. x counts from `origin` in units of
-/// `range`, so that rates are pure numbers and nothing overflows.
-struct Projected {
-  const Samples& samples;
-  double origin, range;
-
-  double amplitude(double rate) const {
-    double ey = 0.0, ee = 0.0;
-    for (int k = 0; k < samples.count(); ++k) {
-      const double e = std::exp(rate * (samples.x[k] - origin) / range);
-      ey += e * samples.y[k];
-      ee += e * e;
-    }
-    return ey / ee;
-  }
-  double residual(double rate) const {
-    const double a = amplitude(rate);
-    double sum = 0.0;
-    for (int k = 0; k < samples.count(); ++k) {
-      const double miss = samples.y[k] - a * std::exp(rate * (samples.x[k] - origin) / range);
-      sum += miss * miss;
-    }
-    return sum;
-  }
-};
-
 /// Minimum of a function that has one minimum in [a, b].
 template <class Function>
 double golden_section(const Function& f, double a, double b) {
@@ -122,21 +96,26 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
   if (fit.samples < 2) return fit;
   const auto [low, high] = std::minmax_element(samples.x.begin(), samples.x.end());
   if (!(*high > *low)) return fit;
-  const Projected projected{samples, *low, *high - *low};
+  // x counts from its least in units of its range, so that rates are pure numbers and nothing overflows
+  const double origin = *low, range = *high - *low;
+  const auto projected = [&](double rate) {
+    return project(samples.x, samples.y, [&](double at) { return std::exp(rate * (at - origin) / range); });
+  };
   // Coarse scan over factors e^-20 ... e^20 across the range of x, then golden section around the best one.
   constexpr double scan_step = 0.25;
   constexpr int scan_half = 80;
   int best = -scan_half;
-  double least = projected.residual(scan_step * best);
+  double least = projected(scan_step * best).residual;
   for (int k = -scan_half + 1; k <= scan_half; ++k) {
-    const double residual = projected.residual(scan_step * k);
+    const double residual = projected(scan_step * k).residual;
     if (residual < least) least = residual, best = k;
   }
-  const double rate = golden_section([&](double r) { return projected.residual(r); }, scan_step * (best - 1),
+  const double rate = golden_section([&](double r) { return projected(r).residual; }, scan_step * (best - 1),
                                      scan_step * (best + 1));
-  fit.rate = rate / projected.range;
-  fit.amplitude = projected.amplitude(rate) * std::exp(-fit.rate * projected.origin);
-  fit.r2 = determination(projected.residual(rate), total_squares(samples.y));
+  const Projection found = projected(rate);
+  fit.rate = rate / range;
+  fit.amplitude = found.amplitude * std::exp(-fit.rate * origin);
+  fit.r2 = determination(found.residual, total_squares(samples.y));
   return fit;
 }
 

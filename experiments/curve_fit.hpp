@@ -31,6 +31,27 @@ struct ExponentialFit {
 LineFit fit_line(std::span<const double> x, std::span<const double> y);
 ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y);
 
+/// y = amplitude shape(x) for a shape that has no parameter left: its best amplitude, and the squared residuals about it.
+/// What a shape with one more parameter is fitted by: the least residual over that parameter. Everything must be finite.
+struct Projection {
+  double amplitude = not_known, residual = not_known;
+};
+template <class Shape>
+Projection project(std::span<const double> x, std::span<const double> y, const Shape& shape) {
+  double sy = 0.0, ss = 0.0;
+  for (size_t k = 0; k < x.size(); ++k) {
+    const double s = shape(x[k]);
+    sy += s * y[k];
+    ss += s * s;
+  }
+  Projection result{sy / ss, 0.0};
+  for (size_t k = 0; k < x.size(); ++k) {
+    const double miss = y[k] - result.amplitude * shape(x[k]);
+    result.residual += miss * miss;
+  }
+  return result;
+}
+
 /// Centred low-pass without phase shift: Hann-weighted mean over `width` samples to both sides together (an odd number is made
 /// of it), weights cut and renormalised at the ends and where samples are not finite. NaN stays NaN. width <= 1: a copy.
 std::vector<double> low_pass(std::span<const double> y, int width);

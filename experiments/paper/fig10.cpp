@@ -53,10 +53,11 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name, 
   figure.plot.height = 440;
   figure.plot.panels = {panel};
   figure.paper = std::string(axis.relation) + " (" + axis.place + ").";
-  figure.found = "Exponent " + words_of(fit) + ", at " + digits(sweep_frequency) + " Hz, periods from 0.3 to " +
-                 digits(sweep_duration) + " s.";
+  figure.found = "Exponent " + words_of(fit) + ", " + misfit_words(fit, curve) + ", at " + digits(sweep_frequency) +
+                 " Hz, periods from 0.3 to " + digits(sweep_duration) + " s.";
   section.figures.push_back(figure);
-  section.rows.push_back({axis.place, axis.relation, words_of(fit), judge_exponent(fit, axis.exponent)});
+  section.rows.push_back(
+      {axis.place, axis.relation, words_of(fit) + ", " + misfit_words(fit, curve), judge_exponent(fit, axis.exponent)});
 }
 
 }  // namespace
@@ -67,7 +68,8 @@ PaperSection fig10_section(PaperData& data) {
   section.text = {
       "f_max is quoted in weights of all grains under 9.81 m/s². Gravity is varied at constant f_max in newtons, from "
       "packings deposited "
-      "under 9.81 m/s², so that Eq. 3 expects g². The base is f_max = 3 m g, m_w = m/2, 10 Hz."};
+      "under 9.81 m/s², so that Eq. 3 expects g². The base is f_max = 3 m g, m_w = m/2, 10 Hz.",
+      misfit_meaning};
   add_figure(
       data,
       {Sweep::force, "values of f_max", "{/:Italic f}_{max} / {/:Italic m g}", "Δx_max ~ f_max^−1", "Fig. 10", -1.0},

@@ -20,12 +20,8 @@ constexpr Branch branches[] = {{Sweep::frequency, "ν", Ink::blue},
 constexpr const char* branch_names[] = {"ν", "f_max", "g", "m_w"};
 
 /// Points of one sweep: right side of Eq. 3 and Delta x_max [m].
-struct Points {
-  std::vector<double> x, y, error;
-};
-
-Points points_on_eq3(const std::vector<SweepValue>& values) {
-  Points points;
+SweepCurve points_on_eq3(const std::vector<SweepValue>& values) {
+  SweepCurve points;
   for (const SweepValue& value : values) {
     const SampleMean rise = value.mean(&Observation::rise);
     if (!std::isfinite(rise.mean)) continue;
@@ -43,7 +39,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-Panel eq3_panel(const std::vector<Points>& all, const Proportion& line, bool is_log) {
+Panel eq3_panel(const std::vector<SweepCurve>& all, const Proportion& line, bool is_log) {
   Panel panel;
   panel.x_label = is_log ? "right side of Eq. 3 without {/:Italic C}  (mm)" : "the same, linear  (mm)";
   panel.y_label = "Δ{/:Italic x}_{max}  (mm)";
@@ -91,24 +87,28 @@ PaperSection fig11_section(PaperData& data) {
       "over the points; the "
       "spread is the factor by which a point typically misses the line."};
   const char* names[] = {"frequencies", "values of f_max", "values of g", "values of m_w"};
-  std::vector<Points> all;
-  Points pooled;
-  TextTable table{"C of each sweep by itself",
-                  {"sweep", "points", "C", "95 % interval", "spread (factor)", "exponent (1: proportional)"},
-                  {}};
+  std::vector<SweepCurve> all;
+  SweepCurve pooled;
+  TextTable table{
+      "C of each sweep by itself",
+      {"sweep", "points", "C", "95 % interval", "spread (factor)", "exponent (1: proportional)", "of that fit"},
+      {}};
   double by_grain = not_known;
   for (size_t b = 0; b < 4; ++b) {
     if (const std::string missing = data.missing(branches[b].sweep, names[b]); !missing.empty())
       section.notes.push_back(missing);
     const std::vector<SweepValue> values = data.sweep(branches[b].sweep);
     all.push_back(points_on_eq3(values));
-    const Points& points = all.back();
+    const SweepCurve& points = all.back();
     pooled.x.insert(pooled.x.end(), points.x.begin(), points.x.end());
     pooled.y.insert(pooled.y.end(), points.y.begin(), points.y.end());
+    pooled.error.insert(pooled.error.end(), points.error.begin(), points.error.end());
     if (b == 0) by_grain = prefactor_by_grain(values);
     const Proportion line = fit_proportion(points.x, points.y);
+    const PowerFit power = fit_power(points.x, points.y);
     table.rows.push_back({branch_names[b], std::to_string(line.samples), digits(line.factor),
-                          interval(line.low, line.high), digits(line.spread), words_of(fit_power(points.x, points.y))});
+                          interval(line.low, line.high), digits(line.spread), words_of(power),
+                          misfit_words(power, points)});
   }
   if (pooled.x.empty()) return section;
   const Proportion line = fit_proportion(pooled.x, pooled.y);
@@ -121,12 +121,14 @@ PaperSection fig11_section(PaperData& data) {
   figure.paper = "All data on one line through the origin, “in excellent agreement with Eq. 3”, C ~ 0.01.";
   figure.found = "C = " + digits(line.factor) + " " + interval(line.low, line.high) +
                  ", points lie off the line by a factor of " + digits(line.spread) + "; a free exponent gives " +
-                 words_of(power) + ". With m one grain’s mean mass C would be " + digits(by_grain) + ".";
+                 words_of(power) + ", " + misfit_words(power, pooled) + ". " + misfit_meaning +
+                 " With m one grain’s mean mass C would be " + digits(by_grain) + ".";
   section.figures = {figure};
   section.tables = {table};
   const bool is_line = line.samples > 4 && line.spread < 1.25;
   section.rows = {{"Fig. 11, Eq. 3", "one line through all sweeps",
-                   "spread about the line: factor " + digits(line.spread) + "; exponent " + words_of(power),
+                   "spread about the line: factor " + digits(line.spread) + "; exponent " + words_of(power) + ", " +
+                       misfit_words(power, pooled),
                    line.samples < 5    ? Agreement::reported
                    : is_line           ? Agreement::agrees
                    : line.spread < 1.6 ? Agreement::partly

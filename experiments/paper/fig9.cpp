@@ -68,16 +68,18 @@ PaperSection fig9_section(PaperData& data) {
   figure.plot.panels = {scaling_panel(rise, rise_fit, -2.0, "Δ{/:Italic x}_{max}  (mm)"),
                         scaling_panel(speed, speed_fit, -1.0, "{/:Italic v}_{max}  (mm/s)")};
   figure.paper = "Δx_max falls as ν⁻² and v_max as ν⁻¹ from 1 to 60 Hz; “the corresponding fits are excellent”.";
-  figure.found =
-      "Exponent of Δx_max: " + words_of(rise_fit) + "; of v_max: " + words_of(speed_fit) +
-      ". Least squares on logarithms of the sample means, 95 % confidence intervals. By part: Δx_max up to 10 Hz " +
-      words_of(fit_part(rise, 0.0, 10.0)) + ", from 10 Hz " + words_of(fit_part(rise, 10.0, 1e9)) +
-      "; v_max up to 10 Hz " + words_of(fit_part(speed, 0.0, 10.0)) + ", from 10 Hz " +
-      words_of(fit_part(speed, 10.0, 1e9)) + ".";
+  figure.found = "Exponent of Δx_max: " + words_of(rise_fit) + ", " + misfit_words(rise_fit, rise) +
+                 "; of v_max: " + words_of(speed_fit) + ", " + misfit_words(speed_fit, speed) +
+                 ". Unweighted least squares on logarithms of the sample means, 95 % intervals from Student’s t. " +
+                 misfit_meaning + " By part: Δx_max up to 10 Hz " + words_of(fit_part(rise, 0.0, 10.0)) +
+                 ", from 10 Hz " + words_of(fit_part(rise, 10.0, 1e9)) + "; v_max up to 10 Hz " +
+                 words_of(fit_part(speed, 0.0, 10.0)) + ", from 10 Hz " + words_of(fit_part(speed, 10.0, 1e9)) + ".";
   section.figures = {figure};
   section.tables = {values_table(values)};
-  section.rows = {{"Fig. 9", "Δx_max ~ ν^−2", words_of(rise_fit), judge_exponent(rise_fit, -2.0)},
-                  {"Fig. 9", "v_max ~ ν^−1", words_of(speed_fit), judge_exponent(speed_fit, -1.0)}};
+  section.rows = {{"Fig. 9", "Δx_max ~ ν^−2", words_of(rise_fit) + ", " + misfit_words(rise_fit, rise),
+                   judge_exponent(rise_fit, -2.0)},
+                  {"Fig. 9", "v_max ~ ν^−1", words_of(speed_fit) + ", " + misfit_words(speed_fit, speed),
+                   judge_exponent(speed_fit, -1.0)}};
   return section;
 }
 

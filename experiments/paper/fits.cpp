@@ -26,30 +26,6 @@ double peaked_shape(double frequency, double critical) {
   return frequency <= critical ? frequency : critical * critical / frequency;
 }
 
-/// For a given nu_c the best D is linear.
-struct PeakedProfile {
-  std::vector<double> frequency, rate;
-
-  double gain(double critical) const {
-    double sy = 0.0, ss = 0.0;
-    for (size_t k = 0; k < rate.size(); ++k) {
-      const double s = peaked_shape(frequency[k], critical);
-      sy += s * rate[k];
-      ss += s * s;
-    }
-    return sy / ss;
-  }
-  double residual(double critical) const {
-    const double d = gain(critical);
-    double sum = 0.0;
-    for (size_t k = 0; k < rate.size(); ++k) {
-      const double miss = rate[k] - d * peaked_shape(frequency[k], critical);
-      sum += miss * miss;
-    }
-    return sum;
-  }
-};
-
 }  // namespace
 
 double student_t95(int degrees_of_freedom) {
@@ -93,6 +69,21 @@ PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
   return fit;
 }
 
+double reduced_chi2(const PowerFit& fit, std::span<const double> x, std::span<const double> y,
+                    std::span<const double> error) {
+  double misses = 0.0, variances = 0.0;
+  int points = 0;
+  for (size_t k = 0; k < std::min({x.size(), y.size(), error.size()}); ++k) {
+    if (!(x[k] > 0.0 && y[k] > 0.0) || !std::isfinite(error[k])) continue;
+    const double miss = std::log(y[k] / fit.at(x[k])), relative = error[k] / y[k];
+    misses += miss * miss;
+    variances += relative * relative;
+    ++points;
+  }
+  if (points < 3 || !std::isfinite(misses) || !(variances > 0.0)) return not_known;
+  return misses / (points - 2) / (variances / points);
+}
+
 Proportion fit_proportion(std::span<const double> x, std::span<const double> y) {
   std::vector<double> logs;
   for (size_t k = 0; k < std::min(x.size(), y.size()); ++k)
@@ -112,30 +103,33 @@ Proportion fit_proportion(std::span<const double> x, std::span<const double> y) 
 double PeakedRate::at(double frequency) const { return gain * peaked_shape(frequency, critical); }
 
 PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate) {
-  PeakedProfile profile;
+  std::vector<double> x, y;
   for (size_t k = 0; k < std::min(frequency.size(), rate.size()); ++k)
     if (std::isfinite(rate[k]) && frequency[k] > 0.0) {
-      profile.frequency.push_back(frequency[k]);
-      profile.rate.push_back(rate[k]);
+      x.push_back(frequency[k]);
+      y.push_back(rate[k]);
     }
   PeakedRate fit;
-  fit.samples = static_cast<int>(profile.rate.size());
+  fit.samples = static_cast<int>(y.size());
   if (fit.samples < 3) return fit;
-  const auto [least, most] = std::minmax_element(profile.frequency.begin(), profile.frequency.end());
+  const auto projected = [&](double critical) {
+    return project(x, y, [&](double at) { return peaked_shape(at, critical); });
+  };
+  const auto [least, most] = std::minmax_element(x.begin(), x.end());
   const double low = *least, ratio = *most / *least;
   constexpr int parts = 4000;  // 0.1 % of nu_c over two decades: finer than any interval it gives
   std::vector<double> residual(parts + 1);
   const auto critical = [&](int k) { return low * std::pow(ratio, static_cast<double>(k) / parts); };
   int best = 0;
   for (int k = 0; k <= parts; ++k) {
-    residual[static_cast<size_t>(k)] = profile.residual(critical(k));
+    residual[static_cast<size_t>(k)] = projected(critical(k)).residual;
     if (residual[static_cast<size_t>(k)] < residual[static_cast<size_t>(best)]) best = k;
   }
   fit.critical = critical(best);
-  fit.gain = profile.gain(fit.critical);
+  fit.gain = projected(fit.critical).amplitude;
   double total = 0.0;
-  const double mean = spread_of(profile.rate).mean;
-  for (const double value : profile.rate) total += (value - mean) * (value - mean);
+  const double mean = spread_of(y).mean;
+  for (const double value : y) total += (value - mean) * (value - mean);
   const double least_residual = residual[static_cast<size_t>(best)];
   if (total > 0.0) fit.r2 = 1.0 - least_residual / total;
   // where the squared residuals exceed the least by what t at 95 % allows

@@ -33,6 +33,14 @@ struct PowerFit {
 /// Points that are not finite and positive are left out.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 
+/// Is a fitted power law consistent with the scatter of the samples? chi^2 over its degrees of freedom (points - 2):
+/// squared residuals of the logarithms in units of the points' squared relative standard errors. About 1: yes; much
+/// more: the points leave the law by more than their errors, and the interval of the exponent says how well a line can
+/// be drawn, not how well it holds. The errors are pooled over the points, because an error from three samples is
+/// itself known to a factor of two. NaN with fewer than three points that have errors.
+double reduced_chi2(const PowerFit& fit, std::span<const double> x, std::span<const double> y,
+                    std::span<const double> error);
+
 /// y = C x, C the geometric mean of y/x; its 95 % interval is a factor because the points span decades.
 struct Proportion {
   double factor = not_known;

@@ -17,12 +17,22 @@ SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observat
   return curve;
 }
 
+SampleMean prefactor_of(const SweepValue& value) {
+  std::vector<double> factors;
+  for (const Observation& sample : value.samples) factors.push_back(sample.rise / sample.eq3());
+  return sample_mean(factors);
+}
+
 std::string words_of(const PowerFit& fit) {
   if (!std::isfinite(fit.exponent)) return "–";
   std::string text = digits(fit.exponent);
   if (std::isfinite(fit.half_width))
     text += std::string(" ") + interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
   return text + " (R² " + digits(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
+}
+
+std::string misfit_words(const PowerFit& fit, const SweepCurve& curve) {
+  return "χ²/dof " + digits(reduced_chi2(fit, curve.x, curve.y, curve.error), 2);
 }
 
 Agreement judge_exponent(const PowerFit& fit, double expected, double tolerance) {
