@@ -98,7 +98,7 @@ void add_backends(CampaignBuilder& build) {
 
 void add_sensitivity(CampaignBuilder& build) {
   build.point(Sweep::time_step, base_step, campaign_number(base_step) + " s", sweep_base(), 1, sweep_window);
-  for (const double step : {1e-3, 5e-4, 1e-4, 5e-5}) {
+  for (const double step : {1e-3, 5e-4, 1e-4, fine_step}) {
     RunSettings s;
     s.step = step;
     build.point(Sweep::time_step, step, campaign_number(step) + " s", s, 1, sweep_window);
@@ -106,7 +106,7 @@ void add_sensitivity(CampaignBuilder& build) {
   build.point(Sweep::size, 0, "radius", sweep_base(), 2, sweep_window);
   RunSettings diameter;
   diameter.size = "diameter";
-  build.point(Sweep::size, 1, "diameter", diameter, 2, sweep_window);
+  build.point(Sweep::size, half_scale_case, "diameter", diameter, 2, sweep_window);
   build.point(Sweep::friction, base_friction, campaign_number(base_friction), sweep_base(), 1, sweep_window);
   for (const double friction : {0.2, 0.8}) {
     RunSettings s = sweep_base();
@@ -115,11 +115,8 @@ void add_sensitivity(CampaignBuilder& build) {
   }
 }
 
-/// The frequencies at which another deposit, friction and load are driven too.
-constexpr double compared_frequencies[] = {10.0, 60.0, 5.0, 20.0};
-
 void add_variant(CampaignBuilder& build, Sweep sweep, RunSettings s) {
-  for (const double frequency : compared_frequencies) {
+  for (const double frequency : {10.0, 60.0, 5.0, 20.0}) {  // the ends of the exponent first
     s.frequency = frequency;
     s.duration = duration_at(frequency);
     build.point(sweep, frequency, campaign_number(frequency) + " Hz", s, 1);
@@ -145,15 +142,10 @@ void add_investigation(CampaignBuilder& build) {
   build.point(Sweep::time_step_fast, base_step, campaign_number(base_step) + " s", at_frequency(fast_frequency), 1,
               fast);
   RunSettings fine;
-  fine.step = 5e-5;
+  fine.step = fine_step;
   fine.frequency = fast_frequency;
   fine.duration = fast_duration;
   build.point(Sweep::time_step_fast, fine.step, campaign_number(fine.step) + " s", fine, 1, fast);
-}
-
-bool is_compared_frequency(double frequency) {
-  return std::find(std::begin(compared_frequencies), std::end(compared_frequencies), frequency) !=
-         std::end(compared_frequencies);
 }
 
 /// Sweeps that a target draws; empty: the 5 Hz runs alone.
@@ -179,9 +171,10 @@ const std::vector<Target>& targets() {
       {"fig13", {frequency}, false},
       {"packing", {}, true},
       {"looseness", {iterations, iterations_fast, backend, force}, false},
-      {"sensitivity",
-       {time_step, size, friction, deposit, loose_frequency, rough_frequency, strong_frequency, time_step_fast,
-        frequency, force},
+      {"sensitivity", {time_step, size, friction, deposit}, false},
+      {"investigation",
+       {frequency, force, gravity, size, iterations, iterations_fast, time_step, time_step_fast, loose_frequency,
+        rough_frequency, strong_frequency},
        false},
       {"all",
        {frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction, deposit,
@@ -242,9 +235,8 @@ std::vector<size_t> runs_for(const Campaign& campaign, const std::string& name) 
   for (const CampaignPoint& point : campaign.points) {
     if (name == "fig8" && point.value != motion_frequency && point.value != 2.0 * motion_frequency) continue;
     if (std::find(found->sweeps.begin(), found->sweeps.end(), point.sweep) == found->sweeps.end()) continue;
-    const bool is_spread = point.sweep == Sweep::force && (name == "looseness" || name == "sensitivity");
+    const bool is_spread = point.sweep == Sweep::force && name == "looseness";
     if (is_spread && point.value != base_force) continue;  // what they are compared with: the samples' spread
-    if (name == "sensitivity" && point.sweep == Sweep::frequency && !is_compared_frequency(point.value)) continue;
     needed.insert(point.run);
   }
   return {needed.begin(), needed.end()};

@@ -78,10 +78,15 @@ inline constexpr double base_wall_mass = 0.5;    ///< m_w/m
 inline constexpr double base_step = 2e-4;        ///< the paper's h [s]
 inline constexpr double base_friction = 0.4;
 
+inline constexpr double fine_step = 5e-5;  ///< the finest h [s]
+/// The frequencies at which another deposit, friction and load are driven too [Hz].
+inline constexpr double compared_frequencies[] = {5.0, 10.0, 20.0, 60.0};
+inline constexpr double half_scale_case = 1.0;  ///< of Sweep::size: everything at half scale
+
 /// Throws SceneFileError when the scene is none, or no vibrated box.
 Campaign make_campaign(const CampaignSettings& settings);
 
-/// Names that `ballast paper` takes: fig3 ... fig13, packing, looseness, sensitivity, all.
+/// Names that `ballast paper` takes: fig3 ... fig13, packing, looseness, sensitivity, investigation, all.
 std::vector<std::string> paper_targets();
 /// Indices of the runs a target needs, in the campaign's order. Throws std::invalid_argument naming the target and what
 /// there is.

@@ -11,6 +11,12 @@ SampleMean SweepValue::mean(double Observation::*quantity) const {
   return sample_mean(values);
 }
 
+const Observation* SweepValue::of_seed(int seed) const {
+  for (size_t k = 0; k < seeds.size(); ++k)
+    if (seeds[k] == seed) return &samples[k];
+  return nullptr;
+}
+
 PaperData::PaperData(Campaign campaign, std::filesystem::path results)
     : campaign_(std::move(campaign)), results_(std::move(results)) {
   for (const CampaignRun& run : campaign_.runs) finished_.push_back(is_finished(results_, run.planned));
@@ -55,7 +61,10 @@ std::vector<SweepValue> PaperData::sweep(Sweep which) {
     value.value = point.value;
     value.label = point.label;
     ++value.planned;
-    if (const Observation* seen = observation(point)) value.samples.push_back(*seen);
+    if (const Observation* seen = observation(point)) {
+      value.samples.push_back(*seen);
+      value.seeds.push_back(point.seed);
+    }
   }
   std::vector<SweepValue> list;
   for (auto& [at, value] : values)

@@ -18,7 +18,9 @@ struct SweepValue {
   std::string label;
   int planned = 0;                   ///< seeds that the campaign has
   std::vector<Observation> samples;  ///< seeds that are finished
+  std::vector<int> seeds;            ///< theirs, growing
   SampleMean mean(double Observation::*quantity) const;
+  const Observation* of_seed(int seed) const;  ///< null: not finished
 };
 
 class PaperData {

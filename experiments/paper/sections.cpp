@@ -9,13 +9,21 @@ struct Entry {
   const char* target;
   PaperSection (*make)(PaperData&);
 };
-constexpr Entry entries[] = {{"fig3", fig3_section},           {"fig4", fig4_section},
-                             {"fig5", fig5_section},           {"fig6", fig6_section},
-                             {"fig7", fig7_section},           {"fig8", fig8_section},
-                             {"fig9", fig9_section},           {"fig10", fig10_section},
-                             {"fig11", fig11_section},         {"fig12", fig12_section},
-                             {"fig13", fig13_section},         {"packing", packing_section},
-                             {"looseness", looseness_section}, {"sensitivity", sensitivity_section}};
+constexpr Entry entries[] = {{"fig3", fig3_section},
+                             {"fig4", fig4_section},
+                             {"fig5", fig5_section},
+                             {"fig6", fig6_section},
+                             {"fig7", fig7_section},
+                             {"fig8", fig8_section},
+                             {"fig9", fig9_section},
+                             {"fig10", fig10_section},
+                             {"fig11", fig11_section},
+                             {"fig12", fig12_section},
+                             {"fig13", fig13_section},
+                             {"packing", packing_section},
+                             {"looseness", looseness_section},
+                             {"sensitivity", sensitivity_section},
+                             {"investigation", investigation_section}};
 
 }  // namespace
 

@@ -1,8 +1,5 @@
 // What the choices that the paper leaves open do: step, size convention, friction.
 
-#include <algorithm>
-#include <cmath>
-
 #include "experiments/paper/sections.hpp"
 
 namespace ballast {
@@ -19,9 +16,7 @@ TextTable table_of(const std::vector<SweepValue>& values, const char* caption, c
       const SampleMean mean = value.mean(column.value);
       table.rows.back().push_back(with_error(column.factor * mean.mean, column.factor * mean.error));
     }
-    std::vector<double> factors;
-    for (const Observation& sample : value.samples) factors.push_back(sample.rise / sample.eq3());
-    table.rows.back().push_back(digits(sample_mean(factors).mean));
+    table.rows.back().push_back(digits(prefactor_of(value).mean));
     table.rows.back().push_back(digits(value.mean(&Observation::error_mean).mean, 2));
     table.rows.back().push_back(digits(1e3 * value.mean(&Observation::seconds_per_step).mean));
   }
@@ -45,28 +40,6 @@ constexpr Question questions[] = {
      "Deposit (lid pressed or only placed, friction while depositing), sample 1 at 10 Hz; driven with μ = 0.4",
      "deposit"}};
 
-/// Compaction rates of the loosest deposit beside those of the campaign's, sample by sample the first.
-TextTable rates_table(const std::vector<SweepValue>& loose, const std::vector<SweepValue>& base) {
-  TextTable table{
-      "Compaction against frequency from the loosest deposit (not pressed, μ 0.8; one sample) and from the campaign’s "
-      "(mean over samples)",
-      {"ν (Hz)", "ρ before, loose", "rate, paper’s window (1/s), loose", "campaign", "rate, 0.4–1 s (1/s), loose",
-       "campaign", "C, loose", "C, campaign"},
-      {}};
-  const auto factor = [](const SweepValue& value) { return value.samples.front().rise / value.samples.front().eq3(); };
-  for (const SweepValue& value : loose) {
-    const auto same =
-        std::find_if(base.begin(), base.end(), [&](const SweepValue& other) { return other.value == value.value; });
-    const bool has = same != base.end();
-    const Observation& seen = value.samples.front();
-    table.rows.push_back({digits(value.value), digits(seen.solid_initial), digits(seen.rate),
-                          has ? digits(same->mean(&Observation::rate).mean) : "–", digits(seen.rate_common),
-                          has ? digits(same->mean(&Observation::rate_common).mean) : "–", digits(factor(value)),
-                          has ? digits(factor(*same)) : "–"});
-  }
-  return table;
-}
-
 }  // namespace
 
 PaperSection sensitivity_section(PaperData& data) {
@@ -85,11 +58,6 @@ PaperSection sensitivity_section(PaperData& data) {
     section.rows.push_back(
         {"beyond", "–", std::string("Δx_max by ") + question.what + ": " + found, Agreement::reported});
   }
-  const std::vector<SweepValue> loose = data.sweep(Sweep::loose_frequency);
-  if (const std::string missing = data.missing(Sweep::loose_frequency, "frequencies from the loosest deposit");
-      !missing.empty())
-    section.notes.push_back(missing);
-  if (!loose.empty()) section.tables.push_back(rates_table(loose, data.sweep(Sweep::frequency)));
   return section;
 }
 
