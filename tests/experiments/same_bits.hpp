@@ -19,15 +19,19 @@ inline std::string physics_of(const std::filesystem::path& folder) {
   return bytes;
 }
 
-/// The last poses.
-inline std::string state_of(const std::filesystem::path& folder) {
-  const MotionState state = read_checkpoint(RunFolder(folder).checkpoint()).state;
+/// Poses.
+inline std::string bytes_of(const MotionState& state) {
   std::string bytes;
   for (const Pose& pose : state.pose) {
     bytes.append(reinterpret_cast<const char*>(pose.position.data()), 3 * sizeof(double));
     bytes.append(reinterpret_cast<const char*>(pose.rotation.coeffs().data()), 4 * sizeof(double));
   }
   return bytes;
+}
+
+/// The last poses.
+inline std::string state_of(const std::filesystem::path& folder) {
+  return bytes_of(read_checkpoint(RunFolder(folder).checkpoint()).state);
 }
 
 }  // namespace ballast

@@ -1,14 +1,9 @@
 // Killed with -9 at random moments, a sweep ends with the bits of an undisturbed one.
 
-#include <signal.h>
-#include <unistd.h>
-
-#include <chrono>
-
 #include "experiments/sweep/plan.hpp"
-#include "experiments/sweep/worker.hpp"
 #include "geometry/random.hpp"
 #include "tests/catch.hpp"
+#include "tests/experiments/killed_program.hpp"
 #include "tests/experiments/small_sweep.hpp"
 
 using namespace ballast;
@@ -16,19 +11,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
-
-/// Sweeps, and kills the sweep after `seconds`: its children die with it. Its exit code, or -1 when it was killed.
+/// Sweeps, and kills the sweep after `seconds`. Its exit code, or -1 when it was killed.
 int sweep_for(double seconds, const fs::path& plan, const fs::path& results) {
-  Worker sweep(BALLAST_PROGRAM, {"sweep", plan.string(), "--jobs", "2", "--output", results.string()}, results.string() + ".log");
-  const auto begin = Clock::now();
-  while (!sweep.has_ended()) {
-    if (seconds_since(begin) > seconds) return -1;  // the destructor kills
-    usleep(1000);
-  }
-  return sweep.status();
+  return run_and_kill(seconds, {"sweep", plan.string(), "--jobs", "2", "--output", results.string()},
+                      results.string() + ".log");
 }
 
 int files_in(const fs::path& folder, const std::string& suffix) {
