@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "experiments/run.hpp"
 #include "solvers/body_sweep.hpp"
@@ -37,12 +38,15 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
   return median_of(std::move(seconds));
 }
 
-double iterations_to(const std::string& solver, const FrictionProblem& problem, const Impulses& start,
-                     const Budget& budget, int threads) {
+/// Solves the step's problem once more by another solver, and notes what that took.
+void solve_again(const std::string& solver, const FrictionProblem& problem, const Impulses& start, const Budget& budget,
+                 ScalingPoint& point) {
   const std::unique_ptr<Solver> backend = make_solver(solver);
-  backend->use_threads(threads);
+  backend->use_threads(point.threads);
   SolverRunner runner;
-  return runner.run(*backend, problem, start, budget).solved.iterations;
+  const SolverRun run = runner.run(*backend, problem, start, budget);
+  point.iterations.push_back(run.success ? run.solved.iterations : std::numeric_limits<double>::infinity());
+  point.seconds.push_back(run.prepare_seconds + run.solve_seconds);
 }
 
 /// What the child does.
@@ -75,21 +79,24 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
   Budget budget;
   budget.tolerance = options.tolerance * settings.velocity_scale();
   budget.max_iterations = options.max_iterations;
-  for (const std::string& solver : options.solvers)
-    point.iterations.push_back(iterations_to(solver, stepper.problem(), warm, budget, point.threads));
+  if (options.cold_start) warm.setZero();
+  for (const std::string& solver : options.solvers) solve_again(solver, stepper.problem(), warm, budget, point);
   return point;
 }
 
 std::vector<double> packed(const ScalingPoint& p) {
   std::vector<double> record{p.contacts, p.detect, p.assemble, p.solve, p.step, p.sweep, p.bytes};
   record.insert(record.end(), p.iterations.begin(), p.iterations.end());
+  record.insert(record.end(), p.seconds.begin(), p.seconds.end());
   return record;
 }
 
 ScalingPoint unpacked(const std::vector<double>& record, ScalingPoint p) {
   double* const values[] = {&p.contacts, &p.detect, &p.assemble, &p.solve, &p.step, &p.sweep, &p.bytes};
   for (size_t k = 0; k < std::size(values); ++k) *values[k] = record.at(k);
-  p.iterations.assign(record.begin() + std::size(values), record.end());
+  const auto first = record.begin() + std::size(values), middle = first + (record.end() - first) / 2;
+  p.iterations.assign(first, middle);
+  p.seconds.assign(middle, record.end());
   return p;
 }
 
@@ -139,8 +146,12 @@ std::vector<Measurement> scaling_measurements(const ScalingOptions& options, con
     add("sweep", "ns/grain", p.sweep);
     add("sweep per contact", "ns/contact", p.contacts > 0.0 ? p.sweep * p.grains / p.contacts : 0.0);
     add("memory", "B/grain", p.bytes);
-    for (size_t k = 0; k < p.iterations.size(); ++k)
-      add("iterations needed, " + options.solvers[k], "iterations", p.iterations[k]);
+    for (size_t k = 0; k < p.iterations.size(); ++k) {
+      const bool reached = std::isfinite(p.iterations[k]);
+      if (reached) add("iterations needed, " + options.solvers[k], "iterations", p.iterations[k]);
+      add((reached ? "time to the tolerance, " : "time, tolerance not reached, ") + options.solvers[k], "ms",
+          1e3 * p.seconds[k]);
+    }
   }
   return result;
 }
@@ -163,7 +174,7 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
   const auto add = [&](Panel& panel, int threads, const std::string& title, Ink ink, const auto& value) {
     Curve curve;
     for (const ScalingPoint& p : points)
-      if (p.threads == threads) {
+      if (p.threads == threads && std::isfinite(value(p))) {
         curve.x.push_back(p.grains);
         curve.y.push_back(value(p));
       }

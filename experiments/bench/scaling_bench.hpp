@@ -19,6 +19,7 @@ struct ScalingOptions {
   double tolerance = 1e-2;      ///< [g h] for the iterations needed
   int max_iterations = 300;
   std::vector<std::string> solvers{"pgs", "nncg"};
+  bool cold_start = false;  ///< those begin from no impulses: every load must find its way through the packing
   double max_seconds = 3600.0;  ///< wall clock of one packing
 };
 
@@ -29,8 +30,8 @@ struct ScalingPoint {
   double detect = 0.0, assemble = 0.0, solve = 0.0, step = 0.0;  ///< ns per grain and step, medians; wall clock
   double sweep = 0.0;                                            ///< ns per grain and sweep
   double bytes = 0.0;  ///< of the process per grain, at its most, beyond what it had before
-  std::vector<double>
-      iterations;  ///< per solver, to the tolerance from the step's warm start; max_iterations: not reached
+  std::vector<double> iterations;  ///< per solver, to the tolerance; not reached: infinite
+  std::vector<double> seconds;     ///< per solver, wall clock of prepare and solve
 };
 
 /// Tiles nx * ny near grains / block, as square as can be.

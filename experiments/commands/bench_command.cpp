@@ -22,7 +22,7 @@ struct BenchWords {
   std::string scene = "vibrated_box";
   std::vector<std::string> overrides;
   std::filesystem::path output = "results/bench", packing_cache = "results/packings";
-  bool plot = true;
+  bool plot = true, cold_start = false;
   std::string threads = "1", grains = "1000,10000,100000", iterations = "20,50,100,200", solvers,
               tolerances = "1e-2,1e-3";
   long steps = 1000, warm_up = 5;
@@ -103,6 +103,7 @@ ExitCode bench_scaling(const BenchWords& words) {
   options.warm_up = static_cast<int>(words.warm_up);
   options.tolerance = words.tolerance;
   options.max_iterations = words.max_iterations;
+  options.cold_start = words.cold_start;
   if (!(options.tolerance > 0.0)) throw UsageError("bench: --tolerance: expected a number > 0");
   options.solvers.clear();
   for (const BenchSolver& solver : usage("--solvers", [&] { return bench_solvers(words.solvers); }))
@@ -115,8 +116,8 @@ ExitCode bench_scaling(const BenchWords& words) {
   });
   const Figure figure = scaling_figure(options, points);
   char rest[120];
-  std::snprintf(rest, sizeof rest, " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d", words.steps,
-                words.warm_up, words.tolerance, words.max_iterations);
+  std::snprintf(rest, sizeof rest, " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d%s", words.steps,
+                words.warm_up, words.tolerance, words.max_iterations, words.cold_start ? " --cold" : "");
   return finish(words, "scaling",
                 command_of(words, "scaling --grains " + words.grains + " --threads " + words.threads + rest), facts,
                 scaling_measurements(options, points), &figure);
@@ -229,6 +230,7 @@ void add_bench_command(CLI::App& program, Action& action) {
     command->add_option("--warm-up", words->warm_up, "Steps before them")->capture_default_str()->check(positive);
     command->add_option("--solvers", words->solvers, "Whose iterations are counted")->capture_default_str();
     command->add_option("--tolerance", words->tolerance, "To this error [g h]")->capture_default_str();
+    command->add_flag("--cold", words->cold_start, "From no impulses, not from the last step's");
     command->add_option("--max-iterations", words->max_iterations, "At most so many")
         ->capture_default_str()
         ->check(positive);
