@@ -47,7 +47,8 @@ StepSettings stage_settings(const Scene& scene, BoxStage stage) {
   staged.solver.tolerance = scene.deposit.tolerance;
   staged.solver.max_iterations = scene.deposit.max_iterations;
   staged.solver.threads = threads;
-  staged.sleep = SleepSpec{};  // a packing's key says nothing of it
+  staged.sleep = SleepSpec{};  // a packing's key says nothing of it, nor of reuse
+  staged.detection.reuse_motion = 0.0;
   return step_settings(staged);
 }
 

@@ -38,10 +38,10 @@ LoopEnd run_loop(const SimulationLoop& loop, TimeStepper& stepper, MotionState& 
   while (state.step < loop.last_step) {
     StepRecord record = stepper.step(state, memory);
     loop.observe(state, record);
+    if (state.step % stepper.steps_between_restarts() != 0 || state.step >= loop.last_step) continue;
     if (InterruptGuard::requested()) end = LoopEnd::interrupted;
     else if (seconds_since(begin) > loop.max_seconds) end = LoopEnd::time_limit;
-    if (end != LoopEnd::finished && state.step < loop.last_step) break;
-    end = LoopEnd::finished;
+    if (end != LoopEnd::finished) break;
     if (seconds_since(saved) > loop.checkpoint_seconds) {
       save();
       saved = Clock::now();

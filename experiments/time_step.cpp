@@ -76,6 +76,23 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& set
       reach_(system.bodies.size(), 0.0) {
   if (settings.solver.islands) solver_ = make_island_solver(std::move(solver_));
   solver_->use_threads(settings.solver.threads);
+  if (settings.solver.threads > 1) share_work(settings.solver.threads);
+}
+
+int TimeStepper::steps_between_restarts() const {
+  return settings_.detection.reuse_motion > 0.0 ? settings_.detection.refresh_steps : 1;
+}
+
+/// Detection, assembly and judgement have the same bits whatever the number of threads.
+void TimeStepper::share_work(int threads) {
+  constexpr int parts_of_thread = 4;  // work of parts is known beforehand only roughly
+  team_ = std::make_unique<WorkerTeam>();
+  team_->resize(threads);
+  assembler_.use_team(team_.get());
+  runner_.use_team(team_.get());
+  detector_.run_parts_by(
+      [team = team_.get()](int parts, const std::function<void(int)>& part) { team->run(parts, part); },
+      parts_of_thread * threads);
 }
 
 void TimeStepper::free_motion(const MotionState& state, double mid_time) {
@@ -106,8 +123,8 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
 
 void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
   const double g = system_.gravity.norm();
-  for (size_t b = 0; b < system_.bodies.size(); ++b)
-    reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
+  for (size_t b = 0; b < system_.bodies.size(); ++b) reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
+  if (mid.step % settings_.detection.refresh_steps == 0) detector_.refresh();
   resting_.detect(detector_, mid.pose, reach_, memory, contacts_);
   if (settings_.solver.warm_start)
     carry_impulses(memory.contacts, memory.impulses, contacts_, carried_);
@@ -137,22 +154,8 @@ void TimeStepper::account(const MotionState& before, const StepMemory& memory, S
   // works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of prescribed walls
   const Eigen::VectorXd& v0 = v_before_;
   const Eigen::VectorXd& v1 = v_after_;
-  double contact_power = 0.0;  // r . H v_mean
-  const DynamicsForm& dynamics = problem_.dynamics;
-  for (int c = 0; c < problem_.contact_count(); ++c) {
-    const int rows = problem_.contact_rows(c);
-    const double* block = dynamics.h.data() + dynamics.h_begin[c];
-    const double* r = impulses_.data() + problem_.row_begin[c];
-    for (int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-      for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows) {
-        const int dof = dynamics.dof_begin[body] + d;
-        double pull = 0.0;
-        for (int row = 0; row < rows; ++row) pull += block[row] * r[row];
-        contact_power += pull * 0.5 * (v0[dof] + v1[dof]);
-      }
-    }
-    if (r[0] > 0.0) ++record.active_contacts;
-  }
+  const double contact_power = 0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
+  for (int c = 0; c < problem_.contact_count(); ++c) record.active_contacts += impulses_[problem_.row_begin[c]] > 0.0;
   assembler_.prescribed_part(contacts_, before.time + 0.5 * settings_.h, prescribed_);
   const double wall_power = impulses_.dot(prescribed_);
   record.dissipated = -(contact_power + wall_power);
@@ -213,7 +216,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   solve(memory, record);
   record.seconds_judge = clock.lap() - record.seconds_solve;
 
-  body_velocity(problem_.dynamics, problem_.row_begin, impulses_, v_after_);
+  v_after_ = runner_.body_velocity();
   account(state, memory, record);
   assembler_.unpack(v_after_, state);
   for (size_t b = 0; b < state.pose.size(); ++b) {

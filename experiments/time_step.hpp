@@ -43,6 +43,10 @@ class TimeStepper {
   /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite.
   StepRecord step(MotionState& state, StepMemory& memory);
 
+  /// The same bits follow from a MotionState and StepMemory whose step is a multiple of this; 1 but where points are held
+  /// on to (DetectionSettings::reuse_motion).
+  int steps_between_restarts() const;
+
   /// The problem solved last, its solution, and the contacts it came from: for capture and export. Sleepers' contacts are in
   /// the StepMemory alone.
   const FrictionProblem& problem() const { return problem_; }
@@ -55,6 +59,7 @@ class TimeStepper {
   const ContactError& error() const { return error_; }
 
  private:
+  void share_work(int threads);
   void free_motion(const MotionState& state, double mid_time);
   void detect(const MotionState& mid, StepMemory& memory);
   void solve(StepMemory& memory, StepRecord& record);
@@ -63,6 +68,7 @@ class TimeStepper {
   const MechanicalSystem& system_;
   StepSettings settings_;
   int driven_wall_;
+  std::unique_ptr<WorkerTeam> team_;  // for all but the solver, which has its own; null: one thread
   ContactDetector detector_;
   ProblemAssembler assembler_;
   OverlapCorrection correction_;

@@ -2,6 +2,7 @@
 // Shapes and poses -> contact points: broad phase, separating axis, face clipping, in one call per step.
 
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <span>
@@ -38,6 +39,10 @@ struct DetectionSettings {
   int max_points = 4;     ///< per pair of polyhedra; the deepest is always kept
   double skin = 0.0;      ///< broad-phase margin [m]; 0 = chosen from the shapes
   bool use_cache = true;  ///< start from last step's axis; off: every pair from scratch (same contacts, slower)
+  /// > 0: a pair's points are held on to until its bodies have moved by more than this part of their circumradii against
+  /// each other, or until refresh(). Contacts then depend on the poses since the last refresh(). Needs use_cache.
+  double reuse_motion = 0.0;
+  int refresh_steps = 10;  ///< then: whoever steps calls refresh() when the number of steps is a multiple of this
 };
 
 /// Counters of the last detect().
@@ -46,12 +51,18 @@ struct DetectionCounters {
   long cached_separations = 0;    ///< pairs dismissed by the axis that separated them last time, or by what is left of its proven distance
   long proved_axes = 0;           ///< pairs whose last axis was proved to be the best still
   long full_tests = 0;            ///< pairs that needed the whole separating-axis search
+  long reused = 0;                ///< pairs whose points were held on to
   long manifolds = 0;             ///< pairs with at least one contact point
   long broad_phase_rebuilds = 0;  ///< since construction
+
+  DetectionCounters& operator+=(const DetectionCounters& other);
 };
 
+/// Runs part(0) ... part(parts - 1), on as many threads as it likes, and returns when all are done.
+using RunParts = std::function<void(int parts, const std::function<void(int)>& part)>;
+
 /// Contact detection for one set of bodies, coherent from step to step. Contacts depend only on the poses and reaches
-/// given (never on the cache), and come sorted by (body_a, body_b, feature).
+/// given (never on the cache), unless reuse_motion is set, and come sorted by (body_a, body_b, feature).
 class ContactDetector {
  public:
   ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings);
@@ -64,6 +75,12 @@ class ContactDetector {
   void detect(std::span<const Pose> poses, std::span<const double> reach, std::vector<ContactPoint>& contacts);
 
   const DetectionCounters& counters() const;
+
+  /// Lets go of all points that were held on to: the next contacts depend on their poses and reaches alone.
+  void refresh();
+
+  /// From now on the work is done in so many parts, by `run`: the same contacts, whatever their number.
+  void run_parts_by(RunParts run, int parts);
 
  private:
   struct State;

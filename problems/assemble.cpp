@@ -1,5 +1,6 @@
 #include "problems/assemble.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 namespace ballast {
@@ -65,13 +66,14 @@ void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) cons
   }
 }
 
-void ProblemAssembler::append_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows,
-                                    const Vec3& point, std::vector<double>& h) const {
-  if (problem_body_[body] < 0) return;
+/// Returns where the next block begins.
+double* ProblemAssembler::write_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows,
+                                      const Vec3& point, double* h) const {
+  if (problem_body_[body] < 0) return h;
   const Freedom& freedom = system_.bodies[body].freedom;
   for (int d = 0; d < freedom.translations; ++d)
-    for (int row = 0; row < rows; ++row) h.push_back(sign * frame.row(row).dot(freedom.axes.col(d)));
-  if (!freedom.rotation) return;
+    for (int row = 0; row < rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
+  if (!freedom.rotation) return h;
   // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
   const Mat3& R_WB = rotation_[body];
   const Vec3 lever = sign * (R_WB.transpose() * (point - state.pose[body].position));
@@ -79,22 +81,30 @@ void ProblemAssembler::append_block(const MotionState& state, int body, double s
   Mat3 block;  // row i: direction i
   for (int row = 0; row < rows; ++row) block.row(row) = lever.cross(Vec3(directions.col(row)));
   for (int d = 0; d < 3; ++d)
-    for (int row = 0; row < rows; ++row) h.push_back(block(row, d));
+    for (int row = 0; row < rows; ++row) *h++ = block(row, d);
+  return h;
 }
 
-void ProblemAssembler::assemble_contact(const MotionState& state, const ContactPoint& contact,
-                                        FrictionProblem& problem) {
+/// Everything but numbers: who touches whom, with how many rows, and where its blocks stand.
+void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem) {
   DynamicsForm& dynamics = problem.dynamics;
-  const double mu = system_.pair_friction(contact.body_a, contact.body_b);
-  const int rows = mu > 0.0 ? 3 : 1;
-  frames_.push_back(contact_frame(contact.normal));
-  append_block(state, contact.body_a, -1.0, frames_.back(), rows, contact.position, dynamics.h);
-  append_block(state, contact.body_b, +1.0, frames_.back(), rows, contact.position, dynamics.h);
-  dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
-  dynamics.body_a.push_back(problem_body_[contact.body_a]);
-  dynamics.body_b.push_back(problem_body_[contact.body_b]);
-  problem.row_begin.push_back(problem.row_begin.back() + rows);
-  problem.friction.push_back(mu);
+  detected_.clear();
+  for (size_t c = 0; c < contacts.size(); ++c) {
+    const ContactPoint& contact = contacts[c];
+    if (system_.restitution > 0.0 && contact.gap > 0.0) continue;
+    detected_.push_back(static_cast<int>(c));
+    const double mu = system_.pair_friction(contact.body_a, contact.body_b);
+    const int rows = mu > 0.0 ? 3 : 1;
+    const int dofs = system_.bodies[contact.body_a].freedom.count() + system_.bodies[contact.body_b].freedom.count();
+    dynamics.h_begin.push_back(dynamics.h_begin.back() + rows * dofs);
+    dynamics.body_a.push_back(problem_body_[contact.body_a]);
+    dynamics.body_b.push_back(problem_body_[contact.body_b]);
+    problem.row_begin.push_back(problem.row_begin.back() + rows);
+    problem.friction.push_back(mu);
+  }
+  dynamics.h.resize(dynamics.h_begin.back());
+  frames_.resize(detected_.size());
+  row_begin_ = problem.row_begin;
 }
 
 void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd& v_free, double h, double end_time,
@@ -110,19 +120,22 @@ void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd&
   rotation_.resize(state.pose.size());
   for (size_t b = 0; b < state.pose.size(); ++b) rotation_[b] = state.pose[b].rotation.toRotationMatrix();
 
-  frames_.clear();
-  detected_.clear();
-  const double e = system_.restitution;
-  for (size_t c = 0; c < contacts.size(); ++c) {
-    if (e > 0.0 && contacts[c].gap > 0.0) continue;
-    detected_.push_back(static_cast<int>(c));
-    assemble_contact(state, contacts[c], problem);
-  }
-
-  row_begin_ = problem.row_begin;
+  lay_out(contacts, problem);
+  const int count = problem.contact_count();
+  constexpr int contacts_of_part = 128;
+  run_parts(team_, (count + contacts_of_part - 1) / contacts_of_part, [&](int part) {
+    for (int k = part * contacts_of_part; k < std::min(count, (part + 1) * contacts_of_part); ++k) {
+      const ContactPoint& contact = contacts[detected_[k]];
+      const int rows = problem.contact_rows(k);
+      frames_[k] = contact_frame(contact.normal);
+      double* h = dynamics.h.data() + dynamics.h_begin[k];
+      h = write_block(state, contact.body_a, -1.0, frames_[k], rows, contact.position, h);
+      write_block(state, contact.body_b, +1.0, frames_[k], rows, contact.position, h);
+    }
+  });
 
   prescribed_part(contacts, end_time, dynamics.bias);
-  if (e > 0.0) {  // Newton's law: u_N+ + e u_N- >= 0 for approaching points
+  if (const double e = system_.restitution; e > 0.0) {  // Newton's law: u_N+ + e u_N- >= 0 for approaching points
     pack(state, v_before_);
     prescribed_part(contacts, state.time, u_before_);
     for (int c = 0; c < problem.contact_count(); ++c) {

@@ -7,6 +7,7 @@
 
 #include "problems/friction_problem.hpp"
 #include "problems/mechanical_system.hpp"
+#include "problems/worker_team.hpp"
 
 namespace ballast {
 
@@ -20,6 +21,9 @@ Vec3 prescribed_velocity(const RigidBody& body, double time);
 class ProblemAssembler {
  public:
   explicit ProblemAssembler(const MechanicalSystem& system);
+
+  /// Shares the work of assemble() from now on; null: alone. The same bits either way. `team` outlives the assembler.
+  void use_team(WorkerTeam* team) { team_ = team; }
 
   /// Unknowns <-> velocities. Bodies without freedom are left alone.
   int dof_count() const { return dof_begin_.back(); }
@@ -47,11 +51,12 @@ class ProblemAssembler {
   void to_world(const Impulses& r, std::span<const ContactPoint> contacts, std::vector<Vec3>& world) const;
 
  private:
-  void assemble_contact(const MotionState& state, const ContactPoint& contact, FrictionProblem& problem);
-  void append_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows, const Vec3& point,
-                    std::vector<double>& h) const;
+  void lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem);
+  double* write_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows, const Vec3& point,
+                      double* h) const;
 
   const MechanicalSystem& system_;
+  WorkerTeam* team_ = nullptr;
   std::vector<int> problem_body_;      // body -> index among bodies with freedom, or -1
   std::vector<int> dof_begin_{0};
   DynamicsForm constant_;              // dof_begin, mass_begin, mass: the same in every step

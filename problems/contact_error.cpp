@@ -63,19 +63,48 @@ double largest_eigenvalue(const Eigen::Matrix3d& block) {
   return mean + spread * (1.0 + 2.0 * s * w);
 }
 
-void ContactJudge::recompute_velocities(const FrictionProblem& problem, const Impulses& r) {
-  delassus_diagonal(problem, roots_, diagonal_);
-  free_contact_velocity(problem, q_);
-  if (!problem.has_dynamics) return contact_velocity(problem, r, u_);
-  const DynamicsForm& dynamics = problem.dynamics;
-  contact_to_body_impulse(dynamics, problem.row_begin, r, hr_);
+void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                                             const Impulses& r) {
+  factor_masses(dynamics, roots_);
+  contact_to_body_impulse(dynamics, row_begin, r, hr_);
   v_ = hr_;
   for (int b = 0; b < dynamics.body_count(); ++b) {
     roots_[b].solve_lower(v_.data() + dynamics.dof_begin[b]);
     roots_[b].solve_upper(v_.data() + dynamics.dof_begin[b]);
   }
   v_ += dynamics.v_free;
-  body_to_contact_velocity(dynamics, problem.row_begin, v_, u_);
+}
+
+void ContactJudge::recompute_contacts(const FrictionProblem& problem, int begin, int end) {
+  delassus_diagonal(problem, roots_, begin, end, diagonal_);
+  body_to_contact_velocity(problem.dynamics, problem.row_begin, problem.dynamics.v_free, begin, end, q_);
+  body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, begin, end, u_);
+}
+
+ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin,
+                                                 int end) const {
+  Share share;
+  share.min_normal_velocity = std::numeric_limits<double>::infinity();
+  for (int c = begin; c < end; ++c) {
+    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+    const double mu = problem.friction[c];
+    const Eigen::Vector3d rc = segment(r, first, rows), uc = segment(u_, first, rows);
+    const double lambda_max = largest_eigenvalue(diagonal_[c]);
+    if (lambda_max > 0.0) {
+      const double value = scaled_natural_map(rc, uc, mu, lambda_max);
+      share.scaled_square += value * value;
+      ++share.counted;
+      if (share.worst_contact < 0 || value > share.worst) {
+        share.worst = value;
+        share.worst_contact = c;
+      }
+    }
+    share.square += natural_map(rc, uc, mu, 1.0).squaredNorm();
+    share.cone_violation = std::max(share.cone_violation, (rc - project_cone(rc, mu)).norm());
+    share.min_normal_velocity = std::min(share.min_normal_velocity, uc[0]);
+    share.complementarity = std::max(share.complementarity, std::abs(rc.dot(modified_velocity(uc, mu))));
+  }
+  return share;
 }
 
 ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses& r) {
@@ -84,31 +113,39 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
                          std::to_string(problem.row_count()) + " rows");
   ContactError error;
   const int contacts = problem.contact_count();
+  if (problem.has_dynamics) recompute_body_velocities(problem.dynamics, problem.row_begin, r);
   if (contacts == 0) return error;
-  recompute_velocities(problem, r);
+  if (problem.has_dynamics) {
+    diagonal_.resize(contacts);
+    q_.resize(problem.row_count());
+    u_.resize(problem.row_count());
+  } else {
+    delassus_diagonal(problem, roots_, diagonal_);
+    free_contact_velocity(problem, q_);
+    contact_velocity(problem, r, u_);
+  }
+  shares_.resize((contacts + share_contacts - 1) / share_contacts);  // cut in the same places whoever works
+  run_parts(team_, static_cast<int>(shares_.size()), [&](int part) {
+    const int begin = part * share_contacts, end = std::min(begin + share_contacts, contacts);
+    if (problem.has_dynamics) recompute_contacts(problem, begin, end);
+    shares_[part] = judge_contacts(problem, r, begin, end);
+  });
   if (!r.allFinite() || !u_.allFinite()) return not_finite();
 
   double sum = 0.0, unscaled_sum = 0.0;
   int counted = 0;
   error.min_normal_velocity = std::numeric_limits<double>::infinity();
-  for (int c = 0; c < contacts; ++c) {
-    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-    const double mu = problem.friction[c];
-    const Eigen::Vector3d rc = segment(r, first, rows), uc = segment(u_, first, rows);
-    const double lambda_max = largest_eigenvalue(diagonal_[c]);
-    if (lambda_max > 0.0) {
-      const double value = scaled_natural_map(rc, uc, mu, lambda_max);
-      sum += value * value;
-      ++counted;
-      if (error.worst_contact < 0 || value > error.natural_map_max) {
-        error.natural_map_max = value;
-        error.worst_contact = c;
-      }
+  for (const Share& share : shares_) {
+    sum += share.scaled_square;
+    unscaled_sum += share.square;
+    counted += share.counted;
+    if (share.worst_contact >= 0 && (error.worst_contact < 0 || share.worst > error.natural_map_max)) {
+      error.natural_map_max = share.worst;
+      error.worst_contact = share.worst_contact;
     }
-    unscaled_sum += natural_map(rc, uc, mu, 1.0).squaredNorm();
-    error.cone_violation = std::max(error.cone_violation, (rc - project_cone(rc, mu)).norm());
-    error.min_normal_velocity = std::min(error.min_normal_velocity, uc[0]);
-    error.complementarity = std::max(error.complementarity, std::abs(rc.dot(modified_velocity(uc, mu))));
+    error.cone_violation = std::max(error.cone_violation, share.cone_violation);
+    error.min_normal_velocity = std::min(error.min_normal_velocity, share.min_normal_velocity);
+    error.complementarity = std::max(error.complementarity, share.complementarity);
   }
   error.natural_map_rms = counted > 0 ? std::sqrt(sum / counted) : 0.0;
   const double scale = std::max({q_.norm(), r.norm(), u_.norm()});

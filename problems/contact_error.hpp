@@ -4,6 +4,7 @@
 #include "problems/friction_cone.hpp"
 #include "problems/friction_problem.hpp"
 #include "problems/mass_root.hpp"
+#include "problems/worker_team.hpp"
 
 namespace ballast {
 
@@ -33,6 +34,14 @@ class ContactJudge {
  public:
   ContactError judge(const FrictionProblem& problem, const Impulses& r);
 
+  /// v = v_free + M^-1 H^T r of the answer judged last (dynamics form): what the step goes on with. Valid until the next call.
+  const Eigen::VectorXd& body_velocity() const { return v_; }
+  /// H^T r of the same.
+  const Eigen::VectorXd& body_impulse() const { return hr_; }
+
+  /// Shares the work from now on; null: alone. The same bits either way. `team` outlives the judge.
+  void use_team(WorkerTeam* team) { team_ = team; }
+
   /// The scaled natural map of one contact [m/s]: the summand of natural_map_rms. `lambda_max` of W_cc, > 0. A one-row
   /// contact is padded with zeros.
   static double scaled_natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu, double lambda_max) {
@@ -40,11 +49,26 @@ class ContactJudge {
   }
 
  private:
-  void recompute_velocities(const FrictionProblem& problem, const Impulses& r);
+  /// What some neighbouring contacts add to the measures.
+  struct Share {
+    double scaled_square = 0.0, square = 0.0;  ///< of the natural map
+    int counted = 0;                           ///< contacts in scaled_square
+    double worst = 0.0;
+    int worst_contact = -1;
+    double cone_violation = 0.0, complementarity = 0.0, min_normal_velocity;
+  };
+  /// Contacts of a share: their blocks stay in the first cache between the passes.
+  static constexpr int share_contacts = 64;
 
+  void recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r);
+  void recompute_contacts(const FrictionProblem& problem, int begin, int end);
+  Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end) const;
+
+  WorkerTeam* team_ = nullptr;
   Eigen::VectorXd u_, q_, v_, hr_;
   std::vector<MassRoot> roots_;
   std::vector<Eigen::Matrix3d> diagonal_;
+  std::vector<Share> shares_;
 };
 
 /// Largest eigenvalue of a symmetric 3 x 3 block (closed form): 1/rho of the scaled natural map. The one definition.

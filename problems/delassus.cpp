@@ -119,9 +119,14 @@ void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& ro
     }
     return;
   }
+  factor_masses(problem.dynamics, roots);
+  delassus_diagonal(problem, roots, 0, problem.contact_count(), blocks);
+}
+
+void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int begin, int end,
+                       std::vector<Eigen::Matrix3d>& blocks) {
   const DynamicsForm& dynamics = problem.dynamics;
-  factor_masses(dynamics, roots);
-  for (int c = 0; c < problem.contact_count(); ++c) {
+  for (int c = begin; c < end; ++c) {
     const int rows = problem.contact_rows(c);
     const double* block = dynamics.h.data() + dynamics.h_begin[c];
     Gram w;

@@ -22,6 +22,11 @@ void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix
 void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
                        std::vector<Eigen::Matrix3d>& blocks);
 
+/// The same for contacts begin <= c < end alone, their masses being factored and `blocks` having its size (dynamics form
+/// only).
+void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int begin, int end,
+                       std::vector<Eigen::Matrix3d>& blocks);
+
 /// The whole operator, assembled block by block from contacts that share a body (or the stored one).
 SparseRows delassus_matrix(const FrictionProblem& problem);
 

@@ -88,16 +88,21 @@ void FrictionProblem::clear() {
 }
 
 void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
-                              Eigen::VectorXd& u) {
-  u = dynamics.bias;
-  const int contacts = static_cast<int>(row_begin.size()) - 1;
-  for (int c = 0; c < contacts; ++c) {
+                              int begin, int end, Eigen::VectorXd& u) {
+  for (int i = row_begin[begin]; i < row_begin[end]; ++i) u[i] = dynamics.bias[i];
+  for (int c = begin; c < end; ++c) {
     double* uc = u.data() + row_begin[c];
     if (row_begin[c + 1] - row_begin[c] == 3)
       contact_row_velocity<3>(dynamics, c, v.data(), uc);
     else
       contact_row_velocity<1>(dynamics, c, v.data(), uc);
   }
+}
+
+void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
+                              Eigen::VectorXd& u) {
+  u.resize(row_begin.back());
+  body_to_contact_velocity(dynamics, row_begin, v, 0, static_cast<int>(row_begin.size()) - 1, u);
 }
 
 void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r,

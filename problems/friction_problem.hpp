@@ -96,6 +96,9 @@ void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_beg
 /// u = H v + bias (dynamics form only).
 void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
                               Eigen::VectorXd& u);
+/// The same for contacts begin <= c < end alone; `u` has its size already.
+void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
+                              int begin, int end, Eigen::VectorXd& u);
 
 /// p = H^T r: what the contacts give to each unknown [N s, N m s] (dynamics form only).
 void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r,

@@ -211,6 +211,16 @@ void read_numerics(TomlTable& root, Scene& scene) {
   scene.detection.max_points = whole_int(detection, "max_points", 1, scene.detection.max_points);
   scene.detection.skin = detection.number("skin", not_negative, "m", scene.detection.skin);
   scene.detection.use_cache = detection.flag("use_cache", scene.detection.use_cache);
+  // only where given: a scene.toml from before has neither
+  if (detection.has("reuse_motion")) {
+    scene.detection.reuse_motion = detection.number("reuse_motion", part_of_one, "of circumradii", 0.0);
+    if (!scene.detection.use_cache) detection.fail("reuse_motion", "needs use_cache = true");
+    if (scene.sleep.enabled) detection.fail("reuse_motion", "given together with sleep.enabled = true");
+  }
+  if (detection.has("refresh_steps")) {
+    if (!detection.has("reuse_motion")) detection.fail("refresh_steps", "has no meaning without reuse_motion");
+    scene.detection.refresh_steps = whole_int(detection, "refresh_steps", 1, scene.detection.refresh_steps);
+  }
   detection.finish();
 
   TomlTable record = root.section("record");

@@ -151,26 +151,31 @@ void BodySweep::start_search(SweepSearch& search) const {
   search.velocity_direction.assign(velocity_.size(), BodyVelocity{});
 }
 
+/// A slab's velocities, by the thread that sweeps its interior next: they stay in its cache.
+void BodySweep::move_along(std::span<const int> bodies, SweepSearch& search, SearchStep step) {
+  for (const int b : bodies)
+    for (int i = 0; i < body_width; ++i) {
+      double &x = velocity_[b].w[i], &p = search.velocity_direction[b].w[i], &before = search.velocity_before[b].w[i];
+      const double along = step.beta * p;
+      p = along + step.gain * (x - before);
+      x += along;
+      before = x;
+    }
+}
+
 double BodySweep::sweep(SweepSearch& search, SearchStep step) {
-  constexpr int chunks = 8;
-  team_.run(chunks, [&](int chunk) {
-    const size_t end = velocity_.size() * (chunk + 1) / chunks;
-    for (size_t b = velocity_.size() * chunk / chunks; b < end; ++b)
-      for (int i = 0; i < body_width; ++i) {
-        double &x = velocity_[b].w[i], &p = search.velocity_direction[b].w[i], &before = search.velocity_before[b].w[i];
-        const double along = step.beta * p;
-        p = along + step.gain * (x - before);
-        x += along;
-        before = x;
-      }
-  });
-  for_parts([&](Range& range) {
+  const auto sweep_range = [&](Range& range) {
     range.change_square =
         sweep_friction(friction_.data() + range.friction, friction_impulse_.data() + range.friction,
                        search.friction.data() + range.friction, step, range.friction_count, velocity_.data()) +
         sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row,
                       search.one_row.data() + range.one_row, step, range.one_row_count, velocity_.data());
+  };
+  team_.run(static_cast<int>(interiors_.size()), [&](int slab) {
+    move_along(plan_.bodies(slab), search, step);
+    sweep_range(interiors_[slab]);
   });
+  team_.run(static_cast<int>(interfaces_.size()), [&](int k) { sweep_range(interfaces_[k]); });
   double square = 0.0;
   for (const std::vector<Range>* ranges : {&interiors_, &interfaces_})
     for (const Range& range : *ranges) square += range.change_square;

@@ -2,6 +2,7 @@
 // One Gauss-Seidel sweep on the dynamics form, matrix-free: contacts push bodies, bodies carry the motion to other
 // contacts.
 
+#include <span>
 #include <vector>
 
 #include "problems/friction_problem.hpp"
@@ -9,7 +10,7 @@
 #include "solvers/sweep_kernels.hpp"
 #include "solvers/sweep_plan.hpp"
 #include "solvers/sweep_variant.hpp"
-#include "solvers/worker_team.hpp"
+#include "problems/worker_team.hpp"
 
 namespace ballast {
 
@@ -62,6 +63,7 @@ class BodySweep {
   template <typename Task>
   void for_parts(const Task& task);
 
+  void move_along(std::span<const int> bodies, SweepSearch& search, SearchStep step);
   void prepare_bodies(const DynamicsForm& dynamics);
   void prepare_ranges(const FrictionProblem& problem);
   void prepare_friction(const FrictionProblem& problem, int c, int record);

@@ -18,6 +18,13 @@ struct SolverRun {
 /// Keeps the judge's workspace between calls.
 class SolverRunner {
  public:
+  /// Shares the judge's work (ContactJudge::use_team). Solvers have Solver::use_threads.
+  void use_team(WorkerTeam* team) { judge_.use_team(team); }
+
+  /// Of the last run: what the judge found besides.
+  const Eigen::VectorXd& body_velocity() const { return judge_.body_velocity(); }
+  const Eigen::VectorXd& body_impulse() const { return judge_.body_impulse(); }
+
   /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem. A start of the wrong size is an
   /// InvalidProblem; an empty one means zero. Other exceptions of a backend become reason = numerical_failure.
   SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget);

@@ -7,6 +7,7 @@ namespace ballast {
 void SweepPlan::prepare(const FrictionProblem& problem) {
   find_levels(problem.dynamics);
   cut_slabs(problem.dynamics);
+  list_bodies();
   order(problem);
 }
 
@@ -89,6 +90,15 @@ void SweepPlan::cut_slabs(const DynamicsForm& dynamics) {
     slab_[body] = slabs_ - 1;
     passed += count_[body];
   }
+}
+
+void SweepPlan::list_bodies() {
+  body_begin_.assign(slabs_ + 1, 0);
+  for (const int slab : slab_) ++body_begin_[slab + 1];
+  for (int slab = 0; slab < slabs_; ++slab) body_begin_[slab + 1] += body_begin_[slab];
+  bodies_.resize(slab_.size());
+  place_.assign(body_begin_.begin(), body_begin_.end());
+  for (size_t body = 0; body < slab_.size(); ++body) bodies_[place_[slab_[body]]++] = static_cast<int>(body);
 }
 
 void SweepPlan::order(const FrictionProblem& problem) {

@@ -148,3 +148,31 @@ TEST_CASE("contact frames are right-handed and orthonormal for every normal") {
   }
   for (int axis = 0; axis < 3; ++axis) CHECK(contact_frame(Vec3::Unit(axis)).determinant() == Approx(1.0));
 }
+
+TEST_CASE("a team assembles with the bits of one thread") {
+  Fixture f;
+  Random random(8);
+  const std::vector<ContactPoint> few = f.contacts;
+  for (int k = 0; k < 500; ++k) {  // several parts
+    f.contacts.push_back(few[k % few.size()]);
+    f.contacts.back().normal = random.unit_vector();
+    f.contacts.back().position = Vec3(random.normal(), random.normal(), random.normal());
+  }
+  WorkerTeam team;
+  team.resize(3);
+  ProblemAssembler alone(f.system), shared(f.system);
+  shared.use_team(&team);
+  Eigen::VectorXd v;
+  alone.pack(f.state, v);
+  FrictionProblem expected, problem;
+  for (const size_t count : {f.contacts.size(), few.size(), f.contacts.size()}) {  // into the same buffers
+    const std::span<const ContactPoint> contacts(f.contacts.data(), count);
+    alone.assemble(f.state, v, 1e-3, 1e-3, contacts, expected);
+    shared.assemble(f.state, v, 1e-3, 1e-3, contacts, problem);
+    problem.validate();
+    CHECK(problem.dynamics.h == expected.dynamics.h);
+    CHECK(problem.dynamics.h_begin == expected.dynamics.h_begin);
+    CHECK(problem.row_begin == expected.row_begin);
+    CHECK(std::equal(shared.frames().begin(), shared.frames().end(), alone.frames().begin(), alone.frames().end()));
+  }
+}

@@ -99,6 +99,33 @@ TEST_CASE("one judge serves problems of different sizes") {
   }
 }
 
+TEST_CASE("a team judges with the bits of one thread") {
+  KnownSolutionSettings settings;
+  settings.contacts = 700;
+  const FrictionProblem problem = make_known_solution(settings).problem;
+  SeededRandom random(32);
+  Impulses r(problem.row_count());
+  for (double& x : r) x = random.uniform(-1, 1);
+  const ContactError alone = contact_error(problem, r);
+  for (const int threads : {1, 2, 5}) {
+    WorkerTeam team;
+    team.resize(threads);
+    ContactJudge judge;
+    judge.use_team(&team);
+    const ContactError error = judge.judge(problem, r);
+    CHECK(error.natural_map_rms == alone.natural_map_rms);
+    CHECK(error.natural_map_max == alone.natural_map_max);
+    CHECK(error.worst_contact == alone.worst_contact);
+    CHECK(error.fclib == alone.fclib);
+    CHECK(error.cone_violation == alone.cone_violation);
+    CHECK(error.min_normal_velocity == alone.min_normal_velocity);
+    CHECK(error.complementarity == alone.complementarity);
+    CHECK(error.power == alone.power);
+    CHECK(error.momentum_residual == alone.momentum_residual);
+  }
+  check_same(alone, dense_error(problem, r));  // several shares
+}
+
 TEST_CASE("without contacts there is no error") {
   FrictionProblem problem;
   problem.has_dynamics = true;
@@ -106,6 +133,29 @@ TEST_CASE("without contacts there is no error") {
   CHECK(error.natural_map_rms == 0.0);
   CHECK(error.worst_contact == -1);
   CHECK(error.finite);
+}
+
+TEST_CASE("the judge leaves the bodies' velocities, with contacts and without") {
+  FrictionProblem problem = make_known_solution({}).problem;
+  const Impulses r = Impulses::Constant(problem.row_count(), 0.5);
+  ContactJudge judge;
+  judge.judge(problem, r);
+  Eigen::VectorXd v;
+  body_velocity(problem.dynamics, problem.row_begin, r, v);
+  CHECK(judge.body_velocity() == v);
+  Eigen::VectorXd p;
+  contact_to_body_impulse(problem.dynamics, problem.row_begin, r, p);
+  CHECK(judge.body_impulse() == p);
+  problem.row_begin.assign(1, 0);
+  problem.friction.clear();
+  problem.dynamics.body_a.clear();
+  problem.dynamics.body_b.clear();
+  problem.dynamics.h_begin.assign(1, 0);
+  problem.dynamics.h.clear();
+  problem.dynamics.bias.resize(0);
+  problem.validate();
+  judge.judge(problem, Impulses());
+  CHECK(judge.body_velocity() == problem.dynamics.v_free);
 }
 
 TEST_CASE("impulses that are not numbers make every measure infinite") {

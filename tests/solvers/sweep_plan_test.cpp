@@ -6,6 +6,7 @@
 
 #include "problems/known_solutions.hpp"
 #include "problems/seeded_random.hpp"
+#include "problems/worker_team.hpp"
 #include "solvers/body_sweep.hpp"
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/nncg.hpp"
@@ -80,6 +81,17 @@ TEST_CASE("a sweep's plan: every contact once, and nothing that runs side by sid
           REQUIRE((problem.contact_rows(plan.contacts()[i]) == 1) == (i >= part.friction_end));
       }
     CHECK(next == problem.contact_count());
+    std::vector<int> slab_of(problem.dynamics.body_count(), -1);
+    for (int slab = 0; slab < slabs; ++slab)
+      for (const int body : plan.bodies(slab)) {
+        REQUIRE(slab_of[body] == -1);
+        slab_of[body] = slab;
+      }
+    CHECK(std::count(slab_of.begin(), slab_of.end(), -1) == 0);
+    for (int slab = 0; slab < slabs; ++slab)
+      for (int i = plan.interiors()[slab].begin; i < plan.interiors()[slab].end; ++i)
+        for (const int body : {problem.dynamics.body_a[plan.contacts()[i]], problem.dynamics.body_b[plan.contacts()[i]]})
+          if (body >= 0) REQUIRE(slab_of[body] == slab);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "solvers/worker_team.hpp"
+#include "problems/worker_team.hpp"
 
 namespace ballast {
 namespace {

@@ -45,4 +45,11 @@ class WorkerTeam {
   const void* context_ = nullptr;
 };
 
+/// By the team, or by the caller alone where there is none.
+template <typename Task>
+void run_parts(WorkerTeam* team, int parts, const Task& task) {
+  if (team) return team->run(parts, task);
+  for (int part = 0; part < parts; ++part) task(part);
+}
+
 }  // namespace ballast
