@@ -93,6 +93,7 @@ void write_report(const std::filesystem::path& folder) {
   body += section("parameters", "Parameters", parameters_table(data) + folded("The whole scene (scene.toml)", data.scene_text));
   body += section("provenance", "Program and machine", provenance_table(data) + folded("The whole manifest (manifest.json)", data.manifest_text));
   body += section("reproduce", "How to make it again", Html{"<pre>"} + escaped(reproduce_commands(data)) + Html{"</pre>\n"} + files_table(data));
+  body += section("next", "What next", Html{"<pre>"} + escaped(next_commands(*summary.facts.has_packing)) + Html{"</pre>\n"});
   write_whole_file(folder / "report.html", html_page(name_of_run(data), body));
 }
 

@@ -184,4 +184,21 @@ std::string reproduce_commands(const RunData& data) {
   return text;
 }
 
+std::string next_commands(bool has_grains) {
+  const std::string program = "build/default/bin/ballast ";
+  std::string text;
+  if (has_grains)
+    text += "# another frequency, another set of grains; every key of a scene: docs/scenes.md\n" + program +
+            "run vibrated_box --set drive.frequency=10 --set grains.seed=2 --output results/10Hz\n"
+            "# one figure of the paper with all its runs (each made once); what they cost: paper plan\n" +
+            program + "paper fig12 --jobs 2\n";
+  text += "# a sweep: every combination of the values, several runs at a time\n"
+          "printf '[[sweep]]\\nname = \"nu\"\\nscene = \"vibrated_box_small\"\\nvary.\"drive.frequency\" = [5, 10, 20]\\n' > "
+          "my_sweep.toml\n" +
+          program + "sweep my_sweep.toml --jobs 2\n"
+          "# solvers beside each other in the same closed loop\n" +
+          program + "compare --live vibrated_box_small --duration 0.02 --solvers pgs,nncg --tolerances 1e-2,1e-4\n";
+  return text;
+}
+
 }  // namespace ballast

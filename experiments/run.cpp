@@ -19,6 +19,7 @@
 #include "experiments/progress.hpp"
 #include "experiments/recorder.hpp"
 #include "experiments/report.hpp"
+#include "experiments/report_origin.hpp"
 #include "experiments/run_folder.hpp"
 #include "experiments/simulation.hpp"
 #include "problems/scene_file.hpp"
@@ -247,7 +248,8 @@ class Run {
     std::cout << "  steps.csv     every step's scalars\n"
               << "  record.h5     the same and the poses (HDF5)\n"
               << (options_.capture.empty() ? "" : "  capture/      friction problems of steps, for ballast compare\n")
-              << "  manifest.json machine, commit, parameters, summary" << std::endl;
+              << "  manifest.json machine, commit, parameters, summary\n\nwhat next\n"
+              << next_commands(scene_.grains.has_value()) << std::flush;
   }
 
   RunOptions options_;

@@ -72,6 +72,8 @@ TEST_CASE("the box's page says the numbers beside what is asked and what the pap
   CHECK_THAT(page, Contains(">0.5010<") && Contains(">0.50<") && Contains(">0.5190<") && Contains(">0.52<"));
   CHECK_THAT(page, Contains("✓ met") && Contains("≤&nbsp;250&#8239;µm") && Contains("≤&nbsp;0.001"));
   CHECK_THAT(page, Contains("4 of 4 periods"));
+  for (const char* next : {"paper fig12", "sweep my_sweep.toml", "compare --live", "run vibrated_box --set"})
+    CHECK_THAT(page.substr(page.find("What next")), Contains(next));
   CHECK_THAT(page, Contains("git checkout 0123456789abcdef0123") && Contains("./run.sh vibrated_box --set drive.frequency=5 --set "));
   CHECK_THAT(page, Contains("Eigen 3.4.0") && Contains("a processor") && Contains("not committed"));
   CHECK_THAT(page, Contains("scene.toml is missing"));
