@@ -47,11 +47,14 @@ struct Extent {
     high = std::max(high, value);
   }
   bool is_empty() const { return low > high; }
-  /// Whole decades, or `margin` of the span to both sides.
+  /// `margin` of the span to both sides; a logarithmic axis on which fewer than two decades would then be marked gets
+  /// whole ones.
   void pad(double margin) {
     if (is_log) {
-      low = std::pow(10.0, std::floor(std::log10(low) - 1e-9));
-      high = std::pow(10.0, std::ceil(std::log10(high) + 1e-9));
+      const double first = std::log10(low), last = std::log10(high), more = margin * (last - first);
+      const bool has_marks = std::floor(last + more) - std::ceil(first - more) >= 1.0;
+      low = std::pow(10.0, has_marks ? first - more : std::floor(first - 1e-9));
+      high = std::pow(10.0, has_marks ? last + more : std::ceil(last + 1e-9));
       return;
     }
     const double span = high > low ? high - low : std::max(std::abs(high) * 0.1, 1e-9);

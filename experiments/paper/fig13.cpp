@@ -8,10 +8,7 @@ namespace ballast {
 namespace {
 
 Panel rate_panel(const SweepCurve& curve, const PeakedRate& fit, const std::string& y_label) {
-  Panel panel;
-  panel.x_label = "{/:Italic ν}  (Hz)";
-  panel.y_label = y_label;
-  panel.log_x = true;
+  Panel panel = frequency_panel(y_label);
   panel.curves = {points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
   const double low = curve.x.front(), high = curve.x.back();
   if (std::isfinite(fit.critical))

@@ -8,10 +8,8 @@ namespace ballast {
 namespace {
 
 Panel scaling_panel(const SweepCurve& curve, const PowerFit& fit, double expected, const std::string& y_label) {
-  Panel panel;
-  panel.x_label = "{/:Italic ν}  (Hz)";
-  panel.y_label = y_label;
-  panel.log_x = panel.log_y = true;
+  Panel panel = frequency_panel(y_label);
+  panel.log_y = true;
   panel.curves = {points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
   if (!std::isfinite(fit.exponent)) return panel;
   const double low = curve.x.front(), high = curve.x.back();

@@ -30,7 +30,7 @@ const SweepValue* tightest(const std::vector<SweepValue>& values) {
 std::string change(double value, double reference) { return reference == 0.0 ? "–" : percent(value / reference - 1.0); }
 
 TextTable table_of(const std::vector<SweepValue>& values, const std::string& caption) {
-  TextTable table{caption, {"solver", "error (g·h)", "ms a step"}, {}};
+  TextTable table{caption, {"solver", "error (g·h)", "ms a step (median)"}, {}};
   for (const ObservableColumn& column : observable_columns())
     table.head.push_back(std::string(column.name) + " (" + column.unit + ")");
   const SweepValue* reference = tightest(values);
@@ -69,7 +69,7 @@ PaperFigure figure_of(const std::vector<SweepValue>& values, const std::vector<S
   figure.plot.height = 800;
   for (const bool against_time : {false, true}) {
     Panel panel;
-    panel.x_label = against_time ? "wall clock of a step  (ms)" : "rms error over {/:Italic g h}";
+    panel.x_label = against_time ? "wall clock of a step, median  (ms)" : "rms error over  {/:Italic g h}";
     panel.y_label = "|deviation of Δ{/:Italic x}_{max}|";
     panel.log_x = panel.log_y = true;
     if (values.size() > 1)

@@ -61,7 +61,7 @@ struct Observation {
   double first_contraction = not_known, first_time90 = not_known;  ///< [m], [s]
   double error_mean = not_known;        ///< judge's rms error over g h, mean over the steps that count
   double penetration_max = not_known;   ///< [m]
-  double seconds_per_step = not_known;  ///< wall clock: sum of the phases
+  double seconds_per_step = not_known;  ///< wall clock of the phases, median over steps
   long steps = 0;
 
   double eq3() const;            ///< right side of Eq. 3 without C, m = all grains [m]

@@ -83,6 +83,16 @@ std::string percent(double relative) {
 
 std::string interval(double low, double high) { return std::string("[") + digits(low) + ", " + digits(high) + "]"; }
 
+Panel frequency_panel(const std::string& y_label) {
+  Panel panel;
+  panel.x_label = "{/:Italic ν}  (Hz)";
+  panel.y_label = y_label;
+  panel.log_x = true;
+  panel.x_min = 0.85;
+  panel.x_max = 70.0;
+  return panel;
+}
+
 Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title,
                 Ink ink) {
   for (double& bar : error)

@@ -54,6 +54,9 @@ std::string percent(double relative);
 /// "[1.1, 1.4]"
 std::string interval(double low, double high);
 
+/// A panel over the paper's frequencies, 1 to 60 Hz: the same axis in every figure.
+Panel frequency_panel(const std::string& y_label);
+
 /// Points with bars.
 Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title,
                 Ink ink);

@@ -9,7 +9,7 @@ TextTable table_of(const std::vector<SweepValue>& values, const char* caption, c
   TextTable table{caption, {first, "samples"}, {}};
   for (const ObservableColumn& column : observable_columns())
     table.head.push_back(std::string(column.name) + " (" + column.unit + ")");
-  table.head.insert(table.head.end(), {"C of Eq. 3", "error (g·h)", "ms a step"});
+  table.head.insert(table.head.end(), {"C of Eq. 3", "error (g·h)", "ms a step (median)"});
   for (const SweepValue& value : values) {
     table.rows.push_back({value.label, std::to_string(value.samples.size())});
     for (const ObservableColumn& column : observable_columns()) {

@@ -63,17 +63,11 @@ TextTable local_table(const std::vector<SweepValue>& values, const std::string& 
   return table;
 }
 
-Panel local_panel(const Quantity& quantity, const std::vector<SweepValue>& values, const std::string& x_label,
-                  double expected) {
-  Panel panel;
-  panel.x_label = x_label;
-  panel.y_label = quantity.axis;
-  panel.log_x = true;
+void draw_local(const Quantity& quantity, const std::vector<SweepValue>& values, double expected, Panel& panel) {
   const SweepCurve curve = local_curve(values, quantity.value);
   panel.curves = {
       points_of(curve.x, curve.y, curve.error, "neighbours, mean over samples ± standard error", Ink::blue)};
   if (std::isfinite(expected)) panel.lines = {{expected, "the paper’s " + digits(expected, 1), false, Ink::vermilion}};
-  return panel;
 }
 
 /// From the first pair to the last.
@@ -93,7 +87,8 @@ void add_by_frequency(const std::vector<SweepValue>& values, const std::vector<V
   figure.plot.height = 700;
   constexpr Ink inks[] = {Ink::vermilion, Ink::green, Ink::purple, Ink::orange};
   for (const Quantity& quantity : quantities) {
-    figure.plot.panels.push_back(local_panel(quantity, values, "{/:Italic ν}  (Hz)", quantity.in_frequency));
+    figure.plot.panels.push_back(frequency_panel(quantity.axis));
+    draw_local(quantity, values, quantity.in_frequency, figure.plot.panels.back());
     size_t ink = 0;
     for (const Variant& variant : variants) {
       if (variant.reference < 0 || variant.values.size() < 3 || ink == std::size(inks)) continue;
@@ -126,9 +121,12 @@ void add_by_force(const std::vector<SweepValue>& values, PaperSection& section) 
   figure.plot.name = "exponents_force";
   figure.plot.title = "Local exponents against the force amplitude";
   figure.plot.height = 640;
-  for (const Quantity& quantity : quantities)
-    figure.plot.panels.push_back(
-        local_panel(quantity, values, "{/:Italic f}_{max} / {/:Italic m g}", quantity.in_force));
+  for (const Quantity& quantity : quantities) {
+    Panel& panel = figure.plot.panels.emplace_back();
+    panel.x_label = "{/:Italic f}_{max} / {/:Italic m g}";
+    panel.y_label = quantity.axis;
+    draw_local(quantity, values, quantity.in_force, panel);
+  }
   figure.paper = "Δx_max ~ f_max⁻¹ (Fig. 10); Eq. 3 supposes f_max ≫ m g. The paper has no law of v_max and f_max.";
   figure.found = "At " + digits(sweep_frequency, 1) + " Hz. " + error_meaning(values) + " " +
                  trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]) + ".";
