@@ -124,7 +124,8 @@ void add_variant(CampaignBuilder& build, Sweep sweep, RunSettings s) {
 }
 
 /// Where the paper's exponents, constant and compaction differ from ours, the deposit is the first suspect (looser ones
-/// are driven), then friction, the load (Eq. 3 supposes f_max >> m g) and, at the shortest periods, the step.
+/// are driven), then friction, the load (Eq. 3 supposes f_max >> m g), at the shortest periods the step, and the gap
+/// under the lid: the one length that the half-scale box keeps.
 void add_investigation(CampaignBuilder& build) {
   RunSettings placed = sweep_base(), loose = sweep_base();
   placed.pressed = loose.pressed = false;
@@ -146,6 +147,16 @@ void add_investigation(CampaignBuilder& build) {
   fine.frequency = fast_frequency;
   fine.duration = fast_duration;
   build.point(Sweep::time_step_fast, fine.step, campaign_number(fine.step) + " s", fine, 1, fast);
+  RunSettings similar;
+  similar.size = "diameter";
+  similar.lid_raise = 0.5 * base_lid_raise;
+  build.point(Sweep::size, similar_case, "diameter, gap 5 mm", similar, 2, sweep_window);
+  build.point(Sweep::lid, base_lid_raise, "10 mm", sweep_base(), 1, sweep_window);
+  for (const double gap : {0.001, 0.005, 0.02}) {
+    RunSettings s;
+    s.lid_raise = gap;
+    build.point(Sweep::lid, gap, campaign_number(1e3 * gap) + " mm", s, 1, sweep_window);
+  }
 }
 
 /// Sweeps that a target draws; empty: the 5 Hz runs alone.
@@ -171,14 +182,14 @@ const std::vector<Target>& targets() {
       {"fig13", {frequency}, false},
       {"packing", {}, true},
       {"looseness", {iterations, iterations_fast, backend, force}, false},
-      {"sensitivity", {time_step, size, friction, deposit}, false},
+      {"sensitivity", {time_step, size, friction, deposit, lid}, false},
       {"investigation",
        {frequency, force, gravity, size, iterations, iterations_fast, time_step, time_step_fast, loose_frequency,
-        rough_frequency, strong_frequency},
+        rough_frequency, strong_frequency, lid},
        false},
       {"all",
        {frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction, deposit,
-        loose_frequency, rough_frequency, strong_frequency, time_step_fast},
+        loose_frequency, rough_frequency, strong_frequency, time_step_fast, lid},
        true},
   };
   return list;

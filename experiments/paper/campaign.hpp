@@ -22,6 +22,7 @@ enum class Sweep {
   backend,
   time_step,
   size,
+  lid,
   friction,
   deposit,
   loose_frequency,   ///< nu, from the loosest deposit
@@ -81,7 +82,9 @@ inline constexpr double base_friction = 0.4;
 inline constexpr double fine_step = 5e-5;  ///< the finest h [s]
 /// The frequencies at which another deposit, friction and load are driven too [Hz].
 inline constexpr double compared_frequencies[] = {5.0, 10.0, 20.0, 60.0};
-inline constexpr double half_scale_case = 1.0;  ///< of Sweep::size: everything at half scale
+inline constexpr double half_scale_case = 1.0;  ///< of Sweep::size: everything at half scale but the lid's gap
+inline constexpr double similar_case = 2.0;     ///< of Sweep::size: the gap too
+inline constexpr double base_lid_raise = 0.01;  ///< the paper's gap under the lid [m]
 
 /// Throws SceneFileError when the scene is none, or no vibrated box.
 Campaign make_campaign(const CampaignSettings& settings);

@@ -24,6 +24,7 @@ std::string name_of(const RunSettings& s, int base_iterations) {
   add("h", campaign_number(s.step), s.step != base_step);
   add("mu", campaign_number(s.friction), s.friction != base_friction);
   add("size", s.size, s.size != "radius");
+  add("gap", campaign_number(s.lid_raise), s.lid_raise != base_lid_raise);
   add("lid", "placed", !s.pressed);
   add("mudep", campaign_number(s.deposit_friction), s.deposit_friction != base_friction);
   return name + "_seed=" + std::to_string(s.seed);
@@ -65,7 +66,7 @@ size_t CampaignBuilder::run(RunSettings s) {
   run.stage = stage;
   campaign.runs.push_back(run);
   packings_.insert(s.size + (s.pressed ? " pressed " : " placed ") + campaign_number(s.deposit_friction) + ' ' +
-                   std::to_string(s.seed));
+                   campaign_number(s.lid_raise) + ' ' + std::to_string(s.seed));
   campaign.packings = static_cast<int>(packings_.size());
   return campaign.runs.size() - 1;
 }
@@ -99,6 +100,7 @@ std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) con
     add("box.width", campaign_number(0.5 * scene_.box.width));
     add("control_volume.margin_x", campaign_number(0.5 * scene_.control_volume.margin_x));
   }
+  if (s.lid_raise != base_lid_raise) add("drive.lid_raise", campaign_number(s.lid_raise));
   if (!s.pressed) add("deposit.lid_pressure_weight", "0");
   if (s.deposit_friction != base_friction) add("deposit.friction", campaign_number(s.deposit_friction));
   add("record.pose_rate", s.states ? "100" : "1");

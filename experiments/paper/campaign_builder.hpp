@@ -19,6 +19,7 @@ struct RunSettings {
   std::string solver = "nncg", size = "radius";
   bool pressed = true;                      ///< the lid presses the deposit before it is raised
   double deposit_friction = base_friction;  ///< while the grains are deposited
+  double lid_raise = base_lid_raise;        ///< [m]
   int iterations = 0;                       ///< 0: the campaign's
   int seed = 1;
   bool states = false;  ///< keeps whole states

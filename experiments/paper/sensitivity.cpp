@@ -33,12 +33,13 @@ constexpr Question questions[] = {
     {Sweep::time_step, "steps", "Step h, sample 1 at 10 Hz (the iterations a step stay the same)", "h"},
     {Sweep::size, "size conventions",
      "Size convention at 10 Hz: the paper’s “diameter” read as barycentre–vertex distance, or twice it; box and grains "
-     "at half scale",
+     "at half scale, the lid’s gap of 1 cm as it is or halved",
      "size"},
     {Sweep::friction, "frictions", "Friction between grains, floor and lid, sample 1 at 10 Hz", "μ"},
     {Sweep::deposit, "deposits",
      "Deposit (lid pressed or only placed, friction while depositing), sample 1 at 10 Hz; driven with μ = 0.4",
-     "deposit"}};
+     "deposit"},
+    {Sweep::lid, "gaps under the lid", "Gap by which the lid is raised (paper: 1 cm), sample 1 at 10 Hz", "gap"}};
 
 }  // namespace
 
