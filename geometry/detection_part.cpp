@@ -134,8 +134,9 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
     return;
   }
 
-  const Mat3 to_a = bodies_.rotations[a].transpose();
-  const RelativePose b_in_a{to_a * bodies_.rotations[b], to_a * between};
+  // as products with transposes: a transposed copy would add in another order, and published runs have these bits
+  const Mat3& rotation = bodies_.rotations[a];
+  const RelativePose b_in_a{rotation.transpose() * bodies_.rotations[b], rotation.transpose() * between};
   if (append_held(candidate, b_in_a, contacts)) return;
   candidate.apart_below = -1.0;
   SeparatingAxis axis;
