@@ -95,7 +95,7 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   if (s.broad_phase.rebuilds() != rebuilds) s.share();
   s.advance(poses);
   const auto detect_part = [&](int k) {
-    std::vector<ContactPoint>& found = k == 0 ? contacts : s.parts[k].contacts;
+    std::vector<ContactPoint>& found = k == 0 ? contacts : s.parts[k].found;
     found.clear();
     s.parts[k].detect(s.broad_phase, found);
   };
@@ -104,7 +104,7 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
   for (size_t k = 0; k < s.parts.size(); ++k) {
     s.counters += s.parts[k].counters();
-    if (k > 0) contacts.insert(contacts.end(), s.parts[k].contacts.begin(), s.parts[k].contacts.end());
+    if (k > 0) contacts.insert(contacts.end(), s.parts[k].found.begin(), s.parts[k].found.end());
   }
 }
 

@@ -54,7 +54,7 @@ class DetectionPart {
 
   /// Of the last detect().
   const DetectionCounters& counters() const { return counters_; }
-  std::vector<ContactPoint> contacts;  ///< where the caller may let it put them
+  std::vector<ContactPoint> found;  ///< where the caller may let it put them
 
  private:
   void choose_pairs(const BroadPhase& broad_phase);

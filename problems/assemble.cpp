@@ -128,9 +128,9 @@ void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd&
       const ContactPoint& contact = contacts[detected_[k]];
       const int rows = problem.contact_rows(k);
       frames_[k] = contact_frame(contact.normal);
-      double* h = dynamics.h.data() + dynamics.h_begin[k];
-      h = write_block(state, contact.body_a, -1.0, frames_[k], rows, contact.position, h);
-      write_block(state, contact.body_b, +1.0, frames_[k], rows, contact.position, h);
+      double* block = dynamics.h.data() + dynamics.h_begin[k];
+      block = write_block(state, contact.body_a, -1.0, frames_[k], rows, contact.position, block);
+      write_block(state, contact.body_b, +1.0, frames_[k], rows, contact.position, block);
     }
   });
 
