@@ -9,4 +9,9 @@ std::vector<double> record_column(std::span<const StepRecord> steps, double Step
   return values;
 }
 
+double step_seconds(const StepRecord& step) {
+  return step.seconds_detect + step.seconds_assemble + step.seconds_solve + step.seconds_judge + step.seconds_correct +
+         step.seconds_other;
+}
+
 }  // namespace ballast

@@ -1,5 +1,5 @@
 #pragma once
-// One quantity of a record, over its steps.
+// Quantities of a record: one over its steps, and what a step took.
 
 #include <span>
 #include <vector>
@@ -10,5 +10,8 @@ namespace ballast {
 
 /// One entry per step, times `factor` (from SI to what a figure shows).
 std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value, double factor = 1.0);
+
+/// Wall clock of a step: all its phases [s].
+double step_seconds(const StepRecord& step);
 
 }  // namespace ballast

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/record_column.hpp"
 #include "experiments/step_record.hpp"
 
 namespace ballast {
@@ -20,8 +21,7 @@ AccuracyRow row_of(const Trajectory& trajectory, double scale) {
   row.complete = trajectory.is_complete();
   double seconds = 0.0;
   for (const StepRecord& s : trajectory.steps) {
-    seconds +=
-        s.seconds_detect + s.seconds_assemble + s.seconds_solve + s.seconds_judge + s.seconds_correct + s.seconds_other;
+    seconds += step_seconds(s);
     row.error_mean += s.error_rms / scale;
     row.error_worst = std::max(row.error_worst, s.error_rms / scale);
     row.iterations += s.iterations;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/record_column.hpp"
 #include "experiments/run.hpp"
 #include "solvers/body_sweep.hpp"
 #include "solvers/child_process.hpp"
@@ -65,8 +66,7 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
     detect.push_back(ns * r.seconds_detect);
     assemble.push_back(ns * r.seconds_assemble);
     solve.push_back(ns * r.seconds_solve);
-    step.push_back(ns * (r.seconds_detect + r.seconds_assemble + r.seconds_solve + r.seconds_judge + r.seconds_correct +
-                         r.seconds_other));
+    step.push_back(ns * step_seconds(r));
   }
   point.detect = median_of(std::move(detect));
   point.assemble = median_of(std::move(assemble));

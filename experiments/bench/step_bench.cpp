@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "experiments/record_column.hpp"
 #include "experiments/wall_cycles.hpp"
 
 namespace ballast {
@@ -15,11 +16,6 @@ struct StepQuantity {
   std::function<double(const BenchStep&)> value;
 };
 
-double total_seconds(const StepRecord& r) {
-  return r.seconds_detect + r.seconds_assemble + r.seconds_solve + r.seconds_judge + r.seconds_correct +
-         r.seconds_other;
-}
-
 /// What is said of a set of steps. `scale` [m/s]: g h.
 std::vector<StepQuantity> quantities(double scale) {
   const auto phase = [](double StepRecord::*seconds) {
@@ -29,7 +25,7 @@ std::vector<StepQuantity> quantities(double scale) {
     return [count](const BenchStep& s) { return static_cast<double>(s.counters.*count); };
   };
   const auto column = [](double StepRecord::*value) { return [value](const BenchStep& s) { return s.record.*value; }; };
-  return {{"step", "ms", [](const BenchStep& s) { return 1e3 * total_seconds(s.record); }},
+  return {{"step", "ms", [](const BenchStep& s) { return 1e3 * step_seconds(s.record); }},
           {"step, CPU", "ms", [](const BenchStep& s) { return 1e3 * s.cpu_seconds; }},
           {"detect", "ms", phase(&StepRecord::seconds_detect)},
           {"assemble", "ms", phase(&StepRecord::seconds_assemble)},

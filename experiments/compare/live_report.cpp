@@ -47,7 +47,7 @@ LiveRow row_of(const Trajectory& t, const LiveComparison& comparison) {
   for (const StepRecord& s : t.steps) {
     residual += s.energy_residual;
     solve += s.seconds_solve;
-    all += s.seconds_detect + s.seconds_assemble + s.seconds_solve + s.seconds_judge + s.seconds_correct + s.seconds_other;
+    all += step_seconds(s);
     if (std::isfinite(s.solid_fraction)) row.solid_fraction = s.solid_fraction;
   }
   row.energy_residual = residual;

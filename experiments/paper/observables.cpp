@@ -30,9 +30,7 @@ double gain_of(std::span<const StepRecord> steps, const WallPeriod& period) {
 /// Wall clock: a machine that does something else for a while must not count.
 double median_step_seconds(std::span<const StepRecord> steps) {
   std::vector<double> seconds;
-  for (const StepRecord& s : steps)
-    seconds.push_back(s.seconds_detect + s.seconds_assemble + s.seconds_solve + s.seconds_judge + s.seconds_correct +
-                      s.seconds_other);
+  for (const StepRecord& step : steps) seconds.push_back(step_seconds(step));
   return quantile(seconds, 0.5);
 }
 
