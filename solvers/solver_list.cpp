@@ -3,21 +3,21 @@
 #include <string>
 #include <vector>
 
-#include "solvers/admm.hpp"
-#include "solvers/anderson_pgs.hpp"
-#include "solvers/apgd.hpp"
-#include "solvers/auto.hpp"
-#include "solvers/gauss_seidel.hpp"
-#include "solvers/interior_point.hpp"
-#include "solvers/ipopt.hpp"
-#include "solvers/jacobi.hpp"
-#include "solvers/newton.hpp"
-#include "solvers/nlopt.hpp"
-#include "solvers/nncg.hpp"
-#include "solvers/pyramid_lemke.hpp"
-#include "solvers/sap.hpp"
-#include "solvers/siconos.hpp"
-#include "solvers/spg.hpp"
+#include "solvers/backends/admm.hpp"
+#include "solvers/backends/anderson_pgs.hpp"
+#include "solvers/backends/apgd.hpp"
+#include "solvers/backends/auto.hpp"
+#include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/backends/interior_point.hpp"
+#include "solvers/backends/ipopt.hpp"
+#include "solvers/backends/jacobi.hpp"
+#include "solvers/backends/newton.hpp"
+#include "solvers/backends/nlopt.hpp"
+#include "solvers/backends/nncg.hpp"
+#include "solvers/backends/pyramid_lemke.hpp"
+#include "solvers/backends/sap.hpp"
+#include "solvers/backends/siconos.hpp"
+#include "solvers/backends/spg.hpp"
 
 namespace ballast {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "solvers/size_limit.hpp"
-#include "solvers/solver.hpp"
+#include "solvers/seam/size_limit.hpp"
+#include "solvers/seam/solver.hpp"
 
 namespace ballast {
 

@@ -6,7 +6,7 @@
 
 #include "experiments/bench/measurement.hpp"
 #include "experiments/compare/live.hpp"
-#include "experiments/plot.hpp"
+#include "experiments/page/plot.hpp"
 
 namespace ballast {
 

@@ -4,10 +4,10 @@
 #include <numeric>
 #include <tuple>
 
-#include "experiments/interrupt.hpp"
-#include "experiments/packing_cache.hpp"
-#include "experiments/run.hpp"
-#include "problems/scene_file.hpp"
+#include "platform/interrupt.hpp"
+#include "experiments/box/packing_cache.hpp"
+#include "experiments/run/run.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/vibrated_box.hpp"
+#include "experiments/box/vibrated_box.hpp"
 
 namespace ballast {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/grain_shapes.hpp"
-#include "geometry/random.hpp"
+#include "geometry/shape/grain_shapes.hpp"
+#include "geometry/shape/random.hpp"
 
 namespace ballast {
 namespace {

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "experiments/bench/kernels.hpp"
-#include "geometry/axis_search.hpp"
-#include "geometry/contact_manifold.hpp"
+#include "geometry/contact/axis_search.hpp"
+#include "geometry/contact/contact_manifold.hpp"
 
 namespace ballast {
 namespace {

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "experiments/bench/kernels.hpp"
-#include "solvers/contact_operator.hpp"
-#include "solvers/shifted_delassus.hpp"
+#include "solvers/parts/contact_operator.hpp"
+#include "solvers/parts/shifted_delassus.hpp"
 
 namespace ballast {
 namespace {

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "experiments/bench/kernels.hpp"
-#include "geometry/random.hpp"
-#include "problems/contact_error.hpp"
-#include "solvers/body_sweep.hpp"
+#include "geometry/shape/random.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "solvers/gauss_seidel/body_sweep.hpp"
 
 namespace ballast {
 namespace {

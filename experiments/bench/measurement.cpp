@@ -8,9 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/manifest.hpp"
-#include "experiments/run.hpp"
+#include "platform/atomic_file.hpp"
+#include "experiments/run/manifest.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 namespace {

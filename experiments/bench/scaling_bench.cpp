@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/record_column.hpp"
-#include "experiments/run.hpp"
-#include "solvers/body_sweep.hpp"
-#include "solvers/child_process.hpp"
+#include "experiments/step/record_column.hpp"
+#include "experiments/run/run.hpp"
+#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "platform/child_process.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

@@ -7,7 +7,7 @@
 
 #include "experiments/bench/bench_packing.hpp"
 #include "experiments/bench/measurement.hpp"
-#include "experiments/plot.hpp"
+#include "experiments/page/plot.hpp"
 
 namespace ballast {
 

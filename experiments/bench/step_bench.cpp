@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "experiments/record_column.hpp"
-#include "experiments/wall_cycles.hpp"
+#include "experiments/step/record_column.hpp"
+#include "experiments/measure/wall_cycles.hpp"
 
 namespace ballast {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solvers/sweep_kernels.hpp"
+#include "solvers/gauss_seidel/sweep_kernels.hpp"
 
 namespace ballast {
 namespace {

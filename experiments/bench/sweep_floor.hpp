@@ -3,7 +3,7 @@
 // (solvers/sweep_kernels.hpp), against what the machine was measured to do.
 
 #include "experiments/bench/measurement.hpp"
-#include "problems/friction_problem.hpp"
+#include "problems/algebra/friction_problem.hpp"
 
 namespace ballast {
 

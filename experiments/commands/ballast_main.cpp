@@ -4,7 +4,7 @@
 #include <new>
 #include <ostream>
 
-#include "experiments/build_info.hpp"
+#include "experiments/run/build_info.hpp"
 #include "experiments/commands/command.hpp"
 #include "solvers/solver_list.hpp"
 

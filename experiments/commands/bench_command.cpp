@@ -12,7 +12,7 @@
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/bench_options.hpp"
-#include "experiments/interrupt.hpp"
+#include "platform/interrupt.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

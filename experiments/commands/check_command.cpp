@@ -6,12 +6,12 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/checkpoint.hpp"
+#include "experiments/record/checkpoint.hpp"
 #include "experiments/commands/command.hpp"
-#include "geometry/mass_properties.hpp"
-#include "geometry/mesh_file.hpp"
-#include "problems/problem_file.hpp"
-#include "problems/scene_file.hpp"
+#include "geometry/shape/mass_properties.hpp"
+#include "geometry/shape/mesh_file.hpp"
+#include "problems/files/problem_file.hpp"
+#include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

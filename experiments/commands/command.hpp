@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <stdexcept>
 
-#include "experiments/run.hpp"
+#include "experiments/run/run.hpp"
 
 namespace CLI {
 class App;

@@ -10,15 +10,15 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/atomic_file.hpp"
+#include "platform/atomic_file.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/bench_options.hpp"
 #include "experiments/compare/bench_report.hpp"
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/reference_times.hpp"
-#include "experiments/interrupt.hpp"
-#include "experiments/manifest.hpp"
-#include "experiments/report_origin.hpp"
+#include "platform/interrupt.hpp"
+#include "experiments/run/manifest.hpp"
+#include "experiments/run_page/report_origin.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

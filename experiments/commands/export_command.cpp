@@ -6,10 +6,10 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/checkpoint.hpp"
+#include "experiments/record/checkpoint.hpp"
 #include "experiments/commands/command.hpp"
-#include "experiments/recorder.hpp"
-#include "experiments/state_export.hpp"
+#include "experiments/record/recorder.hpp"
+#include "experiments/export/state_export.hpp"
 
 namespace ballast {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/build_info.hpp"
+#include "experiments/run/build_info.hpp"
 #include "experiments/commands/command.hpp"
-#include "problems/scene_file.hpp"
+#include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "experiments/commands/command.hpp"
-#include "experiments/interrupt.hpp"
+#include "platform/interrupt.hpp"
 #include "experiments/paper/paper_report.hpp"
-#include "experiments/sweep/sweep.hpp"
+#include "experiments/plans/sweep.hpp"
 
 namespace ballast {
 namespace {

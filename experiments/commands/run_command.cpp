@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/capture.hpp"
+#include "experiments/run/capture.hpp"
 #include "experiments/commands/command.hpp"
 
 namespace ballast {

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/command.hpp"
-#include "problems/problem_file.hpp"
-#include "solvers/run_solver.hpp"
+#include "problems/files/problem_file.hpp"
+#include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

@@ -7,12 +7,12 @@
 #include <thread>
 
 #include "experiments/commands/command.hpp"
-#include "experiments/packing_cache.hpp"
-#include "experiments/run_folder.hpp"
-#include "experiments/sweep/resolved_run.hpp"
-#include "experiments/sweep/snakemake.hpp"
-#include "experiments/sweep/sweep.hpp"
-#include "experiments/sweep/worker.hpp"
+#include "experiments/box/packing_cache.hpp"
+#include "experiments/run/run_folder.hpp"
+#include "experiments/plans/resolved_run.hpp"
+#include "experiments/plans/snakemake.hpp"
+#include "experiments/plans/sweep.hpp"
+#include "platform/worker.hpp"
 
 namespace ballast {
 namespace {

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <set>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/content_key.hpp"
-#include "experiments/interrupt.hpp"
-#include "experiments/manifest.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/content_key.hpp"
+#include "platform/interrupt.hpp"
+#include "experiments/run/manifest.hpp"
 
 namespace ballast {
 namespace {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <map>
 
-#include "problems/captured_problem.hpp"
-#include "problems/problem_file.hpp"
+#include "problems/files/captured_problem.hpp"
+#include "problems/files/problem_file.hpp"
 
 namespace ballast {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/friction_problem.hpp"
+#include "problems/algebra/friction_problem.hpp"
 
 namespace ballast {
 

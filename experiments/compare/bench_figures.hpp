@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/compare/bench_table.hpp"
-#include "experiments/figures.hpp"
+#include "experiments/run_page/figures.hpp"
 
 namespace ballast {
 

@@ -5,7 +5,7 @@
 
 #include "experiments/compare/bench_table.hpp"
 #include "experiments/compare/reference_times.hpp"
-#include "experiments/html_page.hpp"
+#include "experiments/page/html_page.hpp"
 
 namespace ballast {
 

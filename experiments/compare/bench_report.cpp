@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/atomic_file.hpp"
+#include "platform/atomic_file.hpp"
 #include "experiments/compare/bench_figures.hpp"
 #include "experiments/compare/bench_html.hpp"
 #include "experiments/compare/page_drawing.hpp"
-#include "experiments/report_origin.hpp"
-#include "experiments/run.hpp"
+#include "experiments/run_page/report_origin.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/run.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 namespace {

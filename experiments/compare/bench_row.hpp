@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/compare/bench_case.hpp"
-#include "solvers/solver.hpp"
+#include "solvers/seam/solver.hpp"
 
 namespace ballast {
 

@@ -10,9 +10,9 @@
 #include <Eigen/Eigenvalues>
 
 #include "experiments/compare/bench_case.hpp"
-#include "experiments/content_key.hpp"
-#include "problems/contact_error.hpp"
-#include "problems/delassus.hpp"
+#include "platform/content_key.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/delassus.hpp"
 
 namespace ballast {
 namespace {

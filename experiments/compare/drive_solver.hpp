@@ -2,7 +2,7 @@
 // One solve as a bench wants it: to a tolerance in either measure, timed outside the judge, with its history.
 
 #include "experiments/compare/bench_row.hpp"
-#include "solvers/run_solver.hpp"
+#include "solvers/seam/run_solver.hpp"
 
 namespace ballast {
 

@@ -7,17 +7,17 @@
 #include <cstring>
 #include <optional>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/checkpoint.hpp"
-#include "experiments/content_key.hpp"
-#include "experiments/interrupt.hpp"
-#include "experiments/manifest.hpp"
-#include "experiments/run.hpp"
-#include "experiments/run_folder.hpp"
-#include "experiments/simulation.hpp"
-#include "experiments/vibrated_box.hpp"
-#include "problems/scene_file.hpp"
-#include "solvers/child_process.hpp"
+#include "platform/atomic_file.hpp"
+#include "experiments/record/checkpoint.hpp"
+#include "platform/content_key.hpp"
+#include "platform/interrupt.hpp"
+#include "experiments/run/manifest.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/run/run_folder.hpp"
+#include "experiments/run/simulation.hpp"
+#include "experiments/box/vibrated_box.hpp"
+#include "problems/scene/scene_file.hpp"
+#include "platform/child_process.hpp"
 
 namespace ballast {
 namespace {

@@ -10,8 +10,8 @@
 #include <Eigen/Dense>
 
 #include "experiments/compare/bench.hpp"
-#include "experiments/step_record.hpp"
-#include "problems/scene.hpp"
+#include "experiments/step/step_record.hpp"
+#include "problems/scene/scene.hpp"
 
 namespace ballast {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/atomic_file.hpp"
+#include "platform/atomic_file.hpp"
 #include "experiments/compare/bench_figures.hpp"
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/page_drawing.hpp"
-#include "experiments/record_column.hpp"
-#include "experiments/report_origin.hpp"
+#include "experiments/step/record_column.hpp"
+#include "experiments/run_page/report_origin.hpp"
 
 namespace ballast {
 namespace {

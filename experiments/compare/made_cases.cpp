@@ -7,8 +7,8 @@
 #include <map>
 
 #include "experiments/compare/bench_case.hpp"
-#include "problems/known_solutions.hpp"
-#include "problems/stress_problems.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/stress_problems.hpp"
 
 namespace ballast {
 namespace {

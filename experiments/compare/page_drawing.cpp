@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/run.hpp"
+#include "platform/atomic_file.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 

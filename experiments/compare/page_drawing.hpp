@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/figures.hpp"
-#include "experiments/run_data.hpp"
+#include "experiments/run_page/figures.hpp"
+#include "experiments/measure/run_data.hpp"
 
 namespace ballast {
 

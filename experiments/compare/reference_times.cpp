@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/run.hpp"
+#include "platform/atomic_file.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 namespace {

@@ -7,8 +7,8 @@
 #include <new>
 #include <utility>
 
-#include "problems/contact_error.hpp"
-#include "solvers/child_process.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "platform/child_process.hpp"
 
 namespace ballast {
 namespace {

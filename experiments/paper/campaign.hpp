@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/paper/observables.hpp"
-#include "experiments/sweep/plan.hpp"
+#include "experiments/measure/observables.hpp"
+#include "experiments/plans/plan.hpp"
 
 namespace ballast {
 

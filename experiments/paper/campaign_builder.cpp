@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "problems/scene_file.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/paper/campaign.hpp"
-#include "problems/scene.hpp"
+#include "problems/scene/scene.hpp"
 
 namespace ballast {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "experiments/figures.hpp"
+#include "experiments/run_page/figures.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/record_column.hpp"
+#include "experiments/step/record_column.hpp"
 
 namespace ballast {
 

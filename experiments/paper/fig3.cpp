@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiments/figures.hpp"
+#include "experiments/run_page/figures.hpp"
 #include "experiments/paper/motion.hpp"
 
 namespace ballast {

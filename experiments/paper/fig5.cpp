@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/figures.hpp"
+#include "experiments/run_page/figures.hpp"
 #include "experiments/paper/motion.hpp"
 #include "experiments/paper/wall_model.hpp"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "experiments/checkpoint.hpp"
-#include "experiments/vibrated_box.hpp"
-#include "problems/mechanical_system.hpp"
+#include "experiments/record/checkpoint.hpp"
+#include "experiments/box/vibrated_box.hpp"
+#include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 

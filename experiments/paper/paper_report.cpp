@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/html_page.hpp"
-#include "experiments/run.hpp"
+#include "platform/atomic_file.hpp"
+#include "experiments/page/html_page.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 namespace {

@@ -1,6 +1,6 @@
 // The two pages of a reproduction's report, from the same words.
 
-#include "experiments/html_page.hpp"
+#include "experiments/page/html_page.hpp"
 #include "experiments/paper/paper_report.hpp"
 
 namespace ballast {

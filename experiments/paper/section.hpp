@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/plot.hpp"
+#include "experiments/page/plot.hpp"
 
 namespace ballast {
 

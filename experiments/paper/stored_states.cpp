@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/run_folder.hpp"
+#include "experiments/run/run_folder.hpp"
 
 namespace ballast {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/curve_fit.hpp"
-#include "problems/scene.hpp"
+#include "experiments/measure/curve_fit.hpp"
+#include "problems/scene/scene.hpp"
 
 namespace ballast {
 

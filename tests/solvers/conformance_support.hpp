@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "problems/delassus.hpp"
-#include "problems/known_solutions.hpp"
-#include "solvers/run_solver.hpp"
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
 

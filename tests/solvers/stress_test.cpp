@@ -1,6 +1,6 @@
 // Every backend on the stress problems: no NaN, no hang, no false success, and the known answer where it claims one.
 
-#include "problems/stress_problems.hpp"
+#include "problems/algebra/stress_problems.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "problems/contact_error.hpp"
-#include "solvers/run_solver.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
 

@@ -1,0 +1,196 @@
+#include "experiments/box/vibrated_box.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "platform/content_key.hpp"
+#include "geometry/shape/mesh_file.hpp"
+#include "geometry/shape/random.hpp"
+
+namespace ballast {
+namespace {
+
+/// One user's mesh, as read (its size comes from the size class).
+std::vector<PrincipalShape> grains_from_meshes(const GrainsSpec& spec) {
+  std::vector<PrincipalShape> meshes, grains;
+  for (const std::string& file : spec.meshes) meshes.push_back(to_principal_frame(read_mesh_hull(file)));
+  // sizes and their order as for generated grains; shapes in turn
+  const auto sized = make_grains(spec.count, spec.distribution, spec.size_convention, spec.shape, spec.seed);
+  for (int k = 0; k < spec.count; ++k) {
+    const Polyhedron& mesh = meshes[k % meshes.size()].shape;
+    const double scale = sized[k].shape.circumradius() / mesh.circumradius();
+    std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
+    for (Vec3& vertex : vertices) vertex *= scale;
+    std::vector<std::vector<int>> faces;
+    for (int f = 0; f < mesh.face_count(); ++f) faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
+    grains.push_back(to_principal_frame(Polyhedron(std::move(vertices), std::move(faces))));
+  }
+  return grains;
+}
+
+/// Centres of non-overlapping bounding spheres, drawn at random, large ones first: a loose rain. Grows the height when it is full.
+std::vector<Vec3> scatter(const std::vector<double>& radii, double length, double width, double& height, Random& random) {
+  std::vector<size_t> order(radii.size());
+  for (size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return radii[a] > radii[b]; });
+  std::vector<Vec3> centres(radii.size());
+  for (size_t done = 0; done < order.size(); ++done) {
+    const double r = radii[order[done]];
+    for (int attempt = 0;; ++attempt) {
+      if (attempt == 2000) {
+        height *= 1.05;
+        attempt = 0;
+      }
+      const Vec3 centre(random.uniform(r, length - r), random.uniform(r, width - r), random.uniform(r, height - r));
+      const bool is_free = std::all_of(order.begin(), order.begin() + done, [&](size_t other) {
+        const double distance = r + radii[other];
+        return (centre - centres[other]).squaredNorm() > distance * distance;
+      });
+      if (!is_free) continue;
+      centres[order[done]] = centre;
+      break;
+    }
+  }
+  return centres;
+}
+
+WallSpec wall(const char* name, const Vec3& normal, double offset, double friction) {
+  WallSpec spec;
+  spec.name = name;
+  spec.normal = normal;
+  spec.offset = offset;
+  spec.friction = friction;
+  return spec;
+}
+
+void drive_by(WallSpec& spec, double mass, const HarmonicLoad& load) {
+  spec.motion = WallMotion::driven;
+  spec.mass = mass;
+  spec.load = load;
+}
+
+}  // namespace
+
+const char* name_of(BoxStage stage) {
+  switch (stage) {
+    case BoxStage::rain: return "rain";
+    case BoxStage::press: return "press";
+    case BoxStage::settle: return "settle";
+    case BoxStage::drive: return "drive";
+  }
+  return "?";
+}
+
+Rain make_rain(const Scene& scene) {
+  const GrainsSpec& spec = *scene.grains;
+  const auto shapes = spec.meshes.empty()
+                          ? make_grains(spec.count, spec.distribution, spec.size_convention, spec.shape, spec.seed)
+                          : grains_from_meshes(spec);
+  Random random(spec.seed ^ 0x5261696eull);  // its own stream: "Rain"
+  std::vector<double> radii;
+  double sphere_volume = 0.0;
+  for (const PrincipalShape& shape : shapes) {
+    radii.push_back(shape.shape.circumradius());
+    sphere_volume += 4.0 / 3.0 * std::numbers::pi * std::pow(radii.back(), 3);
+  }
+  Rain rain;
+  rain.height = std::max(sphere_volume / (scene.deposit.fill_fraction * scene.box.length * scene.box.width),
+                         2.0 * *std::max_element(radii.begin(), radii.end()));
+  const std::vector<Vec3> centres = scatter(radii, scene.box.length, scene.box.width, rain.height, random);
+  for (size_t k = 0; k < shapes.size(); ++k) {
+    BodySpec body;
+    body.name = "grain " + std::to_string(k);
+    body.shape = std::make_shared<const Polyhedron>(shapes[k].shape);
+    body.mass = spec.density * shapes[k].volume;
+    body.inertia = spec.density * shapes[k].inertia;
+    body.pose = {centres[k], random.rotation()};
+    rain.grains.push_back(std::move(body));
+  }
+  return rain;
+}
+
+Vec3 deposit_gravity(const Scene& scene) {
+  return scene.deposit.gravity > 0.0 ? Vec3(0, 0, -scene.deposit.gravity) : scene.gravity;
+}
+
+MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage, double lid) {
+  MechanicalSystem system;
+  MotionState unused;
+  const bool deposits = stage != BoxStage::drive;
+  system.gravity = deposits ? deposit_gravity(scene) : scene.gravity;
+  system.friction = deposits ? scene.deposit.friction : scene.friction;
+  system.restitution = scene.restitution;
+  for (const BodySpec& grain : rain.grains) add_body(system, unused, grain, grain.mass / scene.grains->density);
+
+  const BoxSpec& box = scene.box;
+  const double horizontal = deposits ? scene.deposit.friction : box.friction_horizontal;
+  const double mass = system.mass_of_grains(), weight = mass * system.gravity.norm();
+  WallSpec walls[box_wall_count];
+  walls[wall_floor] = wall("floor", Vec3::UnitZ(), 0.0, horizontal);
+  walls[wall_lid] = wall("lid", -Vec3::UnitZ(), -lid, horizontal);
+  walls[wall_x_min] = wall("x_min", Vec3::UnitX(), 0.0, box.friction_vertical);
+  walls[wall_x_max] = wall("x_max", -Vec3::UnitX(), -box.length, box.friction_vertical);
+  walls[wall_y_min] = wall("y_min", Vec3::UnitY(), 0.0, box.friction_vertical);
+  walls[wall_y_max] = wall("y_max", -Vec3::UnitY(), -box.width, box.friction_vertical);
+  if (stage == BoxStage::press) {
+    const double load = scene.deposit.lid_pressure_weight * weight;
+    drive_by(walls[wall_lid], mass, {load, load, 0.0});
+  }
+  if (stage == BoxStage::drive) {
+    const DriveSpec& drive = scene.drive;
+    drive_by(walls[wall_x_max], drive.wall_mass_over_grains * mass,
+             {drive.f_min_over_weight * weight, drive.f_max_over_weight * weight, drive.frequency});
+  }
+  for (const WallSpec& spec : walls) add_wall(system, unused, spec);
+  return system;
+}
+
+double grain_rms_velocity(const MechanicalSystem& system, const MotionState& state) {
+  double sum = 0.0;
+  for (int b = 0; b < system.grain_count; ++b) sum += state.velocity[b].squaredNorm();
+  return std::sqrt(sum / system.grain_count);
+}
+
+double packing_top(const MechanicalSystem& system, const MotionState& state) {
+  double top = 0.0;
+  for (int b = 0; b < system.grain_count; ++b)
+    for (const Vec3& vertex : system.bodies[b].shape.polyhedron->vertices())
+      top = std::max(top, (state.pose[b] * vertex).z());
+  return top;
+}
+
+std::string packing_key(const Scene& scene) {
+  std::ostringstream text;
+  text.precision(17);
+  const GrainsSpec& g = *scene.grains;
+  text << "packing 2;" << g.count << ' ' << g.seed << ' ' << g.density << ' ' << static_cast<int>(g.size_convention);
+  for (const SizeClass& size : g.distribution) text << ' ' << size.size << ' ' << size.fraction;
+  text << ';' << g.shape.min_vertices << ' ' << g.shape.max_vertices << ' ' << g.shape.elongation_min << ' '
+       << g.shape.elongation_max << ' ' << g.shape.flatness_min << ' ' << g.shape.flatness_max << ' ' << g.shape.roughness;
+  for (const std::string& mesh : g.meshes) text << ';' << mesh;
+  const BoxSpec& b = scene.box;
+  text << ';' << b.length << ' ' << b.width << ' ' << b.friction_vertical;
+  const DepositSpec& d = scene.deposit;
+  text << ';' << d.step << ' ' << d.friction << ' ' << d.fill_fraction << ' ' << d.max_time << ' ' << d.rest_velocity << ' '
+       << d.lid_pressure_weight << ' ' << d.lid_time << ' ' << d.settle_time << ' ' << d.settle_step << ' '
+       << deposit_gravity(scene).z() << ' ' << d.solver << ' ' << d.tolerance << ' ' << d.max_iterations;
+  text << ';' << scene.drive.lid_raise << ' ' << scene.restitution;
+  const CorrectionSpec& c = scene.correction;
+  text << ';' << c.enabled << ' ' << c.slop << ' ' << c.fraction << ' ' << c.sweeps << ' ' << scene.detection.max_points;
+  return content_key(text.str());
+}
+
+MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packing& packing, MotionState& state) {
+  state = packing.state;
+  state.time = 0.0;
+  state.step = 0;
+  return box_system(scene, rain, BoxStage::drive, packing.lid);
+}
+
+ControlVolume box_control_volume(const Scene& scene, double top) {
+  const ControlVolumeSpec& margin = scene.control_volume;
+  return {Vec3(margin.margin_x, margin.margin_y, margin.margin_floor),
+          Vec3(scene.box.length - margin.margin_x, scene.box.width - margin.margin_y, top - margin.margin_top)};
+}
+
+}  // namespace ballast

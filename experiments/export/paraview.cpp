@@ -1,0 +1,91 @@
+#include "experiments/export/paraview.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <string>
+
+#include "platform/atomic_file.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/export/vtp_file.hpp"
+
+namespace ballast {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Step of "<name>_<digits>.vtp", or -1.
+long step_of_frame(const std::string& file, const std::string& name) {
+  const std::string prefix = name + "_", suffix = ".vtp";
+  if (file.size() <= prefix.size() + suffix.size() || file.rfind(prefix, 0) != 0 || !file.ends_with(suffix)) return -1;
+  const char *begin = file.data() + prefix.size(), *end = file.data() + file.size() - suffix.size();
+  long step = -1;
+  const auto [stop, error] = std::from_chars(begin, end, step);
+  return error == std::errc() && stop == end ? step : -1;
+}
+
+}  // namespace
+
+ParaviewSeries::ParaviewSeries(const fs::path& folder, const MechanicalSystem& system, long last_step)
+    : folder_(folder / "paraview"), system_(system) {
+  create_folder(folder_);
+  recover(grains_, last_step);
+  recover(contacts_, last_step);
+}
+
+/// What the folder holds decides, not an old .pvd: a run may have died between a frame and its entry.
+void ParaviewSeries::recover(Series& series, long last_step) {
+  std::vector<fs::path> obsolete;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+    const long step = step_of_frame(entry.path().filename().string(), series.name);
+    if (step < 0) continue;
+    if (last_step > 0 && step <= last_step)
+      series.frames.push_back({step, read_vtp_time(entry.path())});
+    else
+      obsolete.push_back(entry.path());
+  }
+  std::sort(series.frames.begin(), series.frames.end(), [](const Frame& a, const Frame& b) { return a.step < b.step; });
+  write_collection(series);  // first: it must not name what is gone
+  for (const fs::path& file : obsolete) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw RunError(file.string() + ": cannot remove: " + error.message());
+  }
+}
+
+fs::path ParaviewSeries::frame_file(const Series& series, long step) const {
+  char name[64];
+  std::snprintf(name, sizeof name, "%s_%08ld.vtp", series.name, step);
+  return folder_ / name;
+}
+
+void ParaviewSeries::write_collection(const Series& series) const {
+  const fs::path target = folder_ / (std::string(series.name) + ".pvd");
+  if (series.frames.empty() && !fs::exists(target)) return;
+  AtomicFile file(target);
+  file.write(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n");
+  for (const Frame& frame : series.frames)
+    file.print("<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s\"/>\n", frame.time,
+               frame_file(series, frame.step).filename().c_str());
+  file.write("</Collection>\n</VTKFile>\n");
+  file.commit();
+}
+
+void ParaviewSeries::add(const MotionState& state) {
+  write_grains_vtp(frame_file(grains_, state.step), system_, state);
+  grains_.frames.push_back({state.step, state.time});
+  write_collection(grains_);
+}
+
+void ParaviewSeries::add(const MotionState& state, std::span<const ContactPoint> contacts,
+                         std::span<const Vec3> impulses, double h) {
+  add(state);
+  write_contacts_vtp(frame_file(contacts_, state.step), state.time, contacts, impulses, h);
+  contacts_.frames.push_back({state.step, state.time});
+  write_collection(contacts_);
+}
+
+}  // namespace ballast

@@ -1,0 +1,146 @@
+#include "experiments/export/vtp_file.hpp"
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "platform/atomic_file.hpp"
+#include "experiments/run/run.hpp"
+
+namespace ballast {
+
+namespace {
+
+constexpr std::string_view time_opening = "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
+
+std::string base64(std::string_view bytes) {
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t at = 0; at < bytes.size(); at += 3) {
+    const size_t left = bytes.size() - at;
+    std::uint32_t group = 0;
+    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < left ? static_cast<unsigned char>(bytes[at + k]) : 0u);
+    for (size_t k = 0; k < 4; ++k) text += k <= left ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+template <class Number>
+constexpr const char* type_name() {
+  if constexpr (std::is_same_v<Number, float>)
+    return "Float32";
+  else
+    return "Int32";
+}
+
+/// Inline binary: the count of bytes (UInt64) and the bytes, as one base64 stream.
+template <class Number>
+void write_array(AtomicFile& file, const char* name, const std::vector<Number>& values, int components = 1) {
+  const std::uint64_t length = values.size() * sizeof(Number);
+  std::string bytes(sizeof length + length, '\0');
+  std::memcpy(bytes.data(), &length, sizeof length);
+  if (length > 0) std::memcpy(bytes.data() + sizeof length, values.data(), length);
+  file.print("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">", type_name<Number>(),
+             name, components);
+  file.write(base64(bytes));
+  file.write("</DataArray>\n");
+}
+
+void append(std::vector<float>& values, const Vec3& vector) {
+  for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(vector[k]));
+}
+
+void open_piece(AtomicFile& file, double time, size_t points, size_t vertices, size_t polygons) {
+  file.write(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n");
+  file.write("<FieldData><DataArray type=\"Float64\" ");
+  file.write(time_opening);
+  file.print("%.17g</DataArray></FieldData>\n", time);
+  file.print(
+      "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"%zu\">\n",
+      points, vertices, polygons);
+}
+
+void write_cells(AtomicFile& file, const char* element, const std::vector<std::int32_t>& connectivity,
+                 const std::vector<std::int32_t>& offsets) {
+  file.print("<%s>\n", element);
+  write_array(file, "connectivity", connectivity);
+  write_array(file, "offsets", offsets);
+  file.print("</%s>\n", element);
+}
+
+void close_piece(AtomicFile& file) {
+  file.write("</Piece>\n</PolyData>\n</VTKFile>\n");
+  file.commit();
+}
+
+}  // namespace
+
+void write_grains_vtp(const std::filesystem::path& path, const MechanicalSystem& system, const MotionState& state) {
+  std::vector<float> points, mass, speed, velocity;
+  std::vector<std::int32_t> connectivity, offsets, grain;
+  for (int b = 0; b < system.grain_count; ++b) {
+    const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
+    const auto first = static_cast<std::int32_t>(points.size() / 3);
+    for (const Vec3& vertex : shape.vertices()) append(points, state.pose[b] * vertex);
+    for (int f = 0; f < shape.face_count(); ++f) {
+      for (const int v : shape.face(f)) connectivity.push_back(first + v);
+      offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+      grain.push_back(b);
+      mass.push_back(static_cast<float>(system.bodies[b].mass));
+      speed.push_back(static_cast<float>(state.velocity[b].norm()));
+      append(velocity, state.velocity[b]);
+    }
+  }
+  AtomicFile file(path);
+  open_piece(file, state.time, points.size() / 3, 0, offsets.size());
+  file.write("<CellData Scalars=\"speed\" Vectors=\"velocity\">\n");
+  write_array(file, "grain", grain);
+  write_array(file, "mass", mass);
+  write_array(file, "speed", speed);
+  write_array(file, "velocity", velocity, 3);
+  file.write("</CellData>\n<Points>\n");
+  write_array(file, "Points", points, 3);
+  file.write("</Points>\n");
+  write_cells(file, "Polys", connectivity, offsets);
+  close_piece(file);
+}
+
+void write_contacts_vtp(const std::filesystem::path& path, double time, std::span<const ContactPoint> contacts,
+                        std::span<const Vec3> impulses, double h) {
+  std::vector<float> points, gap, normal_force, force;
+  std::vector<std::int32_t> connectivity, offsets;
+  for (size_t c = 0; c < contacts.size(); ++c) {
+    append(points, contacts[c].position);
+    gap.push_back(static_cast<float>(contacts[c].gap));
+    append(force, impulses[c] / h);
+    append(normal_force, impulses[c].dot(contacts[c].normal) / h * contacts[c].normal);
+    connectivity.push_back(static_cast<std::int32_t>(c));
+    offsets.push_back(static_cast<std::int32_t>(c + 1));
+  }
+  AtomicFile file(path);
+  open_piece(file, time, contacts.size(), contacts.size(), 0);
+  file.write("<PointData Scalars=\"gap\" Vectors=\"normal_force\">\n");
+  write_array(file, "gap", gap);
+  write_array(file, "normal_force", normal_force, 3);
+  write_array(file, "force", force, 3);
+  file.write("</PointData>\n<Points>\n");
+  write_array(file, "Points", points, 3);
+  file.write("</Points>\n");
+  write_cells(file, "Verts", connectivity, offsets);
+  close_piece(file);
+}
+
+double read_vtp_time(const std::filesystem::path& path) {
+  const std::string text = read_whole_file(path);
+  const size_t at = text.find(time_opening);
+  if (at == std::string::npos) throw RunError(path.string() + ": is no frame of a ballast run: it has no TimeValue");
+  return std::strtod(text.c_str() + at + time_opening.size(), nullptr);
+}
+
+}  // namespace ballast

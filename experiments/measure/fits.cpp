@@ -1,0 +1,146 @@
+#include "experiments/measure/fits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ballast {
+namespace {
+
+/// Mean and standard deviation (n - 1).
+struct Spread {
+  double mean = 0.0, deviation = not_known;
+};
+
+Spread spread_of(std::span<const double> values) {
+  Spread spread;
+  for (const double value : values) spread.mean += value / static_cast<double>(values.size());
+  double squares = 0.0;
+  for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
+  if (values.size() > 1) spread.deviation = std::sqrt(squares / static_cast<double>(values.size() - 1));
+  return spread;
+}
+
+/// Eq. 5 with D = 1.
+double peaked_shape(double frequency, double critical) {
+  return frequency <= critical ? frequency : critical * critical / frequency;
+}
+
+}  // namespace
+
+double student_t95(int degrees_of_freedom) {
+  constexpr std::array table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
+                             2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
+                             2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
+  if (degrees_of_freedom < 1) return std::numeric_limits<double>::infinity();
+  if (degrees_of_freedom <= static_cast<int>(table.size())) return table[static_cast<size_t>(degrees_of_freedom - 1)];
+  return 1.960 + 2.4 / degrees_of_freedom;  // right to 3e-3 from here on
+}
+
+SampleMean sample_mean(std::span<const double> values) {
+  std::vector<double> finite;
+  for (const double value : values)
+    if (std::isfinite(value)) finite.push_back(value);
+  SampleMean result;
+  result.samples = static_cast<int>(finite.size());
+  if (finite.empty()) return result;
+  const Spread spread = spread_of(finite);
+  result.mean = spread.mean;
+  result.error = spread.deviation / std::sqrt(static_cast<double>(finite.size()));
+  return result;
+}
+
+double PowerFit::at(double x) const { return prefactor * std::pow(x, exponent); }
+
+bool PowerFit::covers(double expected) const { return std::abs(exponent - expected) <= half_width; }
+
+PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
+  const auto logarithm = [](double value) { return value > 0.0 ? std::log(value) : not_known; };
+  std::vector<double> log_x, log_y;
+  for (const double value : x) log_x.push_back(logarithm(value));
+  for (const double value : y) log_y.push_back(logarithm(value));
+  const LineFit line = fit_line(log_x, log_y);
+  PowerFit fit;
+  fit.samples = line.samples;
+  fit.exponent = line.slope;
+  fit.prefactor = std::exp(line.offset);
+  fit.r2 = line.r2;
+  fit.half_width = student_t95(line.samples - 2) * line.slope_error;
+  return fit;
+}
+
+double reduced_chi2(const PowerFit& fit, std::span<const double> x, std::span<const double> y,
+                    std::span<const double> error) {
+  double misses = 0.0, variances = 0.0;
+  int points = 0;
+  for (size_t k = 0; k < std::min({x.size(), y.size(), error.size()}); ++k) {
+    if (!(x[k] > 0.0 && y[k] > 0.0) || !std::isfinite(error[k])) continue;
+    const double miss = std::log(y[k] / fit.at(x[k])), relative = error[k] / y[k];
+    misses += miss * miss;
+    variances += relative * relative;
+    ++points;
+  }
+  if (points < 3 || !std::isfinite(misses) || !(variances > 0.0)) return not_known;
+  return misses / (points - 2) / (variances / points);
+}
+
+Proportion fit_proportion(std::span<const double> x, std::span<const double> y) {
+  std::vector<double> logs;
+  for (size_t k = 0; k < std::min(x.size(), y.size()); ++k)
+    if (x[k] > 0.0 && y[k] > 0.0 && std::isfinite(x[k]) && std::isfinite(y[k])) logs.push_back(std::log(y[k] / x[k]));
+  Proportion fit;
+  fit.samples = static_cast<int>(logs.size());
+  if (logs.empty()) return fit;
+  const Spread spread = spread_of(logs);
+  const double half = student_t95(fit.samples - 1) * spread.deviation / std::sqrt(static_cast<double>(fit.samples));
+  fit.factor = std::exp(spread.mean);
+  fit.low = std::exp(spread.mean - half);
+  fit.high = std::exp(spread.mean + half);
+  fit.spread = std::exp(spread.deviation);
+  return fit;
+}
+
+double PeakedRate::at(double frequency) const { return gain * peaked_shape(frequency, critical); }
+
+PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate) {
+  std::vector<double> x, y;
+  for (size_t k = 0; k < std::min(frequency.size(), rate.size()); ++k)
+    if (std::isfinite(rate[k]) && frequency[k] > 0.0) {
+      x.push_back(frequency[k]);
+      y.push_back(rate[k]);
+    }
+  PeakedRate fit;
+  fit.samples = static_cast<int>(y.size());
+  if (fit.samples < 3) return fit;
+  const auto projected = [&](double critical) {
+    return project(x, y, [&](double at) { return peaked_shape(at, critical); });
+  };
+  const auto [least, most] = std::minmax_element(x.begin(), x.end());
+  const double low = *least, ratio = *most / *least;
+  constexpr int parts = 4000;  // 0.1 % of nu_c over two decades: finer than any interval it gives
+  std::vector<double> residual(parts + 1);
+  const auto critical = [&](int k) { return low * std::pow(ratio, static_cast<double>(k) / parts); };
+  int best = 0;
+  for (int k = 0; k <= parts; ++k) {
+    residual[static_cast<size_t>(k)] = projected(critical(k)).residual;
+    if (residual[static_cast<size_t>(k)] < residual[static_cast<size_t>(best)]) best = k;
+  }
+  fit.critical = critical(best);
+  fit.gain = projected(fit.critical).amplitude;
+  double total = 0.0;
+  const double mean = spread_of(y).mean;
+  for (const double value : y) total += (value - mean) * (value - mean);
+  const double least_residual = residual[static_cast<size_t>(best)];
+  if (total > 0.0) fit.r2 = 1.0 - least_residual / total;
+  // where the squared residuals exceed the least by what t at 95 % allows
+  const double t = student_t95(fit.samples - 2);
+  const double bound = least_residual * (1.0 + t * t / (fit.samples - 2)) + 1e-300;
+  int first = best, last = best;
+  for (int k = 0; k <= parts; ++k)
+    if (residual[static_cast<size_t>(k)] <= bound) first = std::min(first, k), last = std::max(last, k);
+  fit.low = critical(first);
+  fit.high = critical(last);
+  return fit;
+}
+
+}  // namespace ballast

@@ -1,0 +1,195 @@
+#include "experiments/measure/run_data.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "platform/atomic_file.hpp"
+#include "experiments/record/recorder.hpp"
+#include "experiments/run/run.hpp"
+#include "problems/scene/scene_file.hpp"
+
+namespace ballast {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (size_t begin = 0;;) {
+    const size_t comma = line.find(',', begin);
+    fields.push_back(line.substr(begin, comma - begin));
+    if (comma == std::string_view::npos) return fields;
+    begin = comma + 1;
+  }
+}
+
+/// Takes the next line off `text`.
+std::string_view take_line(std::string_view& text) {
+  const size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+[[noreturn]] void fail(const fs::path& file, long line, const std::string& what) {
+  throw RunError(file.string() + ':' + std::to_string(line) + ": " + what);
+}
+
+double number(const fs::path& file, long line, const char* column, std::string_view field) {
+  while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
+  while (!field.empty() && field.back() == ' ') field.remove_suffix(1);
+  double value = not_known;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size())
+    fail(file, line, std::string(column) + " is not a number: \"" + std::string(field.substr(0, 40)) + '"');
+  return value;
+}
+
+/// For each field of the header the column it fills, nullptr where none.
+std::vector<const StepColumn*> match_header(const fs::path& file, std::string_view header, std::vector<std::string>& notices) {
+  std::vector<const StepColumn*> columns;
+  for (std::string_view name : split(header)) {
+    columns.push_back(nullptr);
+    for (const StepColumn& column : step_columns())
+      if (name == column.name) columns.back() = &column;
+  }
+  std::string missing;
+  for (const StepColumn& column : step_columns()) {
+    bool is_there = false;
+    for (const StepColumn* found : columns) is_there = is_there || found == &column;
+    if (is_there) continue;
+    if (std::string_view(column.name) == "time") fail(file, 1, "the column \"time\" is missing");
+    missing += (missing.empty() ? "" : ", ") + std::string(column.name);
+  }
+  if (!missing.empty()) notices.push_back("steps.csv has no column " + missing + ": what needs it is left out.");
+  return columns;
+}
+
+/// One line per column that holds NaN or infinity although it is there.
+void note_non_finite(const std::vector<StepRecord>& steps, std::vector<std::string>& notices) {
+  for (const StepColumn& column : step_columns()) {
+    size_t count = 0, first = 0;
+    for (size_t k = steps.size(); k-- > 0;)
+      if (!std::isfinite(steps[k].*column.value)) ++count, first = k;
+    if (count == 0 || count == steps.size()) continue;  // all: the column is missing, which has been said
+    notices.push_back(std::string(column.name) + " is not finite in " + std::to_string(count) + " of " +
+                      std::to_string(steps.size()) + " steps, first in row " + std::to_string(first + 1) +
+                      ": these are left out.");
+  }
+}
+
+void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
+  for (size_t k = 0; k < steps.size(); ++k)
+    if (!std::isfinite(steps[k].time) || (k > 0 && steps[k].time <= steps[k - 1].time))
+      throw RunError(folder.string() + ": the record's time is not finite and growing in row " + std::to_string(k + 1));
+}
+
+void read_manifest(RunData& data) {
+  const fs::path file = data.folder / "manifest.json";
+  data.manifest = nlohmann::ordered_json::object();
+  if (!fs::exists(file)) {
+    data.notices.push_back("manifest.json is missing: machine, commit and the run's summary are not known.");
+    return;
+  }
+  try {
+    data.manifest_text = read_whole_file(file);
+    nlohmann::ordered_json parsed = nlohmann::ordered_json::parse(data.manifest_text);
+    if (!parsed.is_object()) throw RunError("it is not an object");
+    data.manifest = std::move(parsed);
+  } catch (const std::exception& error) {
+    data.notices.push_back(std::string("manifest.json cannot be read: ") + error.what());
+  }
+}
+
+void read_scene_of_run(RunData& data) {
+  const fs::path file = data.folder / "scene.toml";
+  if (!fs::exists(file)) {
+    data.notices.push_back("scene.toml is missing: parameters are those of the manifest alone.");
+    return;
+  }
+  try {
+    data.scene_text = read_whole_file(file);
+    data.scene = read_scene(file);
+  } catch (const std::exception& error) {
+    data.notices.push_back(std::string("scene.toml cannot be used: ") + error.what());
+  }
+}
+
+RunFacts facts_of(const RunData& data) {
+  RunFacts facts;
+  const auto summary = [&](const char* name) { return data.summary_number(name); };
+  facts.step = summary("step_s");
+  facts.velocity_scale = summary("velocity_scale_m_s");
+  facts.frequency = summary("frequency_Hz");
+  facts.f_max = summary("f_max_N");
+  facts.f_min = summary("f_min_N");
+  facts.grain_mass = summary("grain_mass_kg");
+  facts.wall_mass = summary("wall_mass_kg");
+  facts.solid_fraction_initial = summary("solid_fraction_initial");
+  facts.gravity = summary("weight_N") / facts.grain_mass;
+  if (!data.scene) return facts;
+  const Scene& scene = *data.scene;
+  if (!std::isfinite(facts.step)) facts.step = scene.step;
+  facts.gravity = scene.gravity.norm();
+  facts.has_packing = scene.grains.has_value();
+  bool has_driven = scene.grains.has_value();
+  for (const WallSpec& wall : scene.walls) has_driven = has_driven || wall.motion == WallMotion::driven;
+  facts.has_wall = has_driven;
+  if (!scene.grains) return facts;
+  const double weight = facts.grain_mass * facts.gravity;
+  if (!std::isfinite(facts.frequency)) facts.frequency = scene.drive.frequency;
+  if (!std::isfinite(facts.f_max)) facts.f_max = scene.drive.f_max_over_weight * weight;
+  if (!std::isfinite(facts.f_min)) facts.f_min = scene.drive.f_min_over_weight * weight;
+  if (!std::isfinite(facts.wall_mass)) facts.wall_mass = scene.drive.wall_mass_over_grains * facts.grain_mass;
+  return facts;
+}
+
+}  // namespace
+
+double RunData::summary_number(const std::string& name) const {
+  const auto summary = manifest.find("summary");
+  if (summary == manifest.end() || !summary->is_object()) return not_known;
+  const auto value = summary->find(name);
+  return value != summary->end() && value->is_number() ? value->get<double>() : not_known;
+}
+
+std::vector<StepRecord> read_steps_csv(const fs::path& file, std::vector<std::string>& notices) {
+  const std::string content = read_whole_file(file);
+  std::string_view text = content;
+  if (text.empty()) throw RunError(file.string() + ": is empty: no record");
+  const auto columns = match_header(file, take_line(text), notices);
+  StepRecord unknown;
+  for (const StepColumn& column : step_columns()) unknown.*column.value = not_known;
+  std::vector<StepRecord> steps;
+  for (long line = 2; !text.empty(); ++line) {
+    const std::string_view row = take_line(text);
+    if (row.empty()) continue;
+    const auto fields = split(row);
+    if (fields.size() != columns.size())
+      fail(file, line, std::to_string(fields.size()) + " fields, expected " + std::to_string(columns.size()));
+    steps.push_back(unknown);
+    for (size_t c = 0; c < columns.size(); ++c)
+      if (columns[c]) steps.back().*columns[c]->value = number(file, line, columns[c]->name, fields[c]);
+  }
+  if (steps.empty()) throw RunError(file.string() + ": holds no step");
+  return steps;
+}
+
+RunData read_run_data(const fs::path& folder) {
+  RunData data;
+  data.folder = folder;
+  if (!fs::is_directory(folder)) throw RunError(folder.string() + ": no such folder");
+  const fs::path csv = folder / "steps.csv";
+  data.steps = fs::exists(csv) ? read_steps_csv(csv, data.notices) : read_steps(folder);
+  if (data.steps.empty()) throw RunError(folder.string() + ": the record holds no step");
+  check_times(folder, data.steps);
+  note_non_finite(data.steps, data.notices);
+  read_manifest(data);
+  read_scene_of_run(data);
+  data.facts = facts_of(data);
+  return data;
+}
+
+}  // namespace ballast

@@ -1,0 +1,195 @@
+#include "experiments/measure/run_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/step/record_column.hpp"
+
+namespace ballast {
+namespace {
+
+bool is_any_nonzero(std::span<const StepRecord> steps, double StepRecord::*value) {
+  return std::any_of(steps.begin(), steps.end(), [&](const StepRecord& s) { return std::isfinite(s.*value) && s.*value != 0.0; });
+}
+
+/// From the crossings of the middle between the load's extremes, two in a period.
+double frequency_of(std::span<const StepRecord> steps, double middle) {
+  double first = not_known, last = not_known;
+  int crossings = 0;
+  for (size_t k = 1; k < steps.size(); ++k) {
+    const double a = steps[k - 1].load - middle, b = steps[k].load - middle;
+    if (!(a * b < 0.0) && !(b == 0.0 && a != 0.0)) continue;
+    const double t = steps[k - 1].time + (steps[k].time - steps[k - 1].time) * a / (a - b);
+    if (crossings++ == 0) first = t;
+    last = t;
+  }
+  return crossings < 2 ? not_known : 0.5 * (crossings - 1) / (last - first);
+}
+
+/// NaN when the column has no finite value at all, so that a missing column isn't reported as zero.
+double sum_of(std::span<const StepRecord> steps, double StepRecord::*value) {
+  const Statistics values = statistics(record_column(steps, value));
+  return values.samples ? values.mean * static_cast<double>(values.samples) : not_known;
+}
+
+void summarise_cost(std::span<const StepRecord> steps, RunSummary& summary) {
+  summary.cost = {PhaseCost{"detection", &StepRecord::seconds_detect},
+                  PhaseCost{"assembly", &StepRecord::seconds_assemble},
+                  PhaseCost{"solver", &StepRecord::seconds_solve},
+                  PhaseCost{"validation and judge", &StepRecord::seconds_judge},
+                  PhaseCost{"overlap correction", &StepRecord::seconds_correct},
+                  PhaseCost{"integration, measures", &StepRecord::seconds_other}};
+  double total = 0.0;
+  bool is_known = false;
+  for (PhaseCost& phase : summary.cost) {
+    phase.ms_per_step = 1e3 * statistics(record_column(steps, phase.seconds)).mean;
+    if (!std::isfinite(phase.ms_per_step)) continue;
+    total += phase.ms_per_step;
+    is_known = true;
+  }
+  if (!is_known) return;
+  summary.ms_per_step = total;
+  if (total > 0.0)
+    for (PhaseCost& phase : summary.cost) phase.share = phase.ms_per_step / total;
+}
+
+void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) {
+  const double scale = summary.facts.velocity_scale;
+  const std::vector<double> rms = record_column(steps, &StepRecord::error_rms);
+  summary.error_rms = statistics(rms);
+  summary.error_max = statistics(record_column(steps, &StepRecord::error_max));
+  summary.error_mean_relative = summary.error_rms.mean / scale;
+  summary.error_max_relative = summary.error_rms.max / scale;
+  summary.error_worst_contact = summary.error_max.max / scale;
+  if (summary.error_rms.samples && std::isfinite(scale)) {
+    const auto above = std::count_if(rms.begin(), rms.end(), [&](double e) { return e > target::error_mean * scale; });
+    summary.above_target = static_cast<double>(above) / static_cast<double>(summary.error_rms.samples);
+  }
+  summary.penetration_mean = statistics(record_column(steps, &StepRecord::penetration_mean)).mean;
+  for (const StepRecord& step : steps)
+    if (step.penetration_max > summary.penetration_max || std::isnan(summary.penetration_max)) {
+      summary.penetration_max = step.penetration_max;
+      summary.penetration_max_time = std::isnan(step.penetration_max) ? not_known : step.time;
+    }
+}
+
+EnergyBalance energy_balance(std::span<const StepRecord> steps) {
+  EnergyBalance energy;
+  energy.work_load = sum_of(steps, &StepRecord::work_load);
+  energy.work_gravity = sum_of(steps, &StepRecord::work_gravity);
+  energy.work_prescribed = sum_of(steps, &StepRecord::work_prescribed);
+  energy.dissipated = sum_of(steps, &StepRecord::dissipated);
+  energy.work_gyroscopic = sum_of(steps, &StepRecord::work_gyroscopic);
+  energy.work_correction = sum_of(steps, &StepRecord::work_correction);
+  energy.residual_recorded = sum_of(steps, &StepRecord::energy_residual);
+  energy.kinetic_first = steps.front().kinetic_energy;
+  energy.kinetic_last = steps.back().kinetic_energy;
+  // a missing term makes the balance NaN: it is not silently left out
+  double residual = energy.kinetic_last - energy.kinetic_first, works = 0.0;
+  for (size_t k = 0; k < steps.size(); ++k) {
+    const double work = steps[k].work_load + steps[k].work_gravity + steps[k].work_prescribed;
+    works += std::abs(work);
+    if (k > 0) residual += steps[k].dissipated - work;
+  }
+  energy.work_absolute = works;
+  energy.residual = residual;
+  if (works > 0.0) energy.relative = std::abs(residual) / works;
+  return energy;
+}
+
+FirstContraction first_contraction(std::span<const StepRecord> steps, double frequency) {
+  const double end = std::max(1.0 / frequency, 0.3);
+  FirstContraction contraction;
+  std::vector<double> x;
+  for (const StepRecord& step : steps)
+    if (step.time <= end) x.push_back(step.wall_x);
+  contraction.size = -statistics(x).min;
+  for (const StepRecord& step : steps)
+    if (-step.wall_x >= 0.9 * contraction.size) {
+      contraction.time90 = step.time;
+      break;
+    }
+  return contraction;
+}
+
+Statistics over_periods(const std::vector<WallPeriod>& periods, double WallPeriod::*value) {
+  std::vector<double> values;
+  for (const WallPeriod& period : periods) values.push_back(period.*value);
+  return statistics(values);
+}
+
+void summarise_wall(std::span<const StepRecord> steps, const WallSettings& settings, RunSummary& summary) {
+  const RunFacts& facts = summary.facts;
+  summary.wall = wall_cycles(steps, facts.frequency, facts.step, settings);
+  summary.loop = fit_loop(steps, summary.wall, settings);
+  summary.jammed = jammed_state(steps, summary.wall, facts.f_min, facts.f_max);
+  summary.contraction = first_contraction(steps, facts.frequency);
+  summary.rise = over_periods(summary.wall.periods, &WallPeriod::rise);
+  summary.net = over_periods(summary.wall.periods, &WallPeriod::net);
+  summary.speed_in = over_periods(summary.wall.periods, &WallPeriod::speed_in);
+  summary.speed_out = over_periods(summary.wall.periods, &WallPeriod::speed_out);
+  const double eq3 = facts.grain_mass / (facts.grain_mass + facts.wall_mass) * facts.grain_mass * facts.gravity / facts.f_max *
+                     facts.gravity / (facts.frequency * facts.frequency);
+  summary.prefactor = summary.rise.mean / eq3;
+}
+
+Compaction compaction_of(std::span<const StepRecord> steps, const RunSummary& summary) {
+  Compaction compaction;
+  compaction.initial = summary.facts.solid_fraction_initial;
+  compaction.last = steps.back().solid_fraction;
+  for (const StepRecord& step : steps)
+    if (step.time >= paper::reference_time - 0.25 * summary.facts.step) {
+      compaction.reference = step.solid_fraction;
+      break;
+    }
+  std::vector<double> number, mean;
+  for (const WallPeriod& period : summary.wall.periods) {
+    number.push_back(static_cast<double>(number.size()));
+    mean.push_back(period.solid_fraction);
+  }
+  compaction.per_period = fit_line(number, mean);
+  compaction.relative_gain = compaction.per_period.slope / compaction.reference;
+  compaction.rate = compaction.relative_gain * summary.facts.frequency;
+  return compaction;
+}
+
+}  // namespace
+
+RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
+  const auto fill = [](double& value, double found) {
+    if (!std::isfinite(value)) value = found;
+  };
+  if (steps.size() > 1)
+    fill(facts.step, (steps.back().time - steps.front().time) / static_cast<double>(steps.size() - 1));
+  fill(facts.velocity_scale, facts.gravity > 0.0 ? facts.gravity * facts.step : facts.gravity == 0.0 ? 1.0 : not_known);
+  if (!facts.has_wall) facts.has_wall = is_any_nonzero(steps, &StepRecord::load);
+  if (!facts.has_packing) facts.has_packing = is_any_nonzero(steps, &StepRecord::solid_fraction);
+  if (*facts.has_wall) {
+    const Statistics load = statistics(record_column(steps, &StepRecord::load));
+    fill(facts.f_max, load.max);
+    fill(facts.f_min, load.min);
+    fill(facts.frequency, frequency_of(steps, 0.5 * (load.min + load.max)));
+  }
+  if (*facts.has_packing && !steps.empty()) fill(facts.solid_fraction_initial, steps.front().solid_fraction);
+  return facts;
+}
+
+RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given, const WallSettings& settings) {
+  RunSummary summary;
+  summary.facts = complete_facts(given, steps);
+  summary.steps = static_cast<long>(steps.size());
+  summarise_cost(steps, summary);
+  if (steps.empty()) return summary;
+  summary.duration = steps.back().time;
+  summary.iterations = statistics(record_column(steps, &StepRecord::iterations));
+  summary.contacts = statistics(record_column(steps, &StepRecord::contacts));
+  summary.active_contacts = statistics(record_column(steps, &StepRecord::active_contacts));
+  summarise_accuracy(steps, summary);
+  summary.energy = energy_balance(steps);
+  if (*summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
+    summarise_wall(steps, settings, summary);
+  if (*summary.facts.has_packing) summary.compaction = compaction_of(steps, summary);
+  return summary;
+}
+
+}  // namespace ballast

@@ -1,0 +1,185 @@
+#include "experiments/measure/wall_cycles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "experiments/step/record_column.hpp"
+
+namespace ballast {
+namespace {
+
+/// First sample later than t, with a quarter of a step for the rounding of multiples of h.
+size_t first_after(std::span<const StepRecord> steps, double t, double h) {
+  const auto later = std::find_if(steps.begin(), steps.end(), [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
+  return static_cast<size_t>(later - steps.begin());
+}
+
+/// Largest rise above the running minimum, and where the wall comes back to. NaN samples are passed over.
+void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
+  double running = not_known;
+  for (size_t k = period.first; k < period.last; ++k) {
+    const double x = steps[k].wall_x;
+    if (!std::isfinite(x)) continue;
+    if (!(running <= x)) running = x;
+    if (x - running <= period.rise) continue;  // false on the first: rise is NaN
+    period.rise = x - running;
+    period.peak = k;
+    period.x_before = running;
+    period.x_peak = x;
+  }
+  period.x_after = period.x_peak;
+  for (size_t k = period.peak; k < period.last; ++k)
+    if (steps[k].wall_x < period.x_after) period.x_after = steps[k].wall_x;
+}
+
+WallPeriod make_period(std::span<const StepRecord> steps, double begin, double end, double h) {
+  WallPeriod period;
+  period.begin = begin;
+  period.end = end;
+  period.first = first_after(steps, begin, h);
+  period.last = first_after(steps, end, h);
+  if (period.first == period.last) return period;
+  find_stroke(steps, period);
+  const size_t start = period.first > 0 ? period.first - 1 : period.first;
+  period.net = steps[period.last - 1].wall_x - steps[start].wall_x;
+  std::vector<double> v, solid;
+  for (size_t k = period.first; k < period.last; ++k) {
+    v.push_back(steps[k].wall_v);
+    solid.push_back(steps[k].solid_fraction);
+  }
+  const Statistics speeds = statistics(v);
+  period.speed_out = speeds.max;
+  period.speed_in = -speeds.min;
+  period.solid_fraction = statistics(solid).mean;
+  return period;
+}
+
+/// Marks the longest stretch of |v| <= limit, `least` samples or more, that holds a load above the period's mean, from sample `first` on; false when there is none.
+bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit, size_t least, size_t first,
+                 WallCycles& cycles) {
+  double mean = 0.0;
+  for (size_t k = period.first; k < period.last; ++k) mean += steps[k].load / static_cast<double>(period.last - period.first);
+  const auto is_slow = [&](size_t k) { return std::abs(cycles.velocity[k]) <= limit; };
+  size_t longest_begin = 0, longest_end = 0;
+  for (size_t k = period.first; k < period.last; ++k) {
+    if (!is_slow(k) || !(steps[k].load > mean)) continue;
+    size_t begin = k, end = k + 1;  // it may reach beyond the period
+    while (begin > first && is_slow(begin - 1)) --begin;
+    while (end < steps.size() && is_slow(end)) ++end;
+    if (end - begin >= least && end - begin > longest_end - longest_begin) {
+      longest_begin = begin;
+      longest_end = end;
+    }
+    k = end;
+  }
+  for (size_t k = std::max(longest_begin, first); k < longest_end; ++k) cycles.phase[k] = WallPhase::jammed;
+  return longest_end > longest_begin;
+}
+
+void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h, const WallSettings& settings, WallCycles& cycles) {
+  const size_t first = first_after(steps, settings.first_transient, h);
+  std::vector<double> speed;
+  for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
+  cycles.v_peak = statistics(speed).max;
+  const double limit = settings.jammed_speed * cycles.v_peak;
+  const size_t least = static_cast<size_t>(settings.jammed_least * duration_of_period / h);
+  bool has_moved = false;  // a wall that rests at the end of the transient has no phase yet, unless it is jammed since
+  for (size_t k = first; k < steps.size(); ++k) {
+    const double v = cycles.velocity[k];
+    has_moved = has_moved || std::abs(v) > limit;
+    if (has_moved) cycles.phase[k] = v > 0.0 ? WallPhase::active : v < 0.0 ? WallPhase::passive : WallPhase::none;
+  }
+  // the jam before the first whole period reaches into it
+  const double begin = cycles.periods.empty() ? 0.0 : cycles.periods.front().begin;
+  if (begin >= duration_of_period - 0.25 * h)
+    mark_jammed(steps, make_period(steps, begin - duration_of_period, begin, h), limit, least, first, cycles);
+  for (const WallPeriod& period : cycles.periods)
+    if (mark_jammed(steps, period, limit, least, first, cycles)) ++cycles.jammed_periods;
+  for (WallPeriod& period : cycles.periods) {
+    const auto jammed = std::count(cycles.phase.begin() + static_cast<long>(period.first),
+                                   cycles.phase.begin() + static_cast<long>(period.last), WallPhase::jammed);
+    period.jammed_share = static_cast<double>(jammed) / static_cast<double>(period.last - period.first);
+  }
+}
+
+}  // namespace
+
+WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double h, const WallSettings& settings) {
+  if (!(frequency > 0.0) || !(h > 0.0)) throw std::invalid_argument("wall cycles need a positive frequency and step");
+  const double duration_of_period = 1.0 / frequency;
+  WallCycles cycles;
+  cycles.smoothing = std::min(settings.smoothing, duration_of_period / 20.0);
+  const int width = static_cast<int>(std::lround(cycles.smoothing / h));
+  cycles.smoothing_samples = static_cast<size_t>(width);
+  cycles.force = low_pass(record_column(steps, &StepRecord::wall_force), width);
+  cycles.velocity = low_pass(record_column(steps, &StepRecord::wall_v), width);
+  cycles.phase.assign(steps.size(), WallPhase::none);
+  if (steps.empty()) return cycles;
+
+  const double end_time = steps.back().time;
+  for (long k = std::lround(std::ceil((settings.first_transient - 0.25 * h) * frequency));; ++k) {
+    const double begin = static_cast<double>(k) * duration_of_period;
+    const double end = begin + duration_of_period;
+    if (end > end_time + 0.25 * h) break;
+    const WallPeriod period = make_period(steps, begin, end, h);
+    if (period.first < period.last) cycles.periods.push_back(period);
+  }
+  cycles.loop_last = cycles.periods.size();
+  cycles.loop_first = cycles.loop_last - std::min<size_t>(cycles.loop_last, settings.loop_periods);
+  find_phases(steps, duration_of_period, h, settings, cycles);
+  return cycles;
+}
+
+LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles, const WallSettings& settings) {
+  std::vector<double> active_x, active_force, passive_x, passive_force;
+  for (size_t p = cycles.loop_first; p < cycles.loop_last; ++p) {
+    const WallPeriod& period = cycles.periods[p];
+    const auto is_fitted = [&](double xi, double stroke) {
+      return xi >= settings.fit_from * stroke && xi <= settings.fit_to * stroke;
+    };
+    const size_t width = cycles.smoothing_samples;
+    for (size_t k = period.first + width; k + width < period.last; ++k) {
+      const bool rises = k <= period.peak;
+      const double xi = steps[k].wall_x - (rises ? period.x_before : period.x_after);
+      const double stroke = period.x_peak - (rises ? period.x_before : period.x_after);
+      if (!is_fitted(xi, stroke)) continue;
+      if (rises && cycles.phase[k] == WallPhase::active && cycles.phase[k - width] == WallPhase::active) {
+        active_x.push_back(xi);
+        active_force.push_back(cycles.force[k]);
+      } else if (!rises && cycles.phase[k] == WallPhase::passive && cycles.phase[k + width] == WallPhase::passive) {
+        passive_x.push_back(xi);
+        passive_force.push_back(cycles.force[k]);
+      }
+    }
+  }
+  return {fit_exponential(active_x, active_force), fit_line(active_x, active_force), fit_line(passive_x, passive_force)};
+}
+
+JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min, double f_max) {
+  JammedState state;
+  std::vector<double> miss, smooth_miss, speed;
+  long jammed = 0, all = 0;
+  for (size_t k = 0; k < steps.size(); ++k) {
+    if (cycles.phase[k] == WallPhase::none) continue;
+    ++all;
+    if (cycles.phase[k] != WallPhase::jammed) continue;
+    ++jammed;
+    if (steps[k].load < 0.5 * (f_min + f_max)) continue;
+    miss.push_back(std::abs(steps[k].wall_force - steps[k].load) / f_max);
+    smooth_miss.push_back(std::abs(cycles.force[k] - steps[k].load) / f_max);
+    speed.push_back(std::abs(steps[k].wall_v));
+  }
+  if (all > 0) state.share = static_cast<double>(jammed) / static_cast<double>(all);
+  const Statistics force = statistics(miss), speeds = statistics(speed);
+  state.samples = static_cast<long>(miss.size());
+  state.force_mean = force.mean;
+  state.force_max = force.max;
+  state.force_p95 = quantile(miss, 0.95);
+  state.force_smooth = statistics(smooth_miss).mean;
+  state.speed_mean = speeds.mean;
+  state.speed_max = speeds.max;
+  return state;
+}
+
+}  // namespace ballast

@@ -1,0 +1,204 @@
+// A plan's file: runs one by one, and sweeps, which are products of lists of values. See docs/sweeps.md.
+
+#include <optional>
+
+#include "experiments/plans/plan.hpp"
+#include "problems/scene/scene_file.hpp"
+#include "problems/scene/toml_reader.hpp"
+#include "problems/scene/toml_text.hpp"
+
+namespace ballast {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr size_t any_length = std::string::npos;
+constexpr size_t most_runs = 100'000;
+
+/// What plan, run and sweep may say of the scene; the inner one adds to the outer one.
+struct Base {
+  std::string scene;
+  std::vector<std::string> set;
+};
+
+/// A scene's file is looked for where the plan is; a name stays one.
+std::string scene_from(const fs::path& plan_file, const std::string& text) {
+  const fs::path path(text);
+  const bool is_name = !path.has_parent_path() && path.extension() != ".toml";
+  return is_name ? text : (plan_file.parent_path() / path).lexically_normal().string();
+}
+
+Base read_base(TomlTable& table, const fs::path& file, Base base) {
+  const std::string scene = table.text("scene", "");
+  if (!scene.empty()) base.scene = scene_from(file, scene);
+  for (std::string& text : table.texts("set")) base.set.push_back(std::move(text));
+  return base;
+}
+
+/// One key with its values; each as the text of an override.
+struct Axis {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+std::vector<std::string> value_texts(const toml::node& node) {
+  std::vector<std::string> texts;
+  if (const toml::array* array = node.as_array())
+    for (const toml::node& value : *array) texts.push_back(toml_value_text(value, any_length));
+  else
+    texts.push_back(toml_value_text(node, any_length));
+  return texts;
+}
+
+/// "drive.frequency" = [...] and drive.frequency = [...] mean the same.
+void collect_axes(const toml::table& table, const std::string& prefix, std::vector<Axis>& axes) {
+  for (const auto& [key, node] : table) {
+    const std::string name = prefix + std::string(key.str());
+    if (const toml::table* inner = node.as_table())
+      collect_axes(*inner, name + '.', axes);
+    else
+      axes.push_back({name, value_texts(node)});
+  }
+}
+
+/// The axes of a sub-table that need not be there.
+std::vector<Axis> read_axes(const toml::table& table, const char* key) {
+  std::vector<Axis> axes;
+  if (const toml::node* node = table.get(key))
+    if (const toml::table* inner = node->as_table()) collect_axes(*inner, "", axes);
+  return axes;
+}
+
+/// 1 and 1.0 are the same value.
+bool same_value(const std::string& a, const std::string& b) {
+  const auto number = [](const std::string& text) -> std::optional<double> {
+    try {
+      size_t end = 0;
+      const double x = std::stod(text, &end);
+      if (end == text.size()) return x;
+    } catch (const std::exception&) {
+    }
+    return std::nullopt;
+  };
+  const auto x = number(a), y = number(b);
+  return x && y ? *x == *y : a == b;
+}
+
+bool contains(const std::vector<std::string>& values, const std::string& value) {
+  return std::any_of(values.begin(), values.end(), [&](const std::string& v) { return same_value(v, value); });
+}
+
+/// Overrides for those members of a sweep whose values are among these.
+struct Where {
+  std::vector<Axis> when;
+  std::vector<std::string> set;
+};
+
+struct Sweep {
+  std::string name;
+  Base base;
+  std::vector<Axis> axes;
+  std::vector<Where> where;
+};
+
+Where read_where(TomlTable& table, const toml::table& raw, const std::vector<Axis>& axes) {
+  Where where{read_axes(raw, "when"), table.texts("set")};
+  table.section("when");  // known; its keys are those of the axes, not a table's of ours
+  if (where.when.empty()) table.fail("when", "no condition, expected when = { \"a varied key\" = its values }");
+  for (const Axis& condition : where.when) {
+    const auto axis = std::find_if(axes.begin(), axes.end(), [&](const Axis& a) { return a.key == condition.key; });
+    if (axis == axes.end()) table.fail("when", condition.key + " is not varied here");
+    for (const std::string& value : condition.values)
+      if (!contains(axis->values, value)) table.fail("when", condition.key + " never is " + value);
+  }
+  table.finish();
+  return where;
+}
+
+Sweep read_sweep(TomlTable& table, const toml::table& raw, const fs::path& file, const Base& base) {
+  Sweep sweep;
+  sweep.name = table.text("name");
+  sweep.base = read_base(table, file, base);
+  table.section("vary");
+  sweep.axes = read_axes(raw, "vary");
+  if (sweep.axes.empty()) table.fail("vary", "nothing varied, expected vary.\"dotted.key\" = [values]");
+  size_t count = 1;
+  for (const Axis& axis : sweep.axes) {
+    if (axis.values.empty()) table.fail("vary", axis.key + " has no values");
+    count *= axis.values.size();
+    if (count > most_runs) table.fail("vary", "more than " + std::to_string(most_runs) + " runs");
+  }
+  std::vector<TomlTable> conditions = table.sections("where");
+  for (size_t k = 0; k < conditions.size(); ++k)
+    sweep.where.push_back(read_where(conditions[k], *raw["where"][k].as_table(), sweep.axes));
+  table.finish();
+  return sweep;
+}
+
+/// A value as part of a run's name.
+std::string name_part(const std::string& value) {
+  std::string name;
+  for (const char c : value)
+    if (c != '"') name += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' ? c : '_';
+  return name;
+}
+
+PlannedRun member(const Sweep& sweep, const std::vector<size_t>& chosen) {
+  PlannedRun run{sweep.name, sweep.base.scene, sweep.base.set};
+  const auto value_of = [&](const std::string& key) {
+    size_t a = 0;
+    while (sweep.axes[a].key != key) ++a;
+    return sweep.axes[a].values[chosen[a]];
+  };
+  for (const Axis& axis : sweep.axes) {
+    run.name += '-' + axis.key + '=' + name_part(value_of(axis.key));
+    run.overrides.push_back(axis.key + '=' + value_of(axis.key));
+  }
+  for (const Where& where : sweep.where) {
+    const bool holds = std::all_of(where.when.begin(), where.when.end(), [&](const Axis& condition) {
+      return contains(condition.values, value_of(condition.key));
+    });
+    if (holds) run.overrides.insert(run.overrides.end(), where.set.begin(), where.set.end());
+  }
+  return run;
+}
+
+/// All members, the last key changing fastest.
+void expand(const Sweep& sweep, std::vector<PlannedRun>& runs) {
+  std::vector<size_t> chosen(sweep.axes.size(), 0);
+  for (;;) {
+    runs.push_back(member(sweep, chosen));
+    size_t a = chosen.size();
+    while (a > 0 && ++chosen[a - 1] == sweep.axes[a - 1].values.size()) chosen[--a] = 0;
+    if (a == 0) return;
+  }
+}
+
+}  // namespace
+
+Plan read_plan(const fs::path& file) {
+  const toml::table raw = load_toml(file, {});
+  toml::table resolved;
+  TomlTable root(file.string(), raw, resolved);
+  Plan plan;
+  plan.name = root.text("name", file.stem().string());
+  const Base base = read_base(root, file, {});
+  std::vector<TomlTable> runs = root.sections("run"), sweeps = root.sections("sweep");
+  root.finish();
+  for (TomlTable& table : runs) {
+    const std::string name = table.text("name");
+    Base own = read_base(table, file, base);
+    if (own.scene.empty()) table.text("scene");  // says that it is missing
+    table.finish();
+    plan.runs.push_back({name, std::move(own.scene), std::move(own.set)});
+  }
+  for (size_t k = 0; k < sweeps.size(); ++k) {
+    const Sweep sweep = read_sweep(sweeps[k], *raw["sweep"][k].as_table(), file, base);
+    if (sweep.base.scene.empty()) sweeps[k].text("scene");
+    expand(sweep, plan.runs);
+  }
+  if (plan.runs.empty()) throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[sweep]]");
+  validate(plan, file.string());
+  return plan;
+}
+
+}  // namespace ballast

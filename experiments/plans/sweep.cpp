@@ -1,0 +1,175 @@
+#include "experiments/plans/sweep.hpp"
+
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "platform/atomic_file.hpp"
+#include "platform/file_lock.hpp"
+#include "platform/interrupt.hpp"
+#include "experiments/plans/results_index.hpp"
+#include "experiments/plans/sweep_progress.hpp"
+#include "experiments/plans/tasks.hpp"
+#include "platform/worker.hpp"
+#include "problems/scene/scene_file.hpp"
+
+namespace ballast {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Engine {
+ public:
+  Engine(const SweepOptions& options, std::vector<Task> tasks)
+      : options_(options),
+        program_(options.program.empty() ? own_program() : options.program),
+        tasks_(std::move(tasks)),
+        progress_(options.style, tasks_) {}
+
+  /// What stopped everything before its end; ok: nothing did.
+  ExitCode execute() {
+    ExitCode stopped = ExitCode::ok;
+    while (start_what_can(stopped == ExitCode::ok) || !workers_.empty()) {
+      collect();
+      if (stopped == ExitCode::ok && (InterruptGuard::requested() || seconds() > options_.max_seconds)) {
+        stopped = InterruptGuard::requested() ? ExitCode::failure : ExitCode::time_limit;
+        for (const auto& [task, worker] : workers_) worker->stop();
+      }
+      progress_.show(seconds());
+      if (seconds() > indexed_ + 20.0) index();
+      usleep(5000);
+    }
+    progress_.end();
+    index();
+    return stopped;
+  }
+
+  const std::vector<Task>& tasks() const { return tasks_; }
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+  /// False when nothing was there to start; failed deposits take their runs with them.
+  bool start_what_can(bool may_start) {
+    bool started = false;
+    for (size_t k = 0; k < tasks_.size(); ++k) {
+      Task& task = tasks_[k];
+      if (task.state != TaskState::waiting) continue;
+      const Task* deposit = task.deposit < 0 ? nullptr : &tasks_[static_cast<size_t>(task.deposit)];
+      if (deposit && deposit->state == TaskState::failed) {
+        fail(task, deposit->title + " failed");
+        continue;
+      }
+      const bool ready = !deposit || deposit->state == TaskState::finished;
+      if (!may_start || !ready || workers_.size() >= static_cast<size_t>(options_.jobs)) continue;
+      workers_.emplace(k, std::make_unique<Worker>(program_, task.arguments, task.log));
+      task.state = TaskState::running;
+      begun_[k] = seconds();
+      started = true;
+    }
+    return started;
+  }
+
+  void collect() {
+    for (auto at = workers_.begin(); at != workers_.end();) {
+      if (!at->second->has_ended()) {
+        ++at;
+        continue;
+      }
+      ended(at->first, at->second->status());
+      at = workers_.erase(at);
+    }
+  }
+
+  void ended(size_t k, int status) {
+    Task& task = tasks_[k];
+    if (status == static_cast<int>(ExitCode::ok)) {
+      task.state = TaskState::finished;
+      progress_.say("finished  " + task.title + "  " + duration_text(seconds() - begun_[k]));
+    } else if (InterruptGuard::requested() || seconds() > options_.max_seconds) {
+      task.state = TaskState::stopped;
+    } else if (status > 128) {
+      fail(task, "ended by signal " + std::to_string(status - 128));
+    } else {
+      fail(task, last_line(task.log));
+    }
+  }
+
+  void fail(Task& task, const std::string& reason) {
+    task.state = TaskState::failed;
+    task.reason = reason;
+    progress_.say("FAILED    " + task.title + ": " + reason + " (" + task.log.string() + ")");
+  }
+
+  void index() {
+    std::map<std::string, std::string> failed;
+    for (const Task& task : tasks_)
+      if (task.state == TaskState::failed) failed.emplace(task.key, task.reason);
+    write_index(options_.results, failed);
+    indexed_ = seconds();
+  }
+
+  const SweepOptions& options_;
+  fs::path program_;
+  std::vector<Task> tasks_;
+  SweepProgress progress_;
+  Clock::time_point begin_ = Clock::now();
+  double indexed_ = 0.0;
+  std::map<size_t, std::unique_ptr<Worker>> workers_;  // by task
+  std::map<size_t, double> begun_;
+};
+
+/// What came out, and how to go on.
+ExitCode conclude(const std::vector<Task>& tasks, size_t before, ExitCode stopped, const fs::path& results) {
+  size_t runs = 0, finished = 0, failed = 0;
+  for (const Task& task : tasks) {
+    if (!task.is_run()) continue;
+    ++runs;
+    finished += task.state == TaskState::finished;
+    failed += task.state == TaskState::failed;
+  }
+  std::cout << runs << " runs: " << finished << " finished (" << before << " of them before)";
+  if (failed > 0) std::cout << ", " << failed << " failed";
+  if (runs > finished + failed) std::cout << ", " << runs - finished - failed << " to do";
+  std::cout << "; see " << (results / "index.csv").string() << std::endl;
+  if (stopped != ExitCode::ok) {
+    std::cout << (stopped == ExitCode::time_limit ? "time limit reached" : "interrupted")
+              << "; nothing is lost: the same command goes on" << std::endl;
+    return stopped;
+  }
+  return failed > 0 ? ExitCode::failure : ExitCode::ok;
+}
+
+}  // namespace
+
+std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {
+  std::vector<PlannedRun> runs;
+  for (const PlannedRun& run : plan.runs)
+    if (pattern.empty() || fnmatch(pattern.c_str(), run.name.c_str(), 0) == 0) runs.push_back(run);
+  if (runs.empty()) throw SceneFileError("plan " + plan.name + ": no run is named like " + pattern);
+  return runs;
+}
+
+ExitCode run_sweep(const Plan& plan, const SweepOptions& options) {
+  validate(plan, "plan " + plan.name);
+  const std::vector<ResolvedRun> all = resolve(plan);
+  const std::vector<ResolvedRun> chosen = resolve(Plan{plan.name, select(plan, options.only)});
+  const InterruptGuard guard;
+  for (const char* name : {"runs", "packings", "logs"}) create_folder(options.results / name);
+  const FileLock lock(options.results / "sweep.lock", briefly);
+  if (!lock.is_held()) throw RunError(options.results.string() + ": " + lock.holder() + " is sweeping there");
+  note_plan(options.results, plan.name, all);
+  Engine engine(options, make_tasks(options.results, chosen));
+  const auto finished = [](const Task& task) { return task.is_run() && task.state == TaskState::finished; };
+  const size_t before = static_cast<size_t>(std::count_if(engine.tasks().begin(), engine.tasks().end(), finished));
+  const ExitCode stopped = engine.execute();
+  return conclude(engine.tasks(), before, stopped, options.results);
+}
+
+}  // namespace ballast

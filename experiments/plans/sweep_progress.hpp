@@ -1,0 +1,34 @@
+#pragma once
+// How far a sweep is, over all its runs.
+
+#include <string>
+#include <vector>
+
+#include "platform/status_line.hpp"
+#include "experiments/plans/tasks.hpp"
+
+namespace ballast {
+
+class SweepProgress {
+ public:
+  /// `tasks` outlive this and change while it looks.
+  SweepProgress(StatusLine::Style style, const std::vector<Task>& tasks);
+
+  /// `now`: seconds since the sweep began. Costs next to nothing unless it is time to write.
+  void show(double now);
+  /// Something happened: a line on stdout.
+  void say(const std::string& text);
+  void end() { line_.end(); }
+
+ private:
+  /// Work that has been done, of all tasks: runs that go on by the steps in their logs.
+  double work_done() const;
+  std::string text(double now) const;
+
+  StatusLine line_;
+  const std::vector<Task>& tasks_;
+  double all_work_ = 0.0, work_before_ = 0.0;
+  double written_ = 0.0;
+};
+
+}  // namespace ballast

@@ -1,0 +1,86 @@
+#include "experiments/record/progress.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+namespace ballast {
+
+namespace {
+
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet)
+    : Progress(quiet ? Style::quiet : StatusLine::style_of_stderr(), std::cerr, steady_seconds) {}
+
+Progress::Progress(Style style, std::ostream& out, std::function<double()> clock)
+    : line_(style, out), clock_(std::move(clock)) {}
+
+void Progress::show(std::string_view label, double time, double total, const StepRecord& record, double rms_velocity) {
+  if (line_.style() == Style::quiet) return;
+  const double now = clock_();
+  const bool first = !started_;
+  if (first) {
+    started_ = true;
+    first_clock_ = now;
+    first_time_ = time;
+    // a line at the first step would only say that nothing is known yet
+    last_written_ = line_.style() == Style::lines ? now : now - line_.interval();
+  } else {
+    ++steps_;
+  }
+  label_.assign(label);
+  time_ = time;
+  total_ = total;
+  error_ = record.error_rms;
+  contacts_ = record.contacts;
+  velocity_ = rms_velocity;
+  stale_ = true;
+  if (now - last_written_ >= line_.interval()) write(now);
+}
+
+void Progress::finish() {
+  if (line_.style() == Style::quiet) return;
+  if (stale_) write(clock_());
+  line_.end();
+}
+
+void Progress::restart() {
+  finish();
+  started_ = false;
+  steps_ = 0;
+}
+
+std::string Progress::line(double now) const {
+  const double elapsed = now - first_clock_, fraction = total_ > 0.0 ? std::clamp(time_ / total_, 0.0, 1.0) : 0.0;
+  std::string text = label_ + " ";
+  if (line_.style() == Style::bar) text += bar_text(fraction);
+  text += formatted("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time_, total_);
+  if (time_ > first_time_ && time_ < total_)
+    text += "  " + duration_text(elapsed * (total_ - time_) / (time_ - first_time_)) + " left";
+  if (steps_ > 0) text += formatted("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));
+  text += formatted("  error %.1e m/s  %.0f contacts", error_, contacts_);
+  if (!std::isnan(velocity_)) text += formatted("  %.1e m/s rms", velocity_);
+  return text;
+}
+
+void Progress::write(double now) {
+  line_.write(line(now));
+  last_written_ = now;
+  stale_ = false;
+}
+
+}  // namespace ballast

@@ -1,0 +1,173 @@
+#include "experiments/record/recorder.hpp"
+
+#include <optional>
+
+#include "platform/atomic_file.hpp"
+#include "platform/content_key.hpp"
+#include "experiments/record/record_file.hpp"
+#include "platform/row_log.hpp"
+#include "experiments/run/run.hpp"
+
+namespace ballast {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path steps_log(const fs::path& folder) { return folder / "log" / "steps.bin"; }
+fs::path poses_log(const fs::path& folder) { return folder / "log" / "poses.bin"; }
+fs::path record_file(const fs::path& folder) { return folder / "record.h5"; }
+fs::path steps_table(const fs::path& folder) { return folder / "steps.csv"; }
+
+std::uint64_t add_bits(std::uint64_t hash, const Vec3& value) {
+  return fnv1a({reinterpret_cast<const char*>(value.data()), 3 * sizeof(double)}, hash);
+}
+
+/// Of what a system is made of: names, masses, shapes.
+std::uint64_t system_key(const MechanicalSystem& system) {
+  std::uint64_t hash = fnv1a(std::to_string(system.bodies.size()));
+  for (const RigidBody& body : system.bodies) {
+    hash = fnv1a(body.name, hash);
+    hash = add_bits(hash, Vec3(body.mass, body.volume, 0.0));
+    hash = add_bits(hash, body.inertia);
+    if (body.is_wall())
+      hash = add_bits(hash, body.shape.plane.normal);
+    else
+      for (const Vec3& vertex : body.shape.polyhedron->vertices()) hash = add_bits(hash, vertex);
+  }
+  return hash;
+}
+
+RowLogHeader steps_header(const MechanicalSystem& system) {
+  RowLogHeader header{"steps", system_key(system), step_columns().size()};
+  for (const StepColumn& column : step_columns()) header.text += std::string(" ") + column.name;
+  return header;
+}
+
+RowLogHeader poses_header(const MechanicalSystem& system) {
+  const size_t bodies = system.bodies.size();
+  return {"poses " + std::to_string(bodies) + " bodies: step time position rotation velocity spin", system_key(system),
+          pose_row_size(bodies)};
+}
+
+/// Opens a log that is to be continued: of this system, with these columns.
+RowReader open_log(const fs::path& file, const RowLogHeader& expected) {
+  RowReader reader(file);
+  if (reader.header().text != expected.text || reader.header().row_size != expected.row_size)
+    throw RunError(file.string() + ": has other columns than this program writes");
+  if (reader.header().owner != expected.owner) throw RunError(file.string() + ": belongs to another system of bodies");
+  return reader;
+}
+
+/// Row k is step k + 1.
+RowWriter continue_steps(const fs::path& file, const RowLogHeader& header, long last_step) {
+  RowReader reader = open_log(file, header);
+  for (long k = 0; k < last_step; ++k)
+    if (reader.next().empty())
+      throw RunError(file.string() + ": has " + std::to_string(k) + " steps, the checkpoint is at step " +
+                     std::to_string(last_step));
+  return RowWriter(file, reader, last_step);
+}
+
+RowWriter continue_poses(const fs::path& file, const RowLogHeader& header, long last_step) {
+  RowReader reader = open_log(file, header);
+  long kept = 0;
+  for (auto row = reader.next(); !row.empty() && row[0] <= static_cast<double>(last_step); row = reader.next()) ++kept;
+  return RowWriter(file, reader, kept);
+}
+
+void write_table(const fs::path& target, RowReader& rows) {
+  AtomicFile file(target);
+  const char* separator = "";
+  for (const StepColumn& column : step_columns()) {
+    file.print("%s%s", separator, column.name);
+    separator = ",";
+  }
+  file.write("\n");
+  rows.rewind();
+  for (auto row = rows.next(); !row.empty(); row = rows.next()) {
+    for (size_t c = 0; c < row.size(); ++c) file.print(c == 0 ? "%.17g" : ",%.17g", row[c]);
+    file.write("\n");
+  }
+  file.commit();
+}
+
+/// A record of earlier steps is not one of this run any more.
+void remove_stale(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw RunError(file.string() + ": cannot remove: " + error.message());
+}
+
+}  // namespace
+
+struct Recorder::Impl {
+  fs::path folder;
+  const MechanicalSystem& system;
+  std::optional<RowWriter> steps, poses;
+  std::vector<double> row;
+};
+
+Recorder::Recorder(const fs::path& folder, const MechanicalSystem& system, long last_step)
+    : impl_(new Impl{folder, system, {}, {}, {}}) {
+  create_folder(folder / "log");
+  const RowLogHeader of_steps = steps_header(system), of_poses = poses_header(system);
+  if (last_step > 0) {
+    impl_->steps.emplace(continue_steps(steps_log(folder), of_steps, last_step));
+    impl_->poses.emplace(continue_poses(poses_log(folder), of_poses, last_step));
+  } else {
+    impl_->steps.emplace(steps_log(folder), of_steps);
+    impl_->poses.emplace(poses_log(folder), of_poses);
+  }
+  remove_stale(record_file(folder));
+  remove_stale(steps_table(folder));
+}
+
+Recorder::~Recorder() = default;
+
+void Recorder::add_step(const StepRecord& record) {
+  impl_->row.clear();
+  for (const StepColumn& column : step_columns()) impl_->row.push_back(record.*column.value);
+  impl_->steps->append(impl_->row);
+}
+
+void Recorder::add_poses(const MotionState& state) {
+  pack_pose_row(state, impl_->row);
+  impl_->poses->append(impl_->row);
+}
+
+void Recorder::flush() {
+  impl_->steps->flush();
+  impl_->poses->flush();
+}
+
+void Recorder::finish(const std::string& scene_text, const std::string& manifest_text) {
+  flush();
+  const fs::path& folder = impl_->folder;
+  RowReader steps(steps_log(folder)), poses(poses_log(folder));
+  write_table(steps_table(folder), steps);
+  write_record_file(record_file(folder), impl_->system, steps, poses, scene_text, manifest_text);
+}
+
+std::vector<StepRecord> read_steps(const fs::path& folder) {
+  if (fs::exists(record_file(folder))) return read_record_steps(record_file(folder));
+  RowReader rows(steps_log(folder));
+  if (rows.header().row_size != step_columns().size())
+    throw RunError(steps_log(folder).string() + ": has other columns than this program reads");
+  std::vector<StepRecord> steps;
+  for (auto row = rows.next(); !row.empty(); row = rows.next()) {
+    steps.emplace_back();
+    for (size_t c = 0; c < row.size(); ++c) steps.back().*step_columns()[c].value = row[c];
+  }
+  return steps;
+}
+
+std::vector<PoseFrame> read_poses(const fs::path& folder) {
+  if (fs::exists(record_file(folder))) return read_record_poses(record_file(folder));
+  RowReader rows(poses_log(folder));
+  std::vector<PoseFrame> frames;
+  for (auto row = rows.next(); !row.empty(); row = rows.next()) frames.push_back(unpack_pose_row(row));
+  return frames;
+}
+
+}  // namespace ballast

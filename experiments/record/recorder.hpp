@@ -1,0 +1,53 @@
+#pragma once
+// The record of a run: append-only raw logs while it lives, one HDF5 file and one CSV when it ends.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/step/step_record.hpp"
+#include "problems/mechanics/mechanical_system.hpp"
+
+namespace ballast {
+
+/// Rows are appended to log/steps.bin (fixed size, one per step) and log/poses.bin (fixed size, one per stored frame),
+/// so that a killed run loses at most what came after its last checkpoint, and a resumed one cuts both back to it.
+class Recorder {
+ public:
+  /// Opens or creates the logs in `folder`. Rows with step > `last_step` are cut off (0: start afresh, without any row,
+  /// so that the frame of step 0 is added again). A steps.csv and record.h5 of before are removed: they would not be
+  /// this run's. `system` must outlive the recorder. Throws RunError (experiments/run.hpp) naming the file: unwritable,
+  /// shorter than last_step says, damaged, of another system or other columns.
+  Recorder(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step);
+  ~Recorder();
+
+  /// One call per step: row k is step k + 1.
+  void add_step(const StepRecord& row);
+  void add_poses(const MotionState& state);
+  /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws RunError (disk full
+  /// ...).
+  void flush();
+  /// steps.csv and record.h5 from the logs, each written beside and renamed. `attributes`: manifest text stored in the
+  /// file.
+  void finish(const std::string& scene_text, const std::string& manifest_text);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One stored frame.
+struct PoseFrame {
+  double time = 0.0;
+  long step = 0;
+  std::vector<Pose> pose;
+  std::vector<Vec3> velocity, spin;  ///< world frame, body frame
+};
+
+/// Reads back what a recorder wrote: record.h5, or where there is none the raw logs of a run still going. Throws
+/// RunError.
+std::vector<StepRecord> read_steps(const std::filesystem::path& folder);
+std::vector<PoseFrame> read_poses(const std::filesystem::path& folder);
+
+}  // namespace ballast

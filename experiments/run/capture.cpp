@@ -1,0 +1,95 @@
+#include "experiments/run/capture.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "platform/atomic_file.hpp"
+#include "experiments/measure/wall_cycles.hpp"
+
+namespace ballast {
+namespace {
+
+long positive_number(std::string_view name, std::string_view text) {
+  long value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 1)
+    throw std::invalid_argument(std::string(name) + "=" + std::string(text) + ": expected a whole number >= 1");
+  return value;
+}
+
+}  // namespace
+
+CaptureSettings CaptureSettings::parse(std::string_view text) {
+  CaptureSettings settings;
+  bool has_range = false;
+  while (!text.empty()) {
+    const std::string_view item = text.substr(0, text.find(','));
+    text.remove_prefix(std::min(item.size() + 1, text.size()));
+    const size_t equals = item.find('=');
+    const std::string_view name = item.substr(0, equals);
+    const std::string_view value = equals == std::string_view::npos ? std::string_view() : item.substr(equals + 1);
+    if (name == "every") settings.every = positive_number(name, value);
+    else if (name == "steps") settings.steps = positive_number(name, value);
+    else if (name == "from") settings.from = positive_number(name, value), has_range = true;
+    else if (name == "to") settings.to = positive_number(name, value), has_range = true;
+    else throw std::invalid_argument("'" + std::string(item) + "': expected every=, steps=, from= or to=");
+  }
+  if (settings.every == 0 && !has_range) throw std::invalid_argument("expected every=, or from= and to=");
+  if (settings.every > 0 && settings.steps > settings.every) throw std::invalid_argument("steps= is larger than every=");
+  if (settings.to < settings.from) throw std::invalid_argument("to= is before from=");
+  return settings;
+}
+
+bool CaptureSettings::takes(long step) const {
+  if (step < from || step > to) return false;
+  return every == 0 || (step >= every && step % every < steps);
+}
+
+StepCapture::StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g)
+    : settings_(settings), folder_(std::move(folder)), h_(h), g_(g) {}
+
+/// As wall_cycles has it, but from what is known at the step: at rest is what is slow beside the fastest so far.
+std::string StepCapture::phase_of(const StepRecord& record) {
+  fastest_wall_ = std::max(fastest_wall_, std::abs(record.wall_v));
+  if (fastest_wall_ == 0.0) return "none";
+  if (std::abs(record.wall_v) <= WallSettings{}.jammed_speed * fastest_wall_) return "jammed";
+  return record.wall_v > 0.0 ? "active" : "passive";
+}
+
+void StepCapture::observe(const TimeStepper& stepper, const MotionState& state, const StepRecord& record) {
+  const std::string phase = phase_of(record);
+  if (!settings_.takes(state.step)) return;
+  CapturedProblem captured;
+  captured.problem = stepper.problem();
+  captured.solution = stepper.impulses();
+  stepper.warm_start(captured.start);
+  captured.h = h_;
+  captured.g = g_;
+  captured.step = static_cast<int>(state.step);
+  captured.time = state.time;
+  captured.phase = phase;
+  captured.wall_x = record.wall_x;
+  captured.wall_v = record.wall_v;
+  captured.load = record.load;
+  for (const int c : stepper.assembler().detected()) {
+    const ContactPoint& contact = stepper.contacts()[static_cast<size_t>(c)];
+    captured.gap.push_back(contact.gap);
+    captured.position.insert(captured.position.end(), contact.position.data(), contact.position.data() + 3);
+    captured.key.push_back(contact.feature);
+    captured.id_a.push_back(contact.body_a);
+    captured.id_b.push_back(contact.body_b);
+  }
+  for (const Mat3& frame : stepper.assembler().frames())
+    for (int row = 0; row < 3; ++row)
+      for (int axis = 0; axis < 3; ++axis) captured.frame.push_back(frame(row, axis));
+  create_folder(folder_);
+  char name[32];
+  std::snprintf(name, sizeof name, "step_%07ld.hdf5", state.step);
+  write_captured(folder_ / name, captured);
+}
+
+}  // namespace ballast

@@ -1,0 +1,44 @@
+#pragma once
+// Friction problems taken out of a run, as files that FCLIB's tools and `ballast compare` read (problems/captured_problem).
+//
+// Consecutive steps are taken together: only so is a warm start what a run would have had.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "experiments/step/time_step.hpp"
+#include "problems/files/captured_problem.hpp"
+
+namespace ballast {
+
+/// Which steps (counted from 1): of every `every` steps the first `steps`, between `from` and `to`.
+struct CaptureSettings {
+  long every = 0;  ///< 0: no group begins anew, all steps from `from` on are one
+  long steps = 2;  ///< of each group
+  long from = 1, to = 1L << 60;
+
+  /// "every=50", "from=1000,to=1020", "every=100,steps=3,from=2000". Throws std::invalid_argument saying what is wrong.
+  static CaptureSettings parse(std::string_view text);
+  bool takes(long step) const;
+};
+
+/// Writes what it is asked to into `folder`, created when the first file is: step_0000050.hdf5, ...
+/// The steps themselves are only looked at: a run has the same bits with and without.
+class StepCapture {
+ public:
+  StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g);
+
+  /// After a step. Throws ProblemFileError, RunError.
+  void observe(const TimeStepper& stepper, const MotionState& state, const StepRecord& record);
+
+ private:
+  std::string phase_of(const StepRecord& record);
+
+  CaptureSettings settings_;
+  std::filesystem::path folder_;
+  double h_, g_;
+  double fastest_wall_ = 0.0;  ///< so far [m/s]
+};
+
+}  // namespace ballast

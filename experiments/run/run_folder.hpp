@@ -1,0 +1,42 @@
+#pragma once
+// The folder of one run: what is where, and who may write into it.
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/run/run.hpp"
+
+namespace ballast {
+
+class RunFolder {
+ public:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  /// Where the options put the run of this scene: options.output or results/<scene name>.
+  static RunFolder of(const RunOptions& options, const std::string& scene_name);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path scene() const { return path_ / "scene.toml"; }
+  std::filesystem::path manifest() const { return path_ / "manifest.json"; }
+  std::filesystem::path checkpoint() const { return path_ / "checkpoint.bin"; }
+  std::filesystem::path capture() const { return path_ / "capture"; }
+  /// Whole states kept at record.state_rate: checkpoint files of single steps.
+  std::filesystem::path states() const { return path_ / "states"; }
+  std::filesystem::path state_at(long step) const;
+  std::filesystem::path steps_log() const { return path_ / "log" / "steps.bin"; }
+  bool has_run() const { return std::filesystem::exists(scene()); }
+  /// It holds all of the run of this key: every step, and records that have been closed.
+  bool is_finished(const std::string& key) const;
+
+  /// A fresh run: refuses a folder that holds one (unless `overwrite`, which clears what a run writes), writes scene.toml.
+  void begin(const std::string& scene_text, bool overwrite) const;
+  /// A run to continue: refuses a folder without one, or with another scene than `scene_text`.
+  void reopen(const std::string& scene_text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Entry of a manifest's summary: steps that are still to be done. 0 is written last of all.
+inline constexpr const char* steps_left_entry = "steps_left";
+
+}  // namespace ballast

@@ -1,0 +1,209 @@
+// Figures that say whether a run can be trusted, and what it cost.
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/run_page/figures.hpp"
+#include "experiments/step/record_column.hpp"
+
+namespace ballast {
+namespace {
+
+constexpr const char* time_axis = "{/:Italic t}  (s)";
+
+Panel time_panel(const RunData& data, const std::string& y_label, bool log_y) {
+  Panel panel;
+  panel.x_label = time_axis;
+  panel.y_label = y_label;
+  panel.log_y = log_y;
+  panel.x_min = 0.0;
+  panel.x_max = data.steps.back().time;
+  return panel;
+}
+
+Curve column_line(const RunData& data, double StepRecord::*value, double factor, const char* title, Ink ink, double width) {
+  return line_of(record_column(data.steps, &StepRecord::time), record_column(data.steps, value, factor), title, ink, width);
+}
+
+bool is_zero(const RunData& data, double StepRecord::*value) {
+  return std::all_of(data.steps.begin(), data.steps.end(), [&](const StepRecord& s) { return !(s.*value != 0.0) || std::isnan(s.*value); });
+}
+
+ReportFigure error_figure(const RunData& data, const RunSummary& summary) {
+  const double scale = summary.facts.velocity_scale;
+  const bool is_relative = std::isfinite(scale);
+  Panel panel = time_panel(data, is_relative ? "error\u00a0/\u00a0{/:Italic gh}" : "error  (m/s)", true);
+  const double factor = is_relative ? 1.0 / scale : 1.0;
+  panel.curves = {column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
+                  column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
+  if (is_relative)
+    panel.lines = {{target::error_mean, "10^{−3}: bound on the mean", false, Ink::grey},
+                   {target::error_max, "10^{−2}: bound on every step", false, Ink::grey}};
+  Figure figure;
+  figure.name = "error";
+  figure.title = "Error of the contact law per step";
+  figure.panels = {panel};
+  Html caption{"<b>Error of the contact law</b>, per step, by the judge: the scaled natural map of the exact Coulomb–Signorini law, "
+               "recomputed from the returned impulses. "};
+  if (is_relative)
+    caption += Html{"Relative to <i>gh</i> = "} + quantity(scale, "m/s") +
+               Html{", the velocity that gravity gives in one step. Blue: rms over contacts, mean "} + number(summary.error_mean_relative) +
+               Html{", worst step "} + number(summary.error_max_relative) + Html{"."};
+  else
+    caption += Html{"Gravity is not known, so that the error is in m/s."};
+  return {figure, caption};
+}
+
+ReportFigure penetration_figure(const RunData& data, const RunSummary& summary) {
+  Panel panel = time_panel(data, "overlap  (µm)", true);
+  panel.curves = {column_line(data, &StepRecord::penetration_max, 1e6, "deepest", Ink::vermilion, 1.4),
+                  column_line(data, &StepRecord::penetration_mean, 1e6, "mean over active contact points", Ink::blue, 1.4)};
+  panel.lines = {{1e6 * target::penetration_max, "250 µm: bound on the deepest", false, Ink::grey},
+                 {1e6 * target::penetration_mean, "5 µm: bound on the mean", false, Ink::grey}};
+  std::vector<double> means;
+  for (double value : panel.curves[1].y)
+    if (value > 0.0) means.push_back(value);
+  const double least = quantile(means, 0.02);
+  if (std::isfinite(least)) panel.y_min = std::pow(10.0, std::floor(std::log10(std::min(least, 1.0))));
+  Figure figure;
+  figure.name = "penetration";
+  figure.title = "Overlap of contacts per step";
+  figure.panels = {panel};
+  Html caption{"<b>Overlap</b> at detection. Deepest in the whole run: "};
+  caption += quantity(1e6 * summary.penetration_max, "µm") + Html{" at "} + quantity(summary.penetration_max_time, "s") +
+             Html{"; mean over steps and active points: "} + quantity(1e6 * summary.penetration_mean, "µm") +
+             Html{". <span class=\"look\">Jumps belong to the first contraction, when many contacts close at once; a steady growth would mean "
+                  "drift.</span>"};
+  return {figure, caption};
+}
+
+ReportFigure effort_figure(const RunData& data, const RunSummary& summary) {
+  Panel above = time_panel(data, "iterations", false), below = time_panel(data, "contact points", false);
+  above.curves = {column_line(data, &StepRecord::iterations, 1.0, "", Ink::blue, 1.0)};
+  below.curves = {column_line(data, &StepRecord::contacts, 1.0, "given to the solver", Ink::grey, 1.3),
+                  column_line(data, &StepRecord::active_contacts, 1.0, "with an impulse", Ink::green, 1.3)};
+  above.y_min = below.y_min = 0.0;
+  Figure figure;
+  figure.name = "effort";
+  figure.title = "Solver iterations and contact points per step";
+  figure.height = 540;
+  figure.panels = {above, below};
+  Html caption{"<b>Effort.</b> Solver iterations of each step (mean "};
+  caption += number(summary.iterations.mean) + Html{", most "} + exact(summary.iterations.max) + Html{") and contact points (mean "} +
+             number(summary.contacts.mean, 4) + Html{" given, "} + number(summary.active_contacts.mean, 4) +
+             Html{" with an impulse). <span class=\"look\">A flat top of the iterations is the limit: those steps were cut off before their "
+                  "tolerance.</span>"};
+  return {figure, caption};
+}
+
+/// Sums of the phases, one above the other, averaged over `bins` stretches of the run.
+std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, size_t bins) {
+  constexpr Ink inks[] = {Ink::orange, Ink::green, Ink::blue, Ink::purple, Ink::sky, Ink::light};
+  const size_t count = data.steps.size();
+  bins = std::min(bins, count);
+  std::vector<double> time(bins), low(bins, 0.0);
+  for (size_t b = 0; b < bins; ++b) time[b] = data.steps[(b * count / bins + (b + 1) * count / bins) / 2].time;
+  time.front() = 0.0;
+  time.back() = data.steps.back().time;
+  std::vector<Curve> curves;
+  for (size_t p = 0; p < summary.cost.size(); ++p) {
+    if (!(summary.cost[p].ms_per_step > 0.0)) continue;
+    Curve curve;
+    curve.title = summary.cost[p].name;
+    curve.ink = inks[p];
+    curve.mark = Mark::area;
+    curve.x = time;
+    curve.y_low = low;
+    for (size_t b = 0; b < bins; ++b) {
+      std::vector<double> values;
+      for (size_t k = b * count / bins; k < (b + 1) * count / bins; ++k) values.push_back(1e3 * (data.steps[k].*summary.cost[p].seconds));
+      const double mean = statistics(values).mean;
+      curve.y.push_back(low[b] += std::isfinite(mean) ? mean : 0.0);
+    }
+    curves.push_back(curve);
+  }
+  return curves;
+}
+
+ReportFigure cost_figure(const RunData& data, const RunSummary& summary) {
+  Panel panel = time_panel(data, "wall clock  (ms per step)", false);
+  panel.curves = stacked_cost(data, summary, 250);
+  panel.y_min = 0.0;
+  Figure figure;
+  figure.name = "cost";
+  figure.title = "Wall clock per step by phase";
+  figure.height = 460;
+  figure.panels = {panel};
+  Html caption{"<b>Cost</b> of a step by phase, one above the other, averaged over stretches of "};
+  caption += quantity(1e3 * summary.duration / static_cast<double>(std::min<size_t>(250, data.steps.size())), "ms") +
+             Html{" of simulated time. In all "} + quantity(summary.ms_per_step, "ms") + Html{" per step."};
+  return {figure, caption};
+}
+
+ReportFigure energy_figure(const RunData& data, const RunSummary& summary) {
+  const size_t count = data.steps.size();
+  const auto time = record_column(data.steps, &StepRecord::time);
+  const auto cumulative = [&](double StepRecord::*value) {
+    auto sums = record_column(data.steps, value);
+    for (size_t k = 1; k < count; ++k) sums[k] += sums[k - 1];
+    return sums;
+  };
+  Panel above = time_panel(data, "cumulative energy  (J)", false), below = time_panel(data, "energy  (J)", true);
+  const auto add = [&](double StepRecord::*value, const char* title, Ink ink) {
+    if (!is_zero(data, value)) above.curves.push_back(line_of(time, cumulative(value), title, ink, 1.8));
+  };
+  add(&StepRecord::work_load, "work of the load", Ink::blue);
+  add(&StepRecord::work_gravity, "of gravity", Ink::green);
+  add(&StepRecord::work_prescribed, "of walls and forces", Ink::orange);
+  add(&StepRecord::dissipated, "dissipated", Ink::vermilion);
+  std::vector<double> residual(count, 0.0);
+  for (size_t k = 1; k < count; ++k) {
+    const StepRecord& step = data.steps[k];
+    residual[k] = residual[k - 1] + step.kinetic_energy - data.steps[k - 1].kinetic_energy - step.work_load - step.work_gravity -
+                  step.work_prescribed + step.dissipated;
+  }
+  for (double& value : residual) value = std::abs(value);
+  below.curves = {column_line(data, &StepRecord::kinetic_energy, 1.0, "kinetic energy", Ink::black, 1.4),
+                  line_of(time, residual, "|residual of the balance|", Ink::purple, 1.4)};
+  Figure figure;
+  figure.name = "energy";
+  figure.title = "Energy balance";
+  figure.height = 580;
+  if (!above.curves.empty()) figure.panels.push_back(above);
+  figure.panels.push_back(below);
+  Html caption{"<b>Energy.</b> Works and dissipation since the start (above); kinetic energy, and what is missing in <i>change of kinetic energy "
+               "= works − dissipation</i>, summed from the recorded columns (below). Residual at the end: "};
+  caption += quantity(summary.energy.residual, "J") + Html{", "} + number(summary.energy.relative) +
+             Html{" of the absolute work. <span class=\"look\">Dissipation must never fall; the residual should stay far below the kinetic "
+                  "energy.</span>"};
+  return {figure, caption};
+}
+
+}  // namespace
+
+Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink, double width) {
+  Curve curve;
+  thin_out(x, y, 3000);
+  curve.x = std::move(x);
+  curve.y = std::move(y);
+  curve.title = title;
+  curve.ink = ink;
+  curve.width = width;
+  return curve;
+}
+
+ForceUnit force_unit(double f_max) { return f_max >= 1000.0 ? ForceUnit{"kN", 1e-3} : ForceUnit{"N", 1.0}; }
+
+std::vector<ReportFigure> diagnostic_figures(const RunData& data, const RunSummary& summary) {
+  std::vector<ReportFigure> figures;
+  if (summary.wall.loop_first < summary.wall.loop_last && *summary.facts.has_packing) figures.push_back(jammed_figure(data, summary));
+  figures.push_back(error_figure(data, summary));
+  // a scene without any overlap has no logarithm of it to show
+  if (summary.penetration_max > 0.0) figures.push_back(penetration_figure(data, summary));
+  figures.push_back(effort_figure(data, summary));
+  if (summary.ms_per_step > 0.0) figures.push_back(cost_figure(data, summary));
+  figures.push_back(energy_figure(data, summary));
+  return figures;
+}
+
+}  // namespace ballast

@@ -1,0 +1,29 @@
+#pragma once
+// Where a run came from: its parameters, program and machine, files, and how to make it again. Parts of a run's report.
+
+#include <string>
+
+#include "experiments/page/html_page.hpp"
+#include "experiments/measure/run_data.hpp"
+
+namespace ballast {
+
+/// The scene's parameters and what the run noted in its manifest.
+Html parameters_table(const RunData& data);
+/// Program, machine, dates.
+Html provenance_table(const RunData& data);
+/// What is in the folder.
+Html files_table(const RunData& data);
+/// One line for the head of the page: program, machine, date; empty when the manifest says nothing.
+std::string made_by(const RunData& data);
+/// Commands that make the run again, as text for a shell.
+std::string reproduce_commands(const RunData& data);
+
+/// What to do next with the program, from the project's root: another run, a figure of the paper, a sweep, a comparison of
+/// solvers. `has_grains`: of a vibrated box.
+std::string next_commands(bool has_grains);
+
+/// A word as a shell reads it back.
+std::string shell_word(const std::string& word);
+
+}  // namespace ballast

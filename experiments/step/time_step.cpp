@@ -1,0 +1,247 @@
+#include "experiments/step/time_step.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "geometry/contact/contact_tracker.hpp"
+#include "solvers/backends/island_solver.hpp"
+#include "solvers/solver_list.hpp"
+
+namespace ballast {
+namespace {
+
+/// Splits the wall clock of a step into phases: each call returns the seconds since the one before.
+class PhaseClock {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Bound on how far any point of the body moves in h, with what gravity and forces of the order of g may add.
+double reach_of(const RigidBody& body, const MotionState& state, size_t b, double h, double g) {
+  if (body.shape.fixed && body.wall.motion != WallMotion::prescribed) return 0.0;
+  const double radius = body.shape.polyhedron ? body.shape.polyhedron->circumradius() : 0.0;
+  return h * (state.velocity[b].norm() + state.spin[b].norm() * radius + 2.0 * g * h);
+}
+
+}  // namespace
+
+StepSettings step_settings(const Scene& scene) {
+  StepSettings settings;
+  settings.h = scene.step;
+  settings.solver = scene.solver;
+  settings.detection = scene.detection;
+  settings.sleep = scene.sleep;
+  settings.correction = scene.correction;
+  const double g = scene.gravity.norm();
+  settings.scale = g > 0.0 ? g * scene.step : 1.0;
+  return settings;
+}
+
+double kinetic_energy(const MechanicalSystem& system, const MotionState& state) {
+  double energy = 0.0;
+  for (size_t b = 0; b < system.bodies.size(); ++b)
+    energy += kinetic_energy(system.bodies[b], state.velocity[b], state.spin[b]);
+  return energy;
+}
+
+Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
+  Vec3 next = spin;
+  for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few times
+    const Vec3 mean = 0.5 * (spin + next);
+    const Vec3 update = spin + h * inertia.cwiseInverse().cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
+    const double change = (update - next).norm();
+    next = update;
+    if (change <= 1e-16 * spin.norm()) break;
+  }
+  return next;
+}
+
+TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& settings, int driven_wall)
+    : system_(system),
+      settings_(settings),
+      driven_wall_(driven_wall),
+      detector_(contact_shapes(system), settings.detection),
+      assembler_(system),
+      correction_(system, settings.correction),
+      solver_(make_solver(settings.solver.name)),
+      resting_(system, settings.sleep, settings.detection, settings.velocity_scale()),
+      reach_(system.bodies.size(), 0.0) {
+  if (settings.solver.islands) solver_ = make_island_solver(std::move(solver_));
+  solver_->use_threads(settings.solver.threads);
+  if (settings.solver.threads > 1) share_work(settings.solver.threads);
+}
+
+int TimeStepper::steps_between_restarts() const {
+  return settings_.detection.reuse_motion > 0.0 ? settings_.detection.refresh_steps : 1;
+}
+
+/// Detection, assembly and judgement have the same bits whatever the number of threads.
+void TimeStepper::share_work(int threads) {
+  constexpr int parts_of_thread = 4;  // work of parts is known beforehand only roughly
+  team_ = std::make_unique<WorkerTeam>();
+  team_->resize(threads);
+  assembler_.use_team(team_.get());
+  runner_.use_team(team_.get());
+  detector_.run_parts_by(
+      [team = team_.get()](int parts, const std::function<void(int)>& part) { team->run(parts, part); },
+      parts_of_thread * threads);
+}
+
+void TimeStepper::free_motion(const MotionState& state, double mid_time) {
+  assembler_.pack(state, v_before_);
+  force_.setZero(v_before_.size());       // h f, per unknown
+  gyroscopic_.setZero(v_before_.size());  // impulse of the gyroscopic term
+  v_free_ = v_before_;
+  const double h = settings_.h;
+  for (size_t b = 0; b < system_.bodies.size(); ++b) {
+    const int first = assembler_.first_dof(static_cast<int>(b));
+    if (first < 0 || resting_.is_asleep(static_cast<int>(b))) continue;
+    const RigidBody& body = system_.bodies[b];
+    Vec3 force = body.force.at(mid_time);
+    if (body.is_wall()) force = body.wall.load.at(mid_time) * body.wall.normal;
+    for (int d = 0; d < body.freedom.translations; ++d) {
+      const Vec3 axis = body.freedom.axes.col(d);
+      force_[first + d] = h * axis.dot(force);
+      const double gravity = body.is_wall() ? 0.0 : h * axis.dot(system_.gravity);
+      v_free_[first + d] += gravity + force_[first + d] / body.mass;
+    }
+    if (!body.freedom.rotation) continue;
+    const int spin = first + body.freedom.translations;
+    const Vec3 after = free_spin(body.inertia, state.spin[b], h);
+    gyroscopic_.segment<3>(spin) = body.inertia.cwiseProduct(after - state.spin[b]);
+    v_free_.segment<3>(spin) = after;
+  }
+}
+
+void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
+  const double g = system_.gravity.norm();
+  for (size_t b = 0; b < system_.bodies.size(); ++b) reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
+  if (mid.step % settings_.detection.refresh_steps == 0) detector_.refresh();
+  resting_.detect(detector_, mid.pose, reach_, memory, contacts_);
+  if (settings_.solver.warm_start)
+    carry_impulses(memory.contacts, memory.impulses, contacts_, carried_);
+  else
+    carried_.assign(contacts_.size(), Vec3::Zero());
+}
+
+void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
+  assembler_.to_rows(carried_, impulses_);
+  Budget budget;
+  budget.tolerance = settings_.solver.tolerance * settings_.velocity_scale();
+  budget.max_iterations = settings_.solver.max_iterations;
+  budget.max_seconds = settings_.solver.max_seconds;
+  SolverRun run = runner_.run(*solver_, problem_, std::move(impulses_), budget);
+  impulses_ = std::move(run.solved.impulses);
+  error_ = run.error;
+  record.iterations = run.solved.iterations;
+  record.error_rms = run.error.natural_map_rms;
+  record.error_max = run.error.natural_map_max;
+  record.seconds_solve = run.prepare_seconds + run.solve_seconds;
+  memory.contacts = contacts_;
+  assembler_.to_world(impulses_, contacts_, memory.impulses);
+  resting_.restore_kept(memory);
+}
+
+void TimeStepper::account(const MotionState& before, const StepMemory& memory, StepRecord& record) {
+  // works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of prescribed walls
+  const Eigen::VectorXd& v0 = v_before_;
+  const Eigen::VectorXd& v1 = v_after_;
+  const double contact_power = 0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
+  for (int c = 0; c < problem_.contact_count(); ++c) record.active_contacts += impulses_[problem_.row_begin[c]] > 0.0;
+  assembler_.prescribed_part(contacts_, before.time + 0.5 * settings_.h, prescribed_);
+  const double wall_power = impulses_.dot(prescribed_);
+  record.dissipated = -(contact_power + wall_power);
+  double kinetic_before = 0.0;
+  for (size_t b = 0; b < system_.bodies.size(); ++b) {
+    const int first = assembler_.first_dof(static_cast<int>(b));
+    if (first < 0) continue;
+    const RigidBody& body = system_.bodies[b];
+    const int count = body.freedom.count();
+    for (int d = 0; d < count; ++d) {
+      const int dof = first + d;
+      const double mean = 0.5 * (v0[dof] + v1[dof]);
+      const bool turns = d >= body.freedom.translations;
+      const double mass = turns ? body.inertia[d - body.freedom.translations] : body.mass;
+      kinetic_before += 0.5 * mass * v0[dof] * v0[dof];
+      record.kinetic_energy += 0.5 * mass * v1[dof] * v1[dof];
+      record.work_gyroscopic += gyroscopic_[dof] * mean;
+      (body.is_wall() ? record.work_load : record.work_prescribed) += force_[dof] * mean;
+      if (!turns && !body.is_wall())
+        record.work_gravity += mass * settings_.h * body.freedom.axes.col(d).dot(system_.gravity) * mean;
+    }
+  }
+  record.work_prescribed -= wall_power;
+  record.energy_residual = record.kinetic_energy - kinetic_before -
+                           (record.work_load + record.work_gravity + record.work_prescribed) + record.dissipated;
+
+  record.active_contacts += resting_.kept_active();
+  double overlap = 0.0;
+  for (size_t c = 0; c < memory.contacts.size(); ++c) {
+    const ContactPoint& contact = memory.contacts[c];
+    const double depth = std::max(0.0, -contact.gap);
+    record.penetration_max = std::max(record.penetration_max, depth);
+    if (!memory.impulses[c].isZero(0.0)) overlap += depth;
+    if (driven_wall_ >= 0 && (contact.body_a == driven_wall_ || contact.body_b == driven_wall_))
+      record.wall_force += std::abs(memory.impulses[c].dot(contact.normal)) / settings_.h;
+  }
+  record.contacts = static_cast<double>(contacts_.size());
+  if (record.active_contacts > 0) record.penetration_mean = overlap / record.active_contacts;
+}
+
+StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
+  StepRecord record;
+  PhaseClock clock;
+  const double h = settings_.h;
+  const double mid_time = state.time + 0.5 * h, end_time = (state.step + 1) * h;
+  resting_.begin(memory);
+  mid_ = state;
+  for (size_t b = 0; b < state.pose.size(); ++b)
+    if (!resting_.is_asleep(static_cast<int>(b)))
+      mid_.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
+  record.seconds_other = clock.lap();
+  detect(mid_, memory);
+  record.seconds_detect = clock.lap();
+  free_motion(state, mid_time);
+  record.seconds_other += clock.lap();
+  assembler_.assemble(mid_, v_free_, h, end_time, contacts_, problem_);
+  record.seconds_assemble = clock.lap();
+  solve(memory, record);
+  record.seconds_judge = clock.lap() - record.seconds_solve;
+
+  v_after_ = runner_.body_velocity();
+  account(state, memory, record);
+  assembler_.unpack(v_after_, state);
+  for (size_t b = 0; b < state.pose.size(); ++b) {
+    if (resting_.is_asleep(static_cast<int>(b))) continue;
+    if (system_.bodies[b].is_wall() && system_.bodies[b].wall.motion == WallMotion::prescribed)
+      state.velocity[b] = prescribed_velocity(system_.bodies[b], end_time);
+    state.pose[b] = moved(mid_.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
+  }
+  ++state.step;
+  state.time = end_time;
+  record.seconds_other += clock.lap();
+  record.work_correction = correction_.apply(assembler_, problem_, contacts_, v_after_, h, state);
+  record.seconds_correct = clock.lap();
+  const double stopped = resting_.settle(state, memory);
+  record.kinetic_energy -= stopped;
+  record.energy_residual -= stopped;
+  record.seconds_other += clock.lap();
+
+  record.time = state.time;
+  if (driven_wall_ >= 0) {
+    record.wall_x = outward_displacement(system_, state, driven_wall_);
+    record.wall_v = outward_velocity(system_, state, driven_wall_);
+    record.load = system_.bodies[driven_wall_].wall.load.at(mid_time);
+  }
+  return record;
+}
+
+}  // namespace ballast

@@ -1,0 +1,210 @@
+#include "geometry/contact/axis_search.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace ballast {
+namespace {
+
+constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
+
+/// Index of the largest value, the smallest among equals.
+int argmax(const double* values, int padded) {
+  using Lanes = Eigen::Array<double, 8, 1>;
+  Lanes most = Eigen::Map<const Lanes>(values);
+  for (int i = 8; i < padded; i += 8) most = most.max(Eigen::Map<const Lanes>(values + i));
+  const double largest = most.maxCoeff();
+  int row = 0;
+  while (values[row] != largest) ++row;
+  return row;
+}
+
+}  // namespace
+
+AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
+  int faces = 8, vertices = 8;
+  size_t edges = 0;
+  for (const CollisionShape& shape : shapes) {
+    faces = std::max(faces, shape.faces().padded());
+    vertices = std::max(vertices, shape.vertices().padded());
+    edges = std::max(edges, shape.edges().size());
+  }
+  heights_.resize(vertices);
+  for (Side& side : side_) {
+    side.bound.resize(faces);
+    side.value.resize(faces);
+    side.heights.resize(static_cast<size_t>(faces) * kWitnesses);
+    side.edges.reserve(edges);
+  }
+  turned_.reserve(edges);
+}
+
+AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis) {
+  const std::optional<SeparatingAxis> last = evaluate_axis(pair, hint, heights_);
+  if (!last) return search(pair, alert, nullptr, hint, axis);
+  axis.separation = last->separation;
+  if (last->separation > alert) return AxisOutcome::separated_by_hint;
+  if (!is_proved_best(pair, face_isolation(pair, hint), *last)) return search(pair, alert, &*last, hint, axis);
+  axis = *last;
+  return AxisOutcome::proved_by_hint;
+}
+
+AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const SeparatingAxis* start, AxisFeature& hint,
+                               SeparatingAxis& axis) {
+  best_ = start ? start->separation : kMinusInfinity;
+  best_feature_ = start ? start->feature : AxisFeature{};
+  edge_pairs_.clear();
+  for (int own : {0, 1}) start_side(pair, own);
+  if (start) add_witnesses_of(pair, *start);
+  bool apart = search_faces(pair, 0, alert) || search_faces(pair, 1, alert);
+  if (!apart) {
+    // the best axis so far touches near where an edge pair could do better: its corners are the tightest witnesses
+    if (!start || !(best_feature_ == start->feature))
+      add_witnesses_of(pair, *evaluate_axis(pair, best_feature_, heights_));
+    apart = search_edges(pair, alert);
+  }
+  hint = apart ? best_feature_ : choose(pair);
+  axis.separation = best_;
+  if (apart) return AxisOutcome::separated;
+  axis = *evaluate_axis(pair, hint, heights_);
+  return AxisOutcome::found;
+}
+
+/// First bound of a face: the other body contains a ball.
+void AxisSearch::start_side(const ShapePair& pair, int own) {
+  const CollisionShape& other = *pair.shape[1 - own];
+  const AffineRows& faces = pair.shape[own]->faces();
+  Side& side = side_[own];
+  side.witnesses = 0;
+  side.edges.clear();
+  faces.evaluate(pair.other[own] * other.bounds().ball_centre, side.bound.data());
+  for (int f = 0; f < faces.padded(); ++f) side.bound[f] -= other.bounds().ball_radius;
+  std::fill_n(side.value.begin(), faces.padded(), kMinusInfinity);
+}
+
+/// `point`: in the frame of body `own`, of the other body.
+void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) {
+  const AffineRows& faces = pair.shape[own]->faces();
+  Side& side = side_[own];
+  const int slot = std::min(side.witnesses, kWitnesses - 1);  // when full, the last place is used again
+  double* __restrict heights = side.heights.data() + static_cast<size_t>(slot) * faces.padded();
+  double* __restrict bound = side.bound.data();
+  faces.evaluate(point, heights);
+  for (int f = 0; f < faces.padded(); ++f) bound[f] = heights[f] < bound[f] ? heights[f] : bound[f];
+  side.witnesses = slot + 1;
+}
+
+/// The corners that make up the axis' facet, each to the other body.
+void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& axis) {
+  if (axis.feature.kind == AxisKind::edges) {
+    const CollisionShape::Edge& edge_a = pair.shape[0]->edges()[axis.feature.a];
+    const CollisionShape::Edge& edge_b = pair.shape[1]->edges()[axis.feature.b];
+    for (const int v : {edge_b.tail, edge_b.head})
+      add_witness(pair, 0, pair.other[0] * pair.shape[1]->vertices().xyz(v));
+    for (const int v : {edge_a.tail, edge_a.head})
+      add_witness(pair, 1, pair.other[1] * pair.shape[0]->vertices().xyz(v));
+    return;
+  }
+  const int own = axis.feature.kind == AxisKind::face_of_a ? 0 : 1;
+  add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(axis.support));
+  const std::span<const CollisionShape::Corner> corners =
+      pair.shape[own]->corners(own == 0 ? axis.feature.a : axis.feature.b);
+  // a few of a large face's corners are enough
+  const size_t stride = 1 + (corners.size() - 1) / 4;
+  for (size_t k = 0; k < corners.size(); k += stride)
+    add_witness(pair, 1 - own, pair.other[1 - own] * pair.shape[own]->vertices().xyz(corners[k].vertex));
+}
+
+/// Faces of body `own`, most promising first, until no bound reaches the best. True as soon as one separates.
+bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
+  Side& side = side_[own];
+  const int padded = pair.shape[own]->faces().padded();
+  const double margin = proof_margin(pair);
+  while (true) {
+    const int f = argmax(side.bound.data(), padded);
+    if (!(side.bound[f] >= best_ - margin) || side.bound[f] == kMinusInfinity) return false;
+    const FaceSeparation found = face_separation(pair, own, f, heights_);
+    side.value[f] = found.separation;
+    side.bound[f] = kMinusInfinity;
+    if (found.separation >= best_) {
+      best_ = found.separation;
+      best_feature_ = own == 0 ? AxisFeature{AxisKind::face_of_a, f, -1} : AxisFeature{AxisKind::face_of_b, -1, f};
+      if (best_ > alert) return true;
+    }
+    add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(found.support));
+  }
+}
+
+/// Edges of body `own` whose arc of normals has a part that all witnesses let reach the best. On the arc n = m / |m|
+/// with m = (1 - l) n_left + l n_right, 0 <= l <= 1, |m| <= 1, and a witness asks for m.(w - edge) >= |m| s, which is
+/// at least min(s, 0): linear in l, with the faces' heights at the ends.
+void AxisSearch::collect_edges(const ShapePair& pair, int own) {
+  const CollisionShape& shape = *pair.shape[own];
+  Side& side = side_[own];
+  const size_t stride = shape.faces().padded();
+  // 1e-8 covers that nearly parallel edges know their normal to rounding / kParallelSine only
+  const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.bounds().unevenness;
+  side.edges.clear();
+  const std::span<const CollisionShape::Edge> edges = shape.edges();
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const double* heights = side.heights.data();
+    double low = 0.0, high = 1.0;
+    for (int k = 0; k < side.witnesses && low <= high; ++k, heights += stride) {
+      const double left = heights[edges[e].left] - least, right = heights[edges[e].right] - least;
+      if (left < 0.0) low = right < 0.0 ? 2.0 : std::max(low, left / (left - right));
+      if (left >= 0.0 && right < 0.0) high = std::min(high, left / (left - right));
+    }
+    if (low <= high) side.edges.push_back(static_cast<int>(e));
+  }
+}
+
+bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
+  for (int own : {0, 1}) collect_edges(pair, own);
+  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
+  const Mat3& rotation = pair.other[0].rotation;
+  turned_.clear();
+  for (const int e : side_[1].edges) {
+    const CollisionShape::Edge& edge = b.edges()[e];
+    turned_.push_back({e, rotation * edge.along, -(rotation * edge.left_normal), -(rotation * edge.right_normal)});
+  }
+  // A cheap look at the arcs first: edge_separation decides, in its own rounding.
+  const double blur = 1e-12;
+  for (const int ea : side_[0].edges) {
+    const CollisionShape::Edge& edge = a.edges()[ea];
+    const double length_blur = blur * pair.size();
+    for (const TurnedEdge& other : turned_) {
+      const double left_a = edge.left_normal.dot(other.along), right_a = edge.right_normal.dot(other.along);
+      if (std::min(left_a, right_a) > length_blur || std::max(left_a, right_a) < -length_blur) continue;
+      const double left_b = other.left.dot(edge.along), right_b = other.right.dot(edge.along);
+      if (std::min(left_b, right_b) > length_blur || std::max(left_b, right_b) < -length_blur) continue;
+      const std::optional<EdgeSeparation> found = edge_separation(pair, ea, other.index, heights_);
+      if (!found || !(found->separation >= best_ - tie_tolerance(pair))) continue;
+      edge_pairs_.push_back({ea, other.index, found->separation});
+      if (found->separation <= best_) continue;
+      best_ = found->separation;
+      best_feature_ = {AxisKind::edges, ea, other.index};
+      if (best_ > alert) return true;
+    }
+  }
+  return false;
+}
+
+/// Among all axes within the tie tolerance of the best: faces before edges, a's before b's, the smallest index.
+AxisFeature AxisSearch::choose(const ShapePair& pair) const {
+  const double enough = best_ - tie_tolerance(pair);
+  for (int own : {0, 1}) {
+    const int count = pair.shape[own]->faces().count();
+    for (int f = 0; f < count; ++f) {
+      if (side_[own].value[f] >= enough)
+        return own == 0 ? AxisFeature{AxisKind::face_of_a, f, -1} : AxisFeature{AxisKind::face_of_b, -1, f};
+    }
+  }
+  const EdgePair* first = nullptr;
+  for (const EdgePair& candidate : edge_pairs_) {
+    if (candidate.separation < enough) continue;
+    if (!first || std::pair(candidate.a, candidate.b) < std::pair(first->a, first->b)) first = &candidate;
+  }
+  return {AxisKind::edges, first->a, first->b};
+}
+
+}  // namespace ballast

@@ -1,0 +1,72 @@
+#pragma once
+// The best separating axis of a pair: last step's if it can be proved to be the best still, otherwise an exact search
+// that bounds before it evaluates.
+
+#include <vector>
+
+#include "geometry/contact/separating_axis.hpp"
+
+namespace ballast {
+
+enum class AxisOutcome {
+  separated_by_hint,  ///< the hint's separation exceeds the alert distance
+  proved_by_hint,     ///< the hint is the best axis
+  separated,          ///< found by the search
+  found               ///< the best axis, found by the search
+};
+inline bool is_separated(AxisOutcome outcome) {
+  return outcome == AxisOutcome::separated_by_hint || outcome == AxisOutcome::separated;
+}
+
+/// Holds scratch memory; one per thread.
+class AxisSearch {
+ public:
+  /// `shapes`: all that will be asked for, to size the scratch.
+  explicit AxisSearch(std::span<const CollisionShape> shapes);
+
+  /// The best axis of the pair, unless some facet's separation exceeds `alert` [m]: then no more than that is found
+  /// out: of `axis` then the separation alone is set, that of the facet found. `hint`: a facet to start from, of any
+  /// kind or none; on return the one that decided. Outcome (separated or not) and, unless separated, axis do not depend
+  /// on the hint, to the last bit.
+  AxisOutcome find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis);
+
+ private:
+  /// What is known of the facets on one body's side. A witness is a point of the other body, in this body's frame: as a
+  /// face f of this body is its support along n_f, s(n_f) <= n_f.w - offset_f.
+  struct Side {
+    std::vector<double> bound;    // per face: upper bound of its separation; -infinity once evaluated
+    std::vector<double> value;    // per face: its separation, -infinity unless evaluated
+    std::vector<double> heights;  // per witness and face: n_f.w - offset_f
+    std::vector<int> edges;       // that the witnesses do not rule out
+    int witnesses = 0;
+  };
+  struct EdgePair {
+    int a, b;
+    double separation;
+  };
+  /// An edge of b in a's frame, arc reversed.
+  struct TurnedEdge {
+    int index;
+    Vec3 along, left, right;
+  };
+
+  AxisOutcome search(const ShapePair& pair, double alert, const SeparatingAxis* start, AxisFeature& hint,
+                     SeparatingAxis& axis);
+  void start_side(const ShapePair& pair, int own);
+  void add_witness(const ShapePair& pair, int own, const Vec3& point);
+  void add_witnesses_of(const ShapePair& pair, const SeparatingAxis& axis);
+  bool search_faces(const ShapePair& pair, int own, double alert);
+  void collect_edges(const ShapePair& pair, int own);
+  bool search_edges(const ShapePair& pair, double alert);
+  AxisFeature choose(const ShapePair& pair) const;
+
+  static constexpr int kWitnesses = 12;
+  Heights heights_;
+  Side side_[2];
+  std::vector<EdgePair> edge_pairs_;  // evaluated, near or above the best when they were
+  std::vector<TurnedEdge> turned_;
+  double best_ = 0.0;  // largest separation so far
+  AxisFeature best_feature_;
+};
+
+}  // namespace ballast

@@ -1,0 +1,127 @@
+#include "geometry/contact/broad_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ballast {
+
+Travel step_bound(const Pose& from, const Pose& to) {
+  const double same = (to.rotation.coeffs() - from.rotation.coeffs()).squaredNorm();
+  const double opposite = (to.rotation.coeffs() + from.rotation.coeffs()).squaredNorm();
+  return {(to.position - from.position).norm(), 2.0 * std::sqrt(std::min(same, opposite))};
+}
+
+Box bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position) {
+  const AffineRows& vertices = shape.vertices();
+  Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+  for (int v = 0; v < vertices.count(); ++v) {
+    const Vec3 p = rotation * vertices.xyz(v);
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  box.low += position;
+  box.high += position;
+  return box;
+}
+
+BroadPhase::BroadPhase(std::vector<Body> bodies, double skin) : bodies_(std::move(bodies)), skin_(skin) {
+  boxes_.resize(bodies_.size());
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    radius_.push_back(bodies_[i].shape ? bodies_[i].shape->circumradius() : 0.0);
+    if (bodies_[i].shape) order_.push_back(static_cast<int>(i));
+  }
+  first_.assign(bodies_.size() + 1, 0);
+}
+
+void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotations, std::span<const double> reach) {
+  if (still_valid(poses, reach)) return;
+  grow_boxes(poses, rotations, reach);
+  sweep();
+  std::swap(pairs_, old_pairs_);
+  sort_pairs();
+  carry_memory();
+  ++rebuilds_;
+}
+
+bool BroadPhase::still_valid(std::span<const Pose> poses, std::span<const double> reach) const {
+  if (listed_pose_.empty()) return false;
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].shape) continue;
+    const Travel moved = step_bound(listed_pose_[i], poses[i]);
+    if (!(moved.shift + radius_[i] * moved.turn + reach[i] <= allowance_[i])) return false;
+  }
+  return true;
+}
+
+/// Fast bodies get a margin of several steps' reach: one of them must not cause a new list in every step.
+void BroadPhase::grow_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
+                            std::span<const double> reach) {
+  listed_pose_.assign(poses.begin(), poses.end());
+  allowance_.assign(reach.begin(), reach.end());
+  for (const int i : order_) {
+    const CollisionShape& shape = *bodies_[i].shape;
+    allowance_[i] += std::max(0.5 * skin_, std::min(8.0 * reach[i], shape.circumradius()));
+    boxes_[i] = bounding_box(shape, rotations[i], poses[i].position);
+    boxes_[i].low.array() -= allowance_[i];
+    boxes_[i].high.array() += allowance_[i];
+  }
+}
+
+/// Along the axis on which the bodies are spread out most.
+void BroadPhase::sweep() {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+  for (const int i : order_) {
+    low = low.cwiseMin(boxes_[i].low);
+    high = high.cwiseMax(boxes_[i].low);
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  const int second = (axis + 1) % 3, third = (axis + 2) % 3;
+  std::sort(order_.begin(), order_.end(), [&](int i, int j) {
+    const double a = boxes_[i].low[axis], b = boxes_[j].low[axis];
+    return a < b || (a == b && i < j);
+  });
+  found_.clear();
+  for (size_t k = 0; k < order_.size(); ++k) {
+    const int i = order_[k];
+    const Box& box = boxes_[i];
+    for (size_t l = k + 1; l < order_.size(); ++l) {
+      const int j = order_[l];
+      const Box& other = boxes_[j];
+      if (other.low[axis] > box.high[axis]) break;
+      if (other.low[second] > box.high[second] || other.high[second] < box.low[second]) continue;
+      if (other.low[third] > box.high[third] || other.high[third] < box.low[third]) continue;
+      if (bodies_[i].fixed && bodies_[j].fixed) continue;
+      found_.emplace_back(std::min(i, j), std::max(i, j));
+    }
+  }
+}
+
+/// By a with counting, then by b within each a.
+void BroadPhase::sort_pairs() {
+  std::fill(first_.begin(), first_.end(), 0);
+  for (const auto& [a, b] : found_) ++first_[a + 1];
+  for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
+  pairs_.resize(found_.size());
+  for (const auto& [a, b] : found_)
+    pairs_[first_[a]++] = {a, b, {}, -1.0, 0.0, 0.0, -1};  // first_[a] ends where a + 1 begins
+  for (size_t a = bodies_.size(); a > 0; --a) first_[a] = first_[a - 1];
+  first_[0] = 0;
+  for (size_t a = 0; a < bodies_.size(); ++a) {
+    std::sort(pairs_.begin() + first_[a], pairs_.begin() + first_[a + 1],
+              [](const CandidatePair& p, const CandidatePair& q) { return p.b < q.b; });
+  }
+}
+
+void BroadPhase::carry_memory() {
+  size_t old = 0;
+  for (CandidatePair& pair : pairs_) {
+    while (old < old_pairs_.size() && std::pair(old_pairs_[old].a, old_pairs_[old].b) < std::pair(pair.a, pair.b))
+      ++old;
+    if (old == old_pairs_.size()) break;
+    if (old_pairs_[old].a == pair.a && old_pairs_[old].b == pair.b) pair = old_pairs_[old];
+  }
+}
+
+}  // namespace ballast

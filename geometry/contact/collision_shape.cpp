@@ -1,0 +1,190 @@
+#include "geometry/contact/collision_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ballast {
+namespace {
+
+constexpr int kLanes = 8;       // one AVX-512 register, two AVX, four SSE2
+constexpr double kFar = 1e100;  // [m]; finite, so that sums of padding stay finite
+
+int rounded_up(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
+
+/// The boundary of a patch of faces as one loop, counter-clockwise from outside, from its smallest vertex on.
+std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<int>& patch, int id) {
+  std::vector<std::pair<int, int>> next;  // (corner, the corner after it)
+  for (int f = 0; f < polyhedron.face_count(); ++f) {
+    if (patch[f] != id) continue;
+    const std::span<const int> loop = polyhedron.face(f), across = polyhedron.face_neighbours(f);
+    for (size_t k = 0; k < loop.size(); ++k) {
+      if (patch[across[k]] != id) next.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
+    }
+  }
+  std::sort(next.begin(), next.end());
+  std::vector<int> loop{next.front().first};
+  while (loop.size() < next.size()) {
+    loop.push_back(std::lower_bound(next.begin(), next.end(), std::pair(loop.back(), -1))->second);
+  }
+  return loop;
+}
+
+Vec3 newell_normal(const Polyhedron& polyhedron, std::span<const int> loop) {
+  const Vec3& first = polyhedron.vertex(loop[0]);
+  Vec3 area2 = Vec3::Zero();
+  for (size_t k = 2; k < loop.size(); ++k)
+    area2 += (polyhedron.vertex(loop[k - 1]) - first).cross(polyhedron.vertex(loop[k]) - first);
+  return area2.normalized();
+}
+
+}  // namespace
+
+AffineRows::AffineRows(int count, double padding) : count_(count), padded_(rounded_up(count)) {
+  table_.assign(4 * static_cast<size_t>(padded_), 0.0);
+  std::fill(table_.end() - padded_, table_.end(), padding);
+}
+
+void AffineRows::set(int row, const Vec3& xyz, double w) {
+  for (int axis = 0; axis < 3; ++axis) table_[axis * static_cast<size_t>(padded_) + row] = xyz[axis];
+  table_[3 * static_cast<size_t>(padded_) + row] = w;
+}
+
+void AffineRows::evaluate(const Vec3& d, double* __restrict values) const {
+  const double dx = d.x(), dy = d.y(), dz = d.z();
+  const double* __restrict x = table_.data();
+  const double* __restrict y = x + padded_;
+  const double* __restrict z = y + padded_;
+  const double* __restrict w = z + padded_;
+  for (int i = 0; i < padded_; ++i) values[i] = ((dx * x[i] + dy * y[i]) + dz * z[i]) + w[i];
+}
+
+CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
+  bounds_.circumradius = polyhedron.circumradius();
+  vertices_ = AffineRows(polyhedron.vertex_count(), kFar);
+  for (int v = 0; v < polyhedron.vertex_count(); ++v) vertices_.set(v, polyhedron.vertex(v), 0.0);
+  const std::vector<int> patch = merge_coplanar(polyhedron);
+  build_faces(polyhedron, patch);
+  build_sides(polyhedron, patch);
+  build_vertex_faces(polyhedron, patch);
+  build_ball(polyhedron);
+  faces_.shrink_to_fit();  // thousands of shapes are kept
+  edges_.shrink_to_fit();
+  corners_.shrink_to_fit();
+  vertex_begin_.shrink_to_fit();
+  vertex_faces_.shrink_to_fit();
+}
+
+/// Number of the patch that each face belongs to; patches are numbered by their first face. A face joins when it is
+/// parallel to the patch's first face, so that slow curvature does not add up.
+std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
+  std::vector<int> patch(polyhedron.normals().size(), -1), queue;
+  int count = 0;
+  for (int first = 0; first < polyhedron.face_count(); ++first) {
+    if (patch[first] >= 0) continue;
+    patch[first] = count;
+    queue.assign(1, first);
+    for (size_t i = 0; i < queue.size(); ++i) {
+      for (const int g : polyhedron.face_neighbours(queue[i])) {
+        if (patch[g] >= 0 || polyhedron.normal(g).dot(polyhedron.normal(first)) < 0.0) continue;
+        if (polyhedron.normal(g).cross(polyhedron.normal(first)).norm() > coplanar_angle) continue;
+        patch[g] = count;
+        queue.push_back(g);
+      }
+    }
+    ++count;
+  }
+  return patch;
+}
+
+void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+  const int count = 1 + *std::max_element(patch.begin(), patch.end());
+  std::vector<int> members(count, 0), seed(count, 0);
+  for (int f = polyhedron.face_count() - 1; f >= 0; --f) {
+    ++members[patch[f]];
+    seed[patch[f]] = f;
+  }
+  face_rows_ = AffineRows(count, -kFar);
+  std::vector<double> heights(vertices_.padded());
+  for (int p = 0; p < count; ++p) {
+    std::vector<int> loop(polyhedron.face(seed[p]).begin(), polyhedron.face(seed[p]).end());
+    Vec3 normal = polyhedron.normal(seed[p]);
+    if (members[p] > 1) {
+      loop = boundary_loop(polyhedron, patch, p);
+      normal = newell_normal(polyhedron, loop);
+    }
+    vertices_.evaluate(normal, heights.data());
+    const double offset = *std::max_element(heights.begin(), heights.begin() + vertices_.count());
+    face_rows_.set(p, normal, -offset);
+    faces_.push_back({normal, offset, 1.0, static_cast<int>(corners_.size()), static_cast<int>(loop.size())});
+    for (const int v : loop) {
+      corners_.push_back({v, -1, polyhedron.vertex(v)});
+      bounds_.unevenness = std::max(bounds_.unevenness, offset - heights[v]);
+    }
+  }
+  for (Face& face : faces_) {
+    for (const Face& other : faces_) {
+      if (&face == &other || face.normal.dot(other.normal) < 0.5) continue;
+      face.isolation = std::min(face.isolation, face.normal.cross(other.normal).norm());  // sine <= angle
+    }
+  }
+}
+
+void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+  sides_.resize(corners_.size());
+  const auto add_side = [&](int f, int from, int to) {
+    const auto first = corners_.begin() + faces_[f].first_corner;
+    const auto corner = std::find_if(first, corners_.end(), [&](const Corner& c) { return c.vertex == from; });
+    corner->edge = static_cast<int>(edges_.size());
+    const Vec3 outward = (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_[f].normal).normalized();
+    const double offset = std::max(outward.dot(polyhedron.vertex(from)), outward.dot(polyhedron.vertex(to)));
+    sides_[corner - corners_.begin()] = {outward, offset};
+  };
+  for (const Polyhedron::Edge& edge : polyhedron.edges()) {
+    const int left = patch[edge.left], right = patch[edge.right];
+    if (left == right) continue;
+    add_side(left, edge.tail, edge.head);
+    add_side(right, edge.head, edge.tail);
+    const Vec3 &left_normal = faces_[left].normal, &right_normal = faces_[right].normal;
+    // n = p left_normal + q right_normal with p, q = |right_normal.u|, |left_normal.u| times length / (sine |along x
+    // u|)
+    double below = kFar;
+    for (int v = 0; v < polyhedron.vertex_count(); ++v) {
+      if (v == edge.tail || v == edge.head) continue;
+      below = std::min(below, faces_[left].offset - left_normal.dot(polyhedron.vertex(v)) + faces_[right].offset -
+                                  right_normal.dot(polyhedron.vertex(v)));
+    }
+    const Vec3 tail = polyhedron.vertex(edge.tail), along = polyhedron.vertex(edge.head) - tail;
+    const double length = along.norm(), sine = left_normal.cross(right_normal).norm();
+    edges_.push_back(
+        {tail, along, left_normal, right_normal, length, below * length / sine, edge.tail, edge.head, left, right});
+  }
+}
+
+void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+  vertex_begin_.assign(1, 0);
+  for (int v = 0; v < polyhedron.vertex_count(); ++v) {
+    for (const int f : polyhedron.vertex_faces(v)) vertex_faces_.push_back(patch[f]);
+    const auto begin = vertex_faces_.begin() + vertex_begin_.back();
+    std::sort(begin, vertex_faces_.end());
+    vertex_faces_.erase(std::unique(begin, vertex_faces_.end()), vertex_faces_.end());
+    vertex_begin_.push_back(static_cast<int>(vertex_faces_.size()));
+  }
+}
+
+/// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is larger: the mean is
+/// always strictly inside, the origin of a user's frame need not be.
+void CollisionShape::build_ball(const Polyhedron& polyhedron) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : polyhedron.vertices()) mean += p;
+  mean /= static_cast<double>(polyhedron.vertex_count());
+  const auto radius_about = [&](const Vec3& centre) {
+    double nearest = kFar;
+    for (const Face& face : faces_) nearest = std::min(nearest, face.offset - face.normal.dot(centre));
+    return nearest;
+  };
+  if (radius_about(mean) > radius_about(Vec3::Zero())) bounds_.ball_centre = mean;
+  bounds_.ball_radius = radius_about(bounds_.ball_centre);
+}
+
+}  // namespace ballast

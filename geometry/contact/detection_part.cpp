@@ -1,0 +1,242 @@
+#include "geometry/contact/detection_part.hpp"
+
+#include <algorithm>
+
+namespace ballast {
+
+DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies, double reuse_motion)
+    : shapes(std::move(bodies)), tables(shapes), travel(shapes.size()), rotations(shapes.size()) {
+  for (int i = 0; i < count(); ++i) bounds.push_back(shape(i) ? shape(i)->bounds() : BodyBounds{});
+  if (reuse_motion > 0.0)
+    for (const BodyBounds& body : bounds) margin.push_back(reuse_motion * body.circumradius);
+}
+
+DetectionPart::DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings)
+    : bodies_(bodies), settings_(settings), search_(bodies.tables.tables) {
+  size_t vertices = 0;
+  for (const CollisionShape& shape : bodies.tables.tables)
+    vertices = std::max(vertices, static_cast<size_t>(shape.vertices().padded()));
+  heights_.resize(vertices);
+}
+
+void DetectionPart::take_range(int begin, int end, size_t pairs) {
+  begin_ = begin;
+  end_ = end;
+  records_.touching.reserve(pairs);
+  if (bodies_.holds()) records_.held.reserve(pairs);
+}
+
+void DetectionPart::lay_aside() {
+  std::swap(records_, laid_aside_);
+  records_.touching.clear();
+  records_.held.clear();
+}
+
+void DetectionPart::adopt(CandidatePair& pair, const DetectionPart& from) {
+  const int old = std::exchange(pair.touching, static_cast<int>(records_.touching.size()));
+  records_.touching.push_back(from.laid_aside_.touching[old]);
+  if (bodies_.holds()) records_.held.push_back(from.laid_aside_.held[old]);
+}
+
+void DetectionPart::drop_held() {
+  for (HeldManifold& held : records_.held) held.drop();
+}
+
+void DetectionPart::detect(BroadPhase& broad_phase, std::vector<ContactPoint>& contacts) {
+  counters_ = DetectionCounters{};
+  choose_pairs(broad_phase);
+  size_t next = 0;
+  for (int a = begin_; a < end_; ++a) {
+    if (!bodies_.shape(a)) detect_plane(a, contacts);
+    for (; next < chosen_.size() && chosen_[next] < broad_phase.first(a + 1); ++next) {
+      fetch(broad_phase, next + 4);
+      detect_pair(broad_phase.pairs()[chosen_[next]], contacts);
+    }
+  }
+}
+
+/// What the bodies of a pair have used up of its bound, less their reaches.
+double DetectionPart::bound_use(const CandidatePair& pair) const {
+  const Travel &a = bodies_.travel[pair.a], &b = bodies_.travel[pair.b];
+  return (a.shift + b.shift) + (pair.arm_a * a.turn + pair.arm_b * b.turn);
+}
+
+/// All candidates but those whose separation is proved without a look at their shapes.
+void DetectionPart::choose_pairs(const BroadPhase& broad_phase) {
+  chosen_.clear();
+  const std::span<const CandidatePair> pairs = broad_phase.pairs();
+  const std::span<const double> reach = bodies_.reach;
+  const int end = broad_phase.first(end_);
+  counters_.candidate_pairs = end - broad_phase.first(begin_);
+  for (int k = broad_phase.first(begin_); k < end; ++k) {
+    const CandidatePair& pair = pairs[k];
+    if (settings_.use_cache && bound_use(pair) + (reach[pair.a] + reach[pair.b]) < pair.apart_below)
+      counters_.cached_separations += pair.arm_a > 0.0;  // by an axis, not by the spheres alone
+    else
+      chosen_.push_back(k);
+  }
+}
+
+/// `separation` shrinks by no more than the origins move and the arms times the turns.
+void DetectionPart::bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const {
+  pair.arm_a = arm_a;
+  pair.arm_b = arm_b;
+  const double use = bound_use(pair);
+  // far above the rounding of separations and of sums over 1e7 steps
+  pair.apart_below =
+      separation + use - 1e-9 * (bodies_.bounds[pair.a].circumradius + bodies_.bounds[pair.b].circumradius + use);
+}
+
+/// Of a pair whose axis separates it, at this `distance` of the origins. A face's separation is the least n.(x - p) of
+/// the other body's points x, less the face's offset: it shrinks by no more than x and the face's body p move, and by
+/// that body's turn times |x - p|. A separating face is found whatever the hint, hence the outcome is the one without a
+/// bound. An edge pair may cease to be a facet: no bound.
+void DetectionPart::bound_separated(CandidatePair& pair, double distance, double separation) const {
+  const double radius_a = bodies_.bounds[pair.a].circumradius, radius_b = bodies_.bounds[pair.b].circumradius;
+  if (pair.axis.kind == AxisKind::face_of_a) bound_separation(pair, distance + radius_b, radius_b, separation);
+  if (pair.axis.kind == AxisKind::face_of_b) bound_separation(pair, radius_a, distance + radius_a, separation);
+}
+
+/// Every vertex within reach is a point.
+void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts) {
+  const std::span<const Pose> poses = bodies_.poses;
+  const std::span<const double> reach = bodies_.given_reach;  // never held on to
+  const Vec3 normal = bodies_.rotations[plane] * bodies_.shapes[plane].plane.normal;
+  const Vec3& origin = poses[plane].position;
+  for (int b = 0; b < bodies_.count(); ++b) {
+    const CollisionShape* body = bodies_.shape(b);
+    if (!body || (bodies_.shapes[plane].fixed && bodies_.shapes[b].fixed)) continue;
+    const double alert = reach[plane] + reach[b];
+    const double height = normal.dot(poses[b].position - origin);
+    if (height > bodies_.bounds[b].circumradius + alert) continue;
+    body->vertices().evaluate(bodies_.rotations[b].transpose() * normal, heights_.data());
+    const size_t before = contacts.size();
+    for (int v = 0; v < body->vertices().count(); ++v) {
+      const double gap = height + heights_[v];
+      if (gap > alert) continue;
+      const Vec3 vertex = poses[b].position + bodies_.rotations[b] * body->vertices().xyz(v);
+      contacts.push_back(
+          {plane, b, feature_key(PointKind::vertex_of_b, 0, v), normal, vertex - 0.5 * gap * normal, gap});
+    }
+    if (contacts.size() > before) ++counters_.manifolds;
+  }
+}
+
+void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoint>& contacts) {
+  const std::span<const Pose> poses = bodies_.poses;
+  const std::span<const double> reach = bodies_.reach;
+  const int a = candidate.a, b = candidate.b;
+  const double alert = reach[a] + reach[b];
+  const Vec3 between = poses[b].position - poses[a].position;
+  const double radii = bodies_.bounds[a].circumradius + bodies_.bounds[b].circumradius;
+  if (between.squaredNorm() > (radii + alert) * (radii + alert)) {
+    bound_separation(candidate, 0.0, 0.0, between.norm() - radii);  // of the spheres
+    return;
+  }
+
+  // as products with transposes: a transposed copy would add in another order, and published runs have these bits
+  const Mat3& rotation = bodies_.rotations[a];
+  const RelativePose b_in_a{rotation.transpose() * bodies_.rotations[b], rotation.transpose() * between};
+  if (append_held(candidate, b_in_a, contacts)) return;
+  candidate.apart_below = -1.0;
+  SeparatingAxis axis;
+  const double turn = bodies_.travel[a].turn + bodies_.travel[b].turn;
+  if (settings_.use_cache && candidate.touching >= 0) {
+    const PairFrame pair(bodies_.bounds[a], bodies_.bounds[b], b_in_a);
+    ManifoldPoint point;
+    switch (records_.touching[candidate.touching].look(pair, turn, alert, axis, point)) {
+      case TouchingPair::Look::touching:
+        ++counters_.proved_axes;
+        return append(candidate, b_in_a, axis, {&point, 1}, contacts);
+      case TouchingPair::Look::apart:
+        ++counters_.cached_separations;
+        return bound_separated(candidate, between.norm(), axis.separation);
+      case TouchingPair::Look::undecided:
+        break;
+    }
+  }
+
+  const ShapePair pair(*bodies_.shape(a), *bodies_.shape(b), b_in_a);
+  if (!settings_.use_cache) candidate.axis = {};
+  const AxisOutcome outcome = search_.find(pair, alert, candidate.axis, axis);
+  if (outcome == AxisOutcome::separated_by_hint) ++counters_.cached_separations;
+  if (outcome == AxisOutcome::proved_by_hint) ++counters_.proved_axes;
+  if (outcome == AxisOutcome::separated || outcome == AxisOutcome::found) ++counters_.full_tests;
+  if (is_separated(outcome)) return bound_separated(candidate, between.norm(), axis.separation);
+  // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says. Which of them count
+  // must not depend on which the broad phase happened to list: those that it lists with no margin at all.
+  if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, alert)) return;
+  if (settings_.use_cache) remember(candidate, pair, axis, turn);
+  append(candidate, b_in_a, axis, manifold_.points(pair, axis, alert, settings_.max_points), contacts);
+}
+
+/// Points found within the wide reach; where they are held on to, only those within the given one are contacts now.
+void DetectionPart::append(const CandidatePair& candidate, const RelativePose& b_in_a, const SeparatingAxis& axis,
+                           std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts) {
+  const int a = candidate.a, b = candidate.b;
+  append(candidate, axis.normal, points, bodies_.given_reach[a] + bodies_.given_reach[b], contacts);
+  if (!bodies_.holds()) return;
+  const ShapePair pair(*bodies_.shape(a), *bodies_.shape(b), b_in_a);
+  records_.held[candidate.touching].hold(pair, axis, points, bodies_.reach[a] + bodies_.reach[b]);
+}
+
+void DetectionPart::append(const CandidatePair& candidate, const Vec3& normal, std::span<const ManifoldPoint> points,
+                           double alert, std::vector<ContactPoint>& contacts) {
+  const size_t before = contacts.size();
+  const Mat3& rotation = bodies_.rotations[candidate.a];
+  const Vec3 normal_W = rotation * normal, origin = bodies_.poses[candidate.a].position;
+  for (const ManifoldPoint& point : points)
+    if (point.gap <= alert)
+      contacts.push_back(
+          {candidate.a, candidate.b, point.key, normal_W, origin + rotation * point.position, point.gap});
+  if (contacts.size() > before) ++counters_.manifolds;
+}
+
+/// False: nothing is held, or no longer; then it is let go.
+bool DetectionPart::append_held(const CandidatePair& candidate, const RelativePose& b_in_a,
+                                std::vector<ContactPoint>& contacts) {
+  if (!bodies_.holds() || candidate.touching < 0) return false;
+  HeldManifold& held = records_.held[candidate.touching];
+  const double alert = bodies_.given_reach[candidate.a] + bodies_.given_reach[candidate.b];
+  if (!held.is_valid(b_in_a, bodies_.bounds[candidate.b].circumradius, alert)) {
+    held.drop();
+    return false;
+  }
+  ++counters_.reused;
+  Vec3 normal;
+  std::array<ManifoldPoint, HeldManifold::most_points> storage;
+  append(candidate, normal, held.points(b_in_a, alert, normal, storage), alert, contacts);
+  return true;
+}
+
+void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis, double turn) {
+  if (candidate.touching < 0) {
+    candidate.touching = static_cast<int>(records_.touching.size());
+    records_.touching.emplace_back();
+    if (bodies_.holds()) records_.held.emplace_back();
+  }
+  records_.touching[candidate.touching].record(pair, axis, turn);
+}
+
+/// The record is needed four pairs from now; the list of pairs is read in order, its records nearly so.
+void DetectionPart::fetch(const BroadPhase& broad_phase, size_t next) const {
+  if (next >= chosen_.size()) return;
+  const int record = broad_phase.pairs()[chosen_[next]].touching;
+  if (record < 0) return;
+  const auto fetch_all = [](const auto& object) {
+    const char* lines = reinterpret_cast<const char*>(&object);
+    for (size_t line = 0; line < sizeof object; line += 64) __builtin_prefetch(lines + line);
+  };
+  if (bodies_.holds())
+    fetch_all(records_.held[record]);
+  else
+    fetch_all(records_.touching[record]);
+}
+
+bool DetectionPart::boxes_within_reach(const CandidatePair& pair, double alert) const {
+  const Box box_a = bounding_box(*bodies_.shape(pair.a), bodies_.rotations[pair.a], bodies_.poses[pair.a].position);
+  const Box box_b = bounding_box(*bodies_.shape(pair.b), bodies_.rotations[pair.b], bodies_.poses[pair.b].position);
+  return (box_b.low - box_a.high).maxCoeff() <= alert && (box_a.low - box_b.high).maxCoeff() <= alert;
+}
+
+}  // namespace ballast

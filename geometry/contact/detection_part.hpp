@@ -1,0 +1,91 @@
+#pragma once
+// A share of the pairs that a detection looks at: what it remembers of them, and scratch memory of its own, so that
+// shares can be looked at side by side.
+
+#include <utility>
+#include <vector>
+
+#include "geometry/contact/axis_search.hpp"
+#include "geometry/contact/broad_phase.hpp"
+#include "geometry/contact/held_manifold.hpp"
+#include "geometry/contact/shape_tables.hpp"
+#include "geometry/contact/touching_pair.hpp"
+
+namespace ballast {
+
+/// The bodies as a detection finds them: read by all parts, written by none.
+struct DetectedBodies {
+  DetectedBodies(std::vector<ContactShape> bodies, double reuse_motion);
+
+  const CollisionShape* shape(int body) const {
+    return tables.index[body] < 0 ? nullptr : &tables.tables[tables.index[body]];
+  }
+  int count() const { return static_cast<int>(shapes.size()); }
+
+  std::vector<ContactShape> shapes;
+  ShapeTables tables;
+  std::vector<BodyBounds> bounds;  ///< of all bodies, in one place; zero for planes
+  std::vector<Travel> travel;      ///< since the first call
+  std::vector<Mat3> rotations;     ///< R_WB at the poses of this call
+  std::span<const Pose> poses;     ///< of this call, as the reaches
+  std::span<const double> reach;   ///< with margins, where points are held on to
+
+  bool holds() const { return !margin.empty(); }
+  std::span<const double> given_reach;
+  std::vector<double> margin;  ///< how far each body may move while points are held on to [m]; empty: they are not
+};
+
+/// The planes and pairs of a range of bodies a. Part 0's contacts, part 1's and so on are in the order of all.
+class DetectionPart {
+ public:
+  DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings);
+
+  /// Bodies begin <= a < end from now on, with so many pairs; records of pairs are taken over by adopt().
+  void take_range(int begin, int end, size_t pairs);
+  int begin() const { return begin_; }
+  int end() const { return end_; }
+  /// Lays aside what is remembered of touching pairs, for adopt() by the part that each of them belongs to next.
+  void lay_aside();
+  void adopt(CandidatePair& pair, const DetectionPart& from);
+  void drop_held();
+
+  /// Appends the contacts of its range, sorted by (body_a, body_b, feature).
+  void detect(BroadPhase& broad_phase, std::vector<ContactPoint>& contacts);
+
+  /// Of the last detect().
+  const DetectionCounters& counters() const { return counters_; }
+  std::vector<ContactPoint> found;  ///< where the caller may let it put them
+
+ private:
+  void choose_pairs(const BroadPhase& broad_phase);
+  void fetch(const BroadPhase& broad_phase, size_t next) const;
+  void detect_plane(int plane, std::vector<ContactPoint>& contacts);
+  void detect_pair(CandidatePair& pair, std::vector<ContactPoint>& contacts);
+  bool append_held(const CandidatePair& candidate, const RelativePose& b_in_a, std::vector<ContactPoint>& contacts);
+  void append(const CandidatePair& candidate, const RelativePose& b_in_a, const SeparatingAxis& axis,
+              std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts);
+  void append(const CandidatePair& candidate, const Vec3& normal, std::span<const ManifoldPoint> points, double alert,
+              std::vector<ContactPoint>& contacts);
+  void remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis, double turn);
+  void bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const;
+  void bound_separated(CandidatePair& pair, double distance, double separation) const;
+  double bound_use(const CandidatePair& pair) const;
+  bool boxes_within_reach(const CandidatePair& pair, double alert) const;
+
+  struct Records {
+    std::vector<TouchingPair> touching;
+    std::vector<HeldManifold> held;
+  };
+
+  const DetectedBodies& bodies_;
+  const DetectionSettings& settings_;
+  int begin_ = 0, end_ = 0;
+  AxisSearch search_;
+  ContactManifold manifold_;
+  Heights heights_;
+  Records records_, laid_aside_;  // of touching pairs
+  std::vector<int> chosen_;       // candidate pairs that must be looked at
+  DetectionCounters counters_;
+};
+
+}  // namespace ballast

@@ -1,0 +1,92 @@
+#include "geometry/shape/mass_properties.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <utility>
+
+namespace ballast {
+
+namespace {
+
+/// Largest off-diagonal entry over the largest entry: 0 when the axes are principal.
+double off_diagonal(const Mat3& inertia) {
+  const double off = std::max({std::abs(inertia(0, 1)), std::abs(inertia(0, 2)), std::abs(inertia(1, 2))});
+  return off / inertia.diagonal().cwiseAbs().maxCoeff();
+}
+
+/// Columns: principal axes in the frame of `inertia`, moments ascending, right-handed. The sign of each axis is free:
+/// the largest component of the first two is made positive, so that the choice does not depend on the eigensolver.
+Mat3 principal_axes(const Mat3& inertia) {
+  if (off_diagonal(inertia) <= 1e-12) return Mat3::Identity();
+  Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvectors();
+  for (int k = 0; k < 2; ++k) {
+    Eigen::Index largest;
+    axes.col(k).cwiseAbs().maxCoeff(&largest);
+    if (axes(largest, k) < 0.0) axes.col(k) *= -1.0;
+  }
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
+
+Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& origin) {
+  std::vector<Vec3> vertices;
+  for (const Vec3& p : polyhedron.vertices()) vertices.push_back(axes.transpose() * (p - origin));
+  std::vector<std::vector<int>> faces;
+  for (int f = 0; f < polyhedron.face_count(); ++f)
+    faces.emplace_back(polyhedron.face(f).begin(), polyhedron.face(f).end());
+  // twice the constructor's tolerance: a motion adds its rounding to faces that were just flat enough
+  return Polyhedron(std::move(vertices), faces, 2e-9);
+}
+
+}  // namespace
+
+/// Tetrahedra from one inner point to a fan of each face; for a tetrahedron (0, a, b, c) with d = det(a, b, c):
+/// volume d/6, first moment d/24 (a+b+c), second moment d/120 (a a' + b b' + c c' + (a+b+c)(a+b+c)').
+MassProperties mass_properties(const Polyhedron& polyhedron) {
+  Vec3 reference = Vec3::Zero();
+  for (const Vec3& p : polyhedron.vertices()) reference += p;
+  reference /= polyhedron.vertex_count();
+
+  double volume = 0.0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+  for (int f = 0; f < polyhedron.face_count(); ++f) {
+    const std::span<const int> loop = polyhedron.face(f);
+    const Vec3 a = polyhedron.vertex(loop[0]) - reference;
+    for (size_t k = 2; k < loop.size(); ++k) {
+      const Vec3 b = polyhedron.vertex(loop[k - 1]) - reference;
+      const Vec3 c = polyhedron.vertex(loop[k]) - reference;
+      const double d = a.dot(b.cross(c));
+      const Vec3 sum = a + b + c;
+      volume += d / 6.0;
+      first += d / 24.0 * sum;
+      second += d / 120.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    }
+  }
+  MassProperties result;
+  result.volume = volume;
+  const Vec3 centre = first / volume;
+  result.centre = reference + centre;
+  const Mat3 about_centre = second - volume * centre * centre.transpose();
+  result.inertia = about_centre.trace() * Mat3::Identity() - about_centre;
+  return result;
+}
+
+PrincipalShape to_principal_frame(const Polyhedron& polyhedron) {
+  MassProperties properties = mass_properties(polyhedron);
+  Mat3 axes = principal_axes(properties.inertia);
+  Vec3 origin = properties.centre;
+  Polyhedron shape = in_frame(polyhedron, axes, origin);
+  properties = mass_properties(shape);
+
+  // A mesh far from its origin leaves rounding of its distance behind: one correction, from the now near shape.
+  if (properties.centre.norm() > 1e-15 * shape.circumradius() || off_diagonal(properties.inertia) > 1e-12) {
+    const Mat3 correction = principal_axes(properties.inertia);
+    shape = in_frame(shape, correction, properties.centre);
+    origin += axes * properties.centre;
+    axes = axes * correction;
+    properties = mass_properties(shape);
+  }
+  return {std::move(shape), properties.volume, properties.inertia.diagonal(), Pose{origin, Quat(axes).normalized()}};
+}
+
+}  // namespace ballast

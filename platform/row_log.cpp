@@ -1,0 +1,172 @@
+#include "platform/row_log.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "platform/atomic_file.hpp"
+#include "platform/content_key.hpp"
+#include "experiments/run/run.hpp"
+
+namespace ballast {
+
+namespace {
+
+constexpr char magic[8] = {'B', 'A', 'L', 'L', 'R', 'O', 'W', 'S'};
+constexpr std::uint32_t version = 1;
+constexpr std::uint32_t byte_order = 0x01020304;
+
+struct FixedHeader {
+  char magic[8];
+  std::uint32_t version, byte_order;
+  std::uint64_t row_size, owner, text_length;
+};
+static_assert(sizeof(FixedHeader) == 40);
+
+/// How many rows are safe, at its fixed place after the header's fixed part: it alone is written again.
+struct SafeMark {
+  std::uint64_t rows, checksum;
+  explicit SafeMark(std::uint64_t count = 0)
+      : rows(count), checksum(fnv1a({reinterpret_cast<const char*>(&rows), 8})) {}
+};
+
+std::uint64_t header_checksum(const FixedHeader& fixed, std::string_view text) {
+  return fnv1a(text, fnv1a({reinterpret_cast<const char*>(&fixed), sizeof fixed}));
+}
+
+/// With the row's number, so that rows that changed places are found as well.
+std::uint64_t row_checksum(long number, std::span<const double> row) {
+  const std::uint64_t n = static_cast<std::uint64_t>(number);
+  return fnv1a({reinterpret_cast<const char*>(row.data()), row.size_bytes()},
+               fnv1a({reinterpret_cast<const char*>(&n), sizeof n}));
+}
+
+size_t row_bytes(size_t row_size) { return row_size * sizeof(double) + sizeof(std::uint64_t); }
+
+row_log::File open_file(const std::filesystem::path& path, const char* mode, const char* action) {
+  errno = 0;
+  row_log::File file(std::fopen(path.c_str(), mode));
+  if (!file) throw_file_error(path, action);
+  return file;
+}
+
+}  // namespace
+
+RowReader::RowReader(const std::filesystem::path& file) : path_(file), file_(open_file(file, "rb", "open")) {
+  read_header();
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
+  if (error) throw RunError(path_.string() + ": cannot read: " + error.message());
+  row_count_ = static_cast<long>((bytes - header_bytes_) / row_bytes(header_.row_size));
+  if (row_count_ < safe_count_)
+    throw RunError(path_.string() + ": is truncated: " + std::to_string(row_count_) + " rows of " +
+                   std::to_string(safe_count_) + " are there");
+  values_.resize(header_.row_size);
+}
+
+void RowReader::read_header() {
+  FixedHeader fixed;
+  read(&fixed, sizeof fixed);
+  const auto refuse = [&](const std::string& why) { throw RunError(path_.string() + ": " + why); };
+  if (std::memcmp(fixed.magic, magic, sizeof magic) != 0) refuse("is not a log of a ballast run");
+  if (fixed.byte_order != byte_order) refuse("was written on a machine of another byte order");
+  if (fixed.version != version)
+    refuse("is a log of format " + std::to_string(fixed.version) + ", this program reads format " +
+           std::to_string(version));
+  SafeMark safe;
+  read(&safe, sizeof safe);
+  if (safe.checksum != SafeMark(safe.rows).checksum) refuse("is damaged: the checksum of its count of rows is wrong");
+  const std::uintmax_t bytes = std::filesystem::file_size(path_);
+  if (fixed.text_length > bytes) refuse("is truncated in its header");
+  header_.text.resize(fixed.text_length);
+  read(header_.text.data(), header_.text.size());
+  std::uint64_t checksum;
+  read(&checksum, sizeof checksum);
+  if (checksum != header_checksum(fixed, header_.text)) refuse("is damaged: the checksum of its header is wrong");
+  header_.row_size = fixed.row_size;
+  header_.owner = fixed.owner;
+  safe_count_ = static_cast<long>(safe.rows);
+  header_bytes_ = sizeof fixed + sizeof safe + header_.text.size() + sizeof checksum;
+}
+
+void RowReader::read(void* data, size_t bytes) {
+  errno = 0;
+  if (std::fread(data, 1, bytes, file_.get()) == bytes) return;
+  if (std::ferror(file_.get())) throw_file_error(path_, "read");
+  throw RunError(path_.string() + ": is truncated" + (header_bytes_ == 0 ? " in its header" : ""));
+}
+
+std::span<const double> RowReader::next() {
+  if (row_ == row_count_) return {};
+  std::uint64_t checksum;
+  read(values_.data(), values_.size() * sizeof(double));
+  read(&checksum, sizeof checksum);
+  if (checksum != row_checksum(row_, values_)) {
+    if (row_ < safe_count_)
+      throw RunError(path_.string() + ": is damaged: the checksum of row " + std::to_string(row_) + " is wrong");
+    row_count_ = row_;
+    return {};
+  }
+  ++row_;
+  return values_;
+}
+
+void RowReader::rewind() {
+  row_ = 0;
+  errno = 0;
+  if (std::fseek(file_.get(), static_cast<long>(header_bytes_), SEEK_SET) != 0) throw_file_error(path_, "read");
+}
+
+RowWriter::RowWriter(const std::filesystem::path& file, const RowLogHeader& header)
+    : path_(file), file_(open_file(file, "wb", "write")), row_size_(header.row_size) {
+  FixedHeader fixed{{}, version, byte_order, header.row_size, header.owner, header.text.size()};
+  std::memcpy(fixed.magic, magic, sizeof magic);
+  const std::uint64_t checksum = header_checksum(fixed, header.text);
+  const SafeMark safe;
+  write(&fixed, sizeof fixed);
+  write(&safe, sizeof safe);
+  write(header.text.data(), header.text.size());
+  write(&checksum, sizeof checksum);
+  flush();
+  sync_folder(path_.parent_path());
+}
+
+RowWriter::RowWriter(const std::filesystem::path& file, const RowReader& reader, long kept)
+    : path_(file), file_(open_file(file, "r+b", "write")), row_size_(reader.header().row_size), row_count_(kept) {
+  mark_safe(kept);  // before the cut: never more safe rows than there are
+  const long end = static_cast<long>(reader.header_bytes() + kept * row_bytes(row_size_));
+  errno = 0;
+  if (ftruncate(fileno(file_.get()), end) != 0) throw_file_error(path_, "cut back");
+  if (std::fseek(file_.get(), end, SEEK_SET) != 0) throw_file_error(path_, "write");
+}
+
+void RowWriter::append(std::span<const double> row) {
+  if (row.size() != row_size_)
+    throw RunError(path_.string() + ": a row of " + std::to_string(row.size()) + " numbers instead of " +
+                   std::to_string(row_size_));
+  const std::uint64_t checksum = row_checksum(row_count_, row);
+  write(row.data(), row.size_bytes());
+  write(&checksum, sizeof checksum);
+  ++row_count_;
+}
+
+void RowWriter::flush() {
+  sync_to_disk(file_.get(), path_);
+  mark_safe(row_count_);
+}
+
+void RowWriter::mark_safe(long rows) {
+  const SafeMark safe(static_cast<std::uint64_t>(rows));
+  errno = 0;
+  if (pwrite(fileno(file_.get()), &safe, sizeof safe, sizeof(FixedHeader)) != sizeof safe)
+    throw_file_error(path_, "write");
+  sync_to_disk(file_.get(), path_);
+}
+
+void RowWriter::write(const void* data, size_t bytes) {
+  errno = 0;
+  if (std::fwrite(data, 1, bytes, file_.get()) != bytes) throw_file_error(path_, "write");
+}
+
+}  // namespace ballast

@@ -1,0 +1,158 @@
+#include "problems/algebra/delassus.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "problems/algebra/mass_root.hpp"
+
+namespace ballast {
+namespace {
+
+using SideRows = Eigen::Matrix<double, 3, MassRoot::max_dofs>;
+
+/// G = H L^-T for one side of one contact: W = G G^T summed over the sides. Unused rows and columns are zero.
+SideRows mass_scaled_rows(const double* block, int rows, const MassRoot& root) {
+  SideRows g = SideRows::Zero();
+  if (rows == 3)
+    root.scaled_columns<3>(block, [&](int k, const double* column) { g.col(k) << column[0], column[1], column[2]; });
+  else
+    root.scaled_columns<1>(block, [&](int k, const double* column) { g(0, k) = column[0]; });
+  return g;
+}
+
+/// The lower triangle of G G^T, summed over columns and sides.
+struct Gram {
+  double nn = 0.0, tn = 0.0, sn = 0.0, tt = 0.0, st = 0.0, ss = 0.0;
+
+  template <int Rows>
+  [[gnu::always_inline]] inline void add_side(const double* block, const MassRoot& root) {
+    root.scaled_columns<Rows>(
+        block, [this](int, const double* g) __attribute__((always_inline)) {
+          nn += g[0] * g[0];
+          if constexpr (Rows == 3) {
+            tn += g[1] * g[0];
+            sn += g[2] * g[0];
+            tt += g[1] * g[1];
+            st += g[2] * g[1];
+            ss += g[2] * g[2];
+          }
+        });
+  }
+};
+
+/// One body of one contact.
+struct Side {
+  int contact;
+  int body;
+  SideRows g;
+};
+
+/// Sides of contact c are 2c and 2c + 1; a side that does not move has body -1.
+std::vector<Side> all_sides(const FrictionProblem& problem, const std::vector<MassRoot>& roots) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  std::vector<Side> sides(2 * problem.contact_count());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const double* block = dynamics.h.data() + dynamics.h_begin[c];
+    for (int s = 0; s < 2; ++s) {
+      Side& side = sides[2 * c + s];
+      side = {c, s == 0 ? dynamics.body_a[c] : dynamics.body_b[c], SideRows::Zero()};
+      if (side.body < 0) continue;
+      side.g = mass_scaled_rows(block, problem.contact_rows(c), roots[side.body]);
+      block += problem.contact_rows(c) * roots[side.body].dofs;
+    }
+  }
+  return sides;
+}
+
+SparseRows assemble(const FrictionProblem& problem) {
+  std::vector<MassRoot> roots;
+  factor_masses(problem.dynamics, roots);
+  const std::vector<Side> sides = all_sides(problem, roots);
+  std::vector<std::vector<int>> sides_of_body(problem.dynamics.body_count());
+  for (int s = 0; s < static_cast<int>(sides.size()); ++s)
+    if (sides[s].body >= 0) sides_of_body[sides[s].body].push_back(s);
+
+  // Contacts that share two bodies give the same entry twice; setFromTriplets adds them.
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Side& side : sides) {
+    if (side.body < 0) continue;
+    for (const int other_side : sides_of_body[side.body]) {
+      const Side& other = sides[other_side];
+      const Eigen::Matrix3d block = side.g * other.g.transpose();
+      for (int i = 0; i < problem.contact_rows(side.contact); ++i)
+        for (int j = 0; j < problem.contact_rows(other.contact); ++j)
+          entries.emplace_back(problem.row_begin[side.contact] + i, problem.row_begin[other.contact] + j, block(i, j));
+    }
+  }
+  SparseRows w(problem.row_count(), problem.row_count());
+  w.setFromTriplets(entries.begin(), entries.end());
+  return w;
+}
+
+}  // namespace
+
+Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
+  Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+  const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+  for (int i = 0; i < rows; ++i)
+    for (SparseRows::InnerIterator entry(problem.delassus.w, first + i); entry; ++entry) {
+      const int j = static_cast<int>(entry.col()) - first;
+      if (j >= 0 && j < rows) block(i, j) = entry.value();
+    }
+  return block;
+}
+
+void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
+  roots.resize(dynamics.body_count());
+  for (int b = 0; b < dynamics.body_count(); ++b)
+    if (!roots[b].factor(dynamics.mass.data() + dynamics.mass_begin[b], dynamics.body_dofs(b)))
+      throw InvalidProblem("dynamics.mass: the block of body " + std::to_string(b) + " is not positive definite");
+}
+
+void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
+                       std::vector<Eigen::Matrix3d>& blocks) {
+  blocks.resize(problem.contact_count());
+  if (!problem.has_dynamics) {
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      const Eigen::Matrix3d block = stored_diagonal_block(problem, c);
+      blocks[c] = 0.5 * (block + block.transpose());
+    }
+    return;
+  }
+  factor_masses(problem.dynamics, roots);
+  delassus_diagonal(problem, roots, 0, problem.contact_count(), blocks);
+}
+
+void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int begin, int end,
+                       std::vector<Eigen::Matrix3d>& blocks) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  for (int c = begin; c < end; ++c) {
+    const int rows = problem.contact_rows(c);
+    const double* block = dynamics.h.data() + dynamics.h_begin[c];
+    Gram w;
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+      if (body < 0) continue;
+      rows == 3 ? w.add_side<3>(block, roots[body]) : w.add_side<1>(block, roots[body]);
+      block += rows * roots[body].dofs;
+    }
+    blocks[c] << w.nn, w.tn, w.sn, w.tn, w.tt, w.st, w.sn, w.st, w.ss;
+  }
+}
+
+void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks) {
+  std::vector<MassRoot> roots;
+  delassus_diagonal(problem, roots, blocks);
+}
+
+SparseRows delassus_matrix(const FrictionProblem& problem) {
+  return problem.has_delassus ? problem.delassus.w : assemble(problem);
+}
+
+void add_delassus_form(FrictionProblem& problem) {
+  if (problem.has_delassus) return;
+  problem.delassus.w = assemble(problem);
+  free_contact_velocity(problem, problem.delassus.q);
+  problem.has_delassus = true;
+}
+
+}  // namespace ballast

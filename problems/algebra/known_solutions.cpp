@@ -1,0 +1,178 @@
+#include "problems/algebra/known_solutions.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "platform/seeded_random.hpp"
+
+namespace ballast {
+namespace {
+
+Eigen::Vector3d random_direction(SeededRandom& random) {
+  for (;;) {  // rejection from the cube
+    const Eigen::Vector3d x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const double length = x.norm();
+    if (length > 0.1 && length <= 1.0) return x / length;
+  }
+}
+
+/// Rows n, t1, t2 of a right-handed frame.
+Eigen::Matrix3d random_frame(SeededRandom& random) {
+  const Eigen::Vector3d n = random_direction(random);
+  Eigen::Vector3d other = random_direction(random);
+  while (std::abs(n.dot(other)) > 0.9) other = random_direction(random);
+  const Eigen::Vector3d t1 = n.cross(other).normalized();
+  Eigen::Matrix3d frame;
+  frame << n.transpose(), t1.transpose(), n.cross(t1).transpose();
+  return frame;
+}
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& x) {
+  Eigen::Matrix3d cross;
+  cross << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
+  return cross;
+}
+
+/// A rigid body of about unit size: mass m, inertia about m/10, turned, so that its block is not diagonal.
+void add_body(double mass, SeededRandom& random, DynamicsForm& dynamics) {
+  const Eigen::Vector3d inertia(random.uniform(0.05, 0.15), random.uniform(0.05, 0.15), random.uniform(0.05, 0.15));
+  const Eigen::Matrix3d axes = random_frame(random);
+  Eigen::Matrix<double, 6, 6> block = Eigen::Matrix<double, 6, 6>::Zero();
+  block.topLeftCorner<3, 3>().diagonal().setConstant(mass);
+  const Eigen::Matrix3d turned = mass * axes.transpose() * inertia.asDiagonal() * axes;
+  block.bottomRightCorner<3, 3>() = 0.5 * (turned + turned.transpose());
+  dynamics.dof_begin.push_back(dynamics.dof_begin.back() + 6);
+  dynamics.mass_begin.push_back(dynamics.mass_begin.back() + 36);
+  dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + 36);
+}
+
+/// Rows of the relative velocity of b against a at a point half a size away from each centre.
+void add_contact(int a, int b, int rows, SeededRandom& random, FrictionProblem& problem) {
+  DynamicsForm& dynamics = problem.dynamics;
+  const Eigen::Matrix3d frame = random_frame(random);
+  const std::array<int, 2> bodies{a, b};
+  for (int s = 0; s < 2; ++s) {
+    if (bodies[s] < 0) continue;
+    const Eigen::Vector3d arm = 0.5 * random_direction(random);  // from the centre to the point
+    Eigen::Matrix<double, 3, 6> side;
+    side << frame, -frame * cross_matrix(arm);
+    if (s == 0) side = -side;
+    for (int k = 0; k < 6; ++k)
+      for (int i = 0; i < rows; ++i) dynamics.h.push_back(side(i, k));
+  }
+  dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
+  dynamics.body_a.push_back(a);
+  dynamics.body_b.push_back(b);
+  problem.row_begin.push_back(problem.row_begin.back() + rows);
+}
+
+/// (r, u) of one contact that obeys Coulomb's law to rounding: leaves, slips or sticks.
+void choose_solution(const KnownSolutionSettings& settings, double mu, int rows, SeededRandom& random, double* r,
+                     double* u) {
+  const double kind = random.uniform(), angle = 2.0 * M_PI * random.uniform();
+  const double t1 = std::cos(angle), t2 = std::sin(angle);
+  const double force = random.uniform(0.1, 1.0), speed = random.uniform(0.1, 1.0);
+  if (kind < settings.open_fraction) {
+    u[0] = speed;
+    if (rows == 3) {
+      u[1] = random.uniform(-1, 1);
+      u[2] = random.uniform(-1, 1);
+    }
+    return;
+  }
+  r[0] = force;
+  if (rows == 1) return;
+  if (kind < settings.open_fraction + settings.slip_fraction) {
+    r[1] = mu * force * t1;
+    r[2] = mu * force * t2;
+    u[1] = -speed * t1;
+    u[2] = -speed * t2;
+  } else {
+    const double share = random.uniform(0.0, 0.95);
+    r[1] = share * mu * force * t1;
+    r[2] = share * mu * force * t2;
+  }
+}
+
+}  // namespace
+
+KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
+  SeededRandom random(settings.seed);
+  KnownSolution known;
+  FrictionProblem& problem = known.problem;
+  DynamicsForm& dynamics = problem.dynamics;
+  problem.has_dynamics = true;
+  for (int b = 0; b < settings.bodies; ++b) add_body(random.log_uniform(1.0, settings.mass_ratio), random, dynamics);
+
+  for (int c = 0; c < settings.contacts; ++c) {
+    const bool frictionless = random.uniform() < settings.frictionless_fraction;
+    const int b = random.index(settings.bodies);
+    const int a = random.index(settings.bodies + 1) - 1;  // -1: against the ground
+    add_contact(a == b ? -1 : a, b, frictionless ? 1 : 3, random, problem);
+    problem.friction.push_back(frictionless ? 0.0 : random.uniform(settings.friction_min, settings.friction_max));
+  }
+
+  known.r.setZero(problem.row_count());
+  known.u.setZero(problem.row_count());
+  for (int c = 0; c < settings.contacts; ++c)
+    choose_solution(settings, problem.friction[c], problem.contact_rows(c), random,
+                    known.r.data() + problem.row_begin[c], known.u.data() + problem.row_begin[c]);
+
+  dynamics.v_free.resize(dynamics.dof_count());
+  for (double& v : dynamics.v_free) v = random.uniform(-1, 1);
+  // bias = u - H v makes (r, u) the solution.
+  dynamics.bias.setZero(problem.row_count());
+  Eigen::VectorXd v, moved;
+  body_velocity(dynamics, problem.row_begin, known.r, v);
+  body_to_contact_velocity(dynamics, problem.row_begin, v, moved);
+  dynamics.bias = known.u - moved;
+
+  if (settings.copies > 1) {
+    const std::vector<int> first = problem.row_begin;
+    repeat_contacts(problem, settings.copies);
+    Eigen::VectorXd r(problem.row_count()), u(problem.row_count());
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      const int from = first[c / settings.copies], rows = problem.contact_rows(c);
+      r.segment(problem.row_begin[c], rows) = known.r.segment(from, rows) / settings.copies;
+      u.segment(problem.row_begin[c], rows) = known.u.segment(from, rows);
+    }
+    known.r = r;
+    known.u = u;
+  }
+  change_units(problem, settings.mass_unit, settings.velocity_unit);
+  known.r *= settings.mass_unit * settings.velocity_unit;
+  known.u *= settings.velocity_unit;
+  return known;
+}
+
+void repeat_contacts(FrictionProblem& problem, int copies) {
+  const FrictionProblem once = problem;
+  const DynamicsForm& from = once.dynamics;
+  DynamicsForm& to = problem.dynamics;
+  problem.row_begin = {0};
+  problem.friction.clear();
+  to.body_a.clear();
+  to.body_b.clear();
+  to.h_begin = {0};
+  to.h.clear();
+  to.bias.resize(static_cast<Eigen::Index>(once.row_count()) * copies);
+  for (int c = 0; c < once.contact_count(); ++c)
+    for (int copy = 0; copy < copies; ++copy) {
+      const int rows = once.contact_rows(c);
+      to.bias.segment(problem.row_begin.back(), rows) = from.bias.segment(once.row_begin[c], rows);
+      problem.row_begin.push_back(problem.row_begin.back() + rows);
+      problem.friction.push_back(once.friction[c]);
+      to.body_a.push_back(from.body_a[c]);
+      to.body_b.push_back(from.body_b[c]);
+      to.h.insert(to.h.end(), from.h.begin() + from.h_begin[c], from.h.begin() + from.h_begin[c + 1]);
+      to.h_begin.push_back(static_cast<int>(to.h.size()));
+    }
+}
+
+void change_units(FrictionProblem& problem, double mass, double velocity) {
+  for (double& entry : problem.dynamics.mass) entry *= mass;
+  problem.dynamics.v_free *= velocity;
+  problem.dynamics.bias *= velocity;
+}
+
+}  // namespace ballast

@@ -1,0 +1,215 @@
+#include "problems/files/fclib_file.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "problems/files/hdf5_arrays.hpp"
+
+namespace ballast {
+namespace {
+
+/// `nz` says how a matrix is stored: the number of triplets, or one of these.
+constexpr int compressed_columns = -1, compressed_rows = -2;
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+void require_size(const Hdf5Arrays& file, const std::string& path, std::size_t size, std::size_t expected) {
+  if (size != expected)
+    file.fail(path + " has " + std::to_string(size) + " entries, must have " + std::to_string(expected));
+}
+
+std::vector<double> read_vector(const Hdf5Arrays& file, const std::string& path, std::size_t size) {
+  std::vector<double> values = file.read_doubles(path);
+  require_size(file, path, values.size(), size);
+  for (std::size_t i = 0; i < size; ++i)
+    if (!std::isfinite(values[i]))
+      file.fail(path + "[" + std::to_string(i) + "] = " + std::to_string(values[i]) + " is not finite");
+  return values;
+}
+
+Eigen::VectorXd as_eigen(const std::vector<double>& x) { return Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()); }
+
+/// Reads one matrix group. nzmax may exceed the datasets' length, which may exceed the entries: p, or nz, decides.
+class MatrixReader {
+ public:
+  MatrixReader(const Hdf5Arrays& file, std::string group)
+      : file_(file),
+        group_(std::move(group)),
+        rows_(file.read_int(group_ + "/m")),
+        columns_(file.read_int(group_ + "/n")),
+        nz_(file.read_int(group_ + "/nz")),
+        p_(file.read_ints(group_ + "/p")),
+        i_(file.read_ints(group_ + "/i")),
+        x_(file.read_doubles(group_ + "/x")) {
+    if (rows_ < 0 || columns_ < 0)
+      file.fail(group_ + ": " + std::to_string(rows_) + " x " + std::to_string(columns_) + " is no size of a matrix");
+    if (nz_ < compressed_rows) file.fail(group_ + "/nz = " + std::to_string(nz_) + " is no known storage");
+  }
+
+  int rows() const { return rows_; }
+  int columns() const { return columns_; }
+
+  Triplets entries() const {
+    Triplets entries;
+    if (nz_ >= 0)
+      read_triplets(entries);
+    else
+      read_compressed(entries);
+    return entries;
+  }
+
+ private:
+  void add(Triplets& entries, int row, int column, int k) const {
+    if (row < 0 || row >= rows_ || column < 0 || column >= columns_)
+      file_.fail(group_ + ": entry " + std::to_string(k) + " at (" + std::to_string(row) + ", " +
+                 std::to_string(column) + ") is outside " + std::to_string(rows_) + " x " + std::to_string(columns_));
+    if (!std::isfinite(x_[k]))
+      file_.fail(group_ + "/x[" + std::to_string(k) + "] = " + std::to_string(x_[k]) + " is not finite");
+    entries.emplace_back(row, column, x_[k]);
+  }
+
+  void require_entries(int count) const {
+    for (const auto& [name, size] : {std::pair{"/i", i_.size()}, std::pair{"/x", x_.size()}})
+      if (size < static_cast<std::size_t>(count))
+        file_.fail(group_ + name + " has " + std::to_string(size) + " entries, must have " + std::to_string(count));
+  }
+
+  /// fclib.h says p = rows, i = columns; all files, and CSparse from which the structure comes, have p = columns, i =
+  /// rows.
+  void read_triplets(Triplets& entries) const {
+    require_entries(nz_);
+    if (p_.size() < static_cast<std::size_t>(nz_))
+      file_.fail(group_ + "/p has " + std::to_string(p_.size()) + " entries, must have " + std::to_string(nz_));
+    for (int k = 0; k < nz_; ++k) add(entries, i_[k], p_[k], k);
+  }
+
+  void read_compressed(Triplets& entries) const {
+    const bool by_rows = nz_ == compressed_rows;
+    const int lines = by_rows ? rows_ : columns_;
+    require_size(file_, group_ + "/p", p_.size(), static_cast<std::size_t>(lines) + 1);
+    if (p_[0] != 0) file_.fail(group_ + "/p[0] = " + std::to_string(p_[0]) + ", must be 0");
+    for (int line = 0; line < lines; ++line)
+      if (p_[line + 1] < p_[line])
+        file_.fail(group_ + "/p[" + std::to_string(line + 1) + "] = " + std::to_string(p_[line + 1]) + " decreases");
+    require_entries(p_[lines]);
+    for (int line = 0; line < lines; ++line)
+      for (int k = p_[line]; k < p_[line + 1]; ++k)
+        by_rows ? add(entries, line, i_[k], k) : add(entries, i_[k], line, k);
+  }
+
+  const Hdf5Arrays& file_;
+  std::string group_;
+  int rows_, columns_, nz_;
+  std::vector<int> p_, i_;
+  std::vector<double> x_;
+};
+
+void require_shape(const Hdf5Arrays& file, const std::string& group, const MatrixReader& matrix, int rows, int columns) {
+  if (matrix.rows() != rows || matrix.columns() != columns)
+    file.fail(group + " is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.columns()) + ", must be " +
+              std::to_string(rows) + " x " + std::to_string(columns));
+}
+
+void require_unilateral_3d(const Hdf5Arrays& file, const std::string& root) {
+  const int dimension = file.read_int(root + "/spacedim");
+  if (dimension != 3) file.fail(root + "/spacedim = " + std::to_string(dimension) + ": only 3 is supported");
+  for (const char* bilateral : {"/V", "/R", "/G"})
+    if (file.has(root + bilateral)) file.fail(root + bilateral + ": bilateral constraints are not supported");
+}
+
+int contact_count(const Hdf5Arrays& file, const std::string& group, int rows) {
+  if (rows % 3 != 0) file.fail(group + " has " + std::to_string(rows) + " contact rows, which is no multiple of 3");
+  return rows / 3;
+}
+
+LocalProblem read_local(const Hdf5Arrays& file) {
+  const std::string root = "/fclib_local";
+  require_unilateral_3d(file, root);
+  const MatrixReader w(file, root + "/W");
+  const int contacts = contact_count(file, root + "/W", w.rows());
+  require_shape(file, root + "/W", w, 3 * contacts, 3 * contacts);
+  LocalProblem local;
+  const Triplets entries = w.entries();
+  local.w.resize(w.rows(), w.columns());
+  local.w.setFromTriplets(entries.begin(), entries.end());
+  local.q = as_eigen(read_vector(file, root + "/vectors/q", w.rows()));
+  local.mu = read_vector(file, root + "/vectors/mu", contacts);
+  return local;
+}
+
+GlobalProblem read_global(const Hdf5Arrays& file) {
+  const std::string root = "/fclib_global";
+  require_unilateral_3d(file, root);
+  const MatrixReader m(file, root + "/M"), h(file, root + "/H");
+  const int contacts = contact_count(file, root + "/H", h.columns());
+  require_shape(file, root + "/M", m, m.rows(), m.rows());
+  require_shape(file, root + "/H", h, m.rows(), 3 * contacts);
+  GlobalProblem global;
+  const Triplets mass = m.entries(), directions = h.entries();
+  global.m.resize(m.rows(), m.columns());
+  global.m.setFromTriplets(mass.begin(), mass.end());
+  global.h.resize(h.rows(), h.columns());
+  global.h.setFromTriplets(directions.begin(), directions.end());
+  global.f = as_eigen(read_vector(file, root + "/vectors/f", m.rows()));
+  global.w = as_eigen(read_vector(file, root + "/vectors/w", 3 * contacts));
+  global.mu = read_vector(file, root + "/vectors/mu", contacts);
+  return global;
+}
+
+/// Compressed: unlike triplets, the order of whose index arrays the format leaves open.
+template <typename Matrix>
+void write_matrix(Hdf5Arrays& file, const std::string& group, Matrix matrix) {
+  matrix.makeCompressed();
+  const int entries = static_cast<int>(matrix.nonZeros());
+  file.make_group(group);
+  file.write(group + "/m", std::vector<int>{static_cast<int>(matrix.rows())});
+  file.write(group + "/n", std::vector<int>{static_cast<int>(matrix.cols())});
+  file.write(group + "/nz", std::vector<int>{Matrix::IsRowMajor ? compressed_rows : compressed_columns});
+  file.write(group + "/nzmax", std::vector<int>{entries});
+  file.write(group + "/p", std::vector<int>(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1));
+  file.write(group + "/i", std::vector<int>(matrix.innerIndexPtr(), matrix.innerIndexPtr() + entries));
+  file.write(group + "/x", std::vector<double>(matrix.valuePtr(), matrix.valuePtr() + entries));
+}
+
+std::vector<double> as_vector(const Eigen::VectorXd& x) { return {x.data(), x.data() + x.size()}; }
+
+void write_head(Hdf5Arrays& file, const std::string& root) {
+  file.make_group(root);
+  file.write(root + "/spacedim", std::vector<int>{3});
+  file.make_group(root + "/vectors");
+  file.make_group(root + "/info");
+  file.write(root + "/info/title", std::string("ballast"));
+  file.write(root + "/info/description", std::string("frictional contact problem, normal first"));
+  file.write(root + "/info/math_info", std::string("-"));
+}
+
+}  // namespace
+
+std::variant<LocalProblem, GlobalProblem> read_fclib(const std::filesystem::path& path) {
+  const Hdf5Arrays file(path, Hdf5Arrays::Mode::read);
+  if (file.has("/fclib_local")) return read_local(file);
+  if (file.has("/fclib_global")) return read_global(file);
+  file.fail("has neither /fclib_local nor /fclib_global");
+}
+
+void write_fclib(const std::filesystem::path& path, const LocalProblem& local) {
+  Hdf5Arrays file(path, Hdf5Arrays::Mode::create);
+  write_head(file, "/fclib_local");
+  write_matrix(file, "/fclib_local/W", local.w);
+  file.write("/fclib_local/vectors/q", as_vector(local.q));
+  file.write("/fclib_local/vectors/mu", local.mu);
+  file.close();
+}
+
+void write_fclib(const std::filesystem::path& path, const GlobalProblem& global) {
+  Hdf5Arrays file(path, Hdf5Arrays::Mode::create);
+  write_head(file, "/fclib_global");
+  write_matrix(file, "/fclib_global/M", global.m);
+  write_matrix(file, "/fclib_global/H", global.h);
+  file.write("/fclib_global/vectors/f", as_vector(global.f));
+  file.write("/fclib_global/vectors/w", as_vector(global.w));
+  file.write("/fclib_global/vectors/mu", global.mu);
+  file.close();
+}
+
+}  // namespace ballast

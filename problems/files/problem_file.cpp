@@ -1,0 +1,51 @@
+#include "problems/files/problem_file.hpp"
+
+#include <system_error>
+#include <variant>
+
+#include "problems/files/captured_problem.hpp"
+#include "problems/files/fclib_file.hpp"
+#include "problems/files/hdf5_arrays.hpp"
+#include "problems/files/siconos_text.hpp"
+
+namespace ballast {
+
+FrictionProblem read_problem(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  const bool hdf5 = extension == ".hdf5" || extension == ".h5";
+  if (!hdf5 && extension != ".dat")
+    throw ProblemFileError(file.string() + ": unknown kind of file '" + extension + "'; known: .hdf5, .h5, .dat");
+  if (is_captured(file)) return read_captured(file).problem;
+  const auto stored = hdf5 ? read_fclib(file) : read_siconos_text(file);
+  try {
+    FrictionProblem problem = std::visit([](const auto& form) { return to_friction_problem(form); }, stored);
+    problem.validate();
+    return problem;
+  } catch (const InvalidProblem& error) {
+    throw ProblemFileError(file.string() + ": " + error.what());
+  }
+}
+
+void write_problem(const std::filesystem::path& file, const FrictionProblem& problem,
+                   const std::function<void(Hdf5Arrays&)>& add) {
+  problem.validate();
+  const std::filesystem::path beside = file.string() + ".tmp";
+  try {
+    if (problem.has_dynamics)
+      write_fclib(beside, to_global_problem(problem));
+    else
+      write_fclib(beside, to_local_problem(problem));
+    if (add) {
+      Hdf5Arrays opened(beside, Hdf5Arrays::Mode::extend);
+      add(opened);
+      opened.close();
+    }
+    std::filesystem::rename(beside, file);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    throw ProblemFileError(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace ballast

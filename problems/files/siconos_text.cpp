@@ -1,0 +1,234 @@
+#include "problems/files/siconos_text.hpp"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "problems/files/problem_file.hpp"
+
+namespace ballast {
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// The file's words, one after the other, with the line for error messages.
+class Words {
+ public:
+  explicit Words(const std::filesystem::path& file) : name_(file.string()) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) fail("cannot be opened");
+    std::ostringstream text;
+    text << stream.rdbuf();
+    text_ = std::move(text).str();
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw ProblemFileError(name_ + ": " + what); }
+  [[noreturn]] void fail_here(const std::string& what) const { fail("line " + std::to_string(line_) + ": " + what); }
+
+  /// `of` names what is read, in messages.
+  std::string_view next(const char* of) {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) line_ += text_[at_++] == '\n';
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+    if (begin == at_) fail_here(std::string("the file ends within ") + of);
+    return std::string_view(text_).substr(begin, at_ - begin);
+  }
+
+  void skip_line() {
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  }
+
+  int integer(const char* of) { return number<int>(next(of), of); }
+  double real(const char* of) {
+    const double value = number<double>(next(of), of);
+    if (!std::isfinite(value)) fail_here(std::string(of) + " = " + std::to_string(value) + " is not finite");
+    return value;
+  }
+  /// Not negative, and no more than the rest of the file could hold: a wrong count must not be allocated.
+  int count(const char* of) {
+    const int value = integer(of);
+    if (value < 0) fail_here(std::string(of) + " = " + std::to_string(value) + " is negative");
+    return value;
+  }
+  void require_room(std::size_t numbers, const char* of) const {
+    if (numbers > text_.size() - at_) fail_here(std::string("the file ends within ") + of);
+  }
+  /// Reads words until the one that is wanted.
+  void skip_to(std::string_view word, const char* of) {
+    while (next(of) != word) {
+    }
+  }
+  void require(bool condition, const std::string& what) const {
+    if (!condition) fail_here(what);
+  }
+
+ private:
+  template <typename Number>
+  Number number(std::string_view word, const char* of) const {
+    if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size())
+      fail_here(std::string(of) + ": '" + std::string(word) + "' is not a number");
+    return value;
+  }
+
+  std::string name_, text_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+};
+
+struct TextMatrix {
+  int rows = 0, columns = 0;
+  Triplets entries;
+
+  void add(const Words& words, int row, int column, double value) {
+    words.require(row >= 0 && row < rows && column >= 0 && column < columns,
+                  "entry (" + std::to_string(row) + ", " + std::to_string(column) + ") is outside " +
+                      std::to_string(rows) + " x " + std::to_string(columns));
+    if (value != 0.0) entries.emplace_back(row, column, value);
+  }
+};
+
+/// Column-major.
+void read_dense(Words& words, TextMatrix& matrix) {
+  const int rows = words.count("rows"), columns = words.count("columns");
+  words.require(rows == matrix.rows && columns == matrix.columns, "the matrix states two different sizes");
+  words.require_room(static_cast<std::size_t>(rows) * columns, "a dense matrix");
+  for (int column = 0; column < columns; ++column)
+    for (int row = 0; row < rows; ++row) matrix.add(words, row, column, words.real("a dense matrix"));
+}
+
+std::vector<int> read_counts(Words& words, int size, const char* of) {
+  words.require_room(size, of);
+  std::vector<int> values(size);
+  for (int& value : values) value = words.count(of);
+  return values;
+}
+
+/// Block rows: cumulative block sizes, row pointers, block columns, then each block column-major after its number.
+void read_blocks(Words& words, TextMatrix& matrix) {
+  const int blocks = words.count("the number of blocks");
+  const int block_rows = words.count("block rows"), block_columns = words.count("block columns");
+  const std::vector<int> row_end = read_counts(words, block_rows, "sizes of block rows");
+  const std::vector<int> column_end = read_counts(words, block_columns, "sizes of block columns");
+  const int pointers = words.count("the number of row pointers"), indices = words.count("the number of block columns");
+  const std::vector<int> begin = read_counts(words, pointers, "row pointers");
+  const std::vector<int> column_of = read_counts(words, indices, "block columns");
+  words.require(indices >= blocks, "there are fewer block columns than blocks");
+  const auto first = [](const std::vector<int>& end, int k) { return k == 0 ? 0 : end[k - 1]; };
+  for (int row = 0; row + 1 < pointers; ++row)
+    for (int k = begin[row]; k < begin[row + 1]; ++k) {
+      words.require(row < block_rows && k < blocks && column_of[k] < block_columns,
+                    "block " + std::to_string(k) + " is outside the matrix");
+      words.require(words.integer("a block's number") == k, "the blocks are not in order");
+      const int row0 = first(row_end, row), column0 = first(column_end, column_of[k]);
+      for (int j = column0; j < column_end[column_of[k]]; ++j)
+        for (int i = row0; i < row_end[row]; ++i) matrix.add(words, i, j, words.real("a block"));
+    }
+}
+
+/// CSparse's printed form; six digits only. `words` stands after the storage number.
+void read_sparse(Words& words, TextMatrix& matrix) {
+  enum Origin { triplet = 1, columns = 2, rows = 3 };
+  const int origin = words.integer("the origin of a sparse matrix");
+  words.require(origin >= triplet && origin <= rows, "sparse origin " + std::to_string(origin) + " is not supported");
+  words.skip_line();
+  words.skip_to(origin == triplet ? "triplet:" : "nzmax:", "a sparse matrix");
+  if (origin == triplet) {
+    words.skip_to("nnz:", "a sparse matrix");
+    const int entries = words.count("the number of entries");
+    words.skip_line();
+    for (int k = 0; k < entries; ++k) {
+      const int i = words.integer("a row"), j = words.integer("a column");
+      words.skip_to(":", "a sparse matrix");
+      matrix.add(words, i, j, words.real("a sparse matrix"));
+    }
+    return;
+  }
+  words.skip_line();
+  const int lines = origin == columns ? matrix.columns : matrix.rows;
+  for (int line = 0; line < lines; ++line) {
+    words.skip_to("locations", "a sparse matrix");
+    const int first = words.integer("a location");
+    words.skip_to("to", "a sparse matrix");
+    const int last = words.integer("a location");
+    for (int k = first; k <= last; ++k) {
+      const int index = words.integer("an index");
+      words.skip_to(":", "a sparse matrix");
+      const double value = words.real("a sparse matrix");
+      origin == columns ? matrix.add(words, index, line, value) : matrix.add(words, line, index, value);
+    }
+  }
+}
+
+TextMatrix read_matrix(Words& words) {
+  const int storage = words.integer("the storage of a matrix");
+  TextMatrix matrix;
+  matrix.rows = words.count("rows");
+  matrix.columns = words.count("columns");
+  switch (storage) {
+    case 0:
+      read_dense(words, matrix);
+      break;
+    case 1:
+      read_blocks(words, matrix);
+      break;
+    case 2:
+      read_sparse(words, matrix);
+      break;
+    default:
+      words.fail_here("storage " + std::to_string(storage) + " is none of 0 dense, 1 blocks, 2 sparse");
+  }
+  return matrix;
+}
+
+std::vector<double> read_reals(Words& words, std::size_t size, const char* of) {
+  words.require_room(size, of);
+  std::vector<double> values(size);
+  for (double& value : values) value = words.real(of);
+  return values;
+}
+
+Eigen::VectorXd as_eigen(const std::vector<double>& x) { return Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()); }
+
+template <typename Sparse>
+void assign(Sparse& sparse, const TextMatrix& matrix) {
+  sparse.resize(matrix.rows, matrix.columns);
+  sparse.setFromTriplets(matrix.entries.begin(), matrix.entries.end());
+}
+
+}  // namespace
+
+std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesystem::path& file) {
+  Words words(file);
+  const int dimension = words.integer("the dimension");
+  words.require(dimension == 3, "dimension " + std::to_string(dimension) + ": only 3 is supported");
+  const int contacts = words.count("the number of contacts");
+  const TextMatrix first = read_matrix(words);
+  words.require(first.rows == first.columns, "the first matrix is not square");
+  if (first.rows == 3 * contacts) {
+    LocalProblem local;
+    assign(local.w, first);
+    local.q = as_eigen(read_reals(words, first.rows, "q"));
+    local.mu = read_reals(words, contacts, "mu");
+    return local;
+  }
+  const TextMatrix h = read_matrix(words);
+  words.require(h.rows == first.rows && h.columns == 3 * contacts,
+                "H is " + std::to_string(h.rows) + " x " + std::to_string(h.columns) + ", must be " +
+                    std::to_string(first.rows) + " x " + std::to_string(3 * contacts));
+  GlobalProblem global;
+  assign(global.m, first);
+  assign(global.h, h);
+  global.f = as_eigen(read_reals(words, first.rows, "q"));
+  global.w = as_eigen(read_reals(words, h.columns, "b"));
+  global.mu = read_reals(words, contacts, "mu");
+  return global;
+}
+
+}  // namespace ballast

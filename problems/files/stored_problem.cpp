@@ -1,0 +1,187 @@
+#include "problems/files/stored_problem.hpp"
+
+#include <string>
+#include <utility>
+
+#include <Eigen/SparseLU>
+
+#include "problems/algebra/mass_root.hpp"
+
+namespace ballast {
+namespace {
+
+using SparseColumns = Eigen::SparseMatrix<double>;
+
+/// Three rows per contact.
+void set_contacts(FrictionProblem& problem, const std::vector<double>& mu) {
+  problem.friction = mu;
+  problem.row_begin.resize(mu.size() + 1);
+  for (std::size_t c = 0; c <= mu.size(); ++c) problem.row_begin[c] = 3 * static_cast<int>(c);
+}
+
+/// The body of every unknown when `size` consecutive ones make a body; empty when M or H forbid it.
+class Grouping {
+ public:
+  Grouping(const GlobalProblem& global, int size) : size_(size) {
+    const int unknowns = static_cast<int>(global.m.rows());
+    fits_ = unknowns % size == 0 && mass_is_block_diagonal(global.m) && find_bodies_of_contacts(global);
+  }
+  bool fits() const { return fits_; }
+  int size() const { return size_; }
+  const std::vector<int>& body_a() const { return body_a_; }
+  const std::vector<int>& body_b() const { return body_b_; }
+
+ private:
+  bool mass_is_block_diagonal(const SparseColumns& m) const {
+    for (int column = 0; column < m.outerSize(); ++column)
+      for (SparseColumns::InnerIterator entry(m, column); entry; ++entry)
+        if (entry.value() != 0.0 && entry.row() / size_ != column / size_) return false;
+    return true;
+  }
+
+  bool find_bodies_of_contacts(const GlobalProblem& global) {
+    const int contacts = static_cast<int>(global.mu.size());
+    body_a_.assign(contacts, -1);
+    body_b_.assign(contacts, -1);
+    for (int column = 0; column < global.h.outerSize(); ++column) {
+      int &a = body_a_[column / 3], &b = body_b_[column / 3];
+      for (SparseColumns::InnerIterator entry(global.h, column); entry; ++entry) {
+        const int body = static_cast<int>(entry.row()) / size_;
+        if (entry.value() == 0.0 || body == a || body == b) continue;
+        if (b == -1)
+          b = body;
+        else if (a == -1)
+          a = body;
+        else
+          return false;
+      }
+    }
+    return true;
+  }
+
+  int size_;
+  bool fits_;
+  std::vector<int> body_a_, body_b_;
+};
+
+void fill_bodies(const GlobalProblem& global, int size, DynamicsForm& dynamics) {
+  const int unknowns = static_cast<int>(global.m.rows());
+  dynamics.v_free = global.f;
+  for (int first = 0; first < unknowns; first += size) {
+    const Eigen::MatrixXd block = SparseColumns(global.m.block(first, first, size, size));
+    dynamics.dof_begin.push_back(first + size);
+    dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + block.size());
+    dynamics.mass_begin.push_back(static_cast<int>(dynamics.mass.size()));
+    MassRoot root;
+    if (!root.factor(block.data(), size))
+      throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) +
+                           ") = " + std::to_string(block(0, 0)) + ": the block is not positive definite");
+    root.solve_lower(dynamics.v_free.data() + first);
+    root.solve_upper(dynamics.v_free.data() + first);
+  }
+}
+
+void fill_contacts(const GlobalProblem& global, const Grouping& grouping, DynamicsForm& dynamics) {
+  dynamics.body_a = grouping.body_a();
+  dynamics.body_b = grouping.body_b();
+  const int size = grouping.size();
+  for (std::size_t c = 0; c < global.mu.size(); ++c) {
+    const Eigen::MatrixXd columns = SparseColumns(global.h.middleCols(3 * c, 3));
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+      if (body < 0) continue;
+      const Eigen::MatrixXd block = columns.middleRows(body * size, size).transpose();
+      dynamics.h.insert(dynamics.h.end(), block.data(), block.data() + block.size());
+    }
+    dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
+  }
+  dynamics.bias = global.w;
+}
+
+/// W = H^T M^-1 H and q = H^T M^-1 f + w. By LU: stored iteration matrices need not be quite symmetric.
+FrictionProblem condense(const GlobalProblem& global) {
+  Eigen::SparseLU<SparseColumns> factor(global.m);
+  if (factor.info() != Eigen::Success) throw InvalidProblem("M is singular");
+  LocalProblem local;
+  const SparseColumns solved = factor.solve(global.h);
+  local.w = global.h.transpose() * solved;
+  local.q = global.h.transpose() * factor.solve(global.f) + global.w;
+  local.mu = global.mu;
+  return to_friction_problem(std::move(local));
+}
+
+/// Row of a three-row file in which our row `row` of contact c is.
+int file_row(const FrictionProblem& problem, int c, int row) { return 3 * c + row - problem.row_begin[c]; }
+
+/// Our row of every row of the file; -1 for the tangents that a one-row contact does not have.
+std::vector<int> file_rows(const FrictionProblem& problem) {
+  std::vector<int> rows(problem.row_count());
+  for (int c = 0; c < problem.contact_count(); ++c)
+    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) rows[row] = file_row(problem, c, row);
+  return rows;
+}
+
+Eigen::VectorXd spread(const FrictionProblem& problem, const Eigen::VectorXd& x) {
+  const std::vector<int> rows = file_rows(problem);
+  Eigen::VectorXd wide = Eigen::VectorXd::Zero(3 * problem.contact_count());
+  for (std::size_t i = 0; i < rows.size(); ++i) wide[rows[i]] = x[i];
+  return wide;
+}
+
+}  // namespace
+
+FrictionProblem to_friction_problem(LocalProblem local) {
+  FrictionProblem problem;
+  set_contacts(problem, local.mu);
+  problem.has_delassus = true;
+  problem.delassus.w = std::move(local.w);
+  problem.delassus.w.makeCompressed();
+  problem.delassus.q = std::move(local.q);
+  return problem;
+}
+
+FrictionProblem to_friction_problem(const GlobalProblem& global) {
+  for (const int size : {6, 3}) {  // rigid bodies, or points
+    const Grouping grouping(global, size);
+    if (!grouping.fits()) continue;
+    FrictionProblem problem;
+    set_contacts(problem, global.mu);
+    problem.has_dynamics = true;
+    fill_bodies(global, size, problem.dynamics);
+    fill_contacts(global, grouping, problem.dynamics);
+    return problem;
+  }
+  return condense(global);
+}
+
+LocalProblem to_local_problem(const FrictionProblem& problem) {
+  const std::vector<int> rows = file_rows(problem);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < problem.row_count(); ++row)
+    for (SparseRows::InnerIterator entry(problem.delassus.w, row); entry; ++entry)
+      entries.emplace_back(rows[row], rows[entry.col()], entry.value());
+  LocalProblem local;
+  local.w.resize(3 * problem.contact_count(), 3 * problem.contact_count());
+  local.w.setFromTriplets(entries.begin(), entries.end());
+  local.q = spread(problem, problem.delassus.q);
+  local.mu = problem.friction;
+  return local;
+}
+
+GlobalProblem to_global_problem(const FrictionProblem& problem) {
+  const std::vector<int> rows = file_rows(problem);
+  const SparseRows h = sparse_h(problem);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < problem.row_count(); ++row)
+    for (SparseRows::InnerIterator entry(h, row); entry; ++entry)
+      entries.emplace_back(static_cast<int>(entry.col()), rows[row], entry.value());
+  GlobalProblem global;
+  global.h.resize(problem.dynamics.dof_count(), 3 * problem.contact_count());
+  global.h.setFromTriplets(entries.begin(), entries.end());
+  global.m = sparse_mass(problem.dynamics);
+  global.f = global.m * problem.dynamics.v_free;
+  global.w = spread(problem, problem.dynamics.bias);
+  global.mu = problem.friction;
+  return global;
+}
+
+}  // namespace ballast

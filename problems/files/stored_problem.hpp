@@ -1,0 +1,35 @@
+#pragma once
+// What problem files hold, before it becomes a FrictionProblem: matrices and vectors in the format's own shape.
+
+#include <vector>
+
+#include "problems/algebra/friction_problem.hpp"
+
+namespace ballast {
+
+/// u = W r + q, three rows per contact.
+struct LocalProblem {
+  SparseRows w;
+  Eigen::VectorXd q;
+  std::vector<double> mu;
+};
+
+/// M v = H r + f, u = H^T v + w: H is unknowns x contact rows, the transpose of ours.
+struct GlobalProblem {
+  Eigen::SparseMatrix<double> m, h;
+  Eigen::VectorXd f, w;
+  std::vector<double> mu;
+};
+
+FrictionProblem to_friction_problem(LocalProblem local);
+
+/// Keeps the dynamics form when the unknowns can be grouped into bodies of at most six so that M is block diagonal and
+/// a contact touches at most two of them; forms W otherwise. Throws InvalidProblem when M is not symmetric positive
+/// definite.
+FrictionProblem to_friction_problem(const GlobalProblem& global);
+
+/// One-row contacts become three rows with mu = 0: their tangential rows of W or H are zero.
+LocalProblem to_local_problem(const FrictionProblem& problem);
+GlobalProblem to_global_problem(const FrictionProblem& problem);
+
+}  // namespace ballast

@@ -1,0 +1,186 @@
+#include "problems/mechanics/assemble.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace ballast {
+
+Mat3 contact_frame(const Vec3& n) {
+  // T1 in the plane of n and the world axis that is least along n (the first of equals): never near-parallel
+  int axis = 0;
+  if (std::abs(n.y()) < std::abs(n[axis])) axis = 1;
+  if (std::abs(n.z()) < std::abs(n[axis])) axis = 2;
+  Mat3 frame;
+  frame.row(0) = n;
+  frame.row(1) = (Vec3::Unit(axis) - n[axis] * n).normalized();
+  frame.row(2) = n.cross(Vec3(frame.row(1)));
+  return frame;
+}
+
+Vec3 prescribed_velocity(const RigidBody& body, double time) {
+  if (!body.is_wall() || body.wall.motion != WallMotion::prescribed) return Vec3::Zero();
+  const double omega = 2.0 * std::numbers::pi * body.wall.frequency;
+  return body.wall.amplitude * (omega * std::sin(omega * time));  // d/dt of A (1 - cos wt)
+}
+
+ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(system) {
+  for (const RigidBody& body : system.bodies) {
+    if (body.is_wall() && body.wall.motion == WallMotion::prescribed) some_wall_is_prescribed_ = true;
+    const int dofs = body.freedom.count();
+    if (dofs == 0) {
+      problem_body_.push_back(-1);
+      continue;
+    }
+    problem_body_.push_back(static_cast<int>(dof_begin_.size()) - 1);
+    dof_begin_.push_back(dof_begin_.back() + dofs);
+    // orthonormal axes and principal frame: the block is diagonal
+    const size_t begin = constant_.mass.size();
+    constant_.mass.resize(begin + dofs * dofs, 0.0);
+    for (int d = 0; d < dofs; ++d)
+      constant_.mass[begin + d * dofs + d] =
+          d < body.freedom.translations ? body.mass : body.inertia[d - body.freedom.translations];
+    constant_.mass_begin.push_back(static_cast<int>(constant_.mass.size()));
+  }
+  constant_.dof_begin = dof_begin_;
+}
+
+void ProblemAssembler::pack(const MotionState& state, Eigen::VectorXd& v) const {
+  v.resize(dof_count());
+  for (size_t b = 0; b < system_.bodies.size(); ++b) {
+    if (problem_body_[b] < 0) continue;
+    const Freedom& freedom = system_.bodies[b].freedom;
+    double* out = v.data() + first_dof(static_cast<int>(b));
+    for (int d = 0; d < freedom.translations; ++d) *out++ = freedom.axes.col(d).dot(state.velocity[b]);
+    if (freedom.rotation) Eigen::Map<Vec3>{out} = state.spin[b];
+  }
+}
+
+void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) const {
+  for (size_t b = 0; b < system_.bodies.size(); ++b) {
+    if (problem_body_[b] < 0) continue;
+    const Freedom& freedom = system_.bodies[b].freedom;
+    const double* in = v.data() + first_dof(static_cast<int>(b));
+    state.velocity[b].setZero();
+    for (int d = 0; d < freedom.translations; ++d) state.velocity[b] += freedom.axes.col(d) * *in++;
+    if (freedom.rotation) state.spin[b] = Eigen::Map<const Vec3>(in);
+  }
+}
+
+/// Returns where the next block begins.
+double* ProblemAssembler::write_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows,
+                                      const Vec3& point, double* h) const {
+  if (problem_body_[body] < 0) return h;
+  const Freedom& freedom = system_.bodies[body].freedom;
+  for (int d = 0; d < freedom.translations; ++d)
+    for (int row = 0; row < rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
+  if (!freedom.rotation) return h;
+  // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
+  const Mat3& R_WB = rotation_[body];
+  const Vec3 lever = sign * (R_WB.transpose() * (point - state.pose[body].position));
+  const Mat3 directions = R_WB.transpose() * frame.transpose();
+  Mat3 block;  // row i: direction i
+  for (int row = 0; row < rows; ++row) block.row(row) = lever.cross(Vec3(directions.col(row)));
+  for (int d = 0; d < 3; ++d)
+    for (int row = 0; row < rows; ++row) *h++ = block(row, d);
+  return h;
+}
+
+/// Everything but numbers: who touches whom, with how many rows, and where its blocks stand.
+void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem) {
+  DynamicsForm& dynamics = problem.dynamics;
+  detected_.clear();
+  for (size_t c = 0; c < contacts.size(); ++c) {
+    const ContactPoint& contact = contacts[c];
+    if (system_.restitution > 0.0 && contact.gap > 0.0) continue;
+    detected_.push_back(static_cast<int>(c));
+    const double mu = system_.pair_friction(contact.body_a, contact.body_b);
+    const int rows = mu > 0.0 ? 3 : 1;
+    const int dofs = system_.bodies[contact.body_a].freedom.count() + system_.bodies[contact.body_b].freedom.count();
+    dynamics.h_begin.push_back(dynamics.h_begin.back() + rows * dofs);
+    dynamics.body_a.push_back(problem_body_[contact.body_a]);
+    dynamics.body_b.push_back(problem_body_[contact.body_b]);
+    problem.row_begin.push_back(problem.row_begin.back() + rows);
+    problem.friction.push_back(mu);
+  }
+  dynamics.h.resize(dynamics.h_begin.back());
+  frames_.resize(detected_.size());
+  row_begin_ = problem.row_begin;
+}
+
+void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd& v_free, double h, double end_time,
+                                std::span<const ContactPoint> contacts, FrictionProblem& problem) {
+  problem.clear();
+  problem.has_dynamics = true;
+  DynamicsForm& dynamics = problem.dynamics;
+  dynamics.dof_begin = constant_.dof_begin;
+  dynamics.mass_begin = constant_.mass_begin;
+  dynamics.mass = constant_.mass;
+  dynamics.v_free = v_free;
+
+  rotation_.resize(state.pose.size());
+  for (size_t b = 0; b < state.pose.size(); ++b) rotation_[b] = state.pose[b].rotation.toRotationMatrix();
+
+  lay_out(contacts, problem);
+  const int count = problem.contact_count();
+  constexpr int contacts_of_part = 128;
+  run_parts(team_, (count + contacts_of_part - 1) / contacts_of_part, [&](int part) {
+    for (int k = part * contacts_of_part; k < std::min(count, (part + 1) * contacts_of_part); ++k) {
+      const ContactPoint& contact = contacts[detected_[k]];
+      const int rows = problem.contact_rows(k);
+      frames_[k] = contact_frame(contact.normal);
+      double* block = dynamics.h.data() + dynamics.h_begin[k];
+      block = write_block(state, contact.body_a, -1.0, frames_[k], rows, contact.position, block);
+      write_block(state, contact.body_b, +1.0, frames_[k], rows, contact.position, block);
+    }
+  });
+
+  prescribed_part(contacts, end_time, dynamics.bias);
+  if (const double e = system_.restitution; e > 0.0) {  // Newton's law: u_N+ + e u_N- >= 0 for approaching points
+    pack(state, v_before_);
+    prescribed_part(contacts, state.time, u_before_);
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      const int rows = problem.contact_rows(c);
+      const double* block = dynamics.h.data() + dynamics.h_begin[c];
+      double approach = u_before_[problem.row_begin[c]];
+      for (int body : {dynamics.body_a[c], dynamics.body_b[c]})
+        for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows)
+          approach += *block * v_before_[dynamics.dof_begin[body] + d];
+      if (approach < 0.0) dynamics.bias[problem.row_begin[c]] += e * approach;
+    }
+    return;
+  }
+  for (int c = 0; c < problem.contact_count(); ++c)
+    dynamics.bias[problem.row_begin[c]] += std::max(contacts[detected_[c]].gap, 0.0) / h;
+}
+
+void ProblemAssembler::prescribed_part(std::span<const ContactPoint> contacts, double time,
+                                       Eigen::VectorXd& rows) const {
+  rows.setZero(row_begin_.back());
+  if (!some_wall_is_prescribed_) return;
+  for (size_t k = 0; k < detected_.size(); ++k) {
+    const ContactPoint& contact = contacts[detected_[k]];
+    const Vec3 velocity = prescribed_velocity(system_.bodies[contact.body_b], time) -
+                          prescribed_velocity(system_.bodies[contact.body_a], time);
+    const int n = row_begin_[k + 1] - row_begin_[k];
+    rows.segment(row_begin_[k], n) = (frames_[k] * velocity).head(n);
+  }
+}
+
+void ProblemAssembler::to_rows(std::span<const Vec3> world, Impulses& r) const {
+  r.resize(row_begin_.back());
+  for (size_t k = 0; k < detected_.size(); ++k) {
+    const int n = row_begin_[k + 1] - row_begin_[k];
+    r.segment(row_begin_[k], n) = (frames_[k] * world[detected_[k]]).head(n);
+  }
+}
+
+void ProblemAssembler::to_world(const Impulses& r, std::span<const ContactPoint> contacts,
+                                std::vector<Vec3>& world) const {
+  world.assign(contacts.size(), Vec3::Zero());
+  for (size_t k = 0; k < detected_.size(); ++k) {
+    const int n = row_begin_[k + 1] - row_begin_[k];
+    world[detected_[k]] = frames_[k].topRows(n).transpose() * r.segment(row_begin_[k], n);
+  }
+}
+
+}  // namespace ballast

@@ -1,0 +1,74 @@
+#pragma once
+// A scene's bodies and walls as one list of rigid bodies, and their state.
+
+#include <string>
+#include <vector>
+
+#include "problems/scene/scene.hpp"
+
+namespace ballast {
+
+/// What of a body is unknown: translations along the first `translations` columns of `axes` (orthonormal, world frame),
+/// and all rotations (about the body axes) or none. A driven wall has one translation, a fixed body none.
+struct Freedom {
+  int translations = 3;
+  Mat3 axes = Mat3::Identity();
+  bool rotation = true;
+  int count() const { return translations + (rotation ? 3 : 0); }
+};
+
+/// The constants of one body. Grains come first, in scene order, then the walls.
+struct RigidBody {
+  std::string name;
+  ContactShape shape;
+  double mass = 0.0;            ///< [kg]; unused without freedom
+  Vec3 inertia = Vec3::Zero();  ///< principal [kg m^2]
+  Freedom freedom;
+  double volume = 0.0;          ///< [m^3]; 0 for walls
+  double wall_friction = -1.0;  ///< >= 0 for walls: mu of contacts with it
+  ForceSpec force;              ///< on bodies
+  WallSpec wall;                ///< on walls: motion and load
+  bool is_wall() const { return shape.polyhedron == nullptr; }
+};
+
+/// Positions at t_k, velocities at t_k. Everything that a step changes, apart from warm starts.
+struct MotionState {
+  double time = 0.0;
+  long step = 0;
+  std::vector<Pose> pose;
+  std::vector<Vec3> velocity;  ///< centre of mass, world frame [m/s]
+  std::vector<Vec3> spin;      ///< angular velocity, body frame [rad/s]
+};
+
+/// Everything that stays: bodies, gravity, friction, restitution. Owns the shapes.
+struct MechanicalSystem {
+  std::vector<RigidBody> bodies;
+  std::vector<std::shared_ptr<const Polyhedron>> shapes;
+  int grain_count = 0;  ///< bodies [0, grain_count) are polyhedra, the rest are walls
+  Vec3 gravity = Vec3::Zero();
+  double friction = 0.0;
+  double restitution = 0.0;
+
+  double mass_of_grains() const;
+  int find_body(const std::string& name) const;  ///< -1 when there is none
+  int first_driven_wall() const;               ///< -1 when there is none
+  double pair_friction(int a, int b) const;      ///< a wall's own mu, else the bodies'
+};
+
+/// Bodies and walls of a scene, with the initial state. For scenes with `grains` use experiments/vibrated_box, which makes them.
+MechanicalSystem make_system(const Scene& scene, MotionState& state);
+
+/// Appends a body or a wall (walls last). Used by make_system and by the vibrated box.
+void add_body(MechanicalSystem& system, MotionState& state, const BodySpec& spec, double volume);
+void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec);
+
+std::vector<ContactShape> contact_shapes(const MechanicalSystem& system);
+
+/// Of what has unknowns [J]. `velocity` world frame [m/s], `spin` body frame [rad/s].
+double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& spin);
+
+/// Displacement of a wall from where it started, along -normal (outward) [m], and its outward velocity [m/s].
+double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall);
+double outward_velocity(const MechanicalSystem& system, const MotionState& state, int wall);
+
+}  // namespace ballast

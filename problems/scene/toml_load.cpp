@@ -1,0 +1,109 @@
+// load_toml: parsing, and overrides merged into the parsed table.
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "problems/scene/scene_file.hpp"
+#include "problems/scene/toml_reader.hpp"
+
+namespace ballast {
+namespace {
+
+struct Override {
+  std::vector<std::string> path;
+  std::string text;   ///< as given, for messages
+  toml::table value;  ///< under the key "value"
+};
+
+[[noreturn]] void fail(const std::filesystem::path& file, const Override& o, const std::string& what) {
+  const std::string first_line = o.text.substr(0, o.text.find_first_of("\r\n"));
+  throw SceneFileError(file.string() + " (--set): " + first_line + ": " + what);
+}
+
+std::vector<std::string> split_at_dots(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == '.')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+toml::table parse_value(const std::filesystem::path& file, const Override& o, const std::string& value) {
+  if (value.find_first_of("\r\n") != std::string::npos) fail(file, o, "a value is one line");
+  try {
+    return toml::parse("value = " + value, std::string_view("--set"));
+  } catch (const toml::parse_error& error) {
+    // a bare word, where no TOML was meant
+    if (value.empty() || value.find_first_of("\"'[{\\") != std::string::npos)
+      fail(file, o, "not a TOML value: " + std::string(error.description()));
+    return toml::parse("value = \"" + value + "\"", std::string_view("--set"));
+  }
+}
+
+Override parse_override(const std::filesystem::path& file, const std::string& text) {
+  Override o;
+  o.text = text;
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos) fail(file, o, "expected dotted.key=value");
+  o.path = split_at_dots(text.substr(0, equals));
+  for (const std::string& part : o.path)
+    if (part.empty()) fail(file, o, "empty part in the key, expected dotted.key=value");
+  o.value = parse_value(file, o, text.substr(equals + 1));
+  return o;
+}
+
+toml::table& element(const std::filesystem::path& file, const Override& o, toml::array& array,
+                     const std::string& index) {
+  const std::string range = "expected an index below " + std::to_string(array.size());
+  const bool digits = index.find_first_not_of("0123456789") == std::string::npos && index.size() < 10;
+  const size_t i = digits ? std::stoul(index) : array.size();
+  if (i >= array.size()) fail(file, o, "no element " + index + " there, " + range);
+  if (!array[i].is_table()) fail(file, o, "element " + index + " is not a table");
+  return *array[i].as_table();
+}
+
+/// Values are moved into the tree: a copied node forgets its source, by which errors say that an override is to blame.
+void apply(const std::filesystem::path& file, Override o, toml::table& root) {
+  toml::table* table = &root;
+  for (size_t k = 0; k + 1 < o.path.size(); ++k) {
+    toml::node* node = table->get(o.path[k]);
+    if (!node) node = &table->insert(o.path[k], toml::table{}).first->second;
+    if (toml::array* array = node->as_array()) {
+      table = &element(file, o, *array, o.path[++k]);
+      if (k + 1 == o.path.size()) fail(file, o, "expected a key after the index");
+    } else if (node->is_table()) {
+      table = node->as_table();
+    } else {
+      fail(file, o, o.path[k] + " is not a table");
+    }
+  }
+  o.value.get("value")->visit([&](auto& value) { table->insert_or_assign(o.path.back(), std::move(value)); });
+}
+
+}  // namespace
+
+toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  if (std::filesystem::is_directory(file))
+    throw SceneFileError(file.string() + ": is a folder, expected a scene in TOML");
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw SceneFileError(file.string() + ": cannot be read: " + std::strerror(errno));
+  std::stringstream content;
+  content << stream.rdbuf();
+  toml::table table;
+  try {
+    table = toml::parse(content.str(), file.string());
+  } catch (const toml::parse_error& error) {
+    throw SceneFileError(file.string() + ':' + std::to_string(error.source().begin.line) +
+                         ": not valid TOML: " + std::string(error.description()));
+  }
+  for (const std::string& text : overrides) apply(file, parse_override(file, text), table);
+  return table;
+}
+
+}  // namespace ballast

@@ -1,0 +1,134 @@
+#include "solvers/backends/admm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "solvers/seam/iteration.hpp"
+#include "solvers/parts/shifted_delassus.hpp"
+#include "solvers/parts/slip_shift.hpp"
+
+namespace ballast {
+namespace {
+
+// min 1/2 x.W x + x.(q + s n)  s.t.  x = r, r in K;  multiplier y, penalty P = beta lambda_max(W_cc):
+//   x  = (W + P)^-1 (P r - y - q - s n)
+//   x^ = a x + (1 - a) r
+//   r  = P_K(x^ + P^-1 y),   y += P (x^ - r)
+// At a fixed point y = -(u + s n). Only r, which lies in the cones, is judged or returned.
+class Admm final : public Solver {
+ public:
+  explicit Admm(const AdmmSettings& settings) : settings_(settings) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    w_.prepare(problem);
+    system_.prepare(w_);
+    free_contact_velocity(problem, q_);
+    for (Eigen::VectorXd* x : {&u_, &x_, &y_, &right_}) x->resize(problem.row_count());
+    factored_ = set_penalty(settings_.penalty);
+  }
+
+  Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
+    Iteration iteration(budget, {1, 1.0});
+    w_.project(r);
+    w_.velocity(r, u_);
+    iteration.evaluated(w_.error(r, u_));
+    shift_.reset(w_);
+    shift_.follow(w_, u_);
+    for (int c = 0; c < w_.contact_count(); ++c) w_.put(y_, c, -shift_.shifted(w_, u_, c));
+    if (penalty_ != settings_.penalty) factored_ = set_penalty(settings_.penalty);
+    next_look_ = look_after_ = settings_.adapt_every;
+    while (iteration.next()) {
+      if (!factored_) {
+        iteration.evaluated(std::numeric_limits<double>::quiet_NaN());
+        break;
+      }
+      alternate(r);
+      w_.velocity(r, u_);
+      if (iteration.count() % settings_.shift_every == 0) follow();
+      if (iteration.count() >= next_look_) adapt(iteration.count());
+      if (iteration.error_due()) iteration.evaluated(w_.error(r, u_));
+    }
+    return iteration.finish(std::move(r));
+  }
+
+ private:
+  bool set_penalty(double penalty) {
+    penalty_ = penalty;
+    sigma_.resize(w_.contact_count());
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      const double rho = w_.rho()[c] > 0.0 ? w_.rho()[c] : 1.0;  // where nothing moves, anything will do
+      sigma_[c] = rho / penalty * Eigen::Matrix3d::Identity();
+    }
+    shift_blocks_.resize(sigma_.size());
+    for (std::size_t c = 0; c < sigma_.size(); ++c)
+      shift_blocks_[c] = 1.0 / sigma_[c](0, 0) * Eigen::Matrix3d::Identity();
+    return system_.factor(shift_blocks_, sigma_);
+  }
+
+  void alternate(Impulses& r) {
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      Eigen::Vector3d b = w_.at(r, c) / sigma_[c](0, 0) - w_.at(y_, c) - w_.at(q_, c);
+      b[0] -= shift_[c];
+      w_.put(right_, c, b);
+    }
+    system_.solve(right_, x_);
+    split_ = moved_ = 0.0;
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      if (!(w_.rho()[c] > 0.0)) continue;
+      const double sigma = sigma_[c](0, 0), lambda_max = 1.0 / w_.rho()[c];
+      const Eigen::Vector3d before = w_.at(r, c), x = w_.at(x_, c), y = w_.at(y_, c);
+      const Eigen::Vector3d relaxed = before + settings_.relaxation * (x - before);
+      const Eigen::Vector3d after = project_cone(relaxed + sigma * y, w_.friction(c));
+      w_.put(r, c, after);
+      w_.put(y_, c, y + (relaxed - after) / sigma);
+      split_ += (x - after).squaredNorm() * lambda_max * lambda_max;
+      moved_ += (after - before).squaredNorm() / (sigma * sigma);
+    }
+  }
+
+  /// Another s, and the multiplier that goes with it. The multiplier's own u_T decides, which changes gently: with the
+  /// velocity that r gives the iteration may circle.
+  void follow() {
+    shift_multiplier(+1.0);
+    shift_.follow(w_, y_);
+    shift_multiplier(-1.0);
+  }
+
+  void shift_multiplier(double sign) {
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      Eigen::Vector3d y = w_.at(y_, c);
+      y[0] += sign * shift_[c];
+      w_.put(y_, c, y);
+    }
+  }
+
+  /// Balances the two residuals, both velocities: what x and r differ, what r has moved (Boyd et al. 2011, 3.4.1).
+  void adapt(int count) {
+    next_look_ = count + look_after_;
+    look_after_ += look_after_ / 5;
+    if (!(split_ > 0.0 && moved_ > 0.0)) return;
+    const double factor = std::clamp(std::pow(split_ / moved_, 0.25), 0.01, 100.0);
+    if (factor > settings_.adapt_from || factor < 1.0 / settings_.adapt_from)
+      factored_ = set_penalty(std::clamp(penalty_ * factor, 1e-6, 1e6));
+  }
+
+  AdmmSettings settings_;
+  ContactOperator w_;
+  ShiftedDelassus system_;
+  SlipShift shift_;
+  std::vector<Eigen::Matrix3d> sigma_, shift_blocks_;  ///< P^-1, P
+  Eigen::VectorXd q_, u_, x_, y_, right_;
+  double penalty_ = 1.0, split_ = 0.0, moved_ = 0.0;  ///< split_, moved_: squares
+  int next_look_ = 0, look_after_ = 0;
+  bool factored_ = false;
+};
+
+}  // namespace
+
+SolverMaker admm_maker() {
+  return []() -> std::unique_ptr<Solver> { return std::make_unique<Admm>(AdmmSettings{}); };
+}
+
+}  // namespace ballast

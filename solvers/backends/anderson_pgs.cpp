@@ -1,0 +1,95 @@
+#include "solvers/backends/anderson_pgs.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "solvers/parts/anderson.hpp"
+#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/seam/iteration.hpp"
+
+namespace ballast {
+namespace {
+
+// Only swept iterates, which lie in the cones, are judged or returned. The change of a sweep is measured in the
+// impulses, each scaled by the root of its own entry of W, so that heavy and light bodies count alike.
+class AndersonPgs final : public Solver {
+ public:
+  explicit AndersonPgs(const AndersonPgsSettings& settings) : settings_(settings) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    if (problem.has_dynamics)
+      bodies_.prepare(problem);
+    else
+      delassus_.prepare(problem);
+  }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    return problem.has_dynamics ? iterate(bodies_, problem, std::move(start), budget)
+                                : iterate(delassus_, problem, std::move(start), budget);
+  }
+
+ private:
+  template <typename Sweep>
+  Solved iterate(Sweep& sweep, const FrictionProblem& problem, Impulses r, const Budget& budget) {
+    Iteration iteration(budget, {4, 1.1});
+    sweep.load(problem, r);
+    sweep.store(problem, r);
+    iteration.evaluated(sweep.error());
+    begin(sweep);
+    while (iteration.next()) {
+      sweep.sweep();
+      if (iteration.error_due()) {
+        double error = sweep.error();
+        sweep.store(problem, r);
+        if (iteration.reached(error)) {  // once more from the impulses alone, without what the updates have rounded
+          sweep.load(problem, r);
+          error = sweep.error();
+        }
+        iteration.evaluated(error);
+      }
+      sweep.save(image_);
+      extrapolate();
+      sweep.restore(x_);
+    }
+    return iteration.finish(std::move(r));
+  }
+
+  template <typename Sweep>
+  void begin(const Sweep& sweep) {
+    sweep.impulse_weights(weights_);
+    sweep.save(x_);
+    good_image_ = x_;
+    mixing_.reset(settings_.memory);
+    last_change_ = std::numeric_limits<double>::infinity();
+  }
+
+  void extrapolate() {
+    const Eigen::Index compared = weights_.size();
+    const double change = ((image_ - x_).head(compared).cwiseProduct(weights_)).norm();
+    if (!(change <= settings_.allowed_growth * last_change_)) {
+      mixing_.forget();
+      last_change_ = std::numeric_limits<double>::infinity();
+      x_ = good_image_;
+      return;
+    }
+    mixing_.step(x_, image_, compared, weights_);
+    good_image_.swap(image_);
+    last_change_ = change;
+  }
+
+  AndersonPgsSettings settings_;
+  BodySweep bodies_;
+  DelassusSweep delassus_;
+  Anderson mixing_;
+  Eigen::VectorXd x_, image_, good_image_, weights_;
+  double last_change_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_anderson_pgs(const AndersonPgsSettings& settings) {
+  return std::make_unique<AndersonPgs>(settings);
+}
+
+}  // namespace ballast

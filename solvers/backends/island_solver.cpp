@@ -1,0 +1,95 @@
+#include "solvers/backends/island_solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "problems/algebra/islands.hpp"
+
+namespace ballast {
+namespace {
+
+int badness(StopReason reason) {
+  switch (reason) {
+    case StopReason::reached_tolerance:
+      return 0;
+    case StopReason::stalled:
+      return 1;
+    case StopReason::iteration_limit:
+      return 2;
+    case StopReason::time_limit:
+      return 3;
+    case StopReason::numerical_failure:
+      break;
+  }
+  return 4;
+}
+
+class IslandSolver final : public Solver {
+ public:
+  explicit IslandSolver(std::unique_ptr<Solver> backend) : backend_(std::move(backend)) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    is_split_ = problem.has_dynamics && !problem.has_delassus;
+    if (is_split_) islands_.find(problem);
+    is_split_ = is_split_ && islands_.count() > 1;
+    if (!is_split_) backend_->prepare(problem);
+  }
+
+  void use_threads(int threads) override { backend_->use_threads(threads); }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    if (!is_split_) return backend_->solve(problem, std::move(start), budget);
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    Solved whole;
+    whole.reason = StopReason::reached_tolerance;
+    whole.impulses.setZero(problem.row_count());
+    double visits = 0.0, squares = 0.0, contacts = 0.0;
+    for (int i = 0; i < islands_.count(); ++i) {
+      Budget own = budget;
+      own.keep_history = false;
+      own.max_seconds = std::max(0.0, budget.max_seconds - std::chrono::duration<double>(Clock::now() - begin).count());
+      const Solved solved = solve_island(problem, i, start, own, whole.impulses);
+      const double size = static_cast<double>(islands_.contacts(i).size());
+      contacts += size;
+      visits += size * solved.iterations;
+      squares += size * solved.own_residual * solved.own_residual;
+      if (badness(solved.reason) > badness(whole.reason)) whole.reason = solved.reason;
+    }
+    whole.iterations = static_cast<int>(std::ceil(visits / contacts));
+    whole.own_residual = std::sqrt(squares / contacts);
+    return whole;
+  }
+
+ private:
+  /// Writes the island's rows of `impulses`; they stay zero where the backend fails to return any. The result has none.
+  Solved solve_island(const FrictionProblem& problem, int island, const Impulses& start, const Budget& budget,
+                      Impulses& impulses) {
+    islands_.extract(problem, island, part_);
+    islands_.gather(problem, island, start, rows_);
+    backend_->prepare(part_);
+    Solved solved = backend_->solve(part_, std::move(rows_), budget);
+    rows_ = std::move(solved.impulses);
+    if (rows_.size() == part_.row_count())
+      islands_.scatter(problem, island, rows_, impulses);
+    else
+      solved.reason = StopReason::numerical_failure;
+    return solved;
+  }
+
+  std::unique_ptr<Solver> backend_;
+  bool is_split_ = false;
+  Islands islands_;
+  FrictionProblem part_;
+  Impulses rows_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_island_solver(std::unique_ptr<Solver> backend) {
+  return std::make_unique<IslandSolver>(std::move(backend));
+}
+
+}  // namespace ballast

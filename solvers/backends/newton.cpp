@@ -1,0 +1,169 @@
+#include "solvers/backends/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/seam/iteration.hpp"
+#include "solvers/parts/newton_step.hpp"
+
+namespace ballast {
+namespace {
+
+/// The best iterate so far, by the judge's error.
+struct Best {
+  Impulses r;
+  double error;
+  void offer(const Impulses& candidate, double candidate_error) {
+    if (!(candidate_error < error)) return;
+    r = candidate;
+    error = candidate_error;
+  }
+};
+
+class Newton final : public Solver {
+ public:
+  explicit Newton(const NewtonSettings& settings) : settings_(settings) {}
+
+  void prepare(const FrictionProblem& problem) override { step_.prepare(problem); }
+
+  Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
+    Iteration iteration(budget, {1, 1.0});
+    step_.begin(settings_.equation, settings_.rho_factor, std::move(r));
+    step_.set_proximal(smallest_weight);
+    Best best{step_.impulses(), step_.error()};
+    iteration.evaluated(best.error);
+    int failures = 0;
+    double weight = smallest_weight;
+    while (iteration.next()) {
+      const double before = step_.residual();
+      // where no shorter step descends, the whole one may leave the kink
+      failures = step_.newton(failures % 2 ? 0 : settings_.line_search) ? 0 : failures + 1;
+      step_.centre();
+      best.offer(step_.impulses(), step_.error());
+      iteration.evaluated(best.error);
+      if (failures >= 8) break;
+      if (step_.residual() < 0.5 * before)
+        weight = std::max(smallest_weight, 0.1 * weight);
+      else if (failures > 0)
+        weight = std::min(largest_weight, 10.0 * weight);
+      step_.set_proximal(weight);
+    }
+    Solved solved = iteration.finish(std::move(best.r));
+    if (failures >= 8 && solved.reason != StopReason::reached_tolerance) solved.reason = StopReason::stalled;
+    solved.own_residual = step_.residual();
+    return solved;
+  }
+
+ private:
+  /// alpha rho where none is wanted: velocity-space elimination needs a regular contact block. Where W is singular, 1 / weight
+  /// times the rounding of u, about 1e-16 |q|, comes into r: a step without descent is taken for that and the weight grows.
+  static constexpr double smallest_weight = 1e-7, largest_weight = 1e-3;
+  NewtonSettings settings_;
+  NewtonStep step_;
+};
+
+class ProximalNewton final : public Solver {
+ public:
+  explicit ProximalNewton(const ProximalNewtonSettings& settings)
+      : settings_(settings), start_(make_gauss_seidel({})) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    start_->prepare(problem);
+    step_.prepare(problem);
+  }
+
+  Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
+    Iteration iteration(budget, {1, 1.0});
+    if (budget.max_iterations > 0 && r.squaredNorm() == 0.0)
+      r = swept(problem, std::move(r), settings_.start_sweeps, budget.max_seconds, budget);
+    step_.begin(settings_.equation, rho_factors[0], std::move(r));
+    Best best{step_.impulses(), step_.error()};
+    iteration.evaluated(best.error);
+    double weight = settings_.first_weight, halved = best.error;
+    int failures = 0, halved_at = 0;
+    while (failures < 30 && iteration.count() - halved_at <= settings_.patience * budget.max_iterations) {
+      const int steps = proximal_step(iteration, weight, best);
+      if (steps < 0) break;  // the budget ended
+      if (best.error < 0.5 * halved) {
+        halved = best.error;
+        halved_at = iteration.count();
+      }
+      if (steps > 0 && steps <= settings_.inner_steps) {
+        failures = 0;
+        if (steps <= settings_.inner_steps / 2) weight = std::max(1e-9, weight * 0.3);
+      } else {
+        ++failures;
+        weight = std::min(1e3, weight * 4.0);
+        step_.set_rho_factor(rho_factors[failures % 3]);
+        // sweeps mend locally what misled Newton: contacts that opened or began to slip
+        step_.restart(swept(problem, step_.impulses(), settings_.mending_sweeps,
+                            budget.max_seconds - iteration.seconds(), budget));
+        best.offer(step_.impulses(), step_.error());
+      }
+    }
+    Solved solved = iteration.finish(std::move(best.r));
+    if (solved.reason == StopReason::numerical_failure) solved.reason = StopReason::stalled;
+    solved.own_residual = step_.residual();
+    return solved;
+  }
+
+ private:
+  static constexpr double rho_factors[3] = {10.0, 100.0, 1.0};
+
+  Impulses swept(const FrictionProblem& problem, Impulses r, int count, double seconds, const Budget& budget) {
+    const Budget sweeps{.tolerance = budget.tolerance,
+                        .max_iterations = count,
+                        .max_seconds = std::max(0.0, seconds)};
+    return start_->solve(problem, std::move(r), sweeps).impulses;
+  }
+
+  /// One proximal step from the current iterate. Newton steps taken; one more than allowed: failed, and the iterate is where the
+  /// step began; -1: the budget ended.
+  int proximal_step(Iteration& iteration, double weight, Best& best) {
+    step_.centre();
+    step_.set_proximal(0.0);
+    const double begin = step_.residual();
+    step_.set_proximal(weight);
+    const Impulses centre = step_.impulses();
+    for (int k = 1; k <= settings_.inner_steps; ++k) {
+      if (!iteration.next()) return -1;
+      const bool descended = step_.newton(8);
+      best.offer(step_.impulses(), step_.error());
+      iteration.evaluated(best.error);
+      if (step_.residual() <= settings_.inner_reduction * begin) return k;
+      if (!descended) break;
+    }
+    step_.restart(centre);
+    return settings_.inner_steps + 1;
+  }
+
+  ProximalNewtonSettings settings_;
+  std::unique_ptr<Solver> start_;
+  NewtonStep step_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_newton(const NewtonSettings& settings) { return std::make_unique<Newton>(settings); }
+
+std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& settings) {
+  return std::make_unique<ProximalNewton>(settings);
+}
+
+SolverMaker newton_ac_maker() {
+  return [] { return make_newton({.equation = ContactEquation::alart_curnier}); };
+}
+SolverMaker newton_nm_maker() {
+  return [] { return make_newton({.equation = ContactEquation::natural_map}); };
+}
+SolverMaker newton_fb_maker() {
+  return [] { return make_newton({.equation = ContactEquation::fischer_burmeister}); };
+}
+SolverMaker prox_newton_maker() {
+  return [] { return make_proximal_newton(); };
+}
+
+}  // namespace ballast

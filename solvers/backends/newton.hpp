@@ -1,0 +1,41 @@
+#pragma once
+// Semismooth Newton on Coulomb's law of all contacts, plain or inside proximal-point steps.
+
+#include <memory>
+
+#include "solvers/parts/contact_equation.hpp"
+#include "solvers/seam/solver.hpp"
+
+namespace ballast {
+
+struct NewtonSettings {
+  ContactEquation equation = ContactEquation::alart_curnier;
+  double rho_factor = 1.0;  ///< rho = rho_factor / lambda_max(W_cc)
+  int line_search = 12;     ///< halvings of a step at most
+};
+
+/// Newton steps with a line search on the equation's residual (Alart, Curnier 1991; Acary, Bremond, Huber 2018). One iteration is one
+/// factorisation. Fails where W is rank deficient and contacts stick, as the method does.
+std::unique_ptr<Solver> make_newton(const NewtonSettings& settings);
+
+struct ProximalNewtonSettings {
+  ContactEquation equation = ContactEquation::alart_curnier;
+  int start_sweeps = 200;          ///< of Gauss-Seidel, when the start is cold
+  int mending_sweeps = 50;         ///< after a proximal step that failed
+  double first_weight = 1e-3;      ///< alpha rho of the first proximal step
+  double inner_reduction = 0.5;    ///< of the residual that an inner Newton must reach
+  int inner_steps = 12;            ///< Newton steps, after which a proximal step has failed
+  double patience = 0.375;         ///< part of the budget's iterations without halving the error, after which it gives up (stalled)
+};
+
+/// r_{k+1} solves the law with u + alpha (r - r_k): regular whatever W's rank, and the same solutions (Acary, Bremond, Huber 2018,
+/// section 6). alpha shrinks after easy steps and grows after failed ones. One iteration is one factorisation.
+std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& settings = {});
+
+/// For solver_list; null without SuiteSparse.
+SolverMaker newton_ac_maker();
+SolverMaker newton_nm_maker();
+SolverMaker newton_fb_maker();
+SolverMaker prox_newton_maker();
+
+}  // namespace ballast

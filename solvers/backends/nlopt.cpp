@@ -1,0 +1,162 @@
+#include "solvers/backends/nlopt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <nlopt.h>
+
+#include "solvers/parts/cone_program.hpp"
+
+namespace ballast {
+namespace {
+
+using Eigen::VectorXd;
+
+struct Recipe {
+  const char* name;
+  nlopt_algorithm algorithm;
+  SizeLimit largest;
+  int evaluations;      ///< of one round, at most
+  const char* because;  ///< of the limits
+};
+
+/// What NLopt's callbacks see: the cone program over the contacts that are not left at zero.
+struct Program {
+  SparseRows w;
+  VectorXd q;
+  std::vector<int> row_begin;  ///< first row of each contact with friction
+  std::vector<double> friction;
+};
+
+double objective(unsigned n, const double* values, double* gradient, void* data) {
+  const Program& program = *static_cast<const Program*>(data);
+  const Eigen::Map<const VectorXd> x(values, n);
+  const VectorXd wx = program.w * x;
+  if (gradient) Eigen::Map<VectorXd>(gradient, n) = wx + program.q;
+  return 0.5 * x.dot(wx) + x.dot(program.q);
+}
+
+/// |x_T| - mu x_N <= 0 per contact with friction.
+void cones(unsigned m, double* result, unsigned n, const double* x, double* gradient, void* data) {
+  const Program& program = *static_cast<const Program*>(data);
+  if (gradient) std::fill(gradient, gradient + static_cast<std::size_t>(m) * n, 0.0);
+  for (unsigned i = 0; i < m; ++i) {
+    const int at = program.row_begin[i];
+    const double length = std::hypot(x[at + 1], x[at + 2]);
+    result[i] = length - program.friction[i] * x[at];
+    if (!gradient) continue;
+    double* slope = gradient + static_cast<std::size_t>(i) * n + at;
+    slope[0] = -program.friction[i];
+    slope[1] = length > 0.0 ? x[at + 1] / length : 0.0;
+    slope[2] = length > 0.0 ? x[at + 2] / length : 0.0;
+  }
+}
+
+class Nlopt final : public Solver {
+ public:
+  explicit Nlopt(const Recipe& recipe) : recipe_(recipe) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    if (!recipe_.largest.admits(problem))
+      throw UnsupportedProblem(std::string(recipe_.name) + ": " + std::to_string(problem.contact_count()) +
+                               " contacts, " + std::to_string(contacts_with_friction(problem)) +
+                               " with friction; at most " + std::to_string(recipe_.largest.contacts) + " and " +
+                               std::to_string(recipe_.largest.with_friction) + " (" + recipe_.because + ")");
+    cones_.take(problem);
+  }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    constexpr int patience = 40;
+    return cones_.solve(problem, std::move(start), budget, patience,
+                        [this](const ConeRequest& request, RoundAnswer& answer) { run(request, answer); });
+  }
+
+ private:
+  /// Contacts whose projected gradient step P_K(x - u) ends at the apex stay there for this round: no constraint of
+  /// theirs has a gradient that NLopt could use. The others start from that step.
+  void run(const ConeRequest& request, RoundAnswer& answer) {
+    VectorXd x = request.start - cones_.w * request.start - request.q;
+    Program program;
+    std::vector<int> row;
+    for (int k = 0; k < cones_.contact_count(); ++k) {
+      const int at = cones_.row_begin[k], rows = cones_.row_begin[k + 1] - at;
+      if (rows == 3)
+        x.segment<3>(at) = project_cone(x.segment<3>(at), cones_.friction[k]);
+      else
+        x[at] = std::max(0.0, x[at]);
+      if (!(x[at] > 0.0)) continue;
+      if (rows == 3) {
+        program.row_begin.push_back(static_cast<int>(row.size()));
+        program.friction.push_back(cones_.friction[k]);
+      }
+      for (int i = 0; i < rows; ++i) row.push_back(at + i);
+    }
+    answer.x = std::move(x);
+    if (row.empty()) return;
+    program.w = chosen(row);
+    program.q = request.q(row);
+    VectorXd y = answer.x(row);
+    answer.iterations = optimise(request, program, row, y);
+    answer.finished = answer.iterations < std::min(recipe_.evaluations, request.max_iterations);
+    answer.x(row) = y;
+  }
+
+  /// Rows and columns `row` (ascending) of W.
+  SparseRows chosen(const std::vector<int>& row) const {
+    std::vector<int> here(cones_.row_count(), -1);
+    for (std::size_t i = 0; i < row.size(); ++i) here[row[i]] = static_cast<int>(i);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const int i : row)
+      for (SparseRows::InnerIterator entry(cones_.w, i); entry; ++entry)
+        if (here[entry.col()] >= 0) entries.emplace_back(here[i], here[entry.col()], entry.value());
+    SparseRows w(static_cast<Eigen::Index>(row.size()), static_cast<Eigen::Index>(row.size()));
+    w.setFromTriplets(entries.begin(), entries.end());
+    return w;
+  }
+
+  /// Evaluations spent; `y` is the start and the answer.
+  int optimise(const ConeRequest& request, Program& program, const std::vector<int>& row, VectorXd& y) const {
+    const unsigned n = static_cast<unsigned>(row.size()), m = static_cast<unsigned>(program.row_begin.size());
+    VectorXd low = VectorXd::Constant(n, -HUGE_VAL);
+    for (unsigned i = 0; i < n; ++i)
+      if (std::binary_search(cones_.row_begin.begin(), cones_.row_begin.end(), row[i])) low[i] = 0.0;
+    const double small = std::clamp(1e-2 * request.accuracy, 1e-14, 1e-4);
+    nlopt_opt optimiser = nlopt_create(recipe_.algorithm, n);
+    nlopt_set_lower_bounds(optimiser, low.data());
+    nlopt_set_min_objective(optimiser, objective, &program);
+    const VectorXd violation = VectorXd::Constant(m, small);
+    if (m > 0) nlopt_add_inequality_mconstraint(optimiser, m, cones, &program, violation.data());
+    nlopt_set_xtol_abs1(optimiser, small);
+    nlopt_set_maxeval(optimiser, std::min(recipe_.evaluations, request.max_iterations));
+    nlopt_set_maxtime(optimiser, std::max(1e-3, request.max_seconds));
+    double value = 0.0;
+    nlopt_optimize(optimiser, y.data(), &value);  // whatever it says: the judge looks at y
+    const int evaluations = nlopt_get_numevals(optimiser);
+    nlopt_destroy(optimiser);
+    return evaluations;
+  }
+
+  const Recipe& recipe_;
+  ConeProgram cones_;
+};
+
+// Svanberg's approximations have one curvature for all variables: the sharpest of the cones slows every contact down.
+// 40 contacts with friction and a singular W end at 1e-5 m/s after 20 s.
+const Recipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, nlopt_slsqp_limit, 400, "a dense quadratic program per step"};
+const Recipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
+const Recipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, nlopt_ccsaq_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
+
+template <const Recipe& recipe>
+std::unique_ptr<Solver> make_nlopt() {
+  return std::make_unique<Nlopt>(recipe);
+}
+
+}  // namespace
+
+SolverMaker nlopt_slsqp_maker() { return make_nlopt<slsqp>; }
+SolverMaker nlopt_mma_maker() { return make_nlopt<mma>; }
+SolverMaker nlopt_ccsaq_maker() { return make_nlopt<ccsaq>; }
+
+}  // namespace ballast

@@ -1,0 +1,161 @@
+#include "solvers/backends/sap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "solvers/seam/iteration.hpp"
+#include "solvers/parts/shifted_delassus.hpp"
+#include "solvers/parts/slip_shift.hpp"
+
+namespace ballast {
+namespace {
+
+class Sap final : public Solver {
+ public:
+  explicit Sap(const SapSettings& settings) : settings_(settings) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    if (!problem.has_dynamics)
+      throw UnsupportedProblem("sap: the problem has no dynamics form (M, H): the unknowns are the bodies' velocities");
+    w_.prepare(problem);
+    system_.prepare(w_);
+    mass_ = sparse_mass(problem.dynamics);
+    hessian_.resize(problem.contact_count());
+    for (Eigen::VectorXd* x : {&u_, &du_, &gamma_, &centre_}) x->resize(problem.row_count());
+    no_shift_.reset(w_);
+  }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    Iteration iteration(budget, {1, 1.0});
+    w_.project(start);
+    centre_ = gamma_ = start;
+    body_velocity(problem.dynamics, problem.row_begin, start, v_);
+    w_.velocity(gamma_, true_u_);
+    iteration.evaluated(w_.error(gamma_, true_u_));
+    int newtons = 0;  // for the problem at hand
+    bool done = false;
+    while (!done && iteration.next()) {
+      if (newtons == 0) place(problem);
+      const double decrement = newton(problem);
+      w_.velocity(gamma_, true_u_);
+      iteration.evaluated(std::isfinite(decrement) ? w_.error(gamma_, true_u_) : decrement);
+      // Far from the end a proximal step need not be exact.
+      const double enough = settings_.proximal ? 1e-2 * proximal_energy() : 0.0;
+      const bool solved = decrement <= std::max(enough, least_energy_);
+      if (!solved && ++newtons < settings_.most_newtons) continue;
+      // What is left is the relaxation: Coulomb's law is not reached by going on.
+      done = !settings_.proximal || no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.tolerance;
+      centre_ = gamma_;
+      newtons = 0;
+    }
+    const double own_residual = no_shift_.convex_error(w_, gamma_, true_u_);
+    Solved solved = iteration.finish(std::move(gamma_));
+    if (done && solved.reason != StopReason::reached_tolerance) solved.reason = StopReason::stalled;
+    solved.own_residual = own_residual;
+    gamma_.resize(problem.row_count());
+    return solved;
+  }
+
+ private:
+  double epsilon(int c) const { return settings_.regularisation / w_.rho()[c]; }
+  Eigen::Vector3d pressed(int c, const Eigen::Vector3d& u) const { return w_.at(centre_, c) - u / epsilon(c); }
+
+  /// u and gamma at v_.
+  void place(const FrictionProblem& problem) {
+    body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
+    for (int c = 0; c < w_.contact_count(); ++c)
+      w_.put(gamma_, c,
+             w_.rho()[c] > 0.0 ? project_cone(pressed(c, w_.at(u_, c)), w_.friction(c)) : Eigen::Vector3d::Zero());
+  }
+
+  /// One step in v_, and what follows from it. Returns -gradient.dv [J], twice what the model promised to gain; not
+  /// finite: the factorisation failed.
+  double newton(const FrictionProblem& problem) {
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      hessian_[c].setZero();
+      if (w_.rho()[c] > 0.0) hessian_[c] = project_cone_jacobian(pressed(c, w_.at(u_, c)), w_.friction(c)) / epsilon(c);
+    }
+    if (!system_.factor(hessian_, hessian_)) return std::numeric_limits<double>::quiet_NaN();
+    contact_to_body_impulse(problem.dynamics, problem.row_begin, gamma_, gradient_);
+    away_ = mass_ * (v_ - problem.dynamics.v_free);
+    least_energy_ = 1e-26 * std::abs(away_.dot(v_ - problem.dynamics.v_free));
+    gradient_ = away_ - gradient_;
+    system_.solve_bodies(gradient_, dv_);
+    dv_ = -dv_;
+    const double decrement = -gradient_.dot(dv_);
+    body_to_contact_velocity(problem.dynamics, problem.row_begin, dv_, du_);
+    du_ -= problem.dynamics.bias;
+    v_ += line_search(away_.dot(dv_), dv_.dot(mass_ * dv_)) * dv_;
+    place(problem);
+    return decrement;
+  }
+
+  /// The minimum of the convex energy along dv: its slope is bracketed, and found by secants kept inside the bracket
+  /// (Illinois). `slope` and `curvature` of the kinetic part.
+  double line_search(double slope, double curvature) const {
+    const auto derivative = [&](double t) {
+      double sum = slope + t * curvature;
+      for (int c = 0; c < w_.contact_count(); ++c)
+        if (w_.rho()[c] > 0.0) {
+          const Eigen::Vector3d du = w_.at(du_, c);
+          sum -= project_cone(pressed(c, w_.at(u_, c) + t * du), w_.friction(c)).dot(du);
+        }
+      return sum;
+    };
+    double low = 0.0, high = 1.0, at_low = derivative(low), at_high = derivative(high);
+    const double enough = 1e-8 * std::abs(at_low);
+    while (at_high < 0.0 && high < 16.0) {
+      low = high;
+      at_low = at_high;
+      high *= 2.0;
+      at_high = derivative(high);
+    }
+    if (std::abs(at_high) <= enough || at_high < 0.0) return high;
+    int last_side = 0;
+    for (int k = 0; k < 60 && at_low < 0.0; ++k) {
+      const double t = (low * at_high - high * at_low) / (at_high - at_low), at_t = derivative(t);
+      if (std::abs(at_t) <= enough) return t;
+      const int side = at_t > 0.0 ? 1 : -1;
+      if (side > 0) {
+        high = t;
+        at_high = at_t;
+        if (last_side == side) at_low *= 0.5;
+      } else {
+        low = t;
+        at_low = at_t;
+        if (last_side == side) at_high *= 0.5;
+      }
+      last_side = side;
+    }
+    return low > 0.0 ? low : high;
+  }
+
+  /// sum epsilon |gamma - centre|^2 [J]: what the proximal step moves.
+  double proximal_energy() const {
+    double sum = 0.0;
+    for (int c = 0; c < w_.contact_count(); ++c)
+      if (w_.rho()[c] > 0.0) sum += epsilon(c) * (w_.at(gamma_, c) - w_.at(centre_, c)).squaredNorm();
+    return sum;
+  }
+
+  SapSettings settings_;
+  ContactOperator w_;
+  ShiftedDelassus system_;
+  SlipShift no_shift_;
+  SparseColumns mass_;
+  std::vector<Eigen::Matrix3d> hessian_;
+  Eigen::VectorXd v_, dv_, u_, du_, true_u_, gamma_, centre_, gradient_, away_;
+  double least_energy_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_sap(const SapSettings& settings) { return std::make_unique<Sap>(settings); }
+
+SolverMaker sap_maker() {
+  return [] { return make_sap(); };
+}
+
+}  // namespace ballast

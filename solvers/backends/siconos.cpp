@@ -1,0 +1,187 @@
+#include "solvers/backends/siconos.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include <siconos/numerics/FrictionContactProblem.h>
+#include <siconos/numerics/Friction_cst.h>
+#include <siconos/numerics/NonSmoothDrivers.h>
+#include <siconos/numerics/NumericsMatrix.h>
+#include <siconos/numerics/SolverOptions.h>
+#include <siconos/numerics/SparseBlockMatrix.h>
+
+#include "platform/child_process.hpp"
+#include "solvers/seam/rounds.hpp"
+
+extern "C" void numerics_set_verbose(int);  // in no header that C++ can read
+
+namespace ballast {
+namespace {
+
+struct Recipe {
+  const char* name;
+  int solver;
+  int first_iterations;  ///< of the first round; every round that runs out of them doubles the next
+  void (*adjust)(SolverOptions&);
+};
+
+/// W by 3 x 3 blocks. A one-row contact gets two more rows with W_NN on the diagonal, q = 0 and mu = 0: no impulse
+/// there.
+class BlockProblem {
+ public:
+  void take(const MovingContacts& moving) {
+    const int contacts = moving.contact_count();
+    contacts_ = contacts;
+    row_.clear();
+    for (int k = 0; k < contacts; ++k)
+      for (int i = 0; i < moving.rows(k); ++i) row_.push_back(3 * k + i);
+    friction_ = moving.friction;
+    q_.setZero(3 * contacts);
+    for (std::size_t i = 0; i < row_.size(); ++i) q_[row_[i]] = moving.q[static_cast<Eigen::Index>(i)];
+
+    block_begin_.assign(1, 0);
+    block_column_.clear();
+    values_.clear();
+    for (int k = 0; k < contacts; ++k) add_block_row(moving, k);
+  }
+
+  /// Siconos' own structures over our storage: nothing is owned, the process that uses them ends.
+  FrictionContactProblem* siconos() {
+    SparseBlockStructuredMatrix* blocks = SBM_new();
+    blocks->nbblocks = static_cast<unsigned>(block_column_.size());
+    for (std::size_t i = 0; i < block_column_.size(); ++i) block_.push_back(values_[i].data());
+    for (int k = 1; k <= contacts_; ++k) block_end_.push_back(3 * k);
+    blocks->block = block_.data();
+    blocks->blocknumber0 = blocks->blocknumber1 = static_cast<unsigned>(contacts_);
+    blocks->blocksize0 = blocks->blocksize1 = block_end_.data();
+    blocks->filled1 = block_begin_.size();
+    blocks->filled2 = block_column_.size();
+    blocks->index1_data = block_begin_.data();
+    blocks->index2_data = block_column_.data();
+    NumericsMatrix* w = NM_new_SBM(3 * contacts_, 3 * contacts_, blocks);
+    return frictionContactProblem_new_with_data(3, contacts_, w, q_.data(), friction_.data());
+  }
+
+  Eigen::VectorXd pad(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd padded = Eigen::VectorXd::Zero(3 * contacts_);
+    for (std::size_t i = 0; i < row_.size(); ++i) padded[row_[i]] = x[static_cast<Eigen::Index>(i)];
+    return padded;
+  }
+  /// `padded` may carry more entries behind.
+  Eigen::VectorXd unpad(const std::vector<double>& padded) const {
+    Eigen::VectorXd x(static_cast<Eigen::Index>(row_.size()));
+    for (std::size_t i = 0; i < row_.size(); ++i) x[static_cast<Eigen::Index>(i)] = padded[row_[i]];
+    return x;
+  }
+  const Eigen::VectorXd& q() const { return q_; }
+  int contacts() const { return contacts_; }
+
+ private:
+  void add_block_row(const MovingContacts& moving, int k) {
+    std::map<int, Eigen::Matrix3d> blocks;  // by column, in order
+    for (int i = 0; i < moving.rows(k); ++i)
+      for (SparseRows::InnerIterator entry(moving.w, moving.row_begin[k] + i); entry; ++entry) {
+        const int column = row_[entry.col()];
+        const auto [block, created] = blocks.try_emplace(column / 3, Eigen::Matrix3d::Zero());
+        block->second(i, column % 3) = entry.value();
+      }
+    if (moving.rows(k) == 1) blocks[k](1, 1) = blocks[k](2, 2) = blocks[k](0, 0);
+    for (const auto& [column, block] : blocks) {
+      block_column_.push_back(static_cast<std::size_t>(column));
+      values_.push_back(block);
+    }
+    block_begin_.push_back(block_column_.size());
+  }
+
+  int contacts_ = 0;
+  std::vector<int> row_;  ///< where each row of MovingContacts went
+  std::vector<double> friction_;
+  Eigen::VectorXd q_;
+  std::vector<std::size_t> block_begin_, block_column_;
+  std::vector<Eigen::Matrix3d> values_;
+  std::vector<double*> block_;
+  std::vector<unsigned> block_end_;
+};
+
+class Siconos final : public Solver {
+ public:
+  explicit Siconos(const Recipe& recipe) : recipe_(recipe) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    moving_.take(problem);
+    blocks_.take(moving_);
+  }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    // Siconos' error is a norm over contacts divided by max(|q|, |r|, |u|).
+    double tolerance = budget.tolerance * std::sqrt(std::max(1.0, static_cast<double>(blocks_.contacts()))) /
+                       std::max(1.0, blocks_.q().norm());
+    int chunk = recipe_.first_iterations;
+    constexpr int patience = 3;
+    return solve_in_rounds(problem, moving_, std::move(start), budget, patience,
+                           [&](const RoundRequest& request, RoundAnswer& answer) {
+                             const int limit = std::min(chunk, request.max_iterations);
+                             const bool whole = run(request, tolerance, limit, answer);
+                             answer.finished = !whole || answer.iterations < limit;
+                             if (!answer.finished)
+                               chunk = chunk > (1 << 28) ? chunk : 2 * chunk;
+                             else
+                               tolerance *= std::clamp(0.3 * budget.tolerance / request.last_error, 1e-4, 0.1);
+                           });
+  }
+
+ private:
+  /// One call of Siconos from the best iterate. False: no answer.
+  bool run(const RoundRequest& request, double tolerance, int limit, RoundAnswer& answer) {
+    const Eigen::VectorXd start = blocks_.pad(request.best);
+    const ChildResult child = run_in_child(request.max_seconds, [&](std::vector<double>& record) {
+      numerics_set_verbose(0);
+      FrictionContactProblem* problem = blocks_.siconos();
+      SolverOptions* options = solver_options_create(recipe_.solver);
+      recipe_.adjust(*options);
+      options->dparam[SICONOS_DPARAM_TOL] = tolerance;
+      options->iparam[SICONOS_IPARAM_MAX_ITER] = limit;
+      Eigen::VectorXd r = start, u = blocks_.q();
+      NM_gemv(1.0, problem->M, r.data(), 1.0, u.data());
+      fc3d_driver(problem, r.data(), u.data(), options);
+      record.assign(r.begin(), r.end());
+      record.push_back(options->iparam[SICONOS_IPARAM_ITER_DONE]);
+    });
+    if (child.end != ChildEnd::complete) return false;
+    answer.x = blocks_.unpad(child.record);
+    answer.iterations = static_cast<int>(child.record.back());
+    return true;
+  }
+
+  const Recipe& recipe_;
+  MovingContacts moving_;
+  BlockProblem blocks_;
+};
+
+const Recipe nsgs{"siconos_nsgs", SICONOS_FRICTION_3D_NSGS, 500, [](SolverOptions& options) {
+                    solver_options_update_internal(&options, 0, SICONOS_FRICTION_3D_ONECONTACT_NSN_GP_HYBRID);
+                    options.internalSolvers[0]->iparam[SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY] =
+                        SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_NSN_AND_PLI_NSN_LOOP;
+                  }};
+const Recipe prox{"siconos_prox", SICONOS_FRICTION_3D_PROX, 100, [](SolverOptions&) {}};
+const Recipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2000, [](SolverOptions& options) {
+                    options.iparam[SICONOS_FRICTION_3D_ADMM_IPARAM_RHO_STRATEGY] =
+                        SICONOS_FRICTION_3D_ADMM_RHO_STRATEGY_RESIDUAL_BALANCING;
+                  }};
+const Recipe nsn_ac{"siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 100, [](SolverOptions&) {}};
+
+template <const Recipe& recipe>
+std::unique_ptr<Solver> make_siconos() {
+  return std::make_unique<Siconos>(recipe);
+}
+
+}  // namespace
+
+SolverMaker siconos_nsgs_maker() { return make_siconos<nsgs>; }
+SolverMaker siconos_prox_maker() { return make_siconos<prox>; }
+SolverMaker siconos_admm_maker() { return make_siconos<admm>; }
+SolverMaker siconos_nsn_ac_maker() { return make_siconos<nsn_ac>; }
+
+}  // namespace ballast

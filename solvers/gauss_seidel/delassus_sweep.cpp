@@ -1,0 +1,136 @@
+#include "solvers/gauss_seidel/delassus_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/delassus.hpp"
+
+namespace ballast {
+
+void DelassusSweep::prepare(const FrictionProblem& problem) {
+  const int contacts = problem.contact_count();
+  const SparseRows& w = problem.delassus.w;
+  std::vector<int> contact_of_row(problem.row_count());
+  for (int c = 0; c < contacts; ++c)
+    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) contact_of_row[row] = c;
+
+  block_begin_.assign(1, 0);
+  block_contact_.clear();
+  std::vector<int> slot(contacts, -1);  // of a neighbour in the block row at hand
+  for (int c = 0; c < contacts; ++c) {
+    const int first_block = block_begin_.back();
+    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
+      for (SparseRows::InnerIterator entry(w, row); entry; ++entry) {
+        const int other = contact_of_row[entry.col()];
+        if (slot[other] >= first_block) continue;
+        slot[other] = static_cast<int>(block_contact_.size());
+        block_contact_.push_back(other);
+      }
+    block_begin_.push_back(static_cast<int>(block_contact_.size()));
+  }
+  blocks_.assign(9 * block_contact_.size(), 0.0);
+  slot.assign(contacts, -1);
+  for (int c = 0; c < contacts; ++c) {
+    for (int k = block_begin_[c]; k < block_begin_[c + 1]; ++k) slot[block_contact_[k]] = k;
+    for (int i = 0; i < problem.contact_rows(c); ++i)
+      for (SparseRows::InnerIterator entry(w, problem.row_begin[c] + i); entry; ++entry) {
+        const int other = contact_of_row[entry.col()];
+        const int j = static_cast<int>(entry.col()) - problem.row_begin[other];
+        blocks_[9 * slot[other] + 3 * j + i] = entry.value();
+      }
+  }
+
+  std::vector<Eigen::Matrix3d> diagonal;
+  delassus_diagonal(problem, diagonal);
+  contacts_.assign(contacts, {});
+  q_.assign(3 * contacts, 0.0);
+  r_.assign(3 * contacts, 0.0);
+  for (int c = 0; c < contacts; ++c) {
+    make_principal(diagonal[c], problem.friction[c], contacts_[c].local, contacts_[c].turn);
+    contacts_[c].lambda_max = largest_eigenvalue(diagonal[c]);
+    for (int i = 0; i < problem.contact_rows(c); ++i) q_[3 * c + i] = problem.delassus.q[problem.row_begin[c] + i];
+  }
+}
+
+void DelassusSweep::load(const FrictionProblem& problem, const Impulses& r) {
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    // An impulse that moves nothing would stay as it was given.
+    const double weight = contacts_[c].local.inverse_normal > 0.0 ? 1.0 : 0.0;
+    for (int i = 0; i < problem.contact_rows(c); ++i) r_[3 * c + i] = weight * r[problem.row_begin[c] + i];
+  }
+}
+
+void DelassusSweep::store(const FrictionProblem& problem, Impulses& r) const {
+  for (int c = 0; c < problem.contact_count(); ++c)
+    for (int i = 0; i < problem.contact_rows(c); ++i) r[problem.row_begin[c] + i] = r_[3 * c + i];
+}
+
+void DelassusSweep::velocity(int c, double* u) const {
+  double sum[3] = {q_[3 * c], q_[3 * c + 1], q_[3 * c + 2]};
+  for (int k = block_begin_[c]; k < block_begin_[c + 1]; ++k) {
+    const double* block = blocks_.data() + 9 * k;
+    const double* r = r_.data() + 3 * block_contact_[k];
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) sum[i] += block[3 * j + i] * r[j];
+  }
+  for (int i = 0; i < 3; ++i) u[i] = sum[i];
+}
+
+void DelassusSweep::sweep() {
+  for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
+    Contact& contact = contacts_[c];
+    double u[3];
+    velocity(c, u);
+    resolve_contact(contact.local, contact.turn, u, r_.data() + 3 * c, contact.slip);
+  }
+}
+
+void DelassusSweep::sweep(const SweepVariant& variant, const std::vector<int>& contacts) {
+  for (const int c : contacts) {
+    Contact& contact = contacts_[c];
+    const PrincipalContact& local = contact.local;
+    double u[3], *r = r_.data() + 3 * c, y[3] = {r[0], r[1], r[2]};
+    velocity(c, u);
+    contact.turn.to_principal(u[1], u[2]);
+    contact.turn.to_principal(y[1], y[2]);
+    u[1] -= local.c1 * u[0];
+    u[2] -= local.c2 * u[0];
+    y[0] += local.c1 * y[1] + local.c2 * y[2];
+    resolve_by_variant(variant, local, contact.lambda_max, u, y, contact.slip);
+    r[0] = y[0] - local.c1 * y[1] - local.c2 * y[2];
+    contact.turn.from_principal(y[1], y[2]);
+    r[1] = y[1];
+    r[2] = y[2];
+  }
+}
+
+double DelassusSweep::error() const {
+  double sum = 0.0;
+  int counted = 0;
+  for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
+    const Contact& contact = contacts_[c];
+    if (!(contact.lambda_max > 0.0)) continue;
+    Eigen::Vector3d u;
+    velocity(c, u.data());
+    const Eigen::Vector3d r(r_[3 * c], r_[3 * c + 1], r_[3 * c + 2]);
+    const double value = ContactJudge::scaled_natural_map(r, u, contact.local.mu, contact.lambda_max);
+    sum += value * value;
+    ++counted;
+  }
+  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+}
+
+void DelassusSweep::save(Eigen::VectorXd& state) const {
+  state = Eigen::Map<const Eigen::VectorXd>(r_.data(), static_cast<Eigen::Index>(r_.size()));
+}
+
+void DelassusSweep::restore(const Eigen::VectorXd& state) { std::copy_n(state.data(), r_.size(), r_.data()); }
+
+void DelassusSweep::impulse_weights(Eigen::VectorXd& weights) const {
+  weights.resize(3 * contacts_.size());
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    weights.segment<3>(3 * c).setConstant(std::sqrt(contacts_[c].lambda_max));
+}
+
+}  // namespace ballast

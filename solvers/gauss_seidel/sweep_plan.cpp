@@ -1,0 +1,135 @@
+#include "solvers/gauss_seidel/sweep_plan.hpp"
+
+#include <algorithm>
+
+namespace ballast {
+
+void SweepPlan::prepare(const FrictionProblem& problem) {
+  find_levels(problem.dynamics);
+  cut_slabs(problem.dynamics);
+  list_bodies();
+  order(problem);
+}
+
+/// Levels from a body at the rim: the last one that a first search reached.
+void SweepPlan::find_levels(const DynamicsForm& dynamics) {
+  const int bodies = dynamics.body_count(), contacts = static_cast<int>(dynamics.body_a.size());
+  neighbour_begin_.assign(bodies + 1, 0);
+  const auto moves_both = [&](int c) { return dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0; };
+  for (int c = 0; c < contacts; ++c) {
+    if (!moves_both(c)) continue;
+    ++neighbour_begin_[dynamics.body_a[c]];
+    ++neighbour_begin_[dynamics.body_b[c]];
+  }
+  int sum = 0;
+  for (int& begin : neighbour_begin_) {
+    const int count = begin;
+    begin = sum;
+    sum += count;
+  }
+  neighbour_.resize(sum);
+  place_.assign(neighbour_begin_.begin(), neighbour_begin_.end());
+  for (int c = 0; c < contacts; ++c) {
+    if (!moves_both(c)) continue;
+    neighbour_[place_[dynamics.body_a[c]]++] = dynamics.body_b[c];
+    neighbour_[place_[dynamics.body_b[c]]++] = dynamics.body_a[c];
+  }
+  level_.assign(bodies, -1);
+  queue_.clear();
+  levels_ = 0;
+  for (int root = 0; root < bodies; ++root) {
+    if (level_[root] >= 0) continue;
+    const size_t first = queue_.size();
+    breadth_first(root, 0);
+    const int rim = queue_.back();
+    for (size_t i = first; i < queue_.size(); ++i) level_[queue_[i]] = -1;
+    queue_.resize(first);
+    levels_ = breadth_first(rim, levels_) + 1;
+  }
+}
+
+/// Appends the component of `root` to the queue, numbers it from `level` on, and returns its last level.
+int SweepPlan::breadth_first(int root, int level) {
+  size_t next = queue_.size();
+  queue_.push_back(root);
+  level_[root] = level;
+  for (; next < queue_.size(); ++next) {
+    const int body = queue_[next];
+    for (int k = neighbour_begin_[body]; k < neighbour_begin_[body + 1]; ++k) {
+      if (level_[neighbour_[k]] >= 0) continue;
+      level_[neighbour_[k]] = level_[body] + 1;
+      queue_.push_back(neighbour_[k]);
+    }
+  }
+  return level_[queue_.back()];
+}
+
+/// Slabs of about equally many contacts, cut anywhere in the breadth-first order, but three levels thick where there are more than two:
+/// then the interfaces on a slab's two sides share no body.
+void SweepPlan::cut_slabs(const DynamicsForm& dynamics) {
+  const int bodies = dynamics.body_count();
+  const int wanted = std::max(1, bodies / slab_bodies);
+  slab_.assign(bodies, 0);
+  slabs_ = 1;
+  if (wanted == 1) return;
+  count_.assign(bodies, 0);
+  long total = 0, passed = 0;
+  for (size_t c = 0; c < dynamics.body_a.size(); ++c)
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]})
+      if (body >= 0) {
+        ++count_[body];
+        ++total;
+      }
+  int last_cut = 0;  // level
+  for (const int body : queue_) {
+    const bool thick = level_[body] - last_cut >= 3 && levels_ - 1 - level_[body] >= 3;
+    if (passed * wanted >= total * slabs_ && slabs_ < wanted && (thick || wanted == 2)) {
+      ++slabs_;
+      last_cut = level_[body] + 1;
+    }
+    slab_[body] = slabs_ - 1;
+    passed += count_[body];
+  }
+}
+
+void SweepPlan::list_bodies() {
+  body_begin_.assign(slabs_ + 1, 0);
+  for (const int slab : slab_) ++body_begin_[slab + 1];
+  for (int slab = 0; slab < slabs_; ++slab) body_begin_[slab + 1] += body_begin_[slab];
+  bodies_.resize(slab_.size());
+  place_.assign(body_begin_.begin(), body_begin_.end());
+  for (size_t body = 0; body < slab_.size(); ++body) bodies_[place_[slab_[body]]++] = static_cast<int>(body);
+}
+
+void SweepPlan::order(const FrictionProblem& problem) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  const int contacts = problem.contact_count(), groups = 2 * slabs_ - 1;
+  // group: interior of a slab, or (slabs_ + k) the interface of slabs k and k + 1; friction before one row; then the contact's turn
+  // among those of its body
+  constexpr int turns = 8;
+  rank_.assign(dynamics.body_count() + 1, 0);
+  key_.resize(contacts);
+  count_.assign(groups * 2 * turns + 1, 0);
+  for (int c = 0; c < contacts; ++c) {
+    const int a = dynamics.body_a[c], b = dynamics.body_b[c];
+    const int first = a >= 0 ? a : b, second = b >= 0 ? b : a;
+    int group = 0, turn = 0;
+    if (first >= 0) {
+      const int slab_a = slab_[first], slab_b = slab_[second];
+      group = slab_a == slab_b ? slab_a : slabs_ + std::min(slab_a, slab_b);
+      turn = rank_[first]++ % turns;
+    }
+    key_[c] = (group * 2 + (problem.contact_rows(c) == 1)) * turns + turn;
+    ++count_[key_[c] + 1];
+  }
+  for (size_t k = 1; k < count_.size(); ++k) count_[k] += count_[k - 1];
+  interiors_.clear();
+  interfaces_.clear();
+  for (int g = 0; g < groups; ++g)
+    (g < slabs_ ? interiors_ : interfaces_)
+        .push_back({count_[g * 2 * turns], count_[(g * 2 + 1) * turns], count_[(g + 1) * 2 * turns]});
+  contacts_.resize(contacts);
+  for (int c = 0; c < contacts; ++c) contacts_[count_[key_[c]]++] = c;
+}
+
+}  // namespace ballast

@@ -1,0 +1,112 @@
+#include "solvers/parts/contact_equation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "problems/algebra/friction_cone.hpp"
+
+namespace ballast {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// d(u + mu |u_T| n)/du
+Matrix3d modified_velocity_jacobian(const Vector3d& u, double mu) {
+  Matrix3d a = Matrix3d::Identity();
+  const double t = tangential_norm(u);
+  if (t > 0.0) a.row(0) += mu / t * Eigen::RowVector3d(0.0, u[1], u[2]);
+  return a;
+}
+
+ContactLinearisation natural_map_linearised(const Vector3d& r, const Vector3d& u, double mu, double rho) {
+  const Vector3d x = r - rho * modified_velocity(u, mu);
+  const Matrix3d g = project_cone_jacobian(x, mu);
+  return {r - project_cone(x, mu), Matrix3d::Identity() - g, rho * g * modified_velocity_jacobian(u, mu)};
+}
+
+ContactLinearisation alart_curnier_linearised(const Vector3d& r, const Vector3d& u, double mu, double rho) {
+  const Vector3d x = r - rho * u;
+  if (x[0] <= 0.0) return {r, Matrix3d::Identity(), Matrix3d::Zero()};
+  const double t = tangential_norm(x), radius = mu * x[0];
+  // x sticks: F = rho u
+  if (t <= radius) return {rho * u, Matrix3d::Zero(), rho * Matrix3d::Identity()};
+  const Vector3d direction(0.0, x[1] / t, x[2] / t);
+  Matrix3d projection = Matrix3d::Zero();  // of dx: half-line and disc, whose radius moves with x_N
+  projection(0, 0) = 1.0;
+  projection.block<2, 1>(1, 0) = mu * direction.tail<2>();
+  projection.block<2, 2>(1, 1) =
+      radius / t * (Eigen::Matrix2d::Identity() - direction.tail<2>() * direction.tail<2>().transpose());
+  const Vector3d projected = Vector3d(x[0], 0.0, 0.0) + radius * direction;
+  return {r - projected, Matrix3d::Identity() - projection, rho * projection};
+}
+
+/// The matrix of the Jordan product with x: L_x y = (x.y, x_0 y_1 + y_0 x_1).
+Matrix3d arrow(const Vector3d& x) {
+  Matrix3d l = x[0] * Matrix3d::Identity();
+  l(0, 1) = l(1, 0) = x[1];
+  l(0, 2) = l(2, 0) = x[2];
+  return l;
+}
+
+/// (x^2 + y^2)^(1/2) in the Jordan algebra; a hair of smoothing keeps its derivative finite at the cone's boundary.
+Vector3d jordan_norm(const Vector3d& x, const Vector3d& y) {
+  Vector3d w = 2.0 * (x[0] * x + y[0] * y);
+  w[0] = x.squaredNorm() + y.squaredNorm();
+  w[0] += 1e-24 * w[0];
+  const double t = std::hypot(w[1], w[2]);
+  const double large = std::sqrt(w[0] + t), small = std::sqrt(std::max(0.0, w[0] - t));
+  Vector3d root(0.5 * (large + small), 0.0, 0.0);
+  if (t > 0.0) root.tail<2>() = 0.5 * (large - small) / t * w.tail<2>();
+  return root;
+}
+
+ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vector3d& u, double mu, double rho) {
+  ContactLinearisation l{Vector3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
+  if (mu == 0.0) {  // scalar along the normal, r_T = 0
+    const double x = r[0], y = rho * u[0], norm = std::hypot(x, y);
+    l.f = Vector3d(x + y - norm, r[1], r[2]);
+    l.by_r = Matrix3d::Identity();
+    l.by_r(0, 0) = norm > 0.0 ? 1.0 - x / norm : 0.3;
+    l.by_u(0, 0) = rho * (norm > 0.0 ? 1.0 - y / norm : 0.3);
+    return l;
+  }
+  // Lorentz's cone: x = (mu r_N, r_T), y = rho (modified u_N / mu, u_T), x . y = rho r . modified u
+  const Vector3d to_x(mu, 1.0, 1.0), to_y(rho / mu, rho, rho);
+  const Vector3d x = to_x.cwiseProduct(r), y = to_y.cwiseProduct(modified_velocity(u, mu));
+  const Vector3d z = jordan_norm(x, y);
+  const Vector3d from_x = to_x.cwiseInverse();  // F is quoted as an impulse in the frame of r
+  l.f = from_x.cwiseProduct(x + y - z);
+  if (z[0] == 0.0) {  // x = y = 0: the limit from where both move along the axis
+    const double slope = 1.0 - std::sqrt(0.5);
+    l.by_r = slope * Matrix3d::Identity();
+    l.by_u = slope * from_x.cwiseProduct(to_y).asDiagonal() * modified_velocity_jacobian(u, mu);
+    return l;
+  }
+  Matrix3d lz = arrow(z);
+  const double smallest = z[0] - std::hypot(z[1], z[2]);
+  if (smallest < 1e-10 * z[0]) lz += (1e-10 * z[0] + 1e-300) * Matrix3d::Identity();
+  const Matrix3d inverse = lz.inverse();
+  const Matrix3d by_x = Matrix3d::Identity() - inverse * arrow(x), by_y = Matrix3d::Identity() - inverse * arrow(y);
+  l.by_r = from_x.asDiagonal() * by_x * to_x.asDiagonal();
+  l.by_u = from_x.asDiagonal() * by_y * to_y.asDiagonal() * modified_velocity_jacobian(u, mu);
+  return l;
+}
+
+}  // namespace
+
+ContactLinearisation linearise(ContactEquation equation, const Vector3d& r, const Vector3d& u, double mu, double rho) {
+  switch (equation) {
+    case ContactEquation::natural_map: return natural_map_linearised(r, u, mu, rho);
+    case ContactEquation::alart_curnier: return alart_curnier_linearised(r, u, mu, rho);
+    case ContactEquation::fischer_burmeister: return fischer_burmeister_linearised(r, u, mu, rho);
+  }
+  return {};
+}
+
+Vector3d contact_equation(ContactEquation equation, const Vector3d& r, const Vector3d& u, double mu, double rho) {
+  if (equation == ContactEquation::natural_map) return natural_map(r, u, mu, rho);
+  return linearise(equation, r, u, mu, rho).f;
+}
+
+}  // namespace ballast

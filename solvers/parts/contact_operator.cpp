@@ -1,0 +1,85 @@
+#include "solvers/parts/contact_operator.hpp"
+
+#include <cmath>
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/delassus.hpp"
+
+namespace ballast {
+
+void ContactOperator::prepare(const FrictionProblem& problem) {
+  problem_ = &problem;
+  delassus_diagonal(problem, roots_, diagonal_);
+  rho_.resize(diagonal_.size());
+  for (std::size_t c = 0; c < rho_.size(); ++c) {
+    const double lambda_max = ballast::largest_eigenvalue(diagonal_[c]);
+    rho_[c] = lambda_max > 0.0 ? 1.0 / lambda_max : 0.0;
+  }
+}
+
+void ContactOperator::push_bodies(const Impulses& r) {
+  const DynamicsForm& dynamics = problem_->dynamics;
+  contact_to_body_impulse(dynamics, problem_->row_begin, r, v_);
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    roots_[b].solve_lower(v_.data() + dynamics.dof_begin[b]);
+    roots_[b].solve_upper(v_.data() + dynamics.dof_begin[b]);
+  }
+}
+
+void ContactOperator::velocity(const Impulses& r, Eigen::VectorXd& u) {
+  if (!problem_->has_dynamics) {
+    u = problem_->delassus.q;
+    u.noalias() += problem_->delassus.w * r;
+    return;
+  }
+  push_bodies(r);
+  v_ += problem_->dynamics.v_free;
+  body_to_contact_velocity(problem_->dynamics, problem_->row_begin, v_, u);
+}
+
+void ContactOperator::multiply(const Impulses& r, Eigen::VectorXd& w) {
+  if (!problem_->has_dynamics) {
+    w.noalias() = problem_->delassus.w * r;
+    return;
+  }
+  push_bodies(r);
+  body_to_contact_velocity(problem_->dynamics, problem_->row_begin, v_, w);
+  w -= problem_->dynamics.bias;
+}
+
+void ContactOperator::project(Impulses& r) const {
+  for (int c = 0; c < contact_count(); ++c)
+    put(r, c, rho_[c] > 0.0 ? project_cone(at(r, c), friction(c)) : Eigen::Vector3d::Zero());
+}
+
+double ContactOperator::scaled_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
+  double sum = 0.0;
+  for (int c = 0; c < contact_count(); ++c)
+    if (rho_[c] > 0.0) sum += at(x, c).dot(at(y, c)) / rho_[c];
+  return sum;
+}
+
+double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const {
+  double sum = 0.0;
+  int counted = 0;
+  for (int c = 0; c < contact_count(); ++c) {
+    if (!(rho_[c] > 0.0)) continue;
+    const double value = ContactJudge::scaled_natural_map(at(r, c), at(u, c), friction(c), 1.0 / rho_[c]);
+    sum += value * value;
+    ++counted;
+  }
+  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+}
+
+double largest_scaled_eigenvalue(ContactOperator& w) {
+  return largest_eigenvalue(w, [&w](Eigen::VectorXd& x) {
+    for (int c = 0; c < w.contact_count(); ++c) w.put(x, c, w.rho()[c] * w.at(x, c));
+  });
+}
+
+double gradient_step(ContactOperator& w) {
+  const double lambda = largest_scaled_eigenvalue(w);
+  return lambda > 0.0 ? 1.0 / lambda : 1.0;
+}
+
+}  // namespace ballast

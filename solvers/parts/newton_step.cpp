@@ -1,0 +1,80 @@
+#include "solvers/parts/newton_step.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ballast {
+
+void NewtonStep::prepare(const FrictionProblem& problem) {
+  w_.prepare(problem);
+  system_.prepare(w_);
+}
+
+void NewtonStep::begin(ContactEquation equation, double rho_factor, Impulses r) {
+  equation_ = equation;
+  rho_factor_ = rho_factor;
+  for (int c = 0; c < w_.contact_count(); ++c)
+    if (!(w_.rho()[c] > 0.0)) w_.put(r, c, Eigen::Vector3d::Zero());
+  r_ = std::move(r);
+  centre_ = r_;
+  w_.velocity(r_, u_);
+  alpha_.assign(w_.contact_count(), 0.0);
+}
+
+void NewtonStep::set_proximal(double weight) {
+  for (int c = 0; c < w_.contact_count(); ++c) alpha_[c] = w_.rho()[c] > 0.0 ? weight / w_.rho()[c] : 0.0;
+}
+
+void NewtonStep::restart(const Impulses& r) {
+  r_ = r;
+  w_.velocity(r_, u_);
+}
+
+Eigen::Vector3d NewtonStep::proximal_velocity(const Impulses& r, const Eigen::VectorXd& u, int c) const {
+  return w_.at(u, c) + alpha_[c] * (w_.at(r, c) - w_.at(centre_, c));
+}
+
+double NewtonStep::residual_of(const Impulses& r, const Eigen::VectorXd& u) const {
+  double sum = 0.0;
+  int counted = 0;
+  for (int c = 0; c < w_.contact_count(); ++c) {
+    if (!(w_.rho()[c] > 0.0)) continue;
+    const double rho = rho_factor_ * w_.rho()[c];
+    sum += contact_equation(equation_, w_.at(r, c), proximal_velocity(r, u, c), w_.friction(c), rho).squaredNorm() /
+           (rho * rho);
+    ++counted;
+  }
+  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+}
+
+bool NewtonStep::newton(int halvings) {
+  linear_.resize(w_.contact_count());
+  for (int c = 0; c < w_.contact_count(); ++c) {
+    if (w_.rho()[c] > 0.0)
+      linear_[c] = linearise(equation_, w_.at(r_, c), proximal_velocity(r_, u_, c), w_.friction(c),
+                             rho_factor_ * w_.rho()[c]);
+    else  // nothing moves: no impulse
+      linear_[c] = {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero()};
+  }
+  if (!system_.solve(w_, linear_, alpha_, dr_)) return false;
+  const double before = residual();
+  w_.multiply(dr_, du_);
+  double t = 1.0, best_t = 0.0, best = halvings > 0 ? before * 1.1 : std::numeric_limits<double>::max();
+  for (int k = 0; k <= halvings; ++k, t *= 0.5) {
+    r_trial_ = r_ + t * dr_;
+    u_trial_ = u_ + t * du_;
+    const double residual_there = residual_of(r_trial_, u_trial_);
+    if (residual_there < best) {
+      best = residual_there;
+      best_t = t;
+    }
+    if (residual_there <= (1.0 - 1e-4 * t) * before) break;
+  }
+  if (best_t == 0.0) return false;
+  r_ += best_t * dr_;
+  w_.velocity(r_, u_);
+  return best < before;
+}
+
+}  // namespace ballast

@@ -1,0 +1,186 @@
+#include "solvers/parts/newton_system.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ballast {
+namespace {
+
+int body_of(const DynamicsForm& d, int c, int side) { return side == 0 ? d.body_a[c] : d.body_b[c]; }
+
+/// H of contact c with respect to the body of one side: column-major, rows x dofs.
+const double* side_block(const FrictionProblem& problem, int c, int side) {
+  const DynamicsForm& d = problem.dynamics;
+  const double* h = d.h.data() + d.h_begin[c];
+  return side == 0 ? h : h + problem.contact_rows(c) * d.body_dofs(d.body_a[c]);
+}
+
+}  // namespace
+
+void NewtonSystem::prepare(const ContactOperator& w) {
+  if (w.problem().has_dynamics)
+    prepare_bodies(w.problem());
+  else
+    prepare_delassus(w.problem());
+}
+
+void NewtonSystem::prepare_bodies(const FrictionProblem& problem) {
+  const DynamicsForm& d = problem.dynamics;
+  const int bodies = d.body_count(), contacts = problem.contact_count();
+  // neighbours of every body, itself among them, sorted
+  std::vector<std::vector<int>> near(bodies);
+  for (int b = 0; b < bodies; ++b) near[b].push_back(b);
+  for (int c = 0; c < contacts; ++c) {
+    const int a = d.body_a[c], b = d.body_b[c];
+    if (a < 0 || b < 0) continue;
+    near[a].push_back(b);
+    near[b].push_back(a);
+  }
+  std::vector<std::vector<int>> first(bodies);  // of each neighbour's rows in a column of the body
+  std::vector<int> column_entries(bodies, 0);
+  for (int b = 0; b < bodies; ++b) {
+    std::sort(near[b].begin(), near[b].end());
+    near[b].erase(std::unique(near[b].begin(), near[b].end()), near[b].end());
+    for (const int n : near[b]) {
+      first[b].push_back(column_entries[b]);
+      column_entries[b] += d.body_dofs(n);
+    }
+  }
+  const auto find = [&](int row_body, int column_body) {
+    const auto& list = near[column_body];
+    return first[column_body][std::lower_bound(list.begin(), list.end(), row_body) - list.begin()];
+  };
+  matrix_.resize(d.dof_count(), d.dof_count());
+  int entries = 0;
+  for (int b = 0; b < bodies; ++b) entries += column_entries[b] * d.body_dofs(b);
+  matrix_.resizeNonZeros(entries);
+  int* outer = matrix_.outerIndexPtr();
+  int* inner = matrix_.innerIndexPtr();
+  int at = 0;
+  for (int b = 0; b < bodies; ++b)
+    for (int k = 0; k < d.body_dofs(b); ++k) {
+      outer[d.dof_begin[b] + k] = at;
+      for (const int n : near[b])
+        for (int i = 0; i < d.body_dofs(n); ++i) inner[at++] = d.dof_begin[n] + i;
+    }
+  outer[d.dof_count()] = at;
+  offset_.assign(contacts, {-1, -1, -1, -1});
+  for (int c = 0; c < contacts; ++c)
+    for (int p = 0; p < 2; ++p)
+      for (int q = 0; q < 2; ++q) {
+        const int row = body_of(d, c, p), column = body_of(d, c, q);
+        if (row >= 0 && column >= 0) offset_[c][2 * p + q] = find(row, column);
+      }
+  mass_offset_.resize(bodies);
+  for (int b = 0; b < bodies; ++b) mass_offset_[b] = find(b, b);
+}
+
+void NewtonSystem::add_block(const FrictionProblem& problem, int c, int p, int q, const Eigen::Matrix3d& e) {
+  const DynamicsForm& d = problem.dynamics;
+  const int offset = offset_[c][2 * p + q];
+  if (offset < 0) return;
+  const int rows = problem.contact_rows(c);
+  const int left = body_of(d, c, p), right = body_of(d, c, q);
+  const int left_dofs = d.body_dofs(left), right_dofs = d.body_dofs(right);
+  const double* hp = side_block(problem, c, p);
+  const double* hq = side_block(problem, c, q);
+  const int* outer = matrix_.outerIndexPtr();
+  for (int j = 0; j < right_dofs; ++j) {
+    double eh[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < rows; ++i)
+      for (int k = 0; k < rows; ++k) eh[i] += e(i, k) * hq[j * rows + k];
+    double* column = matrix_.valuePtr() + outer[d.dof_begin[right] + j] + offset;
+    for (int i = 0; i < left_dofs; ++i)
+      for (int k = 0; k < rows; ++k) column[i] += hp[i * rows + k] * eh[k];
+  }
+}
+
+bool NewtonSystem::solve_bodies(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
+                                const std::vector<double>& alpha, Impulses& dr) {
+  const FrictionProblem& problem = w.problem();
+  const DynamicsForm& d = problem.dynamics;
+  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
+  for (int b = 0; b < d.body_count(); ++b) {
+    const int n = d.body_dofs(b);
+    const double* mass = d.mass.data() + d.mass_begin[b];
+    for (int j = 0; j < n; ++j) {
+      double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[d.dof_begin[b] + j] + mass_offset_[b];
+      for (int i = 0; i < n; ++i) column[i] = mass[j * n + i];
+    }
+  }
+  gain_.resize(linear.size());
+  source_.resize(linear.size());
+  dr.resize(problem.row_count());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const Eigen::Matrix3d inverse = (linear[c].by_r + alpha[c] * linear[c].by_u).inverse();
+    source_[c] = inverse * linear[c].f;
+    gain_[c] = inverse * linear[c].by_u;
+    if (problem.contact_rows(c) == 1) gain_[c] = Eigen::Vector3d(gain_[c](0, 0), 0.0, 0.0).asDiagonal();
+    if (!source_[c].allFinite() || !gain_[c].allFinite()) return false;
+    w.put(dr, c, -source_[c]);
+    for (int p = 0; p < 2; ++p)
+      for (int q = 0; q < 2; ++q) add_block(problem, c, p, q, gain_[c]);
+  }
+  contact_to_body_impulse(d, problem.row_begin, dr, right_);
+  ++factorisations_;
+  if (!factor_.factor(matrix_)) return false;
+  factor_.solve(matrix_, right_, dv_, 1);
+  if (!dv_.allFinite()) return false;
+  body_to_contact_velocity(d, problem.row_begin, dv_, u_);
+  u_ -= d.bias;
+  for (int c = 0; c < problem.contact_count(); ++c) w.put(dr, c, -source_[c] - gain_[c] * w.at(u_, c));
+  return true;
+}
+
+void NewtonSystem::prepare_delassus(const FrictionProblem& problem) {
+  // the pattern of W with full diagonal blocks, in columns
+  const SparseRows& w = problem.delassus.w;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<size_t>(w.nonZeros()) + 9 * problem.contact_count());
+  for (int c = 0; c < problem.contact_count(); ++c)
+    for (int i = problem.row_begin[c]; i < problem.row_begin[c + 1]; ++i) {
+      for (int j = problem.row_begin[c]; j < problem.row_begin[c + 1]; ++j) entries.emplace_back(i, j, 0.0);
+      for (SparseRows::InnerIterator entry(w, i); entry; ++entry)
+        for (int k = problem.row_begin[c]; k < problem.row_begin[c + 1]; ++k)
+          entries.emplace_back(k, static_cast<int>(entry.col()), 0.0);
+    }
+  matrix_.resize(problem.row_count(), problem.row_count());
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+}
+
+bool NewtonSystem::solve_delassus(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
+                                  const std::vector<double>& alpha, Impulses& dr) {
+  const FrictionProblem& problem = w.problem();
+  const SparseRows& stored = problem.delassus.w;
+  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
+  const int* outer = matrix_.outerIndexPtr();
+  const int* inner = matrix_.innerIndexPtr();
+  const auto entry_at = [&](int row, int column) -> double& {
+    const int* found = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
+    return matrix_.valuePtr()[found - inner];
+  };
+  right_.resize(problem.row_count());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int begin = problem.row_begin[c], rows = problem.contact_rows(c);
+    const Eigen::Matrix3d b = linear[c].by_r + alpha[c] * linear[c].by_u;
+    if (!b.allFinite() || !linear[c].f.allFinite()) return false;
+    for (int i = 0; i < rows; ++i) {
+      right_[begin + i] = -linear[c].f[i];
+      for (int j = 0; j < rows; ++j) entry_at(begin + i, begin + j) += b(i, j);
+      for (SparseRows::InnerIterator entry(stored, begin + i); entry; ++entry)
+        for (int k = 0; k < rows; ++k)
+          entry_at(begin + k, static_cast<int>(entry.col())) += linear[c].by_u(k, i) * entry.value();
+    }
+  }
+  ++factorisations_;
+  if (!factor_.factor(matrix_)) return false;
+  factor_.solve(matrix_, right_, dr, 1);
+  return dr.allFinite();
+}
+
+bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
+                         const std::vector<double>& alpha, Impulses& dr) {
+  return w.problem().has_dynamics ? solve_bodies(w, linear, alpha, dr) : solve_delassus(w, linear, alpha, dr);
+}
+
+}  // namespace ballast

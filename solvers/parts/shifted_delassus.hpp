@@ -1,0 +1,50 @@
+#pragma once
+// (W + P)^-1 with P block diagonal, symmetric positive definite: the linear system of ADMM (P = the penalty) and of the
+// interior point (P = the cone's scaling).
+//
+// Dynamics form, Sigma = P^-1: in velocity space, sparse and never rank deficient (Woodbury),
+//   (W + P)^-1 b = Sigma b - Sigma H (M + H^T Sigma H)^-1 H^T Sigma b
+// Stored W: W + P itself, by CHOLMOD when W is symmetric, by UMFPACK when it is not.
+
+#include <vector>
+
+#include "solvers/parts/contact_operator.hpp"
+#include "solvers/parts/sparse_factor.hpp"
+
+namespace ballast {
+
+class ShiftedDelassus {
+ public:
+  /// The constant parts. `w` must stay prepared for the same problem.
+  void prepare(ContactOperator& w);
+
+  /// Factors with P_c = shift[c] [1/kg], 3 x 3 symmetric positive definite, and sigma[c] = P_c^-1 [kg], which the
+  /// caller knows better than an inversion would; of a one-row contact only entries 0,0 are read. False: not definite
+  /// to working precision; solve() must then not be called.
+  bool factor(const std::vector<Eigen::Matrix3d>& shift, const std::vector<Eigen::Matrix3d>& sigma);
+  /// x = (W + P)^-1 b, improved `refinements` times by the residual of the whole system. `x` must not be `b`.
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
+  /// x = (M + H^T Sigma H)^-1 b, in the bodies' unknowns: dynamics form only. Sigma may here be singular. `x` may be
+  /// `b`.
+  void solve_bodies(const Eigen::VectorXd& b, Eigen::VectorXd& x) { cholesky_.solve(b, x); }
+  int factorisations() const { return factorisations_; }
+
+ private:
+  void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+  /// Calls visit(row, column, value) for every entry of the blocks.
+  template <typename Visit>
+  void for_block_entries(const std::vector<Eigen::Matrix3d>& blocks, const Visit& visit) const;
+
+  ContactOperator* w_ = nullptr;
+  bool dynamics_ = false, symmetric_ = true;
+  SparseColumns base_;              ///< M, or W
+  SparseColumns h_, h_transposed_;  ///< dynamics form only
+  SparseColumns matrix_;
+  std::vector<Eigen::Matrix3d> sigma_, shift_;  ///< P^-1, P
+  CholeskyFactor cholesky_;
+  LuFactor lu_;
+  Eigen::VectorXd scaled_, body_, contact_, residual_, correction_;
+  int factorisations_ = 0;
+};
+
+}  // namespace ballast

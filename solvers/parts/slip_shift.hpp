@@ -1,0 +1,49 @@
+#pragma once
+// The s-update: how a solver of the convex cone problem becomes a solver of Coulomb's law.
+//
+// With s_c = mu |u_T| held, Coulomb's law is the optimality of a convex problem (De Saxce 1998; Acary, Cadoux,
+// Lemarechal, Malick 2011):
+//   min 1/2 r.W r + r.(q + s n)  over K_mu:   K_mu ∋ r  ⟂  u + s n ∈ K_mu*,  u = W r + q
+// and s is right when it is mu |u_T| of its own solution. That fixed point contracts by about 0.75 an outer step, so it
+// is taken often (every few iterations of a first-order method) or accelerated by Anderson mixing (after an inner
+// solve).
+
+#include <vector>
+
+#include "solvers/parts/anderson.hpp"
+#include "solvers/parts/contact_operator.hpp"
+
+namespace ballast {
+
+/// s, one value [m/s] >= 0 per contact; 0 for contacts without friction.
+class SlipShift {
+ public:
+  /// s = 0. `memory`: how many past steps Anderson mixing combines in improve().
+  void reset(const ContactOperator& w, int memory = 8);
+
+  double operator[](int c) const { return s_[c]; }
+  /// u_c + s_c n: the gradient of the convex problem.
+  Eigen::Vector3d shifted(const ContactOperator& w, const Eigen::VectorXd& u, int c) const {
+    Eigen::Vector3d g = w.at(u, c);
+    g[0] += s_[c];
+    return g;
+  }
+
+  /// s := mu |u_T|.
+  void follow(const ContactOperator& w, const Eigen::VectorXd& u);
+  /// One outer step after an inner solve that gave `u`: s towards mu |u_T|, Anderson-accelerated; where the distance
+  /// has grown since the last call, the plain step from afresh. Returns that distance, rms over contacts [m/s].
+  double improve(const ContactOperator& w, const Eigen::VectorXd& u);
+  /// The distance |s - mu |u_T||, rms over contacts [m/s].
+  double distance(const ContactOperator& w, const Eigen::VectorXd& u) const;
+  /// |r - P_K(r - rho (u + s n))| / rho, rms over the contacts that move: how far the convex problem with s held is
+  /// from solved by r [m/s].
+  double convex_error(const ContactOperator& w, const Impulses& r, const Eigen::VectorXd& u) const;
+
+ private:
+  Eigen::VectorXd s_, image_;
+  Anderson mixing_;
+  double last_distance_ = 0.0;
+};
+
+}  // namespace ballast

@@ -1,0 +1,165 @@
+#include "solvers/parts/sparse_factor.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <cholmod.h>
+#include <umfpack.h>
+
+namespace ballast {
+namespace {
+
+/// Remembers a pattern; tells whether the next one is the same.
+class Pattern {
+ public:
+  bool is(const SparseColumns& a) const {
+    return static_cast<Eigen::Index>(outer_.size()) == a.outerSize() + 1 &&
+           static_cast<Eigen::Index>(inner_.size()) == a.nonZeros() &&
+           std::equal(outer_.begin(), outer_.end(), a.outerIndexPtr()) &&
+           std::equal(inner_.begin(), inner_.end(), a.innerIndexPtr());
+  }
+  void take(const SparseColumns& a) {
+    outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
+    inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
+  }
+
+ private:
+  std::vector<int> outer_, inner_;
+};
+
+}  // namespace
+
+struct CholeskyFactor::State {
+  cholmod_common common;
+  cholmod_factor* factor = nullptr;
+  cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;  // kept: cholmod_solve2 then allocates nothing
+  Pattern pattern;
+
+  State() {
+    cholmod_start(&common);
+    common.print = 0;
+    common.quick_return_if_not_posdef = 1;
+    common.supernodal = CHOLMOD_AUTO;
+    common.final_ll = 1;  // the simplicial L D L^T would take an indefinite matrix
+  }
+  ~State() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_free_dense(&x, &common);
+    cholmod_free_dense(&y, &common);
+    cholmod_free_dense(&e, &common);
+    cholmod_finish(&common);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  static cholmod_sparse view(const SparseColumns& a) {
+    cholmod_sparse view{};
+    view.nrow = static_cast<size_t>(a.rows());
+    view.ncol = static_cast<size_t>(a.cols());
+    view.nzmax = static_cast<size_t>(a.nonZeros());
+    view.p = const_cast<int*>(a.outerIndexPtr());
+    view.i = const_cast<int*>(a.innerIndexPtr());
+    view.x = const_cast<double*>(a.valuePtr());
+    view.stype = -1;
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = 1;
+    view.packed = 1;
+    return view;
+  }
+};
+
+CholeskyFactor::CholeskyFactor() : state_(std::make_unique<State>()) {}
+CholeskyFactor::~CholeskyFactor() = default;
+CholeskyFactor::CholeskyFactor(CholeskyFactor&&) noexcept = default;
+CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
+
+bool CholeskyFactor::factor(const SparseColumns& a) {
+  State& s = *state_;
+  cholmod_sparse view = State::view(a);
+  if (!s.factor || !s.pattern.is(a)) {
+    cholmod_free_factor(&s.factor, &s.common);
+    s.factor = cholmod_analyze(&view, &s.common);
+    if (!s.factor) return false;
+    s.pattern.take(a);
+  }
+  cholmod_factorize(&view, s.factor, &s.common);
+  return s.common.status == CHOLMOD_OK && s.factor->minor == s.factor->n;
+}
+
+void CholeskyFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+  State& s = *state_;
+  cholmod_dense right{};
+  right.nrow = right.nzmax = right.d = static_cast<size_t>(b.size());
+  right.ncol = 1;
+  right.x = const_cast<double*>(b.data());
+  right.xtype = CHOLMOD_REAL;
+  right.dtype = CHOLMOD_DOUBLE;
+  cholmod_solve2(CHOLMOD_A, s.factor, &right, nullptr, &s.x, nullptr, &s.y, &s.e, &s.common);
+  x = Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(s.x->x), b.size());
+}
+
+long CholeskyFactor::entries() const {
+  const cholmod_factor* f = state_->factor;
+  return f ? static_cast<long>(f->is_super ? f->xsize : f->nzmax) : 0;
+}
+
+struct LuFactor::State {
+  void *symbolic = nullptr, *numeric = nullptr;
+  double control[UMFPACK_CONTROL], info[UMFPACK_INFO];
+  std::vector<int> index_work;
+  std::vector<double> work;
+  Pattern pattern;
+
+  State() {
+    umfpack_di_defaults(control);
+    control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+    control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+    control[UMFPACK_SYM_PIVOT_TOLERANCE] = 1e-3;
+    control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
+  }
+  ~State() {
+    umfpack_di_free_numeric(&numeric);
+    umfpack_di_free_symbolic(&symbolic);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+};
+
+LuFactor::LuFactor() : state_(std::make_unique<State>()) {}
+LuFactor::~LuFactor() = default;
+LuFactor::LuFactor(LuFactor&&) noexcept = default;
+LuFactor& LuFactor::operator=(LuFactor&&) noexcept = default;
+
+bool LuFactor::factor(const SparseColumns& a) {
+  State& s = *state_;
+  const int n = static_cast<int>(a.rows());
+  umfpack_di_free_numeric(&s.numeric);
+  if (!s.symbolic || !s.pattern.is(a)) {
+    umfpack_di_free_symbolic(&s.symbolic);
+    if (umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), &s.symbolic, s.control, s.info) !=
+        UMFPACK_OK)
+      return false;
+    s.pattern.take(a);
+    s.index_work.resize(static_cast<size_t>(n));
+    s.work.resize(5 * static_cast<size_t>(n));
+  }
+  return umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), s.symbolic, &s.numeric, s.control,
+                            s.info) == UMFPACK_OK;
+}
+
+void LuFactor::solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements) {
+  State& s = *state_;
+  x.resize(b.size());
+  s.control[UMFPACK_IRSTEP] = refinements;
+  umfpack_di_wsolve(UMFPACK_A, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), x.data(), b.data(), s.numeric,
+                    s.control, s.info, s.index_work.data(), s.work.data());
+}
+
+double LuFactor::smallest_pivot_ratio() const {
+  const double largest = state_->info[UMFPACK_UMAX];
+  return largest > 0.0 ? state_->info[UMFPACK_UMIN] / largest : 0.0;
+}
+
+}  // namespace ballast

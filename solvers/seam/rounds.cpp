@@ -1,0 +1,66 @@
+#include "solvers/seam/rounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "problems/algebra/contact_error.hpp"
+#include "solvers/seam/iteration.hpp"
+
+namespace ballast {
+
+Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& moving, Impulses start,
+                       const Budget& budget, int patience,
+                       const std::function<void(const RoundRequest&, RoundAnswer&)>& round) {
+  ContactJudge judge;
+  // Standing still is judged by rounds, below.
+  Iteration iteration(budget, {}, std::numeric_limits<int>::max());
+  Impulses r = std::move(start);
+  const auto error_of = [&](const Eigen::VectorXd& x) {
+    moving.scatter(problem, x, r);
+    return judge.judge(problem, r).natural_map_rms;
+  };
+
+  Eigen::VectorXd last;
+  moving.gather(problem, r, last);
+  Eigen::VectorXd best = last;
+  double last_error = error_of(last), best_error = last_error, progress_from = last_error;
+  iteration.evaluated(best_error);
+  int idle = 0;
+  bool stalled = false;
+  RoundAnswer answer;
+  while (!stalled && iteration.next()) {
+    const int left = budget.max_iterations - iteration.count() + 1;
+    answer.x.resize(0);
+    answer.iterations = 1;
+    answer.finished = true;
+    round({last, best, last_error, left, budget.max_seconds - iteration.seconds()}, answer);
+    for (int i = 1; i < std::min(answer.iterations, left); ++i) iteration.next();
+    if (answer.x.size() == last.size() && answer.x.allFinite()) {
+      last = answer.x;
+      last_error = error_of(last);
+      if (last_error < best_error) {
+        best_error = last_error;
+        best = last;
+      }
+    }
+    if (best_error < 0.9 * progress_from) {
+      progress_from = best_error;
+      idle = 0;
+    } else if (answer.finished) {
+      ++idle;
+    }
+    iteration.error_due();
+    iteration.evaluated(best_error);
+    stalled = idle >= patience;
+  }
+  moving.scatter(problem, best, r);
+  Solved solved = iteration.finish(std::move(r));
+  // The loop ended by itself, and none of the budget's reasons applies.
+  if (stalled && solved.reason == StopReason::numerical_failure && std::isfinite(best_error))
+    solved.reason = StopReason::stalled;
+  return solved;
+}
+
+}  // namespace ballast

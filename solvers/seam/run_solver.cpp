@@ -1,0 +1,76 @@
+#include "solvers/seam/run_solver.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <string>
+#include <utility>
+
+namespace ballast {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+void validate_start(const FrictionProblem& problem, Impulses& start) {
+  if (start.size() == 0) start.setZero(problem.row_count());
+  if (start.size() != problem.row_count())
+    throw InvalidProblem("start has " + std::to_string(start.size()) + " entries, the contacts have " +
+                         std::to_string(problem.row_count()) + " rows");
+  if (start.allFinite()) return;
+  for (Eigen::Index i = 0; i < start.size(); ++i)
+    if (!std::isfinite(start[i]))
+      throw InvalidProblem("start[" + std::to_string(i) + "] = " + std::to_string(start[i]) + " is not finite");
+}
+
+}  // namespace
+
+/// Does the timed work, then judges what it left in run.solved, whatever that is.
+template <typename Work>
+SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& budget, Work&& work) {
+  SolverRun run;
+  try {
+    work(run);
+  } catch (const UnsupportedProblem&) {
+    throw;
+  } catch (const std::exception& error) {
+    run.solved = {};
+    run.solved.reason = StopReason::numerical_failure;
+    run.failure = error.what();
+  }
+  // A backend that failed may return nothing; no impulses is then what is judged.
+  if (run.solved.impulses.size() != problem.row_count()) {
+    run.solved.impulses.setZero(problem.row_count());
+    run.solved.reason = StopReason::numerical_failure;
+  }
+  run.error = judge_.judge(problem, run.solved.impulses);
+  run.success = run.solved.reason == StopReason::reached_tolerance && run.error.finite &&
+                run.error.natural_map_rms <= budget.tolerance;
+  return run;
+}
+
+SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget) {
+  problem.validate();
+  validate_start(problem, start);
+  return guarded(problem, budget, [&](SolverRun& run) {
+    Clock::time_point begin = Clock::now();
+    solver.prepare(problem);
+    run.prepare_seconds = seconds_since(begin);
+    begin = Clock::now();
+    run.solved = solver.solve(problem, std::move(start), budget);
+    run.solve_seconds = seconds_since(begin);
+  });
+}
+
+SolverRun SolverRunner::run_again(Solver& solver, const FrictionProblem& problem, Impulses start,
+                                  const Budget& budget) {
+  validate_start(problem, start);
+  return guarded(problem, budget, [&](SolverRun& run) {
+    const Clock::time_point begin = Clock::now();
+    run.solved = solver.solve(problem, std::move(start), budget);
+    run.solve_seconds = seconds_since(begin);
+  });
+}
+
+}  // namespace ballast

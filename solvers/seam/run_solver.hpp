@@ -1,0 +1,42 @@
+#pragma once
+// The only door to a solver that runs and benches use: validates, times, and judges outside the stopwatch.
+
+#include "problems/algebra/contact_error.hpp"
+#include "solvers/seam/solver.hpp"
+
+namespace ballast {
+
+struct SolverRun {
+  Solved solved;
+  ContactError error;          ///< the judge's, never the backend's
+  double prepare_seconds = 0;  ///< wall clock of prepare() and solve() alone
+  double solve_seconds = 0;
+  bool success = false;  ///< the backend says reached_tolerance *and* the judge agrees
+  std::string failure;   ///< what() of the exception that a backend threw; empty: none
+};
+
+/// Keeps the judge's workspace between calls.
+class SolverRunner {
+ public:
+  /// Shares the judge's work (ContactJudge::use_team). Solvers have Solver::use_threads.
+  void use_team(WorkerTeam* team) { judge_.use_team(team); }
+
+  /// Of the last run: what the judge found besides.
+  const Eigen::VectorXd& body_velocity() const { return judge_.body_velocity(); }
+  const Eigen::VectorXd& body_impulse() const { return judge_.body_impulse(); }
+
+  /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem. A start of the wrong size is an
+  /// InvalidProblem; an empty one means zero. Other exceptions of a backend become reason = numerical_failure.
+  SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget);
+
+  /// Solves once more what run() prepared, from another start or for another budget: prepare_seconds is 0.
+  SolverRun run_again(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget);
+
+ private:
+  template <typename Work>
+  SolverRun guarded(const FrictionProblem& problem, const Budget& budget, Work&& work);
+
+  ContactJudge judge_;
+};
+
+}  // namespace ballast

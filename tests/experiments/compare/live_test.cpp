@@ -1,0 +1,89 @@
+// The closed loop from one start: equal settings are equal bits, looser tolerances are farther from the reference.
+
+#include "experiments/compare/live.hpp"
+
+#include <iostream>
+#include <sstream>
+
+#include "platform/atomic_file.hpp"
+#include "experiments/compare/bench_options.hpp"
+#include "experiments/run/manifest.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/page_sample.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// A dozen grains in a driven box.
+LiveOptions small_live(const std::filesystem::path& folder) {
+  LiveOptions options;
+  options.scene = "vibrated_box_small";
+  options.overrides = {"grains.count=12", "box.length=0.12", "box.width=0.12", "control_volume.margin_x=0.02"};
+  options.solvers = bench_solvers("pgs,nncg");
+  options.tolerances = {1e-2, 1e-8};
+  options.start = 2e-3;
+  options.duration = 4e-3;
+  options.max_seconds = 5.0;
+  options.folder = folder;
+  return options;
+}
+
+struct Silence {
+  Silence() : old(std::cout.rdbuf(sink.rdbuf())) {}
+  ~Silence() { std::cout.rdbuf(old); }
+  std::ostringstream sink;
+  std::streambuf* old;
+};
+
+}  // namespace
+
+TEST_CASE("One start under several backends and tolerances") {
+  const TemporaryFolder folder;
+  const LiveOptions options = small_live(folder.path());
+  LiveComparison comparison, again;
+  {
+    const Silence silence;
+    comparison = run_live(options, [](const Trajectory&) { return true; });
+    again = run_live(options, [](const Trajectory&) { return true; });
+  }
+  REQUIRE(comparison.trajectories.size() == 4);
+  CHECK(comparison.has_driven_wall);
+  for (const Trajectory& t : comparison.trajectories) {
+    INFO(t.label());
+    CHECK(t.ended == "complete");
+    REQUIRE(t.steps.size() == 20);
+    CHECK(t.frame_times.front() == Approx(2e-3));
+    CHECK(t.frame_times.back() == Approx(6e-3));
+    CHECK(t.positions.front() == comparison.trajectories[0].positions.front());  // the same start
+    CHECK(t.positions.back().size() == 36);
+    for (const StepRecord& step : t.steps) CHECK(step.error_rms <= t.tolerance * comparison.velocity_scale);
+  }
+  REQUIRE(comparison.reference == 2);  // pgs 1e-8: tightest, first listed
+  const Trajectory& reference = comparison.trajectories[2];
+  const double loose = distances(comparison.trajectories[0], reference).back();
+  const double other_backend = distances(comparison.trajectories[3], reference).back();
+  CHECK(distances(reference, reference).back() == 0.0);
+  CHECK(loose > 0.0);
+  CHECK(other_backend < loose);
+  // from the files now: the same
+  REQUIRE(again.trajectories.size() == 4);
+  for (size_t k = 0; k < 4; ++k) CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
+
+  Manifest("compare --live x", {}, "key").write(folder.path() / "manifest.json");
+  write_live_report(folder.path(), comparison);
+  const std::string page = read_whole_file(folder.path() / "live.html");
+  check_page(page);
+  CHECK(page.find("(reference)") != std::string::npos);
+  const std::string csv = read_whole_file(folder.path() / "live.csv");
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 5);
+}
+
+TEST_CASE("Distances are rms over grains at common frames") {
+  Trajectory a, b;
+  a.positions = {Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
+  b.positions = {Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
+  b.positions[1] << 3.0, 4.0, 0.0, 0.0, 0.0, 5.0;
+  CHECK(distances(a, b) == std::vector<double>{0.0, 5.0});
+}

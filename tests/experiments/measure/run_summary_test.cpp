@@ -1,0 +1,231 @@
+#include "experiments/measure/run_summary.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/catch.hpp"
+#include "tests/support/synthetic_run.hpp"
+
+namespace ballast {
+namespace {
+
+SyntheticBox bare_box() {
+  SyntheticBox box;
+  box.noise = 0.0;
+  return box;
+}
+
+TEST_CASE("the loop's fits give back the law it was made from") {
+  const SyntheticBox box = bare_box();
+  WallSettings unsmoothed;
+  unsmoothed.smoothing = 0.0;
+  const RunSummary summary = summarise(synthetic_box(box), facts_of(box), unsmoothed);
+  REQUIRE(summary.wall.loop_last - summary.wall.loop_first == 4);
+  CHECK(summary.loop.active.amplitude == Approx(box.active_force).epsilon(1e-6));
+  CHECK(summary.loop.active.rate == Approx(box.active_rate).epsilon(1e-5));
+  CHECK(summary.loop.active.r2 == Approx(1.0).epsilon(1e-9));
+  CHECK(summary.loop.passive.offset == Approx(box.passive_force).epsilon(1e-9));
+  CHECK(summary.loop.passive.slope == Approx(-box.passive_slope).epsilon(1e-9));
+  CHECK(summary.loop.passive.r2 == Approx(1.0).epsilon(1e-9));
+}
+
+TEST_CASE("with noise of 25 % per step the smoothed loop still has the same fits") {
+  const SyntheticBox box;
+  const RunSummary summary = summarise(synthetic_box(box), facts_of(box));
+  CHECK(summary.loop.active.amplitude == Approx(box.active_force).epsilon(0.03));
+  CHECK(summary.loop.active.rate == Approx(box.active_rate).epsilon(0.15));
+  CHECK(summary.loop.passive.offset == Approx(box.passive_force).epsilon(0.04));
+  CHECK(summary.loop.passive.slope == Approx(-box.passive_slope).epsilon(0.08));
+}
+
+TEST_CASE("strokes: against every pair of samples") {
+  const auto steps = synthetic_box();
+  const RunSummary summary = summarise(steps, facts_of({}));
+  REQUIRE(summary.wall.periods.size() == 4);
+  for (const WallPeriod& period : summary.wall.periods) {
+    double rise = 0.0;
+    for (size_t i = period.first; i < period.last; ++i)
+      for (size_t j = i; j < period.last; ++j) rise = std::max(rise, steps[j].wall_x - steps[i].wall_x);
+    CHECK(period.rise == rise);
+    CHECK(steps[period.peak].wall_x == period.x_peak);
+    CHECK(period.x_peak - period.x_before == rise);
+    CHECK(period.net == Approx(-SyntheticBox{}.ratchet).epsilon(1e-9));
+    CHECK(period.last - period.first == 1000);
+    CHECK(period.x_after == Approx(period.x_before - SyntheticBox{}.ratchet).epsilon(1e-9));
+  }
+  CHECK(summary.wall.periods[0].begin == Approx(0.2));
+  CHECK(summary.wall.periods[3].end == Approx(1.0));
+}
+
+TEST_CASE("phases: outwards active, inwards passive, at rest under the load jammed") {
+  const SyntheticBox box = bare_box();
+  const auto steps = synthetic_box(box);
+  const RunSummary summary = summarise(steps, facts_of(box));
+  const WallCycles& wall = summary.wall;
+  CHECK(wall.jammed_periods == 4);
+  size_t wrong = 0, judged = 0;
+  for (size_t k = 1001; k < steps.size(); ++k) {
+    if (std::abs(steps[k].wall_v) > 0.1 * wall.v_peak) {
+      // smoothing blurs half a window on both sides of a jump of the velocity
+      const bool at_jump = k + 10 >= steps.size() || std::abs(steps[k + 10].wall_v - steps[k].wall_v) > 0.5 * wall.v_peak;
+      if (at_jump) continue;
+      ++judged;
+      wrong += wall.phase[k] != (steps[k].wall_v > 0.0 ? WallPhase::active : WallPhase::passive);
+    } else if (steps[k].load > 0.6 * box.f_max && std::abs(wall.velocity[k]) < 1e-4 * wall.v_peak) {
+      ++judged;
+      wrong += wall.phase[k] != WallPhase::jammed;
+    }
+  }
+  CHECK(judged > 2000);
+  CHECK(wrong == 0);
+  for (size_t k = 0; k < 1000; ++k) REQUIRE(wall.phase[k] == WallPhase::none);
+  // the turning point at the largest x is slow, too, but no jam
+  for (const WallPeriod& period : wall.periods) CHECK(wall.phase[period.peak] != WallPhase::jammed);
+}
+
+TEST_CASE("the jammed state's imbalance is what was put in") {
+  const SyntheticBox box = bare_box();
+  auto steps = synthetic_box(box);
+  for (StepRecord& step : steps) step.wall_force += 5e-4 * box.f_max;
+  const JammedState jammed = summarise(steps, facts_of(box)).jammed;
+  CHECK(jammed.samples > 1000);
+  CHECK(jammed.force_mean == Approx(5e-4).epsilon(1e-6));
+  CHECK(jammed.force_p95 == Approx(5e-4).epsilon(1e-6));
+  CHECK(jammed.force_max == Approx(5e-4).epsilon(1e-6));
+  CHECK(jammed.speed_max == Approx(box.jam_slip).epsilon(1e-2));
+  CHECK(jammed.speed_mean == Approx(box.jam_slip * 2.0 / std::numbers::pi).epsilon(0.02));
+}
+
+TEST_CASE("a wall that swings under the load's maximum is not jammed") {
+  const SyntheticBox box;
+  auto steps = synthetic_box(box);
+  for (StepRecord& step : steps) {
+    step.wall_v = 0.1 * std::sin(2.0 * std::numbers::pi * box.frequency * step.time);  // largest speed at the load's maximum
+    step.wall_x = -0.1 / (2.0 * std::numbers::pi * box.frequency) * std::cos(2.0 * std::numbers::pi * box.frequency * step.time);
+  }
+  const RunSummary summary = summarise(steps, facts_of(box));
+  CHECK(summary.wall.jammed_periods == 0);
+  CHECK(summary.jammed.samples == 0);
+  CHECK(std::isnan(summary.jammed.force_mean));
+  CHECK(summary.speed_in.mean == Approx(0.1).epsilon(1e-3));
+  CHECK(summary.rise.mean == Approx(0.2 / (2.0 * std::numbers::pi * box.frequency)).epsilon(1e-3));
+}
+
+TEST_CASE("first contraction, compaction and the prefactor of Eq. 3") {
+  const SyntheticBox box = bare_box();
+  const RunSummary summary = summarise(synthetic_box(box), facts_of(box));
+  CHECK(summary.contraction.size == Approx(box.first_contraction + box.ratchet).epsilon(0.01));
+  CHECK(summary.contraction.time90 == Approx(0.15 * std::acos(-0.8) / std::numbers::pi).margin(3e-3));
+  CHECK(summary.compaction.initial == box.solid_initial);
+  CHECK(summary.compaction.reference == Approx(box.solid_initial + box.solid_jump));
+  // by the linear gain, and by the ratchet through -0.4 x
+  CHECK(summary.compaction.per_period.slope == Approx(box.solid_gain + 0.4 * box.ratchet).epsilon(1e-3));
+  CHECK(summary.compaction.relative_gain == Approx(summary.compaction.per_period.slope / summary.compaction.reference));
+  CHECK(summary.compaction.rate == Approx(5.0 * summary.compaction.relative_gain));
+  const double eq3 = 0.5 * (214.0 * 9.81 / 6300.0) * (9.81 / 25.0);
+  CHECK(summary.prefactor == Approx(summary.rise.mean / eq3));
+}
+
+TEST_CASE("the energy balance is summed from the columns, not taken from the residual's") {
+  auto steps = synthetic_box();
+  const double clean = summarise(steps, facts_of({})).energy.residual;
+  double recorded = 0.0;
+  for (size_t k = 1; k < steps.size(); ++k) recorded += steps[k].energy_residual;
+  CHECK(clean == Approx(recorded).epsilon(1e-6));
+  steps[3000].dissipated += 0.5;
+  const EnergyBalance broken = summarise(steps, facts_of({})).energy;
+  CHECK(broken.residual == Approx(clean + 0.5));
+  CHECK(broken.relative == Approx((clean + 0.5) / broken.work_absolute));
+  steps[10].work_load = not_known;
+  CHECK(std::isnan(summarise(steps, facts_of({})).energy.relative));
+}
+
+TEST_CASE("error, overlap and cost") {
+  auto steps = synthetic_box();
+  steps[1234].penetration_max = 3e-4;
+  steps[2345].error_rms = 0.05;
+  const RunSummary summary = summarise(steps, facts_of({}));
+  const double scale = 9.81 * 2e-4;
+  CHECK(summary.facts.velocity_scale == Approx(scale));
+  CHECK(summary.error_max_relative == Approx(0.05 / scale));
+  double sum = 0.0, above = 0.0;
+  for (const StepRecord& step : steps) {
+    sum += step.error_rms;
+    above += step.error_rms > 1e-3 * scale;
+  }
+  CHECK(summary.error_mean_relative == Approx(sum / 5000.0 / scale));
+  CHECK(summary.above_target == Approx(above / 5000.0));
+  CHECK(summary.penetration_max == 3e-4);
+  CHECK(summary.penetration_max_time == steps[1234].time);
+  double shares = 0.0;
+  for (const PhaseCost& phase : summary.cost) shares += phase.share;
+  CHECK(shares == Approx(1.0));
+  CHECK(summary.cost[0].ms_per_step == Approx(3.0).epsilon(0.01));
+}
+
+TEST_CASE("what the facts don't say is found in the record") {
+  SyntheticBox box;
+  box.frequency = GENERATE(2.5, 5.0, 20.0);
+  box.duration = 1.0;
+  const auto steps = synthetic_box(box);
+  const RunFacts facts = complete_facts({}, steps);
+  CHECK(facts.step == Approx(box.h).epsilon(1e-9));
+  CHECK(facts.frequency == Approx(box.frequency).epsilon(1e-3));
+  CHECK(facts.f_max == Approx(box.f_max).epsilon(1e-4));
+  CHECK(facts.f_min == Approx(0.0).margin(1.0));
+  CHECK(*facts.has_wall);
+  CHECK(*facts.has_packing);
+  CHECK(std::isnan(facts.velocity_scale));  // gravity is in no row
+}
+
+TEST_CASE("a record without wall or packing has the rest") {
+  const RunSummary summary = summarise(synthetic_slide(), {});
+  CHECK_FALSE(*summary.facts.has_wall);
+  CHECK_FALSE(*summary.facts.has_packing);
+  CHECK(summary.wall.periods.empty());
+  CHECK(std::isnan(summary.rise.mean));
+  CHECK(summary.energy.dissipated == Approx(2.0));  // all of the cube's 2 J
+  CHECK(summary.energy.kinetic_last == 0.0);
+  CHECK(summary.energy.relative != summary.energy.relative);  // no work at all: nothing to compare with
+}
+
+TEST_CASE("too short for a period, or nothing at all") {
+  SyntheticBox box;
+  box.duration = 0.35;
+  const RunSummary summary = summarise(synthetic_box(box), facts_of(box));
+  CHECK(summary.wall.periods.empty());
+  CHECK(std::isnan(summary.loop.active.rate));
+  CHECK(std::isnan(summary.compaction.per_period.slope));
+  CHECK(summary.compaction.reference == Approx(0.519).epsilon(1e-3));
+  const RunSummary empty = summarise({}, {});
+  CHECK(empty.steps == 0);
+  CHECK(std::isnan(empty.ms_per_step));
+}
+
+TEST_CASE("columns that are all NaN are not known, never zero") {
+  auto steps = synthetic_box();
+  for (StepRecord& step : steps) step.wall_x = step.penetration_max = step.solid_fraction = step.seconds_solve = not_known;
+  RunFacts facts = facts_of({});
+  facts.has_packing = true;
+  const RunSummary summary = summarise(steps, facts);
+  CHECK(std::isnan(summary.rise.mean));
+  CHECK(std::isnan(summary.contraction.size));
+  CHECK(std::isnan(summary.penetration_max));
+  CHECK(std::isnan(summary.compaction.reference));
+  CHECK(std::isnan(summary.compaction.per_period.slope));
+  CHECK(std::isnan(summary.cost[2].ms_per_step));
+  CHECK(summary.ms_per_step == Approx(5.9).epsilon(0.05));
+}
+
+TEST_CASE("single NaN samples are passed over") {
+  auto steps = synthetic_box();
+  const RunSummary clean = summarise(steps, facts_of({}));
+  for (size_t k = 1500; k < 5000; k += 500) steps[k].wall_x = steps[k].wall_force = steps[k].error_rms = not_known;
+  const RunSummary summary = summarise(steps, facts_of({}));
+  CHECK(summary.rise.mean == Approx(clean.rise.mean).epsilon(1e-2));
+  CHECK(summary.error_mean_relative == Approx(clean.error_mean_relative).epsilon(1e-2));
+  CHECK(summary.loop.passive.slope == Approx(clean.loop.passive.slope).epsilon(1e-2));
+}
+
+}  // namespace
+}  // namespace ballast

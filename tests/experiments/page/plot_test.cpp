@@ -1,0 +1,174 @@
+#include "experiments/page/plot.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "platform/atomic_file.hpp"
+#include "platform/program.hpp"
+#include "experiments/measure/curve_fit.hpp"
+#include "experiments/run/run.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/environment_guard.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace ballast {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+Curve curve(std::vector<double> x, std::vector<double> y, const std::string& title, Mark mark = Mark::line) {
+  Curve result;
+  result.x = std::move(x);
+  result.y = std::move(y);
+  result.title = title;
+  result.mark = mark;
+  return result;
+}
+
+Figure simple_figure(const std::string& label = "{/:Italic x}  (mm)") {
+  Panel panel;
+  panel.x_label = "time";
+  panel.y_label = label;
+  panel.curves.push_back(curve({0, 1, 2, 3}, {1, 4, not_known, 2}, "a title"));
+  Figure figure;
+  figure.name = "simple";
+  figure.panels = {panel};
+  return figure;
+}
+
+/// A folder with an executable `gnuplot` that is this shell script.
+void write_false_gnuplot(const TemporaryFolder& folder, const std::string& script) {
+  const fs::path program = folder.write("gnuplot", "#!/bin/sh\n" + script + "\n");
+  fs::permissions(program, fs::perms::owner_all);
+}
+
+TEST_CASE("a figure becomes an SVG, and a script that makes it again") {
+  REQUIRE_THAT(gnuplot_version(), Contains("gnuplot"));  // listed in apt-packages.txt
+  const TemporaryFolder folder;
+  const fs::path figures = folder.path() / "figures";
+  const std::string svg = render_svg(simple_figure(), figures);
+  CHECK_THAT(svg, Contains("<svg") && Contains("a title") && Contains("(mm)"));
+  CHECK(read_whole_file(figures / "simple.svg") == svg);
+  const ProgramResult again = run_child("gnuplot", {"-d", (figures / "simple.gnuplot").string()}, 30.0);
+  CHECK(again.output == svg);
+  CHECK(std::distance(fs::directory_iterator(figures), fs::directory_iterator()) == 2);
+}
+
+TEST_CASE("every kind of mark, logarithms, references, several panels with different axes") {
+  Figure figure = simple_figure();
+  Panel& panel = figure.panels[0];
+  panel.log_x = panel.log_y = true;
+  panel.curves[0].x[0] = 0.5;
+  panel.curves.push_back(curve({1, 10}, {3, 30}, "points", Mark::points));
+  panel.curves.back().y_error = {0.5, 2};
+  panel.curves.push_back(curve({1, 10}, {3, 30}, "bare points", Mark::points));
+  panel.curves.push_back(curve({1, 10}, {30, 50}, "area", Mark::area));
+  panel.curves.back().y_low = {20, 25};
+  panel.curves.back().opacity = 0.4;
+  panel.lines = {{100.0, "bound", false, Ink::grey}, {4.0, "there", true, Ink::grey}};
+  figure.panels.push_back(simple_figure().panels[0]);
+  figure.panels[1].x_label = "another axis";
+  const TemporaryFolder folder;
+  const std::string svg = render_svg(figure, folder.path());
+  CHECK_THAT(svg, Contains("bound") && Contains("there") && Contains("another axis") && Contains("bare points"));
+}
+
+TEST_CASE("labels cannot run commands or end their string") {
+  const TemporaryFolder folder;
+  const fs::path trap = folder.path() / "trap";
+  const std::string hostile = "it's `touch " + trap.string() + "`'; system('touch " + trap.string() + "') #\n!touch " + trap.string();
+  Figure figure = simple_figure(plain_text(hostile));
+  figure.panels[0].curves[0].title = hostile;
+  figure.panels[0].lines = {{2.0, hostile, false, Ink::grey}};
+  const std::string svg = render_svg(figure, folder.path());
+  CHECK_FALSE(fs::exists(trap));
+  CHECK_THAT(svg, Contains("system("));
+}
+
+TEST_CASE("plain text keeps what enhanced text would take for markup") {
+  CHECK(plain_text("pgs_warm {x^2} a&b ~@\\") == "pgs\\_warm \\{x\\^2\\} a\\&b \\~\\@\\\\");
+  const TemporaryFolder folder;
+  Figure figure = simple_figure();
+  figure.panels[0].curves[0].title = plain_text("pgs_warm{}");
+  CHECK_THAT(render_svg(figure, folder.path()), Contains("pgs_warm{}"));
+}
+
+TEST_CASE("figures that make no sense are refused by name") {
+  const TemporaryFolder folder;
+  Figure figure = simple_figure();
+  SECTION("lengths") { figure.panels[0].curves[0].y.pop_back(); }
+  SECTION("nothing finite") { figure.panels[0].curves[0].y.assign(4, not_known); }
+  SECTION("nothing positive on a logarithmic axis") {
+    figure.panels[0].log_y = true;
+    figure.panels[0].curves[0].y.assign(4, 0.0);
+  }
+  SECTION("no panel") { figure.panels.clear(); }
+  SECTION("an area without a lower bound") { figure.panels[0].curves[0].mark = Mark::area; }
+  CHECK_THROWS_WITH(render_svg(figure, folder.path()), Contains("figure simple"));
+  figure = simple_figure();
+  figure.name = "../elsewhere";
+  CHECK_THROWS_AS(render_svg(figure, folder.path()), RunError);
+}
+
+TEST_CASE("a failing gnuplot is one clear error, and no stale figure stays") {
+  const TemporaryFolder folder, path;
+  folder.write("simple.svg", "an older one");
+  const EnvironmentGuard guard("PATH", path.path().string() + ":/bin:/usr/bin");
+  write_false_gnuplot(path, "echo 'line 3: out of ink' >&2; exit 3");
+  CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path()),
+                    Contains("figure simple") && Contains("(3)") && Contains("out of ink") && !Contains("\n"));
+  CHECK_FALSE(fs::exists(folder.path() / "simple.svg"));
+  write_false_gnuplot(path, "echo '<svg>'");
+  CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path()), Contains("incomplete"));
+  write_false_gnuplot(path, "kill -9 $$");
+  CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path()), Contains("(137)"));
+}
+
+TEST_CASE("a gnuplot that hangs is ended") {
+  const TemporaryFolder folder, path;
+  const EnvironmentGuard guard("PATH", path.path().string() + ":/bin:/usr/bin");
+  SECTION("silent") { write_false_gnuplot(path, "exec sleep 60"); }
+  SECTION("with its outputs closed") { write_false_gnuplot(path, "exec sleep 60 >&- 2>&-"); }
+  const auto begin = std::chrono::steady_clock::now();
+  CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path(), 0.3), Contains("figure simple") && Contains("was ended"));
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
+}
+
+TEST_CASE("without gnuplot") {
+  const TemporaryFolder folder, empty;
+  const EnvironmentGuard guard("PATH", empty.path().string());
+  CHECK(gnuplot_version().empty());
+  CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path()), Contains("cannot be started"));
+}
+
+TEST_CASE("the user's own gnuplot settings don't reach the figures") {
+  const TemporaryFolder folder, home;
+  home.write(".gnuplot", "set title 'mine'\n");
+  const EnvironmentGuard guard("HOME", home.path().string()), terminal("GNUTERM", "dumb");
+  CHECK_THAT(render_svg(simple_figure(), folder.path()), Contains("<svg") && !Contains("mine"));
+}
+
+TEST_CASE("thinned curves keep their extremes and their order") {
+  std::vector<double> x, y;
+  for (int k = 0; k < 10000; ++k) {
+    x.push_back(k);
+    y.push_back(std::sin(0.01 * k));
+  }
+  y[4321] = 7.0;
+  y[8765] = -9.0;
+  for (int k = 6000; k < 6100; ++k) y[k] = not_known;
+  thin_out(x, y, 400);
+  CHECK(x.size() <= 400);
+  CHECK(x.size() > 300);
+  CHECK(std::is_sorted(x.begin(), x.end()));
+  CHECK(std::count(y.begin(), y.end(), 7.0) == 1);
+  CHECK(std::count(y.begin(), y.end(), -9.0) == 1);
+  CHECK(std::count_if(y.begin(), y.end(), [](double v) { return std::isnan(v); }) > 0);
+  std::vector<double> few{1, 2}, as_few{3, 4};
+  thin_out(few, as_few, 400);
+  CHECK(few == std::vector<double>{1, 2});
+}
+
+}  // namespace
+}  // namespace ballast

@@ -1,0 +1,95 @@
+// `ballast paper`, stopped by its time limit and killed with -9 at random moments: the same records, stored states and
+// report as an undisturbed one.
+
+#include <map>
+#include <sstream>
+
+#include "platform/atomic_file.hpp"
+#include "experiments/paper/campaign.hpp"
+#include "experiments/run/run.hpp"
+#include "geometry/shape/random.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/killed_program.hpp"
+#include "tests/support/same_bits.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// One sample of a few grains: 5000 steps of Fig. 3's run, whose whole states are kept at record.state_rate.
+CampaignSettings small_campaign() {
+  CampaignSettings settings;
+  settings.scene = "vibrated_box_small";
+  settings.overrides = {"grains.count=20", "box.length=0.14", "box.width=0.14", "record.checkpoint_seconds=0.02"};
+  settings.seeds = 1;
+  settings.iterations = 5;
+  return settings;
+}
+
+std::vector<std::string> fig3(const fs::path& results, std::vector<std::string> more = {}) {
+  const CampaignSettings settings = small_campaign();
+  std::vector<std::string> words{"paper",        "fig3",
+                                 "--jobs",       "1",
+                                 "--seeds",      "1",
+                                 "--iterations", std::to_string(settings.iterations),
+                                 "--scene",      settings.scene,
+                                 "--results",    results.string()};
+  for (const std::string& set : settings.overrides) words.insert(words.end(), {"--set", set});
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// Every stored state by its file's name: poses and the impulses from which a solver would start.
+std::map<std::string, std::string> stored_states(const fs::path& run) {
+  std::map<std::string, std::string> states;
+  for (const fs::directory_entry& entry : fs::directory_iterator(RunFolder(run).states())) {
+    const Checkpoint stored = read_checkpoint(entry.path());
+    std::string bytes = bytes_of(stored.state);
+    for (const Vec3& impulse : stored.impulses)
+      bytes.append(reinterpret_cast<const char*>(impulse.data()), 3 * sizeof(double));
+    states[entry.path().filename().string()] = bytes;
+  }
+  return states;
+}
+
+/// The report's words and tables; what it says of the time a run took may differ.
+std::string report_of(const fs::path& results) {
+  std::istringstream text(read_whole_file(results / "report" / "README.md"));
+  std::string kept;
+  for (std::string line; std::getline(text, line);)
+    if (line.find("core-seconds") == std::string::npos) kept += line + '\n';
+  return kept + read_whole_file(results / "report" / "data" / "fig03.csv");
+}
+
+}  // namespace
+
+TEST_CASE("`ballast paper` stopped by its time limit and killed at random ends with the same records and report") {
+  const TemporaryFolder folder;
+  const fs::path whole = folder.path() / "whole", killed = folder.path() / "killed", log = folder.path() / "log";
+  const Campaign campaign = make_campaign(small_campaign());
+  const PlannedRun& run = campaign.runs[campaign.motion.front()].planned;
+  const auto begin = Clock::now();
+  REQUIRE(run_and_kill(200.0, fig3(whole), log) == 0);
+  const double undisturbed = seconds_since(begin);
+  const auto states = stored_states(folder_of(whole, run));
+  REQUIRE(states.size() > 90);  // 1 s at 100 Hz
+
+  const int limited = run_and_kill(200.0, fig3(killed, {"--max-seconds", std::to_string(0.3 * undisturbed)}), log);
+  CHECK((limited == static_cast<int>(ExitCode::time_limit) || limited == 0));
+  CHECK(fs::exists(killed / "report" / "README.md"));
+  Random random(11);
+  int kills = 0;
+  double longest = 0.35;
+  while (run_and_kill(random.uniform(0.05, longest) * undisturbed, fig3(killed), log) != 0) {
+    REQUIRE(++kills < 100);
+    longest *= 1.05;  // on a machine that has become slower it ends all the same
+  }
+  INFO(kills << " kills, undisturbed " << undisturbed << " s");
+  CHECK(kills > 0);
+  CHECK(physics_of(folder_of(killed, run)) == physics_of(folder_of(whole, run)));
+  CHECK(state_of(folder_of(killed, run)) == state_of(folder_of(whole, run)));
+  CHECK((stored_states(folder_of(killed, run)) == states));
+  CHECK(report_of(killed) == report_of(whole));
+}

@@ -1,0 +1,131 @@
+// The paper's measured quantities and fits on records and data whose answers are known.
+
+#include <cmath>
+#include <numbers>
+
+#include "experiments/measure/observables.hpp"
+#include "geometry/shape/random.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/synthetic_run.hpp"
+
+using namespace ballast;
+
+TEST_CASE("a power law's interval covers the truth as often as it says") {
+  Random random(3);
+  int covered = 0;
+  constexpr int trials = 400;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<double> x, y;
+    for (const double nu : {1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 60.0}) {
+      double gauss = -6.0;  // twelve uniform numbers: normal enough for this
+      for (int k = 0; k < 12; ++k) gauss += random.uniform(0.0, 1.0);
+      x.push_back(nu);
+      y.push_back(0.3 * std::pow(nu, -2.0) * std::exp(0.1 * gauss));
+    }
+    const PowerFit fit = fit_power(x, y);
+    CHECK(fit.half_width > 0.0);
+    if (fit.covers(-2.0)) ++covered;
+  }
+  CHECK(covered > 0.92 * trials);
+  CHECK(covered < 0.98 * trials);
+}
+
+TEST_CASE("an exact power law is found exactly, and points that cannot have a logarithm are left out") {
+  const std::vector<double> x{1, 2, 4, 8, 0, 3}, y{3, 0.75, 0.1875, 3.0 / 64.0, 5, -1};
+  const PowerFit fit = fit_power(x, y);
+  CHECK(fit.samples == 4);
+  CHECK(fit.exponent == Approx(-2.0));
+  CHECK(fit.prefactor == Approx(3.0));
+  CHECK(fit.half_width < 1e-9);
+  CHECK(fit.covers(-2.0 + 1e-12 * fit.half_width));
+  CHECK_FALSE(fit.covers(-1.9));
+}
+
+TEST_CASE("sample means carry the standard error of independent samples") {
+  const std::vector<double> values{1.0, 2.0, 3.0, not_known};
+  const SampleMean mean = sample_mean(values);
+  CHECK(mean.samples == 3);
+  CHECK(mean.mean == Approx(2.0));
+  CHECK(mean.error == Approx(1.0 / std::sqrt(3.0)));
+  CHECK(std::isnan(sample_mean(std::vector<double>{4.0}).error));
+  CHECK(std::isnan(sample_mean(std::vector<double>{}).mean));
+}
+
+TEST_CASE("Student's t: tabulated and asymptotic parts meet") {
+  CHECK(student_t95(2) == Approx(4.303));
+  CHECK(std::isinf(student_t95(0)));
+  CHECK(std::abs(student_t95(31) - student_t95(30)) < 0.01);
+  CHECK(student_t95(100000) == Approx(1.96).epsilon(1e-3));
+}
+
+TEST_CASE("a proportion through the origin is the geometric mean of the ratios") {
+  const std::vector<double> x{1, 10, 100}, y{0.02, 0.1, 2.0};
+  const Proportion fit = fit_proportion(x, y);
+  CHECK(fit.factor == Approx(0.01 * std::cbrt(4.0)));
+  CHECK(fit.low < fit.factor);
+  CHECK(fit.high > fit.factor);
+  CHECK(fit.spread == Approx(std::exp(std::log(2.0) / std::sqrt(3.0))));
+}
+
+TEST_CASE("Eq. 5 is found again, with an interval around its corner") {
+  const std::vector<double> nu{1, 2, 3, 5, 7, 10, 15, 20, 30, 60};
+  std::vector<double> rate;
+  Random random(5);
+  const double gain = 0.0025, critical = 9.0;
+  for (const double f : nu)
+    rate.push_back((f < critical ? gain * f : gain * critical * critical / f) * (1.0 + random.uniform(-0.03, 0.03)));
+  const PeakedRate fit = fit_peaked_rate(nu, rate);
+  CHECK(fit.gain == Approx(gain).epsilon(0.04));
+  CHECK(fit.critical == Approx(critical).epsilon(0.05));
+  CHECK(fit.low < critical);
+  CHECK(fit.high > critical);
+  CHECK(fit.r2 > 0.98);
+  CHECK(fit.at(4.5) == Approx(0.5 * fit.at(9.0)).epsilon(0.1));
+  CHECK(std::isnan(fit_peaked_rate(std::vector<double>{1, 2}, std::vector<double>{1, 2}).critical));
+}
+
+TEST_CASE("Eq. 5 on a rate that only grows puts the corner at the end of the data") {
+  const std::vector<double> nu{1, 2, 5, 10, 20}, rate{1, 2, 5, 10, 20};
+  const PeakedRate fit = fit_peaked_rate(nu, rate);
+  CHECK(fit.critical == Approx(20.0));
+  CHECK(fit.gain == Approx(1.0));
+}
+
+TEST_CASE("observables of a record made from formulas") {
+  SyntheticBox box;
+  box.noise = 0.0;
+  box.duration = 2.0;
+  const auto steps = synthetic_box(box);
+  const Observation seen = observe(steps, facts_of(box), 100.0);
+  CHECK(seen.periods == 8);  // from 0.4 s, the first whole period after 0.3 s
+  CHECK(seen.net == Approx(box.ratchet).epsilon(0.02));
+  CHECK(seen.gain == Approx(box.solid_gain).epsilon(0.02));
+  CHECK(seen.rate == Approx(box.solid_gain * box.frequency / seen.solid_reference).epsilon(0.02));
+  CHECK(seen.rate_common == Approx(seen.rate).epsilon(0.02));
+  CHECK(seen.first_contraction == Approx(box.first_contraction).epsilon(0.05));
+  // Delta x_max: the same stroke by hand, from the record between two jams
+  double least = 1e300, rise = 0.0, in = 0.0;
+  for (const StepRecord& step : steps) {
+    if (step.time <= 0.8 + 1e-9 || step.time > 1.0 + 1e-9) continue;
+    least = std::min(least, step.wall_x);
+    rise = std::max(rise, step.wall_x - least);
+    in = std::max(in, -step.wall_v);
+  }
+  CHECK(seen.rise == Approx(rise).epsilon(0.02));
+  CHECK(seen.speed_in == Approx(in).epsilon(0.02));
+  CHECK(seen.eq3() == Approx(0.5 * box.grain_mass * 9.81 / box.f_max * 9.81 / 25.0));
+  const double one = box.grain_mass / 100.0;
+  CHECK(seen.eq3_one_grain() == Approx(one / (one + box.wall_mass) * one * 9.81 / box.f_max * 9.81 / 25.0));
+}
+
+TEST_CASE("a window cuts periods that end after it, and what is too short is not known") {
+  SyntheticBox box;
+  box.noise = 0.0;
+  const auto steps = synthetic_box(box);
+  CHECK(observe(steps, facts_of(box), 100.0, {0.3, 0.8}).periods == 2);
+  CHECK(observe(steps, facts_of(box), 100.0, {0.3, 0.79}).periods == 1);
+  const Observation none = observe(steps, facts_of(box), 100.0, {0.9, 1.0});
+  CHECK(none.periods == 0);
+  CHECK(std::isnan(none.rise));
+  CHECK(std::isnan(compaction_rate(steps, 5.0, box.h, 0.52, {0.85, 1.0})));
+}

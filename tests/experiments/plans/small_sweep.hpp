@@ -1,0 +1,35 @@
+#pragma once
+// Sweeps that take a second: the small box, briefly driven.
+
+#include <string>
+#include <vector>
+
+#include "experiments/plans/plan.hpp"
+#include "tests/support/same_bits.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace ballast {
+
+/// Two packings, two frequencies each. Checkpoints often, so that little is lost whenever it is killed.
+inline const char* small_sweep = R"(
+name = "small"
+scene = "vibrated_box_small"
+set = ["grains.count=20", "box.length=0.14", "box.width=0.14", "scene.duration=0.06", "record.checkpoint_seconds=0.02"]
+
+[[sweep]]
+name = "nu"
+vary."drive.frequency" = [20, 50]
+vary."grains.seed" = [1, 2]
+)";
+
+/// The bits of every run of a plan.
+inline std::vector<std::string> bits_of(const Plan& plan, const std::filesystem::path& results) {
+  std::vector<std::string> bits;
+  for (const PlannedRun& run : plan.runs) {
+    const std::filesystem::path folder = folder_of(results, run);
+    bits.push_back(physics_of(folder) + state_of(folder));
+  }
+  return bits;
+}
+
+}  // namespace ballast

@@ -1,0 +1,85 @@
+// Killed with -9 at random moments, a sweep ends with the bits of an undisturbed one.
+
+#include "experiments/plans/plan.hpp"
+#include "geometry/shape/random.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/killed_program.hpp"
+#include "tests/experiments/plans/small_sweep.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Sweeps, and kills the sweep after `seconds`. Its exit code, or -1 when it was killed.
+int sweep_for(double seconds, const fs::path& plan, const fs::path& results) {
+  return run_and_kill(seconds, {"sweep", plan.string(), "--jobs", "2", "--output", results.string()},
+                      results.string() + ".log");
+}
+
+int files_in(const fs::path& folder, const std::string& suffix) {
+  int count = 0;
+  if (fs::is_directory(folder))
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+      count += entry.path().string().ends_with(suffix);
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a sweep killed with -9 twenty times at random ends with the same bits") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("plan.toml", small_sweep), whole = folder.path() / "whole";
+  const Plan plan = read_plan(file);
+  const auto begin = Clock::now();
+  REQUIRE(sweep_for(100.0, file, whole) == 0);
+  const double undisturbed = seconds_since(begin);
+  const std::vector<std::string> bits = bits_of(plan, whole);
+  REQUIRE(bits[0] != bits[1]);
+
+  // sweep after sweep until there were twenty deaths, spread over deposits and drives, on a fast machine and on a slow one
+  Random random(20);
+  int kills = 0, in_deposit = 0, in_drive = 0, elsewhere = 0;
+  for (int sweeps = 0; kills < 20 || in_deposit < 5 || in_drive < 5; ++sweeps) {
+    REQUIRE(sweeps < 20);
+    const fs::path results = folder.path() / ("killed" + std::to_string(sweeps));
+    int code = -1;
+    while (code == -1) {
+      code = sweep_for(random.uniform(0.03, 0.35) * undisturbed, file, results);
+      REQUIRE((code == -1 || code == 0));
+      if (code == 0) break;
+      REQUIRE(++kills < 200);
+      if (files_in(results / "packings", ".bin") < 2) ++in_deposit;
+      else if (files_in(results / "runs", "checkpoint.bin") > 0 && files_in(results / "runs", "steps.csv") < 4) ++in_drive;
+      else ++elsewhere;
+    }
+    CHECK(bits_of(plan, results) == bits);
+  }
+  INFO(kills << " kills, " << in_deposit << " while depositing, " << in_drive << " while driving; undisturbed " << undisturbed << " s");
+  CHECK(kills == in_deposit + in_drive + elsewhere);
+}
+
+TEST_CASE("children die with a sweep that is killed") {
+  const TemporaryFolder folder;
+  // long: whoever survived would still be running
+  const fs::path file = folder.write(
+      "plan.toml", "scene = \"vibrated_box_small\"\n[[run]]\nname = \"long\"\nset = [\"scene.duration=100\"]\n");
+  const fs::path results = folder.path() / "results";
+  const PlannedRun run = read_plan(file).runs[0];
+  const fs::path log = results / "logs" / (run_key(run) + ".log");
+  Clock::time_point begin = Clock::now();
+  {
+    Worker sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string()}, folder.path() / "log");
+    while (!fs::exists(log) && seconds_since(begin) < 60.0 && !sweep.has_ended()) usleep(2000);
+    REQUIRE(fs::exists(log));
+  }
+  // the folder can be had again: nobody holds its lock
+  Worker next(BALLAST_PROGRAM,
+              {"run", run.scene, "--set", run.overrides[0], "--output", folder_of(results, run).string(), "--packing-cache",
+               (results / "packings").string(), "--continue", "--no-report", "--max-seconds", "0.2"},
+              folder.path() / "next.log");
+  begin = Clock::now();
+  while (!next.has_ended() && seconds_since(begin) < 30.0) usleep(2000);
+  REQUIRE(next.has_ended());
+  CHECK(next.status() == 3);
+}

@@ -1,0 +1,195 @@
+// Runs as a whole: the same bits twice, after a stop, after kill -9; what a folder refuses.
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "experiments/run/run.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/same_bits.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own that goes with the test; what a run prints is swallowed.
+class Workplace {
+ public:
+  Workplace() {
+    std::string pattern = (fs::temp_directory_path() / "ballast_run_XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+    old_ = std::cout.rdbuf(sink_.rdbuf());
+  }
+  ~Workplace() {
+    std::cout.rdbuf(old_);
+    fs::remove_all(folder);
+  }
+  fs::path folder;
+
+ private:
+  std::ostringstream sink_;
+  std::streambuf* old_;
+};
+
+RunOptions small_run(const fs::path& output, const fs::path& packings) {
+  RunOptions options;
+  options.scene = "vibrated_box_small";
+  options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=0.05", "solver.max_iterations=2000"};
+  options.output = output;
+  options.packing_cache = packings;
+  options.report = false;
+  return options;
+}
+
+/// Runs in a child process and kills it after `milliseconds`; true if it was still running.
+bool killed_after(const RunOptions& options, int milliseconds) {
+  const pid_t child = fork();
+  if (child == 0) {
+    fclose(stderr);
+    run(options);
+    _exit(0);
+  }
+  usleep(1000 * milliseconds);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status);
+}
+
+}  // namespace
+
+TEST_CASE("the same input gives the same bits: deposit, drive, and whatever stopped it in between") {
+  const Workplace place;
+  const fs::path once = place.folder / "once", again = place.folder / "again", stopped = place.folder / "stopped";
+  REQUIRE(run(small_run(once, place.folder / "p1")) == ExitCode::ok);
+  const std::string physics = physics_of(once), state = state_of(once);
+  REQUIRE(read_steps(once).size() == 200);
+
+  SECTION("a second run with a deposit of its own") {
+    REQUIRE(run(small_run(again, place.folder / "p2")) == ExitCode::ok);
+    CHECK(physics_of(again) == physics);
+    CHECK(state_of(again) == state);
+  }
+  SECTION("stopped by the time limit again and again, in the deposit and in the drive") {
+    RunOptions options = small_run(stopped, place.folder / "p3");
+    options.max_seconds = 0.25;
+    int stops = 0;
+    while (run(options) == ExitCode::time_limit) {
+      options.resume = true;
+      options.max_seconds *= 1.05;  // under sanitizers, beside other work: it ends all the same
+      REQUIRE(++stops < 100);
+    }
+    CHECK(stops >= 2);
+    CHECK(physics_of(stopped) == physics);
+    CHECK(state_of(stopped) == state);
+  }
+  SECTION("killed with kill -9 again and again") {
+    RunOptions options = small_run(stopped, place.folder / "p4");
+    int kills = 0;
+    while (kills < 6 && killed_after(options, 150 + 61 * kills)) {
+      ++kills;
+      options.resume = fs::exists(RunFolder(stopped).scene());
+    }
+    CHECK(kills >= 2);
+    options.resume = true;
+    REQUIRE(run(options) == ExitCode::ok);
+    CHECK(physics_of(stopped) == physics);
+    CHECK(state_of(stopped) == state);
+  }
+}
+
+TEST_CASE("the same bits where contact points are held on to, whatever stopped the run in between") {
+  const Workplace place;
+  const auto holding = [&](const char* name, bool holds) {
+    RunOptions options = small_run(place.folder / name, place.folder / "packings");
+    options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=1e-3", "solver.max_iterations=300"};
+    if (holds) options.overrides.push_back("detection.reuse_motion=1e-3");
+    if (holds) options.overrides.push_back("detection.refresh_steps=7");
+    return options;
+  };
+  REQUIRE(run(holding("exact", false)) == ExitCode::ok);
+  REQUIRE(run(holding("whole", true)) == ExitCode::ok);
+  const std::string physics = physics_of(place.folder / "whole"), state = state_of(place.folder / "whole");
+  CHECK(physics != physics_of(place.folder / "exact"));  // it does something
+  RunOptions options = holding("stopped", true);
+  options.max_seconds = 0.02;
+  int stops = 0;
+  while (run(options) == ExitCode::time_limit) {
+    CHECK(read_checkpoint(RunFolder(place.folder / "stopped").checkpoint()).state.step % 7 == 0);
+    options.resume = true;
+    options.max_seconds *= 1.05;
+    REQUIRE(++stops < 200);
+  }
+  CHECK(stops >= 2);
+  CHECK(physics_of(place.folder / "stopped") == physics);
+  CHECK(state_of(place.folder / "stopped") == state);
+}
+
+TEST_CASE("what a run shows: no grain escapes, overlap stays small, the energy account closes") {
+  const Workplace place;
+  REQUIRE(run(small_run(place.folder / "run", place.folder / "p")) == ExitCode::ok);
+  double work = 0.0, residual = 0.0;
+  for (const StepRecord& row : read_steps(place.folder / "run")) {
+    CHECK(row.penetration_max < 0.25e-3);
+    CHECK(row.penetration_mean < 5e-6);
+    CHECK(row.error_rms < 1e-2 * 9.81 * 2e-4);
+    work += std::abs(row.work_load);
+    residual += row.energy_residual;
+  }
+  CHECK(std::abs(residual) < 1e-4 * work);
+  MotionState state;
+  const MechanicalSystem system = system_of_run(place.folder / "run", state);
+  CHECK(system.grain_count == 60);
+  for (int b = 0; b < system.grain_count; ++b)
+    for (size_t w = system.grain_count; w < system.bodies.size(); ++w) {
+      const Vec3& normal = system.bodies[w].wall.normal;
+      CHECK(normal.dot(state.pose[b].position - state.pose[w].position) > 0.0);
+    }
+}
+
+TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is") {
+  const Workplace place;
+  const fs::path folder = place.folder / "run";
+  RunOptions options = small_run(folder, place.folder / "p");
+  options.deposit_only = true;
+  REQUIRE(run(options) == ExitCode::ok);
+  CHECK_FALSE(fs::exists(folder));
+  CHECK(std::distance(fs::directory_iterator(place.folder / "p"), fs::directory_iterator()) == 1);  // no lock, no part left
+  options.deposit_only = false;
+  options.begin_or_resume = true;
+  options.max_seconds = 0.1;
+  int stops = 0;
+  for (; run(options) == ExitCode::time_limit; ++stops) {
+    REQUIRE(stops < 100);
+    options.max_seconds *= 1.1;  // under sanitizers, beside other work: it ends all the same
+  }
+  CHECK(stops >= 1);
+  const auto written = fs::last_write_time(RunFolder(folder).manifest());
+  CHECK(run(options) == ExitCode::ok);
+  CHECK(fs::last_write_time(RunFolder(folder).manifest()) == written);
+  CHECK_FALSE(fs::exists(folder / "run.lock"));
+}
+
+TEST_CASE("a folder refuses what would lose a run") {
+  const Workplace place;
+  RunOptions options = small_run(place.folder / "run", place.folder / "p");
+  options.scene = "incline";
+  options.overrides = {"scene.duration=0.01"};
+  REQUIRE(run(options) == ExitCode::ok);
+  CHECK_THROWS_WITH(run(options), Catch::Contains("holds a run already"));
+  options.resume = true;
+  CHECK(run(options) == ExitCode::ok);  // finished: the report again
+  options.overrides = {"scene.duration=0.02"};
+  CHECK_THROWS_WITH(run(options), Catch::Contains("other settings"));
+  options.resume = false;
+  options.overwrite = true;
+  CHECK(run(options) == ExitCode::ok);
+  CHECK(read_steps(options.output).size() == 20);
+  options.output = "/proc/nowhere/run";
+  CHECK_THROWS_WITH(run(options), Catch::Contains("/proc/nowhere"));
+}

@@ -1,0 +1,240 @@
+#include "experiments/run_page/report.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "platform/atomic_file.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/measure/run_data.hpp"
+#include "problems/scene/scene_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/environment_guard.hpp"
+#include "tests/support/page_sample.hpp"
+#include "tests/support/synthetic_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace ballast {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+nlohmann::ordered_json manifest_of_box() {
+  return {{"ballast", {{"version", "0.1.0"}, {"commit", "0123456789abcdef0123"}, {"modified", true}, {"libraries", {{"Eigen", "3.4.0"}}}}},
+          {"machine", {{"cpu", "a processor"}, {"cores", 2}}},
+          {"scene", "vibrated_box"},
+          {"overrides", {"drive.frequency=5", "scene.title=it's"}},
+          {"started", "2025-01-01T00:00:00Z"},
+          {"resumed", nlohmann::ordered_json::array()},
+          {"summary",
+           {{"grains", 1200},
+            {"grain_mass_kg", 214.0},
+            {"weight_N", 2099.34},
+            {"f_max_N", 6300.0},
+            {"wall_mass_kg", 214.0},
+            {"frequency_Hz", 5.0},
+            {"solid_fraction_initial", 0.501},
+            {"velocity_scale_m_s", 1.962e-3}}}};
+}
+
+std::string page_of(const TemporaryFolder& folder) {
+  write_report(folder.path());
+  return read_whole_file(folder.path() / "report.html");
+}
+
+void write_box(const TemporaryFolder& folder, const std::vector<std::string>& without = {}) {
+  write_steps_csv(folder.path() / "steps.csv", synthetic_box(), without);
+  folder.write("manifest.json", manifest_of_box().dump());
+}
+
+TEST_CASE("the box's page has every figure, opens offline and is well-formed") {
+  const TemporaryFolder folder;
+  write_box(folder);
+  const std::string page = page_of(folder);
+  for (const char* name : {"fig03", "fig04", "fig12", "jammed", "error", "penetration", "effort", "cost", "energy"}) {
+    CHECK_THAT(page, Contains("<figure id=\"" + std::string(name) + "\">"));
+    CHECK(fs::exists(folder.path() / "figures" / (std::string(name) + ".svg")));
+    CHECK(fs::exists(folder.path() / "figures" / (std::string(name) + ".gnuplot")));
+  }
+  check_page(page);
+  CHECK(ids_in(page).size() > 20);
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path())) CHECK(entry.path().extension() != ".tmp");
+}
+
+TEST_CASE("the box's page says the numbers beside what is asked and what the paper has") {
+  const TemporaryFolder folder;
+  write_box(folder);
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("6.00&#8239;mm") || Contains("6.05&#8239;mm"));  // first contraction
+  CHECK_THAT(page, Contains(">0.5010<") && Contains(">0.50<") && Contains(">0.5190<") && Contains(">0.52<"));
+  CHECK_THAT(page, Contains("✓ met") && Contains("≤&nbsp;250&#8239;µm") && Contains("≤&nbsp;0.001"));
+  CHECK_THAT(page, Contains("4 of 4 periods"));
+  for (const char* next : {"paper fig12", "sweep my_sweep.toml", "compare --live", "run vibrated_box --set"})
+    CHECK_THAT(page.substr(page.find("What next")), Contains(next));
+  CHECK_THAT(page, Contains("git checkout 0123456789abcdef0123") && Contains("./run.sh vibrated_box --set drive.frequency=5 --set "));
+  CHECK_THAT(page, Contains("Eigen 3.4.0") && Contains("a processor") && Contains("not committed"));
+  CHECK_THAT(page, Contains("scene.toml is missing"));
+}
+
+TEST_CASE("a missed bound is marked") {
+  const TemporaryFolder folder;
+  auto steps = synthetic_box();
+  for (StepRecord& step : steps) step.penetration_max += 1e-3;
+  write_steps_csv(folder.path() / "steps.csv", steps);
+  CHECK_THAT(page_of(folder), Contains("✗ missed"));
+}
+
+TEST_CASE("names from files are escaped") {
+  const TemporaryFolder folder;
+  write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
+  auto manifest = manifest_of_box();
+  const std::string hostile = "<script>alert('x')</script>\"&";
+  manifest["scene"] = hostile;
+  manifest["overrides"] = {hostile};
+  manifest["machine"]["cpu"] = hostile;
+  manifest["ballast"]["commit"] = hostile;
+  manifest["summary"][hostile] = hostile;
+  manifest["resumed"] = {{{"step", 3}, {"at", hostile}}};
+  manifest["started"] = hostile;
+  folder.write("manifest.json", manifest.dump());
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, !Contains("<script") && !Contains("alert('"));
+  CHECK_THAT(page, Contains("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;&quot;&amp;"));
+  CHECK(nesting_fault(page) == "");
+}
+
+TEST_CASE("a sliding cube has no wall and no packing on its page") {
+  const TemporaryFolder folder;
+  write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
+  const std::string page = page_of(folder);
+  for (const char* name : {"error", "effort", "cost", "energy"}) CHECK_THAT(page, Contains("<figure id=\"" + std::string(name) + "\">"));
+  for (const char* name : {"fig03", "fig04", "fig12", "jammed"}) CHECK_THAT(page, !Contains("<figure id=\"" + std::string(name) + "\">"));
+  CHECK_THAT(page, !Contains("Solid fraction") && !Contains("Motion of the wall") && Contains("manifest.json is missing"));
+  CHECK_THAT(page, Contains("errors are given in m/s"));
+  CHECK(nesting_fault(page) == "");
+}
+
+TEST_CASE("every column but time may be missing, one by one") {
+  for (const StepColumn& column : step_columns()) {
+    if (std::string(column.name) == "time") continue;
+    const TemporaryFolder folder, empty;
+    write_box(folder, {column.name});
+    const EnvironmentGuard guard("PATH", empty.path().string());  // the numbers alone: no figures, 26 times faster
+    INFO(column.name);
+    const std::string page = page_of(folder);
+    CHECK_THAT(page, Contains("steps.csv has no column " + std::string(column.name)));
+    CHECK(nesting_fault(page) == "");
+    CHECK_THAT(page, !Contains(">nan") && !Contains(">inf"));
+  }
+}
+
+TEST_CASE("figures that lack their column are named, the others are drawn") {
+  const TemporaryFolder folder;
+  write_box(folder, {"wall_force", "penetration_max", "penetration_mean", "error_rms", "error_max", "iterations", "kinetic_energy"});
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("<figure id=\"fig03\">") && Contains("<figure id=\"fig12\">") && Contains("<figure id=\"cost\">"));
+  CHECK_THAT(page, Contains("figure fig04: nothing to draw") && !Contains("<figure id=\"fig04\">"));
+  CHECK_FALSE(fs::exists(folder.path() / "figures" / "fig04.svg"));
+}
+
+TEST_CASE("only the time: still a page") {
+  const TemporaryFolder folder;
+  folder.write("steps.csv", "time\n0.1\n0.2\n0.3\n");
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("steps.csv has no column wall_x, wall_v"));
+  CHECK(nesting_fault(page) == "");
+}
+
+TEST_CASE("NaN, infinity and one single step") {
+  const TemporaryFolder folder;
+  auto steps = synthetic_box();
+  steps[100].error_rms = NAN;
+  steps[2000].wall_force = INFINITY;
+  steps[3000].solid_fraction = NAN;
+  write_steps_csv(folder.path() / "steps.csv", steps);
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("error_rms is not finite in 1 of 5000 steps, first in row 101"));
+  CHECK_THAT(page, Contains("wall_force is not finite in 1 of 5000 steps, first in row 2001"));
+  CHECK_THAT(page, Contains("<figure id=\"fig04\">"));
+  steps.resize(1);
+  steps[0] = synthetic_box()[0];
+  write_steps_csv(folder.path() / "steps.csv", steps);
+  CHECK(nesting_fault(page_of(folder)) == "");
+}
+
+TEST_CASE("no record, no report: the error names the file and the place") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(write_report(folder.path()), RunError);
+  CHECK_THROWS_WITH(write_report(folder.path() / "nowhere"), Contains("nowhere: no such folder"));
+  folder.write("steps.csv", "");
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv: is empty"));
+  folder.write("steps.csv", "time,wall_x\n");
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv: holds no step"));
+  folder.write("steps.csv", "wall_x,wall_v\n1,2\n");
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("the column \"time\" is missing"));
+  folder.write("steps.csv", "time,wall_x\n1,2\n2,abc\n");
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv:3: wall_x is not a number: \"abc\""));
+  folder.write("steps.csv", "time,wall_x\n1,2\n2\n");
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv:3: 1 fields, expected 2"));
+  folder.write("steps.csv", "time,wall_x\n1,2\n1,2\n");
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("finite and growing in row 2"));
+  folder.write("steps.csv", "time,wall_x\nnan,2\n");
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("finite and growing in row 1"));
+  CHECK_FALSE(fs::exists(folder.path() / "report.html"));
+}
+
+TEST_CASE("broken manifests and scenes are noticed, not fatal") {
+  const TemporaryFolder folder;
+  write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
+  folder.write("manifest.json", GENERATE("{\"scene\": ", "[1, 2]", "{\"summary\": 3, \"ballast\": [], \"overrides\": {}, \"resumed\": 1}",
+                                         "{\"summary\": {\"frequency_Hz\": \"five\", \"deep\": {\"er\": [1, {\"a\": null}]}}}"));
+  folder.write("scene.toml", "[scene]\nname = 3\n");
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("scene.toml cannot be used: "));
+  CHECK(nesting_fault(page) == "");
+}
+
+TEST_CASE("the scene's parameters are on the page") {
+  const TemporaryFolder folder;
+  write_box(folder);
+  fs::copy_file(find_scene("vibrated_box"), folder.path() / "scene.toml");
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("<h1>The paper&#39;s vibrated box") && Contains("2700&#8239;kg/m³") && Contains("The whole scene (scene.toml)"));
+  CHECK_THAT(page, !Contains("To be known before reading"));
+}
+
+TEST_CASE("without gnuplot the page has its tables and says why there is no figure") {
+  const TemporaryFolder folder, empty;
+  write_box(folder);
+  const EnvironmentGuard guard("PATH", empty.path().string());
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("gnuplot was not found") && !Contains("<figure") && Contains("The run in numbers") && Contains("≤&nbsp;0.001"));
+}
+
+TEST_CASE("a failing gnuplot costs its figures, not the page") {
+  const TemporaryFolder folder, path;
+  write_box(folder);
+  // answers --version, fails on Fig. 4, otherwise draws an empty picture
+  const fs::path program = path.write("gnuplot",
+                                      "#!/bin/sh\ncase \"$2\" in *fig04*) echo 'no ink' >&2; exit 1;; esac\n"
+                                      "echo '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>'\n");
+  fs::permissions(program, fs::perms::owner_all);
+  const EnvironmentGuard guard("PATH", path.path().string());
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("figure fig04: gnuplot failed (1): no ink") && !Contains("<figure id=\"fig04\">"));
+  CHECK_THAT(page, Contains("<figure id=\"fig03\">") && Contains("<figure id=\"energy\">"));
+}
+
+TEST_CASE("an unwritable folder is an error that names the page") {
+  const TemporaryFolder folder, empty;
+  write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
+  fs::create_directory(folder.path() / "report.html");
+  const EnvironmentGuard guard("PATH", empty.path().string());
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("report.html"));
+}
+
+}  // namespace
+}  // namespace ballast

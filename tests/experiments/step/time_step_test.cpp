@@ -1,0 +1,116 @@
+// The step itself: free flight, rotation, energy, the overlap correction.
+
+#include "experiments/step/time_step.hpp"
+
+#include "tests/catch.hpp"
+#include "tests/support/cube_scene.hpp"
+
+using namespace ballast;
+
+TEST_CASE("the mid-point rule keeps energy and angular momentum of a tumbling body") {
+  const Vec3 inertia(1.0, 2.0, 2.5);
+  Vec3 spin(0.1, 5.0, 0.2);
+  const double energy = spin.dot(inertia.cwiseProduct(spin)), momentum = inertia.cwiseProduct(spin).norm();
+  for (int k = 0; k < 10000; ++k) spin = free_spin(inertia, spin, 1e-3);
+  CHECK(spin.dot(inertia.cwiseProduct(spin)) == Approx(energy).epsilon(1e-12));
+  CHECK(inertia.cwiseProduct(spin).norm() == Approx(momentum).epsilon(1e-12));
+}
+
+TEST_CASE("the intermediate axis flips over (Dzhanibekov), to second order in h") {
+  const auto spin_at = [](double h) {
+    Vec3 spin(0.01, 5.0, 0.0);
+    for (long k = 0; k < std::lround(4.0 / h); ++k) spin = free_spin(Vec3(1.0, 2.0, 3.0), spin, h);
+    return spin;
+  };
+  const Vec3 reference = spin_at(1e-5);
+  const double coarse = (spin_at(2e-3) - reference).norm(), fine = (spin_at(1e-3) - reference).norm();
+  CHECK(reference.y() < 4.0);  // it has left the unstable axis
+  CHECK(coarse / fine == Approx(4.0).margin(0.1));
+}
+
+TEST_CASE("free fall is exact at every step") {
+  Scene scene = empty_scene();
+  scene.bodies.push_back(cube("body", 0.1, 2.0, Vec3(0, 0, 10)));
+  scene.bodies[0].velocity = Vec3(1, -2, 3);
+  scene.bodies[0].spin = Vec3(1, 2, 3);
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, step_settings(scene), -1);
+  StepMemory memory;
+  for (int k = 1; k <= 1000; ++k) {
+    const StepRecord record = stepper.step(state, memory);
+    CHECK(std::abs(record.energy_residual) < 1e-12);
+  }
+  const double t = 1.0;
+  CHECK((state.pose[0].position - (Vec3(0, 0, 10) + t * Vec3(1, -2, 3) + 0.5 * t * t * scene.gravity)).norm() < 1e-11);
+  CHECK(std::abs(state.pose[0].rotation.norm() - 1.0) < 1e-15);
+}
+
+TEST_CASE("a dropped cube comes to rest on the floor without sinking in, and the energy account closes") {
+  Scene scene = empty_scene();
+  scene.walls.push_back(floor_at_zero(0.4));
+  scene.bodies.push_back(cube("body", 0.1, 2.0, Vec3(0, 0, 0.07)));
+  scene.solver.tolerance = 1e-9;
+  scene.solver.max_iterations = 5000;
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, step_settings(scene), -1);
+  StepMemory memory;
+  double dissipated = 0.0, gravity = 0.0, residual = 0.0, penetration = 0.0;
+  for (int k = 0; k < 300; ++k) {
+    const StepRecord record = stepper.step(state, memory);
+    dissipated += record.dissipated;
+    gravity += record.work_gravity;
+    residual += std::abs(record.energy_residual);
+    penetration = std::max(penetration, record.penetration_max);
+  }
+  CHECK(std::abs(state.pose[0].position.z() - 0.05) < 1e-9);
+  CHECK(kinetic_energy(system, state) < 1e-15);
+  CHECK(gravity == Approx(2.0 * 9.81 * 0.02).epsilon(1e-6));
+  CHECK(dissipated == Approx(gravity).epsilon(1e-6));
+  CHECK(residual < 1e-12);
+  CHECK(penetration < 1e-9);
+}
+
+TEST_CASE("the overlap correction lifts a sunken cube without giving it velocity") {
+  Scene scene = empty_scene();
+  scene.walls.push_back(floor_at_zero(0.4));
+  scene.bodies.push_back(cube("body", 0.1, 2.0, Vec3(0, 0, 0.05 - 1e-4)));
+  scene.correction.sweeps = 50;
+  scene.solver.tolerance = 1e-6;
+  scene.solver.max_iterations = 5000;
+  const double slop = scene.correction.slop;
+  for (const bool on : {true, false}) {
+    scene.correction.enabled = on;
+    MotionState state;
+    const MechanicalSystem system = make_system(scene, state);
+    TimeStepper stepper(system, step_settings(scene), -1);
+    StepMemory memory;
+    double speed = 0.0, lifted = 0.0;
+    for (int k = 0; k < 100; ++k) {
+      lifted += stepper.step(state, memory).work_correction;
+      speed = std::max(speed, state.velocity[0].norm());
+    }
+    CHECK(speed < 1e-6);
+    const double expected = on ? -slop : -1e-4;
+    CHECK(state.pose[0].position.z() - 0.05 == Approx(expected).margin(0.05 * slop));
+    CHECK(lifted == Approx(2.0 * 9.81 * (on ? 1e-4 - slop : 0.0)).margin(1e-6));
+  }
+}
+
+TEST_CASE("the overlap correction does not move a driven wall") {
+  Scene scene = empty_scene();
+  scene.gravity.setZero();
+  WallSpec wall = floor_at_zero(0.0);
+  wall.motion = WallMotion::driven;
+  wall.mass = 1.0;
+  scene.walls.push_back(wall);
+  scene.bodies.push_back(cube("body", 0.1, 2.0, Vec3(0, 0, 0.05 - 1e-4)));
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, step_settings(scene), 1);
+  StepMemory memory;
+  for (int k = 0; k < 100; ++k) stepper.step(state, memory);
+  CHECK(outward_displacement(system, state, 1) == 0.0);
+  CHECK(state.pose[0].position.z() > 0.05 - 0.5e-4);
+}

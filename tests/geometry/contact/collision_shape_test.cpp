@@ -1,0 +1,100 @@
+#include "geometry/contact/collision_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/shape/convex_hull.hpp"
+#include "tests/catch.hpp"
+#include "tests/geometry/contact/detection_support.hpp"
+
+using namespace ballast;
+using namespace ballast::testing;
+
+TEST_CASE("affine rows are evaluated row by row, padding included") {
+  Random random(1);
+  for (int count : {1, 4, 8, 9, 37}) {
+    AffineRows rows(count, -5.0);
+    CHECK(rows.padded() % 8 == 0);
+    CHECK(rows.padded() >= count);
+    std::vector<Vec3> xyz;
+    for (int i = 0; i < count; ++i) {
+      xyz.push_back(random.unit_vector());
+      rows.set(i, xyz.back(), i);
+    }
+    const Vec3 d = random.unit_vector();
+    std::vector<double> values(rows.padded());
+    rows.evaluate(d, values.data());
+    for (int i = 0; i < rows.padded(); ++i)
+      CHECK(values[i] == (i < count ? Approx(xyz[i].dot(d) + i).margin(1e-15) : Approx(-5.0)));
+  }
+}
+
+TEST_CASE("tables agree with the polyhedron they come from") {
+  for (size_t s = 0; s < shape_pool().size(); ++s) {
+    const Polyhedron& polyhedron = shape_pool()[s];
+    const CollisionShape& shape = collision_pool()[s];
+    const double small = 1e-14;
+    REQUIRE(shape.vertices().count() == polyhedron.vertex_count());
+    const int vertices = shape.vertices().count(), edges = static_cast<int>(shape.edges().size());
+    CHECK(vertices - edges + shape.faces().count() == 2);
+    CHECK(shape.bounds().unevenness <= small);
+    for (int f = 0; f < shape.faces().count(); ++f) {
+      const Vec3 normal = shape.faces().xyz(f);
+      CHECK(normal.norm() == Approx(1.0).epsilon(1e-14));
+      CHECK(-shape.faces().w(f) == Approx(normal.dot(polyhedron.vertex(polyhedron.support(normal)))).epsilon(1e-13));
+      CHECK(normal.dot(shape.bounds().ball_centre) + shape.faces().w(f) <= -shape.bounds().ball_radius + small);
+      for (int k = 0; k < shape.face(f).corner_count; ++k) {
+        const int corner = shape.corners(f)[k].vertex,
+                  next = shape.corners(f)[(k + 1) % shape.face(f).corner_count].vertex;
+        const CollisionShape::Side& side = shape.sides(f)[k];
+        const CollisionShape::Edge& edge = shape.edges()[shape.corners(f)[k].edge];
+        CHECK(std::minmax(corner, next) == std::minmax(edge.tail, edge.head));
+        CHECK((edge.left == f ? edge.tail : edge.head) == corner);
+        CHECK((edge.left == f || edge.right == f));
+        CHECK(std::abs(side.outward.dot(normal)) <= small);
+        for (const auto& [v, e, p] : shape.corners(f))
+          CHECK(side.outward.dot(shape.vertices().xyz(v)) - side.offset <= small);
+        const auto faces = shape.vertex_faces(corner);
+        CHECK(std::find(faces.begin(), faces.end(), f) != faces.end());
+      }
+    }
+    CHECK(shape.bounds().ball_radius > 0.0);
+  }
+}
+
+TEST_CASE("coplanar triangles become one face") {
+  const CollisionShape box(triangulated_box(Vec3(1, 2, 3)));
+  CHECK(box.faces().count() == 6);
+  CHECK(box.edges().size() == 12);
+  for (int f = 0; f < 6; ++f) {
+    CHECK(box.face(f).corner_count == 4);
+    CHECK(box.face(f).isolation == Approx(1.0));
+  }
+  for (int v = 0; v < 8; ++v) CHECK(box.vertex_faces(v).size() == 3);
+
+  // turned, so that coplanar only holds to rounding
+  Random random(3);
+  const Quat rotation = random.rotation();
+  const Polyhedron upright = triangulated_box(Vec3(0.01, 0.02, 0.03));
+  std::vector<Vec3> vertices;
+  for (const Vec3& p : upright.vertices()) vertices.push_back(rotation * p);
+  std::vector<std::vector<int>> faces;
+  for (int f = 0; f < upright.face_count(); ++f) faces.emplace_back(upright.face(f).begin(), upright.face(f).end());
+  CHECK(CollisionShape(Polyhedron(vertices, faces)).faces().count() == 6);
+
+  // bent along the diagonal by more than the threshold: stays two
+  vertices.assign(upright.vertices().begin(), upright.vertices().end());
+  vertices[upright.face(0)[0]] *= 1.0 + 1e-6;
+  CHECK(CollisionShape(convex_hull(vertices)).faces().count() > 6);
+}
+
+TEST_CASE("the ball lies inside also when the origin does not") {
+  std::vector<Vec3> far;
+  const Polyhedron box = make_box(Vec3(1, 1, 1));
+  for (const Vec3& p : box.vertices()) far.push_back(p + Vec3(5, 0, 0));
+  std::vector<std::vector<int>> faces;
+  for (int f = 0; f < box.face_count(); ++f) faces.emplace_back(box.face(f).begin(), box.face(f).end());
+  const CollisionShape shape(Polyhedron(far, faces));
+  CHECK(shape.bounds().ball_radius == Approx(0.5));
+  CHECK(shape.bounds().ball_centre.isApprox(Vec3(5, 0, 0)));
+}

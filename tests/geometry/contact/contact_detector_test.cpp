@@ -1,0 +1,255 @@
+#include "geometry/contact/contact_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+#include "tests/catch.hpp"
+#include "tests/geometry/contact/allocation_counter.hpp"
+#include "tests/geometry/contact/detection_support.hpp"
+#include "tests/geometry/contact/sample_packing.hpp"
+
+using namespace ballast;
+using namespace ballast::testing;
+
+TEST_CASE("contacts depend on poses and reaches only: with and without cache, bit by bit") {
+  for (double step : {1e-6, 1e-5, 1e-4, 1e-3}) {
+    Packing packing(70, step < 5e-4 ? 0.28 : 0.25, 1);
+    if (step < 5e-4) packing.relax();  // otherwise deep overlaps, many of them equal in depth along several axes
+    DetectionSettings fresh;
+    fresh.use_cache = false;
+    ContactDetector cached(packing.shapes, {}), from_scratch(packing.shapes, fresh);
+    std::vector<ContactPoint> contacts, expected;
+    long proved = 0, searched = 0;
+    for (int k = 0; k < 120; ++k) {
+      packing.move(step);
+      const int some = packing.random.below(static_cast<int>(packing.shapes.size()));
+      if (k % 20 == 7) packing.poses[some].position += 0.05 * packing.random.unit_vector();
+      if (k % 20 == 13) packing.reach[some] = 1e-3 * packing.random.uniform();
+      cached.detect(packing.poses, packing.reach, contacts);
+      from_scratch.detect(packing.poses, packing.reach, expected);
+      proved += cached.counters().proved_axes;
+      searched += cached.counters().full_tests;
+      if (!same_bits(contacts, expected)) FAIL_CHECK("step " << k << " of size " << step);
+      if (k % 30 == 0) {  // a detector that has never seen the past
+        ContactDetector newborn(packing.shapes, {});
+        newborn.detect(packing.poses, packing.reach, contacts);
+        if (!same_bits(contacts, expected)) FAIL_CHECK("newborn at step " << k << " of size " << step);
+      }
+      CHECK(contacts.size() > 50);
+    }
+    if (step < 5e-5) CHECK(proved > 5 * searched);  // the cache is worth something
+  }
+}
+
+TEST_CASE("all pairs by brute force: who touches, and how deep") {
+  Packing packing(40, 0.25, 2);
+  DetectionSettings settings;
+  settings.max_points = 100;
+  ContactDetector detector(packing.shapes, settings);
+  std::vector<ContactPoint> contacts;
+  int touching = 0, apart = 0, beside = 0;
+  for (int k = 0; k < 12; ++k) {
+    packing.move(0.005);
+    for (double& reach : packing.reach) reach = k % 3 == 0 ? 0.0 : std::pow(10.0, -packing.random.uniform(2.5, 7.0));
+    detector.detect(packing.poses, packing.reach, contacts);
+    std::map<std::pair<int, int>, double> least;
+    for (const ContactPoint& c : contacts) {
+      const auto it = least.emplace(std::pair(c.body_a, c.body_b), c.gap).first;
+      it->second = std::min(it->second, c.gap);
+    }
+    const int count = static_cast<int>(packing.shapes.size());
+    for (int a = 0; a < count; ++a) {
+      for (int b = a + 1; b < count; ++b) {
+        const ContactShape &shape_a = packing.shapes[a], &shape_b = packing.shapes[b];
+        if (!shape_a.polyhedron || !shape_b.polyhedron) continue;
+        const auto found = least.find({a, b});
+        if (shape_a.fixed && shape_b.fixed) {
+          CHECK(found == least.end());
+          continue;
+        }
+        const Mat3 to_a = packing.poses[a].rotation.toRotationMatrix().transpose();
+        const RelativePose b_in_a{to_a * packing.poses[b].rotation.toRotationMatrix(),
+                                  to_a * (packing.poses[b].position - packing.poses[a].position)};
+        const BruteForce oracle = brute_force(*shape_a.polyhedron, *shape_b.polyhedron, b_in_a);
+        const double alert = packing.reach[a] + packing.reach[b], tolerance = 1e-12;
+        if (oracle.facets > alert + tolerance || oracle.all > alert + tolerance) {
+          // a gap beyond reach along any axis; of bodies beside one another the facets' may be less
+          if (oracle.facets > alert + tolerance) CHECK(found == least.end());
+          beside += oracle.facets <= alert + tolerance;
+          ++apart;
+        } else if (oracle.facets < alert - tolerance) {
+          REQUIRE(found != least.end());
+          CHECK(std::abs(found->second - oracle.facets) <= tolerance);
+          ++touching;
+        }
+      }
+    }
+  }
+  CHECK(touching > 300);
+  CHECK(apart > 5000);
+  CHECK(beside < touching / 10);
+}
+
+TEST_CASE("planes: every vertex within reach, by definition") {
+  Packing packing(50, 0.2, 3);
+  ContactDetector detector(packing.shapes, {});
+  std::vector<ContactPoint> contacts;
+  packing.poses[0].rotation = packing.random.rotation();  // a wall need not be upright
+  detector.detect(packing.poses, packing.reach, contacts);
+  const int count = static_cast<int>(packing.shapes.size());
+  size_t expected = 0;
+  for (int a = 0; a < count; ++a) {
+    if (packing.shapes[a].polyhedron) continue;
+    const Vec3 normal = packing.poses[a].rotation * packing.shapes[a].plane.normal;
+    for (int b = 0; b < count; ++b) {
+      const Polyhedron* body = packing.shapes[b].polyhedron;
+      if (!body || (packing.shapes[a].fixed && packing.shapes[b].fixed)) continue;
+      for (int v = 0; v < body->vertex_count(); ++v) {
+        const Vec3 p = packing.poses[b] * body->vertex(v);
+        const double gap = normal.dot(p - packing.poses[a].position);
+        if (gap > packing.reach[a] + packing.reach[b]) continue;
+        ++expected;
+        const auto found = std::find_if(contacts.begin(), contacts.end(), [&](const ContactPoint& c) {
+          return c.body_a == a && c.body_b == b && c.feature == static_cast<std::uint64_t>(v);
+        });
+        REQUIRE(found != contacts.end());
+        CHECK(found->gap == Approx(gap).margin(1e-15));
+        CHECK((found->normal - normal).norm() <= 1e-15);
+        CHECK((found->position - (p - 0.5 * gap * normal)).norm() <= 1e-15);
+      }
+    }
+  }
+  const auto with_plane = std::count_if(contacts.begin(), contacts.end(),
+                                        [&](const ContactPoint& c) { return !packing.shapes[c.body_a].polyhedron; });
+  CHECK(static_cast<size_t>(with_plane) == expected);
+  CHECK(expected > 50);
+}
+
+TEST_CASE("contacts are sorted, unique, with unit normals from a to b") {
+  Packing packing(80, 0.25, 4);
+  ContactDetector detector(packing.shapes, {});
+  std::vector<ContactPoint> contacts;
+  for (int k = 0; k < 20; ++k) {
+    packing.move(0.01);
+    detector.detect(packing.poses, packing.reach, contacts);
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      const ContactPoint& c = contacts[i];
+      if (i > 0) {
+        const ContactPoint& before = contacts[i - 1];
+        CHECK(std::tie(before.body_a, before.body_b, before.feature) < std::tie(c.body_a, c.body_b, c.feature));
+      }
+      CHECK(c.normal.norm() == Approx(1.0).epsilon(1e-14));
+      const bool plane = !packing.shapes[c.body_a].polyhedron;
+      CHECK((plane || c.body_a < c.body_b));
+      CHECK(packing.shapes[c.body_b].polyhedron);
+      CHECK(c.gap <= packing.reach[c.body_a] + packing.reach[c.body_b]);
+    }
+  }
+}
+
+TEST_CASE("the whole scene moved rigidly has its contacts moved with it") {
+  Packing packing(60, 0.25, 5);
+  ContactDetector detector(packing.shapes, {}), other(packing.shapes, {});
+  std::vector<ContactPoint> contacts, turned;
+  for (int k = 0; k < 10; ++k) {
+    packing.move(0.01);
+    Pose frame;
+    frame.position = packing.random.unit_vector();
+    frame.rotation = packing.random.rotation();
+    std::vector<Pose> poses;
+    for (const Pose& pose : packing.poses) {
+      Pose next;
+      next.position = frame * pose.position;
+      next.rotation = (frame.rotation * pose.rotation).normalized();
+      poses.push_back(next);
+    }
+    detector.detect(packing.poses, packing.reach, contacts);
+    other.detect(poses, packing.reach, turned);
+    REQUIRE(contacts.size() == turned.size());
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      CHECK(contacts[i].feature == turned[i].feature);
+      CHECK(contacts[i].body_b == turned[i].body_b);
+      CHECK(std::abs(contacts[i].gap - turned[i].gap) <= 1e-14);
+      CHECK((frame.rotation * contacts[i].normal - turned[i].normal).norm() <= 1e-12);
+      CHECK((frame * contacts[i].position - turned[i].position).norm() <= 1e-11);
+    }
+  }
+}
+
+TEST_CASE("no allocation once grown, and counters that add up") {
+  Packing packing(70, 0.25, 6);
+  ContactDetector detector(packing.shapes, {});
+  std::vector<ContactPoint> contacts;
+  std::vector<std::vector<Pose>> trajectory;
+  for (int k = 0; k < 60; ++k) {
+    packing.move(1e-3);
+    trajectory.push_back(packing.poses);
+  }
+  for (const auto& poses : trajectory) detector.detect(poses, packing.reach, contacts);
+  const long rebuilds = detector.counters().broad_phase_rebuilds;
+  CHECK(rebuilds > 5);
+  bool counters_fit = true;
+  const long before = allocation_count();
+  for (const auto& poses : trajectory) {
+    detector.detect(poses, packing.reach, contacts);
+    const DetectionCounters& c = detector.counters();
+    counters_fit &= c.cached_separations + c.proved_axes + c.full_tests <= c.candidate_pairs;
+  }
+  const long during = allocation_count() - before;
+  CHECK(during == 0);
+  CHECK(counters_fit);
+  CHECK(detector.counters().broad_phase_rebuilds > rebuilds);
+  std::map<std::pair<int, int>, int> pairs;
+  for (const ContactPoint& c : contacts) ++pairs[{c.body_a, c.body_b}];
+  CHECK(detector.counters().manifolds == static_cast<long>(pairs.size()));
+}
+
+TEST_CASE("what is not a number, or not as many, is refused by name") {
+  Packing packing(5, 0.2, 7);
+  ContactDetector detector(packing.shapes, {});
+  std::vector<ContactPoint> contacts;
+  auto poses = packing.poses;
+  poses[4].position.y() = NAN;
+  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts), Catch::Matchers::Contains("body 4"));
+  poses = packing.poses;
+  poses[2].rotation.w() = INFINITY;
+  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts), Catch::Matchers::Contains("body 2"));
+  auto reach = packing.reach;
+  reach[1] = NAN;
+  CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);
+  reach[1] = -1.0;
+  CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);
+  reach.pop_back();
+  CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);
+  detector.detect(packing.poses, packing.reach, contacts);  // and goes on
+
+  ContactDetector nothing({}, {});
+  nothing.detect({}, {}, contacts);
+  CHECK(contacts.empty());
+}
+
+TEST_CASE("a box on a plane stands on four corners") {
+  const Polyhedron box = make_box(Vec3(0.2, 0.1, 0.05));
+  std::vector<ContactShape> shapes{{&box, {}, false}, {nullptr, {Vec3::UnitZ()}, true}};
+  std::vector<Pose> poses(2);
+  poses[0].position = Vec3(1, 2, 0.025 - 1e-6);
+  ContactDetector detector(shapes, {});
+  std::vector<ContactPoint> contacts;
+  detector.detect(poses, std::vector<double>{1e-6, 0.0}, contacts);
+  REQUIRE(contacts.size() == 4);
+  Vec3 sum = Vec3::Zero();
+  for (const ContactPoint& c : contacts) {
+    CHECK(c.body_a == 1);  // a plane is always a
+    CHECK(c.body_b == 0);
+    CHECK(c.gap == Approx(-1e-6).epsilon(1e-8));
+    CHECK(c.normal == Vec3::UnitZ());
+    sum += c.position / 4.0;
+  }
+  CHECK((sum - Vec3(1, 2, -0.5e-6)).norm() <= 1e-14);
+  poses[0].position.z() = 0.025 + 1.1e-6;
+  detector.detect(poses, std::vector<double>{1e-6, 0.0}, contacts);
+  CHECK(contacts.empty());
+}

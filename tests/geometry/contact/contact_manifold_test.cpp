@@ -1,0 +1,274 @@
+#include "geometry/contact/contact_manifold.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/contact/axis_search.hpp"
+#include "tests/catch.hpp"
+#include "tests/geometry/contact/detection_support.hpp"
+
+using namespace ballast;
+using namespace ballast::testing;
+
+namespace {
+
+constexpr int kAll = 1000;  // max_points: no reduction
+
+struct Found {
+  SeparatingAxis axis;
+  std::vector<ManifoldPoint> points;
+};
+
+Found find(const ShapePair& pair, double alert, int max_points) {
+  const std::vector<CollisionShape> shapes{*pair.shape[0], *pair.shape[1]};
+  AxisSearch search(shapes);
+  ContactManifold manifold;
+  Found found;
+  AxisFeature hint;
+  if (is_separated(search.find(pair, alert, hint, found.axis))) return found;
+  const auto points = manifold.points(pair, found.axis, alert, max_points);
+  found.points.assign(points.begin(), points.end());
+  return found;
+}
+
+/// Signed distance of a point of a's frame to the surface of body `which`, by its faces' planes (negative inside).
+double height_over(const ShapePair& pair, int which, const Vec3& in_a) {
+  const Vec3 p = which == 0 ? in_a : pair.other[1] * in_a;
+  const AffineRows& faces = pair.shape[which]->faces();
+  double most = -1e300;
+  for (int f = 0; f < faces.count(); ++f) most = std::max(most, faces.xyz(f).dot(p) + faces.w(f));
+  return most;
+}
+
+std::uint64_t mirrored_key(std::uint64_t key) {
+  const std::uint64_t mask = 0x7fffffff, a = key >> 31 & mask, b = key & mask, kind = key >> 62;
+  if (kind == 0) return feature_key(PointKind::vertex_of_a, static_cast<int>(b), 0);
+  if (kind == 1) return feature_key(PointKind::vertex_of_b, 0, static_cast<int>(a));
+  return feature_key(kind == 2 ? PointKind::edges : PointKind::sides, static_cast<int>(b), static_cast<int>(a));
+}
+
+/// Area of the convex hull of points on a plane, by the fan over all triangles of a sorted polygon.
+double hull_area(std::vector<Vec3> points, const Vec3& normal) {
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : points) centre += p / static_cast<double>(points.size());
+  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  std::sort(points.begin(), points.end(), [&](const Vec3& p, const Vec3& q) {
+    return std::atan2(v.dot(p - centre), u.dot(p - centre)) < std::atan2(v.dot(q - centre), u.dot(q - centre));
+  });
+  double area = 0.0;
+  for (size_t k = 2; k < points.size(); ++k)
+    area += 0.5 * normal.dot((points[k - 1] - points[0]).cross(points[k] - points[0]));
+  return area;
+}
+
+}  // namespace
+
+TEST_CASE("every manifold: not empty, deepest point kept, points on both surfaces, keys sorted and unique") {
+  int several = 0, fallbacks = 0, edge_pairs = 0, total = 0;
+  for (const Placement placement : kPlacements) {
+    Random random(31 + static_cast<int>(placement));
+    for (int i = 0; i < 3000; ++i) {
+      const PairCase c = random_case(placement, random);
+      const ShapePair pair = c.pair();
+      const double alert = random.below(2) == 0 ? 0.0 : std::pow(10.0, -random.uniform(2.0, 7.0));
+      const Found found = find(pair, alert, kAll);
+      if (found.axis.separation > alert || found.points.empty()) {
+        if (!found.points.empty() || found.axis.separation <= 0.0) {
+          AxisFeature hint;
+          SeparatingAxis axis;
+          AxisSearch(collision_pool()).find(pair, 1e9, hint, axis);
+          // within the tie tolerance another axis may be just above the alert distance
+          if (axis.separation <= alert - 1e-13 * c.size())
+            FAIL_CHECK(name(placement) << " case " << i << ": empty manifold");
+        }
+        continue;
+      }
+      ++total;
+      several += found.points.size() > 1;
+      const double small = 1e-9 * c.size();
+      double least = 1e300;
+      bool sorted = true, near_surfaces = true, within_reach = true;
+      for (size_t k = 0; k < found.points.size(); ++k) {
+        const ManifoldPoint& p = found.points[k];
+        least = std::min(least, p.gap);
+        sorted &= k == 0 || found.points[k - 1].key < p.key;
+        within_reach &= p.gap <= alert + 1e-12 * c.size();
+        const double over_a = height_over(pair, 0, p.position - 0.5 * p.gap * found.axis.normal);
+        const double over_b = height_over(pair, 1, p.position + 0.5 * p.gap * found.axis.normal);
+        if (found.axis.feature.kind == AxisKind::edges) {
+          ++edge_pairs;
+          near_surfaces &= found.axis.inside < 0.0 || (std::abs(over_a) <= small && std::abs(over_b) <= small);
+        } else {
+          // on the incident body's surface always, within the reference face unless it is the touching vertex
+          const bool a_is_reference = found.axis.feature.kind == AxisKind::face_of_a;
+          const double reference = a_is_reference ? over_a : over_b, incident = a_is_reference ? over_b : over_a;
+          const bool fallback = reference > small;
+          const auto touching = static_cast<std::uint64_t>(found.axis.support);
+          fallbacks += fallback;
+          near_surfaces &= std::abs(incident) <= small;
+          near_surfaces &= !fallback || p.key == (a_is_reference ? touching : (touching << 31 | 1ull << 62));
+        }
+      }
+      const bool deepest = std::abs(least - found.axis.separation) <= 1e-12 * c.size();
+      if (!sorted || !near_surfaces || !within_reach || !deepest)
+        FAIL_CHECK(name(placement) << " case " << i << ": sorted " << sorted << ", on surfaces " << near_surfaces
+                                   << ", within reach " << within_reach << ", deepest " << deepest);
+    }
+  }
+  CHECK(total > 8000);
+  CHECK(several > 2000);
+  CHECK(edge_pairs > 200);
+  CHECK(fallbacks > 0);
+}
+
+TEST_CASE("the short cut for one vertex on a face returns what clipping returns") {
+  Random random(41);
+  FaceClipper clipper;
+  int single = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const PairCase c = random_case(i % 2 ? Placement::near_touching : Placement::parallel_faces, random);
+    const ShapePair pair = c.pair();
+    const double alert = 1e-4;
+    const Found found = find(pair, alert, kAll);
+    if (found.points.empty() || found.axis.feature.kind == AxisKind::edges || found.axis.inside < 0.0) continue;
+    const int reference = found.axis.feature.kind == AxisKind::face_of_a ? 0 : 1;
+    const int face = reference == 0 ? found.axis.feature.a : found.axis.feature.b;
+    // all incident faces at the touching vertex together see all that comes near the reference face
+    std::vector<std::uint64_t> keys;
+    for (const int incident : pair.shape[1 - reference]->vertex_faces(found.axis.support)) {
+      for (const ClippedPoint& p : clipper.clip(pair, reference, face, incident, 1e-9 * c.size()))
+        if (p.height <= alert) keys.push_back(p.key);
+    }
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    if (keys.size() == 1) {
+      ++single;
+      CHECK(found.points.size() == 1);
+      CHECK(found.points[0].key == keys[0]);
+    } else if (found.points.size() == 1 && found.axis.clearance > 2.0 * alert) {
+      // the incident face alone may see one point only; never fewer than it does
+      const double slope = found.axis.clearance / (2.0 * pair.shape[1 - reference]->circumradius());
+      if (found.axis.separation + slope * found.axis.inside > alert + 1e-8) FAIL_CHECK("case " << i << ": point lost");
+    }
+  }
+  CHECK(single > 2000);
+}
+
+TEST_CASE("swapping the bodies mirrors the manifold") {
+  Random random(51);
+  int compared = 0, ties = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Placement placement = kPlacements[i % std::size(kPlacements)];
+    const PairCase c = random_case(placement, random);
+    const ShapePair pair = c.pair(), swapped(*pair.shape[1], *pair.shape[0], c.b_in_a.inverse());
+    const Found found = find(pair, 1e-4, kAll), other = find(swapped, 1e-4, kAll);
+    if (found.points.empty() != other.points.empty()) FAIL_CHECK("case " << i << ": one of them is empty");
+    if (found.points.empty()) continue;
+    CHECK(std::abs(found.axis.separation - other.axis.separation) <= 1e-12 * c.size());
+    // equal axes: the rule prefers a, which is the other body now
+    if ((found.axis.normal + c.b_in_a.rotation * other.axis.normal).norm() > 1e-12 ||
+        (found.axis.feature.kind == AxisKind::face_of_a) != (other.axis.feature.kind == AxisKind::face_of_b)) {
+      ++ties;
+      continue;
+    }
+    ++compared;
+    // corners on one another within the clipping thickness bear the incident body's name, which is the other one now
+    if (placement == Placement::offset_copy) continue;
+    // where nearly parallel lines are closest is known to rounding / sine
+    const double small = placement == Placement::parallel_edges ? 1e-8 * c.size() : 1e-10 * c.size();
+    bool same = found.points.size() == other.points.size();
+    for (const ManifoldPoint& p : found.points) {
+      const auto it = std::find_if(other.points.begin(), other.points.end(),
+                                   [&](const ManifoldPoint& q) { return q.key == mirrored_key(p.key); });
+      same = same && it != other.points.end() && std::abs(it->gap - p.gap) <= 1e-12 * c.size() &&
+             (c.b_in_a * it->position - p.position).norm() <= small;
+    }
+    if (!same) FAIL_CHECK("case " << i << ": " << name(placement));
+  }
+  CHECK(compared > 2500);
+  CHECK(ties < compared / 2);
+}
+
+TEST_CASE("stacked boxes stand on their corners, triangulated or not") {
+  const Vec3 size(0.4, 0.3, 0.2);
+  for (const bool triangulated : {false, true}) {
+    const CollisionShape box(triangulated ? triangulated_box(size) : make_box(size));
+    for (double turn : {0.0, 0.3, 1.0}) {
+      for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(0.05, 0.02, 0), Vec3(0.1, -0.08, 0)}) {
+        const Mat3 rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+        const ShapePair pair(box, box, {rotation, shift + Vec3(0, 0, 0.2 - 1e-5)});
+        const Found found = find(pair, 1e-6, 4);
+        REQUIRE(found.points.size() == 4);
+        CHECK(found.axis.normal.isApprox(Vec3::UnitZ(), 1e-12));
+        // the upper box's centre of mass is above the points' hull
+        std::vector<Vec3> points;
+        for (const ManifoldPoint& p : found.points) {
+          CHECK(p.gap == Approx(-1e-5).epsilon(1e-8));
+          points.push_back(p.position);
+        }
+        const double area = hull_area(points, Vec3::UnitZ());
+        points.push_back(pair.other[0].position);
+        CHECK(area > 0.02);
+        Vec3 centre = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) centre += 0.25 * points[k];
+        std::sort(points.begin(), points.end() - 1, [&](const Vec3& p, const Vec3& q) {
+          return std::atan2(p.y() - centre.y(), p.x() - centre.x()) <
+                 std::atan2(q.y() - centre.y(), q.x() - centre.x());
+        });
+        for (int k = 0; k < 4; ++k) {
+          const Vec3 side = points[(k + 1) % 4] - points[k], from = points[4] - points[k];
+          CHECK(side.x() * from.y() - side.y() * from.x() > 0.0);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("reduction keeps the deepest point and most of the area") {
+  const CollisionShape octagon(prism(8, 0.05, 0.03));
+  const std::vector<CollisionShape> shapes{octagon};
+  Random random(61);
+  for (int i = 0; i < 200; ++i) {
+    const Mat3 turn = (Eigen::AngleAxisd(random.uniform(0.0, 6.28), Vec3::UnitZ()) *
+                       Eigen::AngleAxisd(1e-5 * random.uniform(), random.unit_vector()))
+                          .toRotationMatrix();
+    const Vec3 shift(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), 0.03 - 1e-5);
+    const ShapePair pair(shapes[0], shapes[0], {turn, shift});
+    const Found all = find(pair, 1e-4, kAll);
+    REQUIRE(all.points.size() >= 8);
+    double before = 0.0;
+    for (int max_points = 1; max_points <= 8; ++max_points) {
+      const Found few = find(pair, 1e-4, max_points);
+      REQUIRE(static_cast<int>(few.points.size()) == max_points);
+      double least = 1e300;
+      std::vector<Vec3> corners, all_corners;
+      for (const ManifoldPoint& p : few.points) {
+        least = std::min(least, p.gap);
+        corners.push_back(p.position);
+      }
+      for (const ManifoldPoint& p : all.points) all_corners.push_back(p.position);
+      CHECK(least == Approx(few.axis.separation).margin(1e-15));
+      if (max_points < 3) continue;
+      const double share = hull_area(corners, few.axis.normal) / hull_area(all_corners, few.axis.normal);
+      CHECK(share >= before - 1e-9);
+      before = share;
+      if (max_points == 4) CHECK(share > 0.5);
+    }
+  }
+}
+
+TEST_CASE("crossed edges touch at one point, midway") {
+  const CollisionShape rod(make_box(Vec3(10, 1, 1)));
+  const Mat3 on_edge = Eigen::AngleAxisd(0.25 * std::acos(-1.0), Vec3::UnitX()).toRotationMatrix();
+  const Mat3 cross = Eigen::AngleAxisd(1.0, Vec3::UnitZ()).toRotationMatrix();
+  const Vec3 offset(0.7, 0.4, std::sqrt(2.0) - 0.02);
+  const ShapePair pair(rod, rod, {on_edge.transpose() * cross * on_edge, on_edge.transpose() * offset});
+  const Found found = find(pair, 0.0, 4);
+  REQUIRE(found.points.size() == 1);
+  CHECK(found.points[0].gap == Approx(-0.02).epsilon(1e-12));
+  const Vec3 upright = on_edge * found.points[0].position;
+  // the lower rod's edge runs along x through y = 0, the upper one's along the turned x through the offset
+  CHECK(upright.y() == Approx(0.0).margin(1e-14));
+  CHECK(upright.x() == Approx(0.7 - 0.4 / std::tan(1.0)));
+  CHECK(upright.z() == Approx(std::sqrt(0.5) - 0.01));
+}

@@ -1,0 +1,166 @@
+#include "geometry/contact/separating_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/contact/axis_search.hpp"
+#include "tests/catch.hpp"
+#include "tests/geometry/contact/detection_support.hpp"
+
+using namespace ballast;
+using namespace ballast::testing;
+
+namespace {
+
+Heights scratch() { return Heights(512); }
+
+AxisFeature mirrored(const AxisFeature& feature) {
+  switch (feature.kind) {
+    case AxisKind::face_of_a:
+      return {AxisKind::face_of_b, -1, feature.a};
+    case AxisKind::face_of_b:
+      return {AxisKind::face_of_a, feature.b, -1};
+    default:
+      return {feature.kind, feature.b, feature.a};
+  }
+}
+
+int top_face(const CollisionShape& shape) {
+  int best = 0;
+  for (int f = 0; f < shape.faces().count(); ++f)
+    if (shape.faces().xyz(f).z() > shape.faces().xyz(best).z()) best = f;
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("a face's separation is the gap to the other body's nearest vertex") {
+  const CollisionShape box(make_box(Vec3(2, 2, 2)));
+  Heights heights = scratch();
+  // a cube on its corner above the top face, off centre
+  const Mat3 corner_down = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
+  const ShapePair pair(box, box, {corner_down, Vec3(0.3, -0.2, 1.0 + std::sqrt(3.0) - 0.01)});
+  const auto axis = evaluate_axis(pair, {AxisKind::face_of_a, top_face(box), -1}, heights);
+  REQUIRE(axis);
+  CHECK(axis->separation == Approx(-0.01).epsilon(1e-12));
+  CHECK(axis->normal.isApprox(Vec3(0, 0, 1)));
+  CHECK(box.vertices().xyz(axis->support).isApprox(Vec3(1, 1, 1)));
+  CHECK(axis->inside == Approx(0.7).epsilon(1e-12));
+  CHECK(axis->clearance == Approx(2.0 / std::sqrt(3.0)).epsilon(1e-12));
+  CHECK(is_proved_best(pair, face_isolation(pair, axis->feature), *axis));
+}
+
+TEST_CASE("crossed edges: the gap along their common normal") {
+  // two square rods turned by 45 degrees around their axes, edge upon edge, crossing at 60 degrees
+  const CollisionShape rod(make_box(Vec3(10, 1, 1)));
+  const Mat3 on_edge = Eigen::AngleAxisd(0.25 * std::acos(-1.0), Vec3::UnitX()).toRotationMatrix();
+  const Mat3 cross = Eigen::AngleAxisd(std::acos(0.5), Vec3::UnitZ()).toRotationMatrix();
+  const RelativePose b_in_a{on_edge.transpose() * cross * on_edge,
+                            on_edge.transpose() * Vec3(0.0, 0.0, std::sqrt(2.0) + 0.02)};
+  const ShapePair pair(rod, rod, b_in_a);
+  Heights heights = scratch();
+  std::vector<SeparatingAxis> found;
+  for (size_t ea = 0; ea < rod.edges().size(); ++ea) {
+    for (size_t eb = 0; eb < rod.edges().size(); ++eb) {
+      const AxisFeature feature{AxisKind::edges, static_cast<int>(ea), static_cast<int>(eb)};
+      const auto axis = evaluate_axis(pair, feature, heights);
+      if (axis && axis->separation > 0.0) found.push_back(*axis);
+    }
+  }
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].separation == Approx(0.02).epsilon(1e-12));
+  CHECK(found[0].normal.isApprox(on_edge.transpose() * Vec3::UnitZ(), 1e-14));
+  CHECK(found[0].inside == Approx(5.0 * std::sqrt(0.75)).epsilon(1e-12));
+  CHECK(is_proved_best(pair, face_isolation(pair, found[0].feature), found[0]));
+  CHECK(found[0].at_a == Approx(0.5));
+  CHECK(found[0].at_b == Approx(0.5));
+  // the nearest other vertices: the rods' side edges, half a diagonal below
+  CHECK(found[0].clearance > 0.1);
+  CHECK(found[0].clearance <= std::sqrt(0.5));
+}
+
+TEST_CASE("two edges form a facet exactly if both are supports along their common normal") {
+  Random random(11);
+  Heights heights = scratch();
+  int facets = 0;
+  for (int i = 0; i < 300; ++i) {
+    const PairCase c = random_case(i % 2 ? Placement::deep : Placement::near_touching, random);
+    const ShapePair pair = c.pair();
+    const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
+    const Polyhedron &poly_a = shape_pool()[c.a], &poly_b = shape_pool()[c.b];
+    for (size_t ea = 0; ea < a.edges().size(); ++ea) {
+      for (size_t eb = 0; eb < b.edges().size(); ++eb) {
+        const Vec3 along_b = c.b_in_a.rotation * b.edges()[eb].along;
+        const Vec3 cross = a.edges()[ea].along.cross(along_b);
+        if (cross.norm() < 1e-3 * a.edges()[ea].along.norm() * along_b.norm()) continue;
+        double worst_margin = -1.0;  // how well supported, over the two directions
+        for (double sign : {1.0, -1.0}) {
+          const Vec3 n = sign * cross.normalized(), n_b = -(c.b_in_a.rotation.transpose() * n);
+          const double lacks_a = n.dot(poly_a.vertex(poly_a.support(n)) - a.vertices().xyz(a.edges()[ea].tail));
+          const double lacks_b = n_b.dot(poly_b.vertex(poly_b.support(n_b)) - b.vertices().xyz(b.edges()[eb].tail));
+          worst_margin = std::max(worst_margin, -std::max(lacks_a, lacks_b));
+        }
+        if (std::abs(worst_margin) < 1e-10 && worst_margin < -1e-15) continue;  // too close to tell
+        const bool is_facet = edge_separation(pair, static_cast<int>(ea), static_cast<int>(eb), heights).has_value();
+        facets += is_facet;
+        if (is_facet != (worst_margin > -1e-12)) FAIL_CHECK("case " << i << ", edges " << ea << ", " << eb);
+      }
+    }
+  }
+  CHECK(facets > 5000);
+}
+
+TEST_CASE("seen from the other body every axis is the same") {
+  Random random(12);
+  Heights heights = scratch();
+  for (int i = 0; i < 2000; ++i) {
+    const PairCase c = random_case(kPlacements[i % 3], random);
+    const ShapePair pair = c.pair();
+    const ShapePair swapped(*pair.shape[1], *pair.shape[0], c.b_in_a.inverse());
+    const AxisFeature feature =
+        i % 2 ? AxisFeature{AxisKind::face_of_a, random.below(pair.shape[0]->faces().count()), -1}
+              : AxisFeature{AxisKind::edges, random.below(static_cast<int>(pair.shape[0]->edges().size())),
+                            random.below(static_cast<int>(pair.shape[1]->edges().size()))};
+    const auto axis = evaluate_axis(pair, feature, heights);
+    const auto other = evaluate_axis(swapped, mirrored(feature), heights);
+    if (!axis || !other) continue;
+    const double small = 1e-12 * c.size();
+    CHECK(std::abs(axis->separation - other->separation) <= small);
+    CHECK((c.b_in_a.rotation * other->normal + axis->normal).norm() <= 1e-12);
+    CHECK(std::abs(axis->inside - other->inside) <= 1e3 * small);  // ill-conditioned for nearly parallel edges
+    CHECK(std::abs(axis->clearance - other->clearance) <= 1e3 * small);
+  }
+}
+
+TEST_CASE("an axis proved to be the best is the best") {
+  Random random(13);
+  Heights heights = scratch();
+  int proved = 0, of_touching = 0, touching = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Placement placement = kPlacements[i % std::size(kPlacements)];
+    const PairCase c = random_case(placement, random);
+    const ShapePair pair = c.pair();
+    double oracle = NAN;
+    bool best_proved = false;
+    const auto check = [&](const AxisFeature& feature) {
+      const auto axis = evaluate_axis(pair, feature, heights);
+      if (!axis || !is_proved_best(pair, face_isolation(pair, axis->feature), *axis)) return;
+      if (std::isnan(oracle)) oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a).facets;
+      ++proved;
+      best_proved = true;
+      if (std::abs(axis->separation - oracle) > 1e-12 * c.size())
+        FAIL_CHECK(name(placement) << " case " << i << ": " << axis->separation << " is not " << oracle);
+    };
+    for (int f = 0; f < pair.shape[0]->faces().count(); ++f) check({AxisKind::face_of_a, f, -1});
+    for (int f = 0; f < pair.shape[1]->faces().count(); ++f) check({AxisKind::face_of_b, -1, f});
+    for (size_t ea = 0; ea < pair.shape[0]->edges().size(); ++ea) {
+      for (size_t eb = 0; eb < pair.shape[1]->edges().size(); ++eb)
+        check({AxisKind::edges, static_cast<int>(ea), static_cast<int>(eb)});
+    }
+    if (placement != Placement::near_touching) continue;
+    ++touching;
+    of_touching += best_proved;
+  }
+  CHECK(proved > 500);
+  CHECK(of_touching > touching / 2);
+}

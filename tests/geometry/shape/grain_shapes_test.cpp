@@ -1,0 +1,186 @@
+#include "geometry/shape/grain_shapes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/shape/random.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+bool same_bits(const PrincipalShape& a, const PrincipalShape& b) {
+  return std::equal(a.shape.vertices().begin(), a.shape.vertices().end(), b.shape.vertices().begin(),
+                    b.shape.vertices().end()) &&
+         a.volume == b.volume && a.inertia == b.inertia && a.shape.face_count() == b.shape.face_count();
+}
+
+/// Extents along the principal axes, longest first.
+std::array<double, 3> extents(const Polyhedron& p) {
+  std::array<double, 3> length;
+  for (int x = 0; x < 3; ++x)
+    length[x] = p.vertex(p.support(Vec3::Unit(x)))[x] - p.vertex(p.support(-Vec3::Unit(x)))[x];
+  std::sort(length.rbegin(), length.rend());
+  return length;
+}
+
+}  // namespace
+
+TEST_CASE("splitmix64 gives the published numbers") {
+  std::uint64_t state = 1234567;
+  for (const std::uint64_t expected :
+       {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u, 16408922859458223821u})
+    CHECK(Random::splitmix(state) == expected);
+}
+
+TEST_CASE("the generator's numbers have the moments they should have") {
+  Random random(5), same(5), other(6);
+  CHECK(random.next() == same.next());
+  CHECK(random.next() != other.next());
+  const int n = 200000;
+  double mean = 0.0, normal_mean = 0.0, normal_sq = 0.0;
+  Vec3 direction = Vec3::Zero();
+  Mat3 second = Mat3::Zero(), turned = Mat3::Zero();
+  for (int i = 0; i < n; ++i) {
+    const double u = random.uniform();
+    REQUIRE((u >= 0.0 && u < 1.0));
+    mean += u / n;
+    const double x = random.normal();
+    normal_mean += x / n;
+    normal_sq += x * x / n;
+    const Vec3 d = random.unit_vector();
+    REQUIRE(std::abs(d.norm() - 1.0) < 1e-15);
+    direction += d / n;
+    second += d * d.transpose() / n;
+    turned += random.rotation().toRotationMatrix() / n;
+    const int k = random.below(7);
+    REQUIRE((k >= 0 && k < 7));
+  }
+  // five standard errors of each mean
+  const double error = 5.0 / std::sqrt(static_cast<double>(n));
+  CHECK(std::abs(mean - 0.5) < error * 0.29);
+  CHECK(std::abs(normal_mean) < error);
+  CHECK(std::abs(normal_sq - 1.0) < error * 1.42);
+  CHECK(direction.cwiseAbs().maxCoeff() < error * 0.58);
+  CHECK((second - Mat3::Identity() / 3.0).cwiseAbs().maxCoeff() < error * 0.3);
+  CHECK(turned.cwiseAbs().maxCoeff() < error * 0.58);  // uniform rotations average to zero
+}
+
+TEST_CASE("two thousand grains stay within the paper's ranges and look like ballast") {
+  const int n = 2000;
+  const double radius = 0.0125;
+  int fewest = 1000, most = 0;
+  double fill = 0.0, elongation = 0.0, flatness = 0.0;
+  for (int seed = 0; seed < n; ++seed) {
+    const PrincipalShape grain = make_grain({}, radius, seed);
+    const Polyhedron& p = grain.shape;
+    fewest = std::min(fewest, p.vertex_count());
+    most = std::max(most, p.vertex_count());
+    REQUIRE(p.face_count() == 2 * p.vertex_count() - 4);
+    REQUIRE(p.circumradius() == Approx(radius).epsilon(1e-14));
+    REQUIRE(p.inradius() > 0.1 * radius);
+    fill += grain.volume / (4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3)) / n;
+    const auto [length, width, height] = extents(p);
+    elongation += width / length / n;
+    flatness += height / length / n;
+  }
+  CAPTURE(fill, elongation, flatness);
+  CHECK(fewest == 8);  // the whole range occurs: 8-37 vertices, 12-70 faces
+  CHECK(most == 37);
+  CHECK((fill > 0.25 && fill < 0.45));
+  CHECK((elongation > 0.7 && elongation < 0.9));
+  CHECK((flatness > 0.5 && flatness < 0.75));
+}
+
+TEST_CASE("grains sit in their principal frame") {
+  for (int seed = 0; seed < 300; ++seed) {
+    const PrincipalShape grain = make_grain({}, 0.02, seed);
+    const MassProperties again = mass_properties(grain.shape);
+    CHECK(again.centre.norm() < 1e-15 * 0.02);
+    CHECK(again.volume == grain.volume);
+    Mat3 rest = again.inertia;
+    rest.diagonal() -= grain.inertia;
+    CHECK(rest.cwiseAbs().maxCoeff() < 2e-15 * grain.inertia.maxCoeff());
+  }
+}
+
+TEST_CASE("same seed, same grain; another seed, another grain") {
+  for (int seed = 0; seed < 50; ++seed) {
+    CHECK(same_bits(make_grain({}, 0.02, seed), make_grain({}, 0.02, seed)));
+    CHECK_FALSE(same_bits(make_grain({}, 0.02, seed), make_grain({}, 0.02, seed + 1)));
+  }
+}
+
+TEST_CASE("settings narrow the grains, and impossible ones are refused") {
+  GrainShapeSettings narrow;
+  narrow.min_vertices = narrow.max_vertices = 12;
+  for (int seed = 0; seed < 30; ++seed) CHECK(make_grain(narrow, 1.0, seed).shape.face_count() == 20);
+  GrainShapeSettings bad;
+  bad.min_vertices = 3;
+  CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
+  bad = {};
+  bad.max_vertices = 7;
+  CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
+  bad = {};
+  bad.flatness_min = 0.0;
+  CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
+  bad = {};
+  bad.roughness = std::nan("");
+  CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
+  CHECK_THROWS_AS(make_grain({}, 0.0, 0), std::invalid_argument);
+  CHECK_THROWS_AS(make_grain({}, std::nan(""), 0), std::invalid_argument);
+}
+
+TEST_CASE("spheres") {
+  double previous = 0.0;
+  for (int level = 0; level <= 4; ++level) {
+    const Polyhedron sphere = make_sphere(2.0, level);
+    CHECK(sphere.face_count() == 20 << (2 * level));
+    CHECK(sphere.vertex_count() == 2 + (10 << (2 * level)));
+    for (const Vec3& p : sphere.vertices()) CHECK(p.norm() == Approx(2.0).epsilon(1e-15));
+    CHECK(sphere.inradius() > previous);
+    previous = sphere.inradius();
+  }
+  CHECK(previous > 0.998 * 2.0);
+  CHECK_THROWS_AS(make_sphere(-1.0, 1), std::invalid_argument);
+  CHECK_THROWS_AS(make_sphere(1.0, 9), std::invalid_argument);
+}
+
+TEST_CASE("a sample has the paper's classes, mixed") {
+  const auto count_of = [](const std::vector<PrincipalShape>& grains, double radius) {
+    return std::count_if(grains.begin(), grains.end(), [&](const PrincipalShape& g) {
+      return std::abs(g.shape.circumradius() - radius) < 1e-6 * radius;
+    });
+  };
+  const auto grains = make_grains(1200, paper_size_distribution(), SizeConvention::diameter, {}, 7);
+  REQUIRE(grains.size() == 1200);
+  CHECK(count_of(grains, 0.0125) == 600);
+  CHECK(count_of(grains, 0.01875) == 408);
+  CHECK(count_of(grains, 0.025) == 192);
+  // mixed: the first half holds about half of each class (five standard deviations)
+  const std::vector<PrincipalShape> half(grains.begin(), grains.begin() + 600);
+  CHECK(std::abs(count_of(half, 0.0125) - 300) < 44);
+  CHECK(std::abs(count_of(half, 0.025) - 96) < 32);
+
+  const auto again = make_grains(1200, paper_size_distribution(), SizeConvention::diameter, {}, 7);
+  CHECK(std::equal(grains.begin(), grains.end(), again.begin(), same_bits));
+  CHECK_FALSE(same_bits(make_grains(1, paper_size_distribution(), SizeConvention::diameter, {}, 8)[0], grains[0]));
+
+  const auto large = make_grains(10, paper_size_distribution(), SizeConvention::radius, {}, 7);
+  CHECK(count_of(large, 0.025) == 5);
+  CHECK(count_of(large, 0.0375) == 3);  // 3.4 and 1.6: the larger remainder takes the tenth grain
+  CHECK(count_of(large, 0.05) == 2);
+  CHECK(make_grains(0, paper_size_distribution(), SizeConvention::radius, {}, 7).empty());
+}
+
+TEST_CASE("distributions that make no sense are refused") {
+  const auto make = [](const std::vector<SizeClass>& d) { return make_grains(3, d, SizeConvention::radius, {}, 1); };
+  CHECK_THROWS_AS(make({{0.02, 0.5}}), std::invalid_argument);
+  CHECK_THROWS_AS(make({}), std::invalid_argument);
+  CHECK_THROWS_AS(make({{0.02, 1.5}, {0.03, -0.5}}), std::invalid_argument);
+  CHECK_THROWS_AS(make({{-0.02, 1.0}}), std::invalid_argument);
+  CHECK_THROWS_AS(make_grains(-1, paper_size_distribution(), SizeConvention::radius, {}, 1), std::invalid_argument);
+}

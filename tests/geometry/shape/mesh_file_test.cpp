@@ -1,0 +1,181 @@
+#include "geometry/shape/mesh_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "geometry/shape/convex_hull.hpp"
+#include "geometry/shape/grain_shapes.hpp"
+#include "geometry/shape/mass_properties.hpp"
+#include "geometry/shape/random.hpp"
+#include "tests/catch.hpp"
+#include "tests/geometry/shape/mesh_test_files.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Faces as lists of corner positions, each from its smallest corner on, sorted: independent of the numbering.
+std::set<std::vector<std::array<double, 3>>> solid(const Polyhedron& p) {
+  std::set<std::vector<std::array<double, 3>>> faces;
+  for (int f = 0; f < p.face_count(); ++f) {
+    std::vector<std::array<double, 3>> corners;
+    for (const int v : p.face(f)) corners.push_back({p.vertex(v).x(), p.vertex(v).y(), p.vertex(v).z()});
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    faces.insert(corners);
+  }
+  return faces;
+}
+
+}  // namespace
+
+TEST_CASE("OBJ gives back the same polyhedron, bit for bit") {
+  const Folder folder;
+  const fs::path file = folder.path / "grain.obj";
+  for (int seed = 0; seed < 40; ++seed) {
+    const Polyhedron p = seed == 0 ? make_box({0.1, 0.2, 0.3}) : make_grain({}, 0.0125, seed).shape;
+    write_mesh(file, p);
+    const Polyhedron q = read_mesh(file);
+    REQUIRE(q.face_count() == p.face_count());
+    CHECK(std::equal(p.vertices().begin(), p.vertices().end(), q.vertices().begin(), q.vertices().end()));
+    for (int f = 0; f < p.face_count(); ++f)
+      CHECK(std::equal(p.face(f).begin(), p.face(f).end(), q.face(f).begin(), q.face(f).end()));
+  }
+  CHECK_FALSE(fs::exists(file.string() + ".tmp"));
+}
+
+TEST_CASE("STL gives back the same solid, bit for bit") {
+  const Folder folder;
+  const fs::path file = folder.path / "grain.STL";
+  for (int seed = 0; seed < 40; ++seed) {
+    const Polyhedron p = seed == 0 ? make_box({0.1, 0.2, 0.3}) : make_grain({}, 0.0125, seed).shape;
+    write_mesh(file, p);
+    CHECK(solid(read_mesh(file)) == solid(p));
+  }
+}
+
+TEST_CASE("binary STL in single precision, also when its header says solid") {
+  const Folder folder;
+  const fs::path file = folder.path / "grain.stl";
+  Random random(1);
+  for (int seed = 0; seed < 40; ++seed) {
+    const Polyhedron grain = make_grain({}, 0.0125, seed).shape;
+    std::vector<Vec3> turned;
+    const Polyhedron box = make_box({0.1, 0.2, 0.3});
+    const Quat turn = random.rotation();
+    for (const Vec3& x : (seed % 2 ? grain : box).vertices()) turned.push_back(turn * x);
+    const Polyhedron p = convex_hull(turned);
+    save(file, binary_stl(p, seed % 3 ? "solid made by a scanner" : ""));
+    const Polyhedron q = read_mesh(file);
+    CHECK(q.vertex_count() == p.vertex_count());
+    CHECK(mass_properties(q).volume == Approx(mass_properties(p).volume).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("OBJ as other programs write it") {
+  const Folder folder;
+  const fs::path file = folder.path / "cube.obj";
+  const std::set<std::vector<std::array<double, 3>>> cube = [&] {
+    save(file, kCube);
+    return solid(read_mesh(file));
+  }();
+  REQUIRE(cube.size() == 6);
+  std::string text = kCube;
+  SECTION("comments, groups, materials, blank lines") {
+    text = "# made by\nmtllib a.mtl\no cube\n\ng side\nusemtl stone\ns off\n" +
+           with(text, "f 1 5 7 3", "f 1 5 7 3 # left");
+  }
+  SECTION("texture and normal indices") {
+    text = "vt 0 0\nvn 0 0 1\n" + with(with(with(text, "1 5 7 3", "1/1 5/1 7/1 3/1"), "2 4 8 6", "2//1 4//1 8//1 6//1"),
+                                       "3 7 8 4", "3/1/1 7/1/1 8/1/1 4/1/1");
+  }
+  SECTION("negative indices") { text = with(with(text, "1 5 7 3", "-8 -4 -2 -6"), "5 6 8 7", "5 -3 8 -2"); }
+  SECTION("DOS line ends and tabs") {
+    std::string dos;
+    for (const char c : text) dos += c == '\n' ? "\r\n" : std::string(1, c);
+    text = with(dos, "v 1 0 0", "v\t1  0\t0 ");
+  }
+  SECTION("exponents, signs, weights, colours") {
+    text = with(with(text, "v 1 0 0", "v +1.0e0 -0 0.0 1.0"), "v 0 1 0", "v 0 10E-1 0 0.5 0.5 0.5");
+  }
+  SECTION("faces before vertices") { text = text.substr(text.find('f')) + text.substr(0, text.find('f')); }
+  SECTION("no newline at the end") { text.pop_back(); }
+  SECTION("triangles: coplanar neighbours become one face again") {
+    text = with(text, "f 1 5 7 3", "f 1 5 7\nf 1 7 3");
+  }
+  save(file, text);
+  CHECK(solid(read_mesh(file)) == cube);
+}
+
+TEST_CASE("text STL as other programs write it") {
+  const Folder folder;
+  const fs::path file = folder.path / "box.stl";
+  const Polyhedron box = make_box({1, 2, 3});
+  write_mesh(file, box);
+  std::string text = load(file);
+  SECTION("capitals") {
+    for (char& c : text)
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  SECTION("a name of several words") { text = with(text, "solid ballast", "  solid facet of a crusher"); }
+  SECTION("no name") { text = with(with(text, "solid ballast", "solid"), "endsolid ballast", "endsolid"); }
+  SECTION("normals that are no numbers") { text = with(text, "normal -1 0 0", "normal nan -nan(ind) x"); }
+  SECTION("corners that agree to seven digits only") {
+    text = with(text, "vertex -0.5 -1 -1.5", "vertex -0.5 -1 -1.4999999");
+  }
+  save(file, text);
+  const Polyhedron q = read_mesh(file);
+  CHECK(q.vertex_count() == 8);
+  CHECK(mass_properties(q).volume == Approx(6.0).epsilon(1e-6));
+}
+
+TEST_CASE("the scale multiplies coordinates") {
+  const Folder folder;
+  save(folder.path / "cube.obj", kCube);
+  CHECK(mass_properties(read_mesh(folder.path / "cube.obj", 0.001)).volume == Approx(1e-9));
+  CHECK(mass_properties(read_mesh_hull(folder.path / "cube.obj", 2.0)).volume == Approx(8.0));
+  for (const double scale : {0.0, -1.0, std::nan("")})
+    CHECK(complaint([&] { read_mesh(folder.path / "cube.obj", scale); }).find("scale must be positive") !=
+          std::string::npos);
+}
+
+TEST_CASE("scanned grains: the hull of whatever the vertices are") {
+  const Folder folder;
+  const fs::path file = folder.path / "scan.obj";
+  save(file, with(kCube, "f 1 5 7 3\n", "") + "v 0.5 0.5 0.5\n");  // open, with a stray vertex inside
+  CHECK(complaint([&] { read_mesh(file); }) != "");
+  CHECK(read_mesh_hull(file).face_count() == 6);
+  save(file, kCube.substr(0, kCube.find('f')));  // a point cloud
+  CHECK(read_mesh_hull(file).face_count() == 6);
+  save(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
+  const std::string said = complaint([&] { read_mesh_hull(file); });
+  CHECK(said == file.string() + ": no convex hull: all points lie in one plane");
+}
+
+TEST_CASE("writing that fails names the file and the reason, and leaves the old file") {
+  const Folder folder;
+  const Polyhedron box = make_box({1, 2, 3});
+  const auto said_of = [&](const fs::path& file) { return complaint([&] { write_mesh(file, box); }); };
+
+  const fs::path nowhere = folder.path / "no" / "box.obj";
+  CHECK(said_of(nowhere) == nowhere.string() + ": cannot write: No such file or directory");
+  CHECK(said_of(folder.path / "box.ply").find("unknown suffix '.ply'") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path / "box.ply"));
+
+  const fs::path folder_there = folder.path / "taken.obj";
+  fs::create_directory(folder_there);
+  CHECK(said_of(folder_there).find("cannot write: ") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder_there.string() + ".tmp"));
+
+  // a full disk: the file beside the target leads to /dev/full
+  const fs::path file = folder.path / "box.stl";
+  save(file, "old");
+  fs::create_symlink("/dev/full", file.string() + ".tmp");
+  CHECK(said_of(file) == file.string() + ": cannot write: No space left on device");
+  CHECK(load(file) == "old");
+  CHECK_FALSE(fs::exists(fs::symlink_status(file.string() + ".tmp")));
+  CHECK(said_of(file) == "");
+  CHECK(read_mesh(file).face_count() == 6);
+}

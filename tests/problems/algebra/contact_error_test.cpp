@@ -1,0 +1,199 @@
+#include "problems/algebra/contact_error.hpp"
+
+#include <limits>
+
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/friction_cone.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "platform/seeded_random.hpp"
+#include "tests/catch.hpp"
+#include "tests/problems/algebra/dense_oracle.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// Every measure again, from dense matrices and the definitions in the header.
+ContactError dense_error(const FrictionProblem& p, const Impulses& r) {
+  const Eigen::MatrixXd w = oracle::dense_delassus(p);
+  const Eigen::VectorXd q = oracle::dense_q(p), u = w * r + q;
+  ContactError e;
+  double sum = 0.0, fclib = 0.0;
+  int counted = 0;
+  e.min_normal_velocity = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < p.contact_count(); ++c) {
+    const int first = p.row_begin[c], rows = p.contact_rows(c);
+    Eigen::Vector3d rc = Eigen::Vector3d::Zero(), uc = rc;
+    rc.head(rows) = r.segment(first, rows);
+    uc.head(rows) = u.segment(first, rows);
+    Eigen::Vector3d hat = uc;
+    hat[0] += p.friction[c] * std::hypot(uc[1], uc[2]);
+    const Eigen::MatrixXd block = w.block(first, first, rows, rows);
+    const double lambda = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block).eigenvalues().maxCoeff();
+    if (lambda > 0.0) {
+      const double value = lambda * (rc - project_cone(rc - hat / lambda, p.friction[c])).norm();
+      sum += value * value;
+      ++counted;
+      if (value > e.natural_map_max) {
+        e.natural_map_max = value;
+        e.worst_contact = c;
+      }
+    }
+    fclib += (rc - project_cone(rc - hat, p.friction[c])).squaredNorm();
+    e.cone_violation = std::max(e.cone_violation, (rc - project_cone(rc, p.friction[c])).norm());
+    e.min_normal_velocity = std::min(e.min_normal_velocity, uc[0]);
+    e.complementarity = std::max(e.complementarity, std::abs(rc.dot(hat)));
+  }
+  e.natural_map_rms = std::sqrt(sum / counted);
+  e.fclib = std::sqrt(fclib) / std::max({q.norm(), r.norm(), u.norm()});
+  e.power = r.dot(u - p.dynamics.bias);
+  e.velocity_scale = std::sqrt(q.squaredNorm() / q.size());
+  return e;
+}
+
+void check_same(const ContactError& a, const ContactError& b) {
+  CHECK(a.natural_map_rms == Approx(b.natural_map_rms).epsilon(1e-7));
+  CHECK(a.natural_map_max == Approx(b.natural_map_max).epsilon(1e-7));
+  CHECK(a.worst_contact == b.worst_contact);
+  CHECK(a.fclib == Approx(b.fclib).epsilon(1e-10));
+  CHECK(a.cone_violation == Approx(b.cone_violation).epsilon(1e-10));
+  CHECK(a.min_normal_velocity == Approx(b.min_normal_velocity).epsilon(1e-10));
+  CHECK(a.complementarity == Approx(b.complementarity).epsilon(1e-10));
+  CHECK(a.power == Approx(b.power).epsilon(1e-9));
+  CHECK(a.velocity_scale == Approx(b.velocity_scale).epsilon(1e-12));
+}
+
+}  // namespace
+
+TEST_CASE("the judge agrees with dense matrices") {
+  KnownSolutionSettings settings;
+  const FrictionProblem problems[] = {oracle::mixed_problem(), make_known_solution(settings).problem};
+  SeededRandom random(31);
+  for (const FrictionProblem& problem : problems) {
+    Impulses r(problem.row_count());
+    for (double& x : r) x = random.uniform(-1, 1);
+    const ContactError error = contact_error(problem, r);
+    check_same(error, dense_error(problem, r));
+    CHECK(error.finite);
+    CHECK(error.momentum_residual < 1e-13 * r.norm());
+
+    FrictionProblem stored = problem;
+    add_delassus_form(stored);
+    stored.has_dynamics = false;
+    ContactError from_w = contact_error(stored, r);
+    CHECK(from_w.momentum_residual == 0.0);
+    CHECK(from_w.power == Approx(error.power + r.dot(problem.dynamics.bias)));  // W and q know of no bias
+    from_w.power = error.power;
+    check_same(from_w, error);
+  }
+}
+
+TEST_CASE("one judge serves problems of different sizes") {
+  ContactJudge judge;
+  KnownSolutionSettings settings;
+  for (const int contacts : {40, 3, 80}) {
+    settings.contacts = contacts;
+    const FrictionProblem problem = make_known_solution(settings).problem;
+    const Impulses r = Impulses::Constant(problem.row_count(), 0.5);
+    check_same(judge.judge(problem, r), contact_error(problem, r));
+  }
+}
+
+TEST_CASE("a team judges with the bits of one thread") {
+  KnownSolutionSettings settings;
+  settings.contacts = 700;
+  const FrictionProblem problem = make_known_solution(settings).problem;
+  SeededRandom random(32);
+  Impulses r(problem.row_count());
+  for (double& x : r) x = random.uniform(-1, 1);
+  const ContactError alone = contact_error(problem, r);
+  for (const int threads : {1, 2, 5}) {
+    WorkerTeam team;
+    team.resize(threads);
+    ContactJudge judge;
+    judge.use_team(&team);
+    const ContactError error = judge.judge(problem, r);
+    CHECK(error.natural_map_rms == alone.natural_map_rms);
+    CHECK(error.natural_map_max == alone.natural_map_max);
+    CHECK(error.worst_contact == alone.worst_contact);
+    CHECK(error.fclib == alone.fclib);
+    CHECK(error.cone_violation == alone.cone_violation);
+    CHECK(error.min_normal_velocity == alone.min_normal_velocity);
+    CHECK(error.complementarity == alone.complementarity);
+    CHECK(error.power == alone.power);
+    CHECK(error.momentum_residual == alone.momentum_residual);
+  }
+  check_same(alone, dense_error(problem, r));  // several shares
+}
+
+TEST_CASE("without contacts there is no error") {
+  FrictionProblem problem;
+  problem.has_dynamics = true;
+  const ContactError error = contact_error(problem, Impulses());
+  CHECK(error.natural_map_rms == 0.0);
+  CHECK(error.worst_contact == -1);
+  CHECK(error.finite);
+}
+
+TEST_CASE("the judge leaves the bodies' velocities, with contacts and without") {
+  FrictionProblem problem = make_known_solution({}).problem;
+  const Impulses r = Impulses::Constant(problem.row_count(), 0.5);
+  ContactJudge judge;
+  judge.judge(problem, r);
+  Eigen::VectorXd v;
+  body_velocity(problem.dynamics, problem.row_begin, r, v);
+  CHECK(judge.body_velocity() == v);
+  Eigen::VectorXd p;
+  contact_to_body_impulse(problem.dynamics, problem.row_begin, r, p);
+  CHECK(judge.body_impulse() == p);
+  problem.row_begin.assign(1, 0);
+  problem.friction.clear();
+  problem.dynamics.body_a.clear();
+  problem.dynamics.body_b.clear();
+  problem.dynamics.h_begin.assign(1, 0);
+  problem.dynamics.h.clear();
+  problem.dynamics.bias.resize(0);
+  problem.validate();
+  judge.judge(problem, Impulses());
+  CHECK(judge.body_velocity() == problem.dynamics.v_free);
+}
+
+TEST_CASE("impulses that are not numbers make every measure infinite") {
+  const FrictionProblem problem = oracle::mixed_problem();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Impulses r = Impulses::Zero(problem.row_count());
+    r[4] = bad;
+    const ContactError error = contact_error(problem, r);
+    CHECK_FALSE(error.finite);
+    CHECK(error.natural_map_rms == std::numeric_limits<double>::infinity());
+    CHECK(error.fclib == std::numeric_limits<double>::infinity());
+  }
+  CHECK_THROWS_AS(contact_error(problem, Impulses::Zero(3)), InvalidProblem);
+}
+
+TEST_CASE("the scaled natural map does not depend on the units") {
+  KnownSolution known = make_known_solution({});
+  const Impulses r = 0.9 * known.r;
+  const double value = contact_error(known.problem, r).natural_map_rms;
+  FrictionProblem heavy = known.problem;  // tonnes become grams: impulses scale with the masses, velocities do not
+  for (double& m : heavy.dynamics.mass) m *= 1e6;
+  CHECK(contact_error(heavy, 1e6 * r).natural_map_rms == Approx(value).epsilon(1e-7));
+}
+
+TEST_CASE("the largest eigenvalue agrees with an iterative solver") {
+  SeededRandom random(32);
+  for (int k = 0; k < 200000; ++k) {
+    const double scale = random.log_uniform(1e-30, 1e30);
+    Eigen::Matrix3d a;
+    for (double& x : a.reshaped()) x = random.uniform(-1, 1);
+    if (k % 3 == 0) a.col(2) = a.col(1);                         // singular
+    if (k % 3 == 1) a = Eigen::Matrix3d::Identity() + 1e-9 * a;  // nearly multiple
+    const Eigen::Matrix3d block = scale * a * a.transpose();
+    const double expected = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues()[2];
+    REQUIRE(std::abs(largest_eigenvalue(block) - expected) <= 5e-8 * expected);
+    if (k % 3 == 0) REQUIRE(std::abs(largest_eigenvalue(block) - expected) <= 1e-10 * expected);
+  }
+  CHECK(largest_eigenvalue(Eigen::Matrix3d::Zero()) == 0.0);
+  CHECK(largest_eigenvalue(Eigen::Vector3d(3, 0, 0).asDiagonal().toDenseMatrix()) == 3.0);
+  CHECK(largest_eigenvalue(Eigen::Vector3d(1, 5, 5).asDiagonal().toDenseMatrix()) == 5.0);
+}

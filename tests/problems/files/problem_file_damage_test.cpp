@@ -1,0 +1,142 @@
+// Every way in which a stored problem can be broken is one line that says where.
+
+#include <cstdio>
+#include <functional>
+
+#include "problems/files/hdf5_arrays.hpp"
+#include "tests/problems/files/problem_file_support.hpp"
+
+using namespace ballast;
+
+TEST_CASE("each broken local file is refused with one line that says where") {
+  struct Damage {
+    const char* says;
+    std::function<void(const fs::path&)> make;
+  };
+  const Damage damages[] = {
+      {"not an HDF5 file", [](const fs::path& f) { write_text(f, "not a problem"); }},
+      {"not an HDF5 file", [](const fs::path& f) { write_text(f, ""); }},
+      {"no such file", [](const fs::path& f) { fs::remove(f); }},
+      {"damaged or truncated HDF5 file", [](const fs::path& f) { fs::resize_file(f, fs::file_size(f) / 2); }},
+      {"has neither /fclib_local nor /fclib_global", [](const fs::path& f) { remove(f, "/fclib_local"); }},
+      {"/fclib_local/W/p: no such dataset", [](const fs::path& f) { remove(f, "/fclib_local/W/p"); }},
+      {"/fclib_local/W/m: no such dataset", [](const fs::path& f) { remove(f, "/fclib_local/W"); }},
+      {"/fclib_local/vectors/q: no such dataset", [](const fs::path& f) { remove(f, "/fclib_local/vectors"); }},
+      {"/fclib_local/spacedim = 2: only 3 is supported",
+       [](const fs::path& f) { replace(f, "/fclib_local/spacedim", std::vector<int>{2}); }},
+      {"/fclib_local/spacedim has 0 entries",
+       [](const fs::path& f) { replace(f, "/fclib_local/spacedim", std::vector<int>{}); }},
+      {"/fclib_local/vectors/q has 5 entries, must have 18",
+       [](const fs::path& f) { replace(f, "/fclib_local/vectors/q", std::vector<double>(5)); }},
+      {"/fclib_local/vectors/mu[2] = nan is not finite",
+       [](const fs::path& f) {
+         replace(f, "/fclib_local/vectors/mu", std::vector<double>{0, 0, not_a_number, 0, 0, 0});
+       }},
+      {"friction[1] = -1 is negative",
+       [](const fs::path& f) {
+         replace(f, "/fclib_local/vectors/mu", std::vector<double>{0, -1, 0, 0, 0, 0});
+       }},
+      {"/fclib_local/W has 17 contact rows",
+       [](const fs::path& f) { replace(f, "/fclib_local/W/m", std::vector<int>{17}); }},
+      {"/fclib_local/W is 18 x 15, must be 18 x 18",
+       [](const fs::path& f) { replace(f, "/fclib_local/W/n", std::vector<int>{15}); }},
+      {"/fclib_local/W: -3 x 18", [](const fs::path& f) { replace(f, "/fclib_local/W/m", std::vector<int>{-3}); }},
+      {"/fclib_local/W/nz = -5", [](const fs::path& f) { replace(f, "/fclib_local/W/nz", std::vector<int>{-5}); }},
+      {"/fclib_local/W/p has 2 entries, must have 19",
+       [](const fs::path& f) {
+         replace(f, "/fclib_local/W/p", std::vector<int>{0, 0});
+       }},
+      {"/fclib_local/W/i has 3 entries",
+       [](const fs::path& f) {
+         replace(f, "/fclib_local/W/i", std::vector<int>{0, 1, 2});
+       }},
+      {"/fclib_local/W/x: does not hold numbers",
+       [](const fs::path& f) {
+         remove(f, "/fclib_local/W/x");
+         const hid_t id = H5Fopen(f.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), type = H5Tcopy(H5T_C_S1);
+         const hid_t space = H5Screate(H5S_SCALAR);
+         H5Dclose(H5Dcreate2(id, "/fclib_local/W/x", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+         H5Sclose(space);
+         H5Tclose(type);
+         H5Fclose(id);
+       }},
+      {"/fclib_local/V: bilateral",
+       [](const fs::path& f) {
+         const hid_t id = H5Fopen(f.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+         H5Gclose(H5Gcreate2(id, "/fclib_local/V", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+         H5Fclose(id);
+       }},
+  };
+  const Folder folder;
+  const fs::path file = folder / "broken.hdf5";
+  const FrictionProblem problem = only_delassus(small().problem);
+  for (const Damage& damage : damages) {
+    write_problem(file, problem);
+    damage.make(file);
+    const std::string text = complaint(file);
+    CAPTURE(text, damage.says);
+    CHECK(text.rfind(damage.says, 0) == 0);
+  }
+}
+
+TEST_CASE("indices out of range are refused") {
+  const Folder folder;
+  const fs::path file = folder / "indices.hdf5";
+  const FrictionProblem problem = only_delassus(small().problem);
+  write_problem(file, problem);
+  std::vector<int> i = Hdf5Arrays(file, Hdf5Arrays::Mode::read).read_ints("/fclib_local/W/i");
+  std::vector<int> p = Hdf5Arrays(file, Hdf5Arrays::Mode::read).read_ints("/fclib_local/W/p");
+  const int good = i[4];
+  for (const int bad : {-1, 18}) {
+    i[4] = bad;
+    replace(file, "/fclib_local/W/i", i);
+    const std::string text = complaint(file);
+    CHECK(text.rfind("/fclib_local/W: entry 4 at (", 0) == 0);
+    CHECK(text.find(", " + std::to_string(bad) + ") is outside 18 x 18") != std::string::npos);
+  }
+  i[4] = good;
+  replace(file, "/fclib_local/W/i", i);
+  p[3] = -4;
+  replace(file, "/fclib_local/W/p", p);
+  CHECK(complaint(file).rfind("/fclib_local/W/p[3] = -4 decreases", 0) == 0);
+}
+
+TEST_CASE("each broken global file is refused") {
+  const Folder folder;
+  const fs::path file = folder / "global.hdf5";
+  const auto broken = [&](const char* path, auto values) {
+    write_problem(file, small().problem);
+    replace(file, path, values);
+    return complaint(file);
+  };
+  CHECK(broken("/fclib_global/H/m", std::vector<int>{23}).rfind("/fclib_global/H is 23 x 18, must be 24 x 18", 0) == 0);
+  CHECK(broken("/fclib_global/H/n", std::vector<int>{17}).rfind("/fclib_global/H has 17 contact rows", 0) == 0);
+  CHECK(broken("/fclib_global/M/n", std::vector<int>{23}).rfind("/fclib_global/M is 24 x 23", 0) == 0);
+  CHECK(broken("/fclib_global/vectors/f", std::vector<double>(23)).rfind("/fclib_global/vectors/f has 23", 0) == 0);
+  CHECK(broken("/fclib_global/vectors/w", std::vector<double>(3)).rfind("/fclib_global/vectors/w has 3", 0) == 0);
+  write_problem(file, small().problem);
+  std::vector<double> x = Hdf5Arrays(file, Hdf5Arrays::Mode::read).read_doubles("/fclib_global/M/x");
+  x[0] = -1.0;
+  CHECK(broken("/fclib_global/M/x", x).rfind("M(0, 0) = -1", 0) == 0);
+}
+
+TEST_CASE("HDF5 prints nothing of its own, and speaks again afterwards") {
+  const Folder folder;
+  write_problem(folder / "p.hdf5", small().problem);
+  remove(folder / "p.hdf5", "/fclib_global/M/x");
+  const fs::path log = folder / "stderr.txt";
+  const int saved = ::dup(STDERR_FILENO);
+  REQUIRE(std::freopen(log.c_str(), "w", stderr) != nullptr);
+  const std::string text = complaint(folder / "p.hdf5");
+  std::fflush(stderr);
+  const auto silent = fs::file_size(log);
+  H5Fopen((folder / "absent").c_str(), H5F_ACC_RDONLY,
+          H5P_DEFAULT);  // not through us: HDF5 complains as it was told to
+  std::fflush(stderr);
+  const auto loud = fs::file_size(log);
+  ::dup2(saved, STDERR_FILENO);
+  ::close(saved);
+  CHECK(text == "/fclib_global/M/x: no such dataset");
+  CHECK(silent == 0);
+  CHECK(loud > 0);
+}

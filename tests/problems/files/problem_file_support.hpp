@@ -1,0 +1,81 @@
+#pragma once
+// What the tests of stored problems share: a folder, a small problem, files damaged on purpose.
+
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/files/problem_file.hpp"
+#include "tests/catch.hpp"
+
+namespace ballast {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that goes with the test.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("ballast_problem_file_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  fs::path operator/(const std::string& name) const { return path / name; }
+};
+
+inline KnownSolution small(double frictionless = 0.0) {
+  KnownSolutionSettings settings;
+  settings.bodies = 4;
+  settings.contacts = 6;
+  settings.frictionless_fraction = frictionless;
+  settings.friction_min = 0.1;
+  return make_known_solution(settings);
+}
+
+inline FrictionProblem only_delassus(FrictionProblem problem) {
+  add_delassus_form(problem);
+  problem.has_dynamics = false;
+  return problem;
+}
+
+inline std::string complaint(const fs::path& file) {
+  try {
+    read_problem(file);
+  } catch (const ProblemFileError& error) {
+    const std::string text = error.what();
+    CHECK(text.rfind(file.string() + ": ", 0) == 0);
+    CHECK(text.find('\n') == std::string::npos);
+    return text.substr(file.string().size() + 2);
+  }
+  return "";
+}
+
+inline void write_text(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+/// The dataset replaced by other numbers, or removed when `values` is null.
+template <typename Value>
+void replace(const fs::path& file, const char* path, const std::vector<Value>* values) {
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  REQUIRE(id >= 0);
+  REQUIRE(H5Ldelete(id, path, H5P_DEFAULT) >= 0);
+  if (values) {
+    const hid_t type = std::is_same_v<Value, int> ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
+    const hsize_t size = values->size();
+    const hid_t space = H5Screate_simple(1, &size, nullptr);
+    const hid_t data = H5Dcreate2(id, path, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    REQUIRE(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values->data()) >= 0);
+    H5Dclose(data);
+    H5Sclose(space);
+  }
+  H5Fclose(id);
+}
+
+inline void replace(const fs::path& file, const char* path, std::vector<int> values) { replace(file, path, &values); }
+inline void replace(const fs::path& file, const char* path, std::vector<double> values) { replace(file, path, &values); }
+inline void remove(const fs::path& file, const char* path) { replace<int>(file, path, nullptr); }
+
+inline const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace ballast

@@ -1,0 +1,131 @@
+#include "problems/files/siconos_text.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+
+#include "problems/files/problem_file.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// One file, gone with the test.
+struct TextFile {
+  fs::path path = fs::temp_directory_path() / ("ballast_text_" + std::to_string(::getpid()) + ".dat");
+  explicit TextFile(const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+  ~TextFile() { fs::remove(path); }
+};
+
+LocalProblem read_local(const std::string& text) {
+  const TextFile file(text);
+  return std::get<LocalProblem>(read_siconos_text(file.path));
+}
+
+std::string complaint(const std::string& text) {
+  const TextFile file(text);
+  try {
+    read_problem(file.path);
+  } catch (const ProblemFileError& error) {
+    return std::string(error.what()).substr(file.path.string().size() + 2);
+  }
+  return "";
+}
+
+/// W is unsymmetric where the layout must show.
+const Eigen::Matrix3d one_contact = (Eigen::Matrix3d() << 2, 0.25, 0, 0.26, 3, 0, 0, 0, 4).finished();
+
+}  // namespace
+
+TEST_CASE("dense matrices, column by column") {
+  const LocalProblem local = read_local("3\n1\n0\n3\n3\n3\t3\n2 0.26 0\n0.25 3 0\n0 0 4\n-1 0.5 +1e-1\n0.7\n");
+  CHECK((Eigen::MatrixXd(local.w) - one_contact).norm() == 0.0);
+  CHECK(local.q == Eigen::Vector3d(-1, 0.5, 0.1));
+  CHECK(local.mu == std::vector<double>{0.7});
+}
+
+TEST_CASE("matrices by blocks, with what may follow the problem") {
+  const LocalProblem local = read_local(
+      "3 2 1 6 6\n3 2 2\n3 6\n3 6\n4 3\n0 2 3 3\n0 1 1\n"
+      "0\n2 0.26 0 0.25 3 0 0 0 4\n"
+      "1\n1 2 3 4 5 6 7 8 9\n"
+      "2\n5 0 0 0 5 0 0 0 5\n"
+      "-1 0 0 -2 0 0\n0.3 0.4\ntrailing words are not looked at\n");
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(6, 6);
+  expected.topLeftCorner<3, 3>() = one_contact;
+  expected.topRightCorner<3, 3>() << 1, 4, 7, 2, 5, 8, 3, 6, 9;
+  expected.bottomRightCorner<3, 3>() = 5 * Eigen::Matrix3d::Identity();
+  CHECK((Eigen::MatrixXd(local.w) - expected).norm() == 0.0);
+  CHECK(local.q[3] == -2.0);
+  CHECK(local.mu == std::vector<double>{0.3, 0.4});
+}
+
+TEST_CASE("sparse matrices as CSparse prints them") {
+  const std::string version = "CSparse Version 3.1.4, Oct 10, 2014.  Copyright (c) Timothy A. Davis\n";
+  const std::string tail = "-1 0 0\n0.5\n";
+  const std::string columns = "3\n1\n2\n3\n3\n2\n" + version + "3-by-3, nzmax: 5 nnz: 5, 1-norm: 4\n" +
+                              "    col 0 : locations 0 to 1\n      0 : 2\n      1 : 0.26\n" +
+                              "    col 1 : locations 2 to 3\n      0 : 0.25\n      1 : 3\n" +
+                              "    col 2 : locations 4 to 4\n      2 : 4\n";
+  const std::string rows = "3\n1\n2\n3\n3\n3\n" + version + "csr: 3-by-3, nzmax: 5 nnz: 5, 1-norm: 4\n" +
+                           "    row 0 : locations 0 to 1\n      0 : 2\n      1 : 0.25\n" +
+                           "    row 1 : locations 2 to 3\n      0 : 0.26\n      1 : 3\n" +
+                           "    row 2 : locations 4 to 4\n      2 : 4\n";
+  const std::string triplets = "3\n1\n2\n3\n3\n1\n" + version + "triplet: 3-by-3, nzmax: 5 nnz: 5\n" +
+                               "    0 0 : 2\n    1 0 : 0.26\n    0 1 : 0.25\n    1 1 : 3\n    2 2 : 4\n";
+  for (const std::string& matrix : {columns, rows, triplets}) {
+    const LocalProblem local = read_local(matrix + tail);
+    CHECK((Eigen::MatrixXd(local.w) - one_contact).norm() == 0.0);
+    CHECK(local.q == Eigen::Vector3d(-1, 0, 0));
+    CHECK(local.mu == std::vector<double>{0.5});
+  }
+}
+
+TEST_CASE("a global problem is told by its first matrix") {
+  // A body of mass 2 with six unknowns that touches the ground by the first three.
+  std::string text = "3\n1\n0\n6\n6\n6 6\n";
+  for (int j = 0; j < 6; ++j)
+    for (int i = 0; i < 6; ++i) text += i == j ? "2 " : "0 ";
+  text += "\n0\n6\n3\n6 3\n";
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 6; ++i) text += i == j ? "1 " : "0 ";
+  text += "\n-4 2 0 0 0 0\n0.5 0 0\n0.6\n";
+  const TextFile file(text);
+  const FrictionProblem problem = read_problem(file.path);
+  REQUIRE(problem.has_dynamics);
+  CHECK(problem.dynamics.body_count() == 1);
+  CHECK(problem.dynamics.v_free[0] == Approx(-2.0));
+  CHECK(problem.dynamics.bias == Eigen::Vector3d(0.5, 0, 0));
+  CHECK(problem.dynamics.body_b == std::vector<int>{0});
+  CHECK(problem.dynamics.body_a == std::vector<int>{-1});
+  Eigen::VectorXd q;
+  free_contact_velocity(problem, q);
+  CHECK((q - Eigen::Vector3d(-1.5, 1, 0)).norm() < 1e-15);
+}
+
+TEST_CASE("each broken text is refused, with its line") {
+  const std::string sound = "3\n1\n0\n3\n3\n3 3\n2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n";
+  CHECK(complaint(sound) == "");
+  CHECK(complaint("") == "line 1: the file ends within the dimension");
+  CHECK(complaint("2\n1\n") == "line 1: dimension 2: only 3 is supported");
+  CHECK(complaint("5\n1\n") == "line 1: dimension 5: only 3 is supported");
+  CHECK(complaint("3\n-1\n") == "line 2: the number of contacts = -1 is negative");
+  CHECK(complaint("3\nmany\n") == "line 2: the number of contacts: 'many' is not a number");
+  CHECK(complaint("3\n1\n7\n3 3\n").rfind("line 4: storage 7 is none of", 0) == 0);
+  CHECK(complaint("3\n1\n0\n3 3\n3 4\n").rfind("line 5: the matrix states two different sizes", 0) == 0);
+  CHECK(complaint("3\n1\n0\n3 3\n3 3\n2 0 0 nan 3 0 0 0 4\n1 1 1\n").rfind("line 6: a dense matrix = nan", 0) == 0);
+  CHECK(complaint(sound.substr(0, sound.size() - 5)) == "line 8: the file ends within mu");
+  CHECK(complaint(sound.substr(0, 25)).find("the file ends within") != std::string::npos);
+  CHECK(complaint("3\n1000000\n0\n3000000 3000000\n3000000 3000000\n1 2\n").find("ends within") != std::string::npos);
+  CHECK(complaint("3\n1\n2\n3 3\n4\n").rfind("line 5: sparse origin 4 is not supported", 0) == 0);
+  CHECK(complaint("3\n1\n0\n4 4\n4 4\n1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n0\n3 3\n3 3\n1 0 0 0 1 0 0 0 1\n")
+            .find("H is 3 x 3, must be 4 x 3") != std::string::npos);
+  CHECK(complaint("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n0\n5\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n").find("not in order") !=
+        std::string::npos);
+  CHECK(complaint("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n4\n0\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n").find("outside") !=
+        std::string::npos);
+  CHECK(complaint("3\n1\n0\n3\n3\n3 3\n-2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n")
+            .rfind("delassus.w(0, 0) = -2 is negative", 0) == 0);
+}

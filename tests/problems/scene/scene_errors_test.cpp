@@ -1,0 +1,228 @@
+// Scenes that are wrong: the error names file, line, key and value, and what was expected.
+
+#include "problems/scene/scene_file.hpp"
+
+#include <cstdint>
+#include <fstream>
+
+#include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// A wall is enough to be a scene.
+const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
+
+/// The message of the error that reading must end in.
+std::string error_of(const TemporaryFolder& folder, const std::string& text,
+                     const std::vector<std::string>& overrides = {}) {
+  try {
+    read_scene(folder.write("scene.toml", text), overrides);
+  } catch (const SceneFileError& error) {
+    return error.what();
+  }
+  FAIL("read without an error:\n" << text);
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a scene that is wrong is refused in one line that names file, line, key, value and what was expected") {
+  struct Wrong {
+    std::string text;
+    std::vector<std::string> named;
+  };
+  const std::string body = "[[body]]\nshape = \"box\"\nsize = [1, 1, 1]\n";
+  const std::string grains = "[grains]\ncount = 10\n[box]\nlength = 0.3\nwidth = 0.3\n";
+  const std::string driven = one_wall + "motion = \"driven\"\n";
+  const std::vector<Wrong> wrongs = {
+      // TOML itself
+      {"[scene\n", {":1:", "not valid TOML"}},
+      {"[scene]\nstep = 1\nstep = 2\n", {":3:", "step"}},
+      {"", {"nothing in it", "[grains]"}},
+      {"[scene]\nname = \"empty\"\n", {"nothing in it"}},
+      // unknown keys, at every depth
+      {"[sceen]\nstep = 1\n" + one_wall, {":1:", "sceen", "unknown key", "\"scene\""}},
+      {one_wall + "frictoin = 0.4\n", {":3:", "wall.0.frictoin = 0.4", "\"friction\""}},
+      {body + "mass = 1\nradius = 3\n", {":5:", "body.0.radius = 3", "unknown key", "size"}},
+      {body + "mass = 1\nforce = { constnat = [0, 0, 1] }\n", {"body.0.force.constnat = [0, 0, 1]", "\"constant\""}},
+      {grains + "[grains.shape]\nangularity = 2\n", {"grains.shape.angularity = 2", "unknown key", "roughness"}},
+      {"step = 1e-4\n" + one_wall, {":1:", "step = 1e-04", "unknown key"}},
+      // types
+      {"scene = 3\n" + one_wall, {"scene = 3", "expected a table [scene]"}},
+      {"[scene]\nstep = \"fast\"\n" + one_wall, {":2:", "scene.step = \"fast\"", "not a number", "[s]"}},
+      {"[scene]\nstep = true\n" + one_wall, {"scene.step = true", "not a number"}},
+      {"[scene]\ntitle = 3\n" + one_wall, {"scene.title = 3", "not a text"}},
+      {"[gravity]\ndirection = [0, 1]\n" + one_wall, {"gravity.direction = [0, 1]", "three finite numbers"}},
+      {"[gravity]\ndirection = [0, 1, \"z\"]\n" + one_wall, {"gravity.direction", "entry 2"}},
+      {"[gravity]\ndirection = [0, nan, 1]\n" + one_wall, {"gravity.direction", "entry 1", "finite"}},
+      {"[correction]\nenabled = 1\n" + one_wall, {"correction.enabled = 1", "true or false"}},
+      {"[solver]\nmax_iterations = 2.5\n" + one_wall, {"solver.max_iterations = 2.5", "whole number"}},
+      {"[wall]\nnormal = [0, 0, 1]\n", {"wall", "[[wall]]"}},
+      {body + "mass = 1\nlocked = \"x\"\n", {"body.0.locked = \"x\"", "list of texts"}},
+      {body + "mass = 1\nlocked = [1]\n", {"body.0.locked = [1]", "list of texts"}},
+      {body + "mass = 1979-05-27\n", {"body.0.mass = 1979-05-27", "not a number"}},
+      // ranges
+      {"[scene]\nstep = 0\n" + one_wall, {"scene.step = 0", "> 0 [s]"}},
+      {"[scene]\nstep = nan\n" + one_wall, {"scene.step = nan", "> 0"}},
+      {"[scene]\nduration = inf\n" + one_wall, {"scene.duration = inf", "> 0"}},
+      {"[scene]\nstep = 2\nduration = 1\n" + one_wall, {"scene.step = 2", "step <= duration"}},
+      {"[scene]\nname = \"a/b\"\n" + one_wall, {"scene.name = \"a/b\"", "letters"}},
+      {"[gravity]\nmagnitude = -9.81\n" + one_wall, {"gravity.magnitude = -9.81", ">= 0 [m/s^2]"}},
+      {"[gravity]\ndirection = [0, 0, 0]\n" + one_wall, {"gravity.direction = [0, 0, 0]", "not zero"}},
+      {"[contact]\nfriction = -0.1\n" + one_wall, {"contact.friction = -0.1", ">= 0"}},
+      {"[contact]\nrestitution = 1.1\n" + one_wall, {"contact.restitution = 1.1", "from 0 to 1"}},
+      {"[solver]\ntolerance = -1\n" + one_wall, {"solver.tolerance = -1"}},
+      {"[solver]\nislands = 1\n" + one_wall, {"solver.islands = 1"}},
+      {"[solver]\nislnds = true\n" + one_wall, {"solver.islnds = true", "did you mean \"islands\""}},
+      {"[detection]\nreuse_motion = 0\n" + one_wall, {"detection.reuse_motion = 0", "> 0"}},
+      {"[detection]\nreuse_motion = 1e-3\nuse_cache = false\n" + one_wall, {"reuse_motion", "use_cache = true"}},
+      {"[detection]\nreuse_motion = 1e-3\n[sleep]\nenabled = true\n" + one_wall, {"reuse_motion", "sleep.enabled"}},
+      {"[detection]\nrefresh_steps = 5\n" + one_wall, {"refresh_steps", "reuse_motion"}},
+      {"[detection]\nreuse_motion = 1e-3\nrefresh_steps = 0\n" + one_wall, {"refresh_steps = 0", "from 1"}},
+      {"[sleep]\nenabled = 1\n" + one_wall, {"sleep.enabled = 1"}},
+      {"[sleep]\nvelocity = 0\n" + one_wall, {"sleep.velocity = 0", "> 0 [g h]"}},
+      {"[sleep]\nsteps = 0\n" + one_wall, {"sleep.steps = 0", "from 1"}},
+      {"[sleep]\nenabled = true\n[gravity]\nmagnitude = 0\n" + one_wall, {"sleep.enabled = true", "gravity.magnitude > 0"}},
+      {"[solver]\nmax_iterations = 0\n" + one_wall, {"solver.max_iterations = 0", "from 1"}},
+      {"[correction]\nfraction = 1.5\n" + one_wall, {"correction.fraction = 1.5"}},
+      {"[detection]\nmax_points = 0\n" + one_wall, {"detection.max_points = 0"}},
+      {"[record]\npose_rate = -1\n" + one_wall, {"record.pose_rate = -1", "[1/s]"}},
+      // walls
+      {"[[wall]]\nfriction = 0.4\n", {"wall.0.normal is missing", "three finite numbers"}},
+      {"[[wall]]\nnormal = [0, 0, 0]\n", {"wall.0.normal = [0, 0, 0]", "not zero"}},
+      {one_wall + "friction = -1\n", {"wall.0.friction = -1"}},
+      {one_wall + "motion = \"floating\"\n", {"wall.0.motion = \"floating\"", "\"driven\""}},
+      {driven + "load = { f_max = 1, frequency = 5 }\n", {"wall.0.mass is missing", "> 0 [kg]"}},
+      {driven + "mass = 0\nload = { f_max = 1, frequency = 5 }\n", {"wall.0.mass = 0", "> 0 [kg]"}},
+      {driven + "mass = 1\n", {"wall.0.load.f_max is missing", "[N]"}},
+      {driven + "mass = 1\nload = { f_max = 1, frequency = -5 }\n", {"wall.0.load.frequency = -5", "[Hz]"}},
+      {driven + "mass = 1\nload = { f_min = 2, f_max = 1, frequency = 5 }\n", {"wall.0.load.f_min = 2", "f_max"}},
+      {one_wall + "motion = \"prescribed\"\nfrequency = 5\n", {"wall.0.amplitude is missing"}},
+      {one_wall + "mass = 3\n", {"wall.0.mass = 3", "unknown key"}},
+      {one_wall + "name = \"a\"\n" + one_wall + "name = \"a\"\n", {":6:", "wall.1.name = \"a\"", "twice"}},
+      {one_wall + "name = \"\"\n", {"wall.0.name = \"\"", "empty"}},
+      // bodies
+      {"[[body]]\nmass = 1\n", {"body.0.shape is missing", "\"mesh\""}},
+      {"[[body]]\nshape = \"cone\"\nmass = 1\n", {"body.0.shape = \"cone\"", "one of \"box\""}},
+      {"[[body]]\nshape = \"box\"\nsize = [1, -2, 1]\nmass = 1\n", {"body.0.size = [1, -2, 1]", "> 0 [m]"}},
+      {"[[body]]\nshape = \"box\"\nsize = [1, 1e-12, 1]\nmass = 1\n", {"body.0.shape = \"box\""}},
+      {"[[body]]\nshape = \"sphere\"\nradius = -1\nmass = 1\n", {"body.0.radius = -1", "> 0 [m]"}},
+      {"[[body]]\nshape = \"sphere\"\nradius = 1\nsubdivisions = 99\nmass = 1\n",
+       {"body.0.subdivisions = 99", "0 to 6"}},
+      {"[[body]]\nshape = \"grain\"\nradius = 1\nseed = -1\nmass = 1\n", {"body.0.seed = -1"}},
+      {body, {"body.0.density is missing", "[kg/m^3]"}},
+      {body + "mass = -1\n", {":4:", "body.0.mass = -1", "> 0 [kg]"}},
+      {body + "mass = 1\ndensity = 1\n", {"body.0.mass = 1", "density"}},
+      {body + "mass = 1\nlocked = [\"w\"]\n", {"body.0.locked = [\"w\"]", "\"rotation\""}},
+      {body + "mass = 1\nlocked = [\"x\"]\nvelocity = [1, 0, 0]\n", {"body.0.velocity = [1, 0, 0]", "locked"}},
+      {body + "mass = 1\nlocked = [\"rotation\"]\nspin = [1, 0, 0]\n", {"body.0.spin = [1, 0, 0]", "locked"}},
+      {body + "mass = 1\norientation = { axis = [0, 0, 0] }\n", {"body.0.orientation.axis = [0, 0, 0]", "not zero"}},
+      {body + "mass = 1\nforce = { frequency = -1 }\n", {"body.0.force.frequency = -1", "[Hz]"}},
+      {one_wall + "name = \"a\"\n" + body + "mass = 1\nname = \"a\"\n", {"body.0.name = \"a\"", "twice"}},
+      {"[[body]]\nshape = \"mesh\"\nmass = 1\nfile = \"none.obj\"\n", {"body.0.file = \"none.obj\"", "none.obj"}},
+      // grains
+      {"[grains]\ncount = 10\n", {"box.length is missing", "[m]"}},
+      {"[grains]\n[box]\nlength = 1\nwidth = 1\n", {"grains.count is missing", "whole number"}},
+      {"[grains]\ncount = 0\n[box]\nlength = 1\nwidth = 1\n", {"grains.count = 0", "from 1"}},
+      {"[grains]\ncount = 10\n[box]\nlength = -1\nwidth = 1\n", {"box.length = -1", "> 0 [m]"}},
+      {"[grains]\ncount = 10\n[box]\nlength = 1\nwidth = 0.05\n", {"box.width = 0.05", "at least 0.1"}},
+      {"[box]\nlength = 1\nwidth = 1\n", {"box = {", "[grains]"}},
+      {"[drive]\nfrequency = 1\n" + one_wall, {"drive = {frequency = 1}", "[grains]"}},
+      {grains + one_wall, {"wall = [{", "together with [grains]"}},
+      {grains + body + "mass = 1\n", {"body = [{", "together with [grains]"}},
+      {grains + "[gravity]\nmagnitude = 0\n", {"gravity = {magnitude = 0}", "deposited"}},
+      {grains + "[gravity]\ndirection = [1, 0, -1]\n", {"gravity", "deposited"}},
+      {grains + "[grains.shape]\nmin_vertices = 30\nmax_vertices = 20\n",
+       {"grains.shape.min_vertices = 30", "max_vertices"}},
+      {grains + "[grains.shape]\nflatness_min = 0\n", {"grains.shape.flatness_min = 0"}},
+      {grains + "[[grains.distribution]]\nsize = 0.02\nfraction = 0.7\n",
+       {"grains.distribution", "sum to 0.7", "expected 1"}},
+      {grains + "[[grains.distribution]]\nsize = -0.02\nfraction = 1\n",
+       {"grains.distribution.0.size = -0.02", "> 0 [m]"}},
+      {grains + "[drive]\nfrequency = 0\n", {"drive.frequency = 0", "> 0 [Hz]"}},
+      {grains + "[drive]\nf_min_over_weight = 9\n", {"drive.f_min_over_weight = 9", "f_max_over_weight"}},
+      {grains + "[drive]\nwall_mass_over_grains = 0\n", {"drive.wall_mass_over_grains = 0"}},
+      {grains + "[deposit]\nfill_fraction = 0.9\n", {"deposit.fill_fraction = 0.9", "0.5"}},
+      {grains + "[control_volume]\nmargin_x = 0.2\n", {"control_volume.margin_x = 0.2", "box.length"}},
+  };
+  const TemporaryFolder folder;
+  for (const Wrong& wrong : wrongs) {
+    const std::string message = error_of(folder, wrong.text);
+    INFO(wrong.text);
+    CHECK_THAT(message, Catch::StartsWith((folder.path() / "scene.toml").string()));
+    CHECK(message.find('\n') == std::string::npos);
+    for (const std::string& part : wrong.named) CHECK_THAT(message, Catch::Contains(part));
+  }
+}
+
+TEST_CASE("an override that is wrong is refused and blamed") {
+  const TemporaryFolder folder;
+  const std::string text = one_wall + "[[body]]\nshape = \"box\"\nsize = [1, 1, 1]\nmass = 1\n";
+  const std::vector<std::pair<std::string, std::string>> wrongs = {
+      {"scene.step", "expected dotted.key=value"},
+      {"=3", "empty part"},
+      {"scene..step=3", "empty part"},
+      {"scene.step=", "scene.step=: not a TOML value"},
+      {"scene.step=[1", "scene.step=[1: not a TOML value"},
+      {"scene.step=1\nduration=2", "one line"},
+      {"scene.step=-1", "scene.step = -1: out of range"},
+      {"scene.step=fast", "scene.step = \"fast\": not a number"},
+      {"scene.stp=1", "scene.stp = 1: unknown key, did you mean \"step\"?"},
+      {"drve.frequency=1", "drve = {frequency = 1}: unknown key, did you mean \"drive\"?"},
+      {"body.1.mass=2", "no element 1"},
+      {"body.mass=2", "no element mass"},
+      {"body.0=2", "expected a key after the index"},
+      {"body.0.mass.x=2", "mass is not a table"},
+      {"body.0.mas=2", "body.0.mas = 2: unknown key, did you mean \"mass\"?"},
+      {"body=2", "expected a list of tables"},
+  };
+  for (const auto& [override, part] : wrongs) {
+    const std::string message = error_of(folder, text, {override});
+    CHECK_THAT(message, Catch::StartsWith((folder.path() / "scene.toml").string() + " (--set)"));
+    CHECK_THAT(message, Catch::Contains(part));
+    CHECK(message.find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("mutilated scenes are read or refused in one line, and nothing else happens") {
+  const TemporaryFolder folder;
+  std::uint64_t state = 12345;
+  const auto below = [&](std::size_t n) {  // Knuth's MMIX generator: its high bits are good
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::size_t>((state >> 33) % n);
+  };
+  int refused = 0;
+  for (const char* name : {"vibrated_box", "overhang", "empty_driven_wall"}) {
+    std::ifstream stream(find_scene(name));
+    const std::string sound((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    for (int k = 0; k < 500; ++k) {
+      std::string text = sound;
+      const std::size_t at = below(text.size()), length = std::min(below(20), text.size() - at);
+      switch (below(4)) {
+        case 0:
+          text.erase(at, length);
+          break;
+        case 1:
+          text[at] = static_cast<char>(below(256));
+          break;
+        case 2:
+          text.insert(below(text.size()), text.substr(at, length));
+          break;
+        default:
+          text.resize(at);
+          break;
+      }
+      try {
+        read_scene(folder.write("scene.toml", text));
+      } catch (const SceneFileError& error) {
+        ++refused;
+        CHECK_THAT(error.what(), Catch::StartsWith((folder.path() / "scene.toml").string()));
+        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+      }
+    }
+  }
+  CHECK(refused > 300);
+}

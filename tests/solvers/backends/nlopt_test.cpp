@@ -1,0 +1,40 @@
+// The one-contact problem by a general optimiser: an oracle for the exact local solution.
+
+#include "platform/seeded_random.hpp"
+#include "solvers/parts/one_contact.hpp"
+#include "solvers/seam/run_solver.hpp"
+#include "solvers/solver_list.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("nlopt and the exact solution of one contact agree") {
+  const SolverEntry& entry = find_solver("nlopt_slsqp");
+  if (!entry.make) return;  // built without NLopt
+  SeededRandom random(5);
+  int solved = 0, pushed = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Eigen::Matrix3d root;
+    for (double& entry_of_root : root.reshaped()) entry_of_root = random.uniform(-1, 1);
+    const Eigen::Matrix3d w = root * root.transpose() + 0.2 * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d q(random.uniform(-1, 0.3), random.uniform(-1, 1), random.uniform(-1, 1));
+    FrictionProblem problem;
+    problem.row_begin = {0, 3};
+    problem.friction = {random.uniform(0.0, 0.6)};  // little enough for one solution
+    problem.has_delassus = true;
+    problem.delassus.w = w.sparseView();
+    problem.delassus.q = q;
+    CAPTURE(trial, problem.friction[0]);
+
+    Eigen::Vector3d exact;
+    double lambda = 0.0;
+    solve_one_contact(w, q, problem.friction[0], exact, lambda);
+    const SolverRun run = SolverRunner().run(*entry.make(), problem, {}, {.tolerance = 1e-9});
+    if (!run.success) continue;  // its right to stall; never to be wrong
+    ++solved;
+    pushed += exact[0] > 0.0;
+    CHECK((run.solved.impulses - exact).norm() < 1e-7 * (1.0 + exact.norm()));
+  }
+  CHECK(solved > 180);
+  CHECK(pushed > 100);
+}

@@ -1,0 +1,49 @@
+#include "solvers/backends/sap.hpp"
+
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "solvers/parts/contact_operator.hpp"
+#include "solvers/seam/run_solver.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+FrictionProblem rank_deficient() { return make_known_solution({.bodies = 20, .contacts = 40}).problem; }
+
+}  // namespace
+
+TEST_CASE("the regularised problem's impulses are those of its own compliance") {
+  const FrictionProblem problem = rank_deficient();
+  const SapSettings settings{.regularisation = 1e-2, .proximal = false};
+  const SolverRun run =
+      SolverRunner().run(*make_sap(settings), problem, {}, {.tolerance = 1e-9, .max_iterations = 200});
+  CHECK(run.solved.reason == StopReason::stalled);  // it has solved its problem, which is not Coulomb's
+  CHECK(run.solved.iterations < 60);
+  ContactOperator w;
+  w.prepare(problem);
+  const Impulses& r = run.solved.impulses;
+  Eigen::VectorXd u;
+  w.velocity(r, u);
+  for (int c = 0; c < w.contact_count(); ++c) {
+    const double epsilon = settings.regularisation / w.rho()[c];
+    const Eigen::Vector3d gamma = project_cone(-w.at(u, c) / epsilon, w.friction(c));
+    CHECK((w.at(r, c) - gamma).norm() <= 1e-5 * r.norm());
+  }
+}
+
+TEST_CASE("proximal steps take the regularisation away: the convex law is met, Coulomb's is not claimed") {
+  const FrictionProblem problem = rank_deficient();
+  const SolverRun run = SolverRunner().run(*make_sap(), problem, {}, {.tolerance = 1e-8, .max_iterations = 2000});
+  CHECK(run.solved.reason == StopReason::stalled);
+  CHECK(run.solved.own_residual <= 1e-8);
+  CHECK(run.error.natural_map_rms > 1e-3);
+}
+
+TEST_CASE("sap names what it cannot take") {
+  FrictionProblem problem = rank_deficient();
+  add_delassus_form(problem);
+  problem.has_dynamics = false;
+  CHECK_THROWS_AS(make_sap()->prepare(problem), UnsupportedProblem);
+}

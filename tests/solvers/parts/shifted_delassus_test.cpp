@@ -1,0 +1,89 @@
+#include "solvers/parts/shifted_delassus.hpp"
+
+#include <utility>
+
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "tests/catch.hpp"
+#include "tests/problems/algebra/dense_oracle.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// Symmetric positive definite blocks of very different sizes.
+std::vector<Eigen::Matrix3d> blocks(const FrictionProblem& problem, double spread) {
+  std::vector<Eigen::Matrix3d> sigma(problem.contact_count());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const Eigen::Vector3d v(1.0, std::sin(c), std::cos(2.0 * c));
+    sigma[c] = std::pow(spread, std::sin(3.0 * c)) * (v * v.transpose() + 0.1 * Eigen::Matrix3d::Identity());
+    if (problem.contact_rows(c) == 1) sigma[c] = sigma[c](0, 0) * Eigen::Matrix3d::Identity();
+  }
+  return sigma;
+}
+
+std::vector<Eigen::Matrix3d> inverses(std::vector<Eigen::Matrix3d> blocks) {
+  for (Eigen::Matrix3d& block : blocks) block = block.inverse().eval();
+  return blocks;
+}
+
+Eigen::MatrixXd shifted(const FrictionProblem& problem, Eigen::MatrixXd w, const std::vector<Eigen::Matrix3d>& sigma) {
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+    w.block(first, first, rows, rows) += sigma[c].topLeftCorner(rows, rows).inverse();
+  }
+  return w;
+}
+
+Eigen::VectorXd sample(int rows) {
+  Eigen::VectorXd b(rows);
+  for (int i = 0; i < rows; ++i) b[i] = std::sin(1.3 * i + 0.2);
+  return b;
+}
+
+}  // namespace
+
+TEST_CASE("the shifted system is solved in both forms, singular W or not") {
+  for (const FrictionProblem& dynamics : {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
+    FrictionProblem stored = dynamics;
+    add_delassus_form(stored);
+    stored.has_dynamics = false;
+    const auto sigma = blocks(dynamics, 100.0);
+    const Eigen::VectorXd b = sample(dynamics.row_count());
+    const Eigen::VectorXd exact = shifted(dynamics, oracle::dense_delassus(dynamics), sigma).partialPivLu().solve(b);
+    for (const FrictionProblem* problem : {&std::as_const(dynamics), &std::as_const(stored)}) {
+      ContactOperator w;
+      w.prepare(*problem);
+      ShiftedDelassus system;
+      system.prepare(w);
+      REQUIRE(system.factor(inverses(sigma), sigma));
+      Eigen::VectorXd x;
+      system.solve(b, x);
+      CHECK((x - exact).norm() <= 1e-9 * exact.norm());
+      system.solve(b, x, 2);
+      CHECK((x - exact).norm() <= 1e-11 * exact.norm());
+      REQUIRE(system.factor(blocks(dynamics, 2.0), inverses(blocks(dynamics, 2.0))));  // the same pattern again
+      CHECK(system.factorisations() == 2);
+    }
+  }
+}
+
+TEST_CASE("an unsymmetric stored W is taken as it is") {
+  FrictionProblem problem = make_known_solution({.bodies = 20, .contacts = 15}).problem;
+  add_delassus_form(problem);
+  problem.has_dynamics = false;
+  Eigen::MatrixXd dense = problem.delassus.w;
+  for (int i = 0; i < dense.rows(); ++i)
+    for (int j = 0; j < i; ++j) dense(i, j) *= 1.05;
+  problem.delassus.w = dense.sparseView();
+  const auto sigma = blocks(problem, 10.0);
+  ContactOperator w;
+  w.prepare(problem);
+  ShiftedDelassus system;
+  system.prepare(w);
+  REQUIRE(system.factor(inverses(sigma), sigma));
+  const Eigen::VectorXd b = sample(problem.row_count());
+  Eigen::VectorXd x;
+  system.solve(b, x);
+  CHECK((shifted(problem, dense, sigma) * x - b).norm() <= 1e-11 * b.norm());
+}

@@ -1,0 +1,55 @@
+#include "solvers/parts/slip_shift.hpp"
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// The convex problem with s held, by projected gradients: slow and plain.
+void solve_convex(ContactOperator& w, const SlipShift& shift, Impulses& r, Eigen::VectorXd& u) {
+  const double step = 1.0 / (1.2 * largest_scaled_eigenvalue(w));
+  for (int k = 0; k < 20000; ++k) {
+    w.velocity(r, u);
+    const Impulses before = r;
+    for (int c = 0; c < w.contact_count(); ++c) w.put(r, c, w.at(r, c) - step * w.rho()[c] * shift.shifted(w, u, c));
+    w.project(r);
+    if ((r - before).norm() <= 1e-15 * r.norm()) break;
+  }
+  w.velocity(r, u);
+}
+
+}  // namespace
+
+TEST_CASE("at a solution of Coulomb's law s is its own image, and the convex problem has the same solution") {
+  const KnownSolution known = make_known_solution({.bodies = 20, .contacts = 15});
+  ContactOperator w;
+  w.prepare(known.problem);
+  SlipShift shift;
+  shift.reset(w);
+  CHECK(shift.distance(w, known.u) > 1e-3);
+  shift.follow(w, known.u);
+  CHECK(shift.distance(w, known.u) == 0.0);
+  for (int c = 0; c < w.contact_count(); ++c) {
+    const Eigen::Vector3d r = w.at(known.r, c), g = shift.shifted(w, known.u, c);
+    CHECK((project_cone(r - g, w.friction(c)) - r).norm() <= 1e-12 * (1.0 + r.norm()));
+  }
+}
+
+TEST_CASE("convex solves with improved s reach Coulomb's law") {
+  const KnownSolution known = make_known_solution({.bodies = 20, .contacts = 15});
+  ContactOperator w;
+  w.prepare(known.problem);
+  SlipShift shift;
+  shift.reset(w);
+  Impulses r = Impulses::Zero(known.problem.row_count());
+  Eigen::VectorXd u;
+  solve_convex(w, shift, r, u);
+  CHECK(contact_error(known.problem, r).natural_map_rms > 1e-3);  // the convex relaxation is another law
+  int outer = 0;
+  while (shift.improve(w, u) > 1e-10 && ++outer < 60) solve_convex(w, shift, r, u);
+  CHECK(outer < 60);
+  CHECK(contact_error(known.problem, r).natural_map_rms < 1e-9);
+}

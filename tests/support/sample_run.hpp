@@ -1,0 +1,163 @@
+#pragma once
+// A small system and made-up rows for tests of records and exports: nothing in it is dynamics.
+
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "experiments/record/recorder.hpp"
+#include "experiments/run/run.hpp"
+#include "geometry/shape/grain_shapes.hpp"
+#include "geometry/shape/random.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace ballast {
+
+inline std::string file_bytes(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  REQUIRE(in);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// As a new file: file systems that make an overwriting safe on disk are a thousand times slower.
+inline void put_bytes(const std::filesystem::path& file, std::string_view bytes) {
+  std::filesystem::remove(file);
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+/// The message of the RunError that `action` throws; fails the test when it throws none.
+template <class Action>
+std::string run_error(Action&& action) {
+  try {
+    action();
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  FAIL("no RunError was thrown");
+  return {};
+}
+
+using Catch::Matchers::Contains;
+
+/// Three grains (two of one shape) and a square box of six walls from (0, 0, 0) to (0.6, 0.6, 0.5), of which x_max is
+/// driven.
+inline MechanicalSystem sample_system() {
+  MechanicalSystem system;
+  system.friction = 0.4;
+  for (int k = 0; k < 2; ++k) {
+    const PrincipalShape shape = make_grain({}, 0.05, 20 + k);
+    system.shapes.push_back(std::make_shared<const Polyhedron>(shape.shape));
+    for (int copy = 0; copy <= k; ++copy) {
+      RigidBody body;
+      body.name = "grain " + std::to_string(system.bodies.size());
+      body.shape.polyhedron = system.shapes.back().get();
+      body.volume = shape.volume;
+      body.mass = 2700.0 * shape.volume;
+      body.inertia = 2700.0 * shape.inertia;
+      system.bodies.push_back(body);
+    }
+  }
+  system.grain_count = 3;
+  const char* names[] = {"floor", "lid", "x_min", "x_max", "y_min", "y_max"};
+  const Vec3 normals[] = {Vec3::UnitZ(), -Vec3::UnitZ(), Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitY()};
+  for (int w = 0; w < 6; ++w) {
+    RigidBody wall;
+    wall.name = names[w];
+    wall.shape.plane.normal = normals[w];
+    wall.wall_friction = 0.0;
+    if (w == 3) wall.mass = 107.0;
+    system.bodies.push_back(wall);
+  }
+  return system;
+}
+
+/// Positions inside the box, walls where they belong; all else random. Depends on `step` alone.
+inline MotionState sample_state(const MechanicalSystem& system, long step) {
+  Random random(1000 + static_cast<std::uint64_t>(step));
+  MotionState state;
+  state.step = step;
+  state.time = 2e-4 * static_cast<double>(step);
+  const double offsets[] = {0.0, -0.5, 0.0, -0.6, 0.0, -0.6};
+  for (size_t b = 0; b < system.bodies.size(); ++b) {
+    Pose pose;
+    const bool wall = system.bodies[b].is_wall();
+    if (wall) {
+      pose.position = offsets[b - 3] * system.bodies[b].shape.plane.normal;
+    } else {
+      const double x = random.uniform(0.1, 0.5), y = random.uniform(0.1, 0.5), z = random.uniform(0.1, 0.4);
+      pose = {Vec3(x, y, z), random.rotation()};
+    }
+    state.pose.push_back(pose);
+    state.velocity.push_back(wall ? Vec3::Zero() : Vec3(random.uniform(0.1, 1.0) * random.unit_vector()));
+    state.spin.push_back(wall ? Vec3::Zero() : Vec3(random.uniform(1.0, 9.0) * random.unit_vector()));
+  }
+  return state;
+}
+
+/// A row with every column different, and the numbers that text formats lose first.
+inline StepRecord sample_row(long step) {
+  Random random(5000 + static_cast<std::uint64_t>(step));
+  StepRecord row;
+  for (const StepColumn& column : step_columns())
+    row.*column.value = random.uniform(-1, 1) * std::exp(random.uniform(-40, 40));
+  row.wall_v = -0.0;
+  row.error_rms = std::numeric_limits<double>::denorm_min();
+  row.error_max = std::numeric_limits<double>::max();
+  row.time = 2e-4 * static_cast<double>(step);
+  return row;
+}
+
+inline bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+inline bool same_bits(const Vec3& a, const Vec3& b) {
+  return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z());
+}
+inline bool same_bits(const Pose& a, const Pose& b) {
+  const Quat &p = a.rotation, &q = b.rotation;
+  return same_bits(a.position, b.position) && same_bits(p.w(), q.w()) && same_bits(p.x(), q.x()) &&
+         same_bits(p.y(), q.y()) && same_bits(p.z(), q.z());
+}
+inline bool same_bits(const StepRecord& a, const StepRecord& b) {
+  for (const StepColumn& column : step_columns())
+    if (!same_bits(a.*column.value, b.*column.value)) return false;
+  return true;
+}
+template <class Value>
+bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
+  if (a.size() != b.size()) return false;
+  for (size_t k = 0; k < a.size(); ++k)
+    if (!same_bits(a[k], b[k])) return false;
+  return true;
+}
+
+/// While alive, no file of this process can grow beyond `bytes`: a disk that is full, for whoever runs the test.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    handler_ = signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &limit_);
+    const rlimit small{bytes, limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &limit_);
+    signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit limit_{};
+  void (*handler_)(int);
+};
+
+}  // namespace ballast
