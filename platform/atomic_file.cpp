@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -20,7 +20,7 @@ void throw_file_error(const fs::path& file, std::string_view action) {
   const int error = errno;
   std::string message = file.string() + ": cannot " + std::string(action);
   if (error != 0) message += std::string(": ") + std::strerror(error);
-  throw RunError(message);
+  throw Error(message);
 }
 
 void sync_to_disk(std::FILE* stream, const fs::path& file) {
@@ -44,7 +44,7 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), neighbour_
   struct stat status;
   // renaming over a folder fails only after all has been written; over a device it would replace the device
   if (stat(target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-    throw RunError(target_.string() + ": cannot write: it is not a regular file");
+    throw Error(target_.string() + ": cannot write: it is not a regular file");
   file_ = std::fopen(neighbour_.c_str(), "wb");
   if (!file_) throw_file_error(target_, "write");
 }
@@ -115,9 +115,9 @@ std::string read_whole_file(const fs::path& path) {
 void create_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw RunError(folder.string() + ": cannot make the folder: " + error.message());
+  if (error) throw Error(folder.string() + ": cannot make the folder: " + error.message());
   if (!fs::is_directory(folder))
-    throw RunError(folder.string() + ": cannot make the folder: there is a file of that name");
+    throw Error(folder.string() + ": cannot make the folder: there is a file of that name");
 }
 
 }  // namespace ballast

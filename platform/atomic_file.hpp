@@ -8,7 +8,7 @@
 namespace ballast {
 
 /// A file written as `<target>.tmp` beside its target; commit() makes it safe on disk and renames it over the target.
-/// Without commit() the target stays as it was and the neighbour is removed. Every failure is a RunError that names the
+/// Without commit() the target stays as it was and the neighbour is removed. Every failure is a Error that names the
 /// target and the reason.
 class AtomicFile {
  public:
@@ -32,16 +32,16 @@ class AtomicFile {
 /// Writes all of `text` through an AtomicFile.
 void write_whole_file(const std::filesystem::path& target, std::string_view text);
 
-/// The whole file. Throws RunError: missing, a folder, unreadable.
+/// The whole file. Throws Error: missing, a folder, unreadable.
 std::string read_whole_file(const std::filesystem::path& file);
 
-/// Makes a folder and its parents. Throws RunError.
+/// Makes a folder and its parents. Throws Error.
 void create_folder(const std::filesystem::path& folder);
 
-/// Throws RunError "<file>: cannot <action>: <errno's text>".
+/// Throws Error "<file>: cannot <action>: <errno's text>".
 [[noreturn]] void throw_file_error(const std::filesystem::path& file, std::string_view action);
 
-/// Flush to the disk, not only to the kernel. Throws RunError naming `file`.
+/// Flush to the disk, not only to the kernel. Throws Error naming `file`.
 void sync_to_disk(std::FILE* stream, const std::filesystem::path& file);
 /// The same for the entries of a folder: after a file was created or renamed in it.
 void sync_folder(const std::filesystem::path& folder);

@@ -15,7 +15,7 @@ class FileLock {
   using Patience = std::function<bool(double seconds_waited)>;
 
   /// Waits until the lock is free; `patience` returning false gives up: is_held() is then false. The folder must be there.
-  /// Throws RunError when the file cannot be made or locked.
+  /// Throws Error when the file cannot be made or locked.
   FileLock(std::filesystem::path file, const Patience& patience);
   ~FileLock();
   FileLock(const FileLock&) = delete;

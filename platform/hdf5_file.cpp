@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -72,7 +72,7 @@ Hdf5Id text_type() {
 }
 
 hid_t checked(hid_t result, const std::filesystem::path& file, const std::string& what) {
-  if (result < 0) throw RunError(file.string() + ": HDF5 cannot " + what);
+  if (result < 0) throw Error(file.string() + ": HDF5 cannot " + what);
   return result;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The little of HDF5's C API that records need. Every failure is a RunError that names the file; HDF5 itself says
+// The little of HDF5's C API that records need. Every failure is a Error that names the file; HDF5 itself says
 // nothing.
 
 #include <hdf5.h>

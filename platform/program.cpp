@@ -12,7 +12,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -40,7 +40,7 @@ struct Pipe {
   int read_end = -1, write_end = -1;
   Pipe() {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw RunError(std::string("cannot start a child process: ") + std::strerror(errno));
+    if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
     read_end = ends[0];
     write_end = ends[1];
   }

@@ -16,7 +16,7 @@ struct ProgramResult {
 };
 
 /// Runs program (looked up on PATH) with arguments, standard input empty, in the C locale and without the variables GNUPLOT* and GNUTERM;
-/// kills it after `seconds`, or when it has written more than 256 MB. Throws RunError when there can be no child at all.
+/// kills it after `seconds`, or when it has written more than 256 MB. Throws Error when there can be no child at all.
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, double seconds);
 
 }  // namespace ballast

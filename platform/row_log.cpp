@@ -7,7 +7,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -57,10 +57,10 @@ RowReader::RowReader(const std::filesystem::path& file) : path_(file), file_(ope
   read_header();
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
-  if (error) throw RunError(path_.string() + ": cannot read: " + error.message());
+  if (error) throw Error(path_.string() + ": cannot read: " + error.message());
   row_count_ = static_cast<long>((bytes - header_bytes_) / row_bytes(header_.row_size));
   if (row_count_ < safe_count_)
-    throw RunError(path_.string() + ": is truncated: " + std::to_string(row_count_) + " rows of " +
+    throw Error(path_.string() + ": is truncated: " + std::to_string(row_count_) + " rows of " +
                    std::to_string(safe_count_) + " are there");
   values_.resize(header_.row_size);
 }
@@ -68,7 +68,7 @@ RowReader::RowReader(const std::filesystem::path& file) : path_(file), file_(ope
 void RowReader::read_header() {
   FixedHeader fixed;
   read(&fixed, sizeof fixed);
-  const auto refuse = [&](const std::string& why) { throw RunError(path_.string() + ": " + why); };
+  const auto refuse = [&](const std::string& why) { throw Error(path_.string() + ": " + why); };
   if (std::memcmp(fixed.magic, magic, sizeof magic) != 0) refuse("is not a log of a ballast run");
   if (fixed.byte_order != byte_order) refuse("was written on a machine of another byte order");
   if (fixed.version != version)
@@ -94,7 +94,7 @@ void RowReader::read(void* data, size_t bytes) {
   errno = 0;
   if (std::fread(data, 1, bytes, file_.get()) == bytes) return;
   if (std::ferror(file_.get())) throw_file_error(path_, "read");
-  throw RunError(path_.string() + ": is truncated" + (header_bytes_ == 0 ? " in its header" : ""));
+  throw Error(path_.string() + ": is truncated" + (header_bytes_ == 0 ? " in its header" : ""));
 }
 
 std::span<const double> RowReader::next() {
@@ -104,7 +104,7 @@ std::span<const double> RowReader::next() {
   read(&checksum, sizeof checksum);
   if (checksum != row_checksum(row_, values_)) {
     if (row_ < safe_count_)
-      throw RunError(path_.string() + ": is damaged: the checksum of row " + std::to_string(row_) + " is wrong");
+      throw Error(path_.string() + ": is damaged: the checksum of row " + std::to_string(row_) + " is wrong");
     row_count_ = row_;
     return {};
   }
@@ -143,7 +143,7 @@ RowWriter::RowWriter(const std::filesystem::path& file, const RowReader& reader,
 
 void RowWriter::append(std::span<const double> row) {
   if (row.size() != row_size_)
-    throw RunError(path_.string() + ": a row of " + std::to_string(row.size()) + " numbers instead of " +
+    throw Error(path_.string() + ": a row of " + std::to_string(row.size()) + " numbers instead of " +
                    std::to_string(row_size_));
   const std::uint64_t checksum = row_checksum(row_count_, row);
   write(row.data(), row.size_bytes());

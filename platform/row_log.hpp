@@ -31,7 +31,7 @@ struct CloseFile {
 using File = std::unique_ptr<std::FILE, CloseFile>;
 }  // namespace row_log
 
-/// Reads rows from the first. Every defect is a RunError that names the file.
+/// Reads rows from the first. Every defect is a Error that names the file.
 class RowReader {
  public:
   explicit RowReader(const std::filesystem::path& file);
@@ -42,7 +42,7 @@ class RowReader {
   /// Bytes before the first row.
   size_t header_bytes() const { return header_bytes_; }
 
-  /// The next row, valid until the next call; empty after the last. Throws RunError when a safe row is damaged.
+  /// The next row, valid until the next call; empty after the last. Throws Error when a safe row is damaged.
   std::span<const double> next();
   void rewind();
 

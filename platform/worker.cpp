@@ -12,7 +12,7 @@
 #include <fstream>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -50,7 +50,7 @@ Worker::Worker(const fs::path& program, const std::vector<std::string>& argument
   if (child_ == 0) be_worker(parent, file, words);
   const int error = errno;
   close(file);
-  if (child_ < 0) throw RunError(std::string("cannot start a child process: ") + std::strerror(error));
+  if (child_ < 0) throw Error(std::string("cannot start a child process: ") + std::strerror(error));
 }
 
 Worker::~Worker() {

@@ -14,7 +14,7 @@ namespace ballast {
 class Worker {
  public:
   /// `program`: a path. What it writes is appended to `log`. Single-threaded linear algebra (OPENBLAS_NUM_THREADS=1 ...) unless the
-  /// environment says otherwise. Throws RunError when there can be no child. Not to be called with threads about.
+  /// environment says otherwise. Throws Error when there can be no child. Not to be called with threads about.
   Worker(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& log);
   /// Kills it if it still runs.
   ~Worker();

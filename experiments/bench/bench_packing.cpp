@@ -6,7 +6,7 @@
 
 #include "platform/interrupt.hpp"
 #include "experiments/box/packing_cache.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -52,13 +52,13 @@ DepositedBox deposited_box(const std::string& name, const std::vector<std::strin
                            const std::filesystem::path& cache) {
   DepositedBox box;
   box.scene = read_scene(find_scene(name), overrides);
-  if (!box.scene.grains) throw RunError(name + ": has no grains: a bench needs a deposited packing");
+  if (!box.scene.grains) throw Error(name + ": has no grains: a bench needs a deposited packing");
   box.rain = make_rain(box.scene);
   const InterruptGuard guard;
   double deposit_seconds = 0.0;
   const PackingOrder order{cache, false, [] { return !InterruptGuard::requested(); }};
   if (!take_packing(box.scene, box.rain, order, box.packing, deposit_seconds))
-    throw RunError("interrupted; the same command goes on depositing");
+    throw Error("interrupted; the same command goes on depositing");
   return box;
 }
 

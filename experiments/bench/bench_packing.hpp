@@ -16,7 +16,7 @@ struct DepositedBox {
   Packing packing;
 };
 
-/// From `cache`, or deposited now and kept there (resumable). Throws RunError: a scene without grains, interrupted;
+/// From `cache`, or deposited now and kept there (resumable). Throws Error: a scene without grains, interrupted;
 /// SceneFileError.
 DepositedBox deposited_box(const std::string& scene, const std::vector<std::string>& overrides,
                            const std::filesystem::path& cache);

@@ -10,7 +10,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "experiments/run/manifest.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -96,7 +96,7 @@ BenchResult read_bench_result(const std::filesystem::path& file) {
                                      number(m.at("mean")), number(m.at("low")), number(m.at("high")), m.at("samples")});
     return result;
   } catch (const Json::exception& error) {
-    throw RunError(file.string() + ": is no result of ballast bench: " + error.what());
+    throw Error(file.string() + ": is no result of ballast bench: " + error.what());
   }
 }
 

@@ -27,11 +27,11 @@ struct BenchResult {
   std::vector<Measurement> measurements;
 };
 
-/// Writes folder/<kind>.json and folder/<kind>.csv, each beside and renamed. Throws RunError.
+/// Writes folder/<kind>.json and folder/<kind>.csv, each beside and renamed. Throws Error.
 void write_bench_result(const std::filesystem::path& folder, const std::string& kind, const std::string& command,
                         const MachineFacts& facts, const std::vector<Measurement>& measurements);
 
-/// A file made by write_bench_result. Throws RunError naming the file and what is wrong in it.
+/// A file made by write_bench_result. Throws Error naming the file and what is wrong in it.
 BenchResult read_bench_result(const std::filesystem::path& file);
 
 /// What two files have in common as a Markdown table: medians, and b over a. Measurements of one file alone are named

@@ -12,6 +12,7 @@
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "platform/child_process.hpp"
 #include "solvers/solver_list.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -122,7 +123,7 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
         record = packed(measure_packing(box, options, point));
       });
       if (child.end != ChildEnd::complete)
-        throw RunError("bench scaling: " + std::to_string(static_cast<long>(point.grains)) + " grains: the child " +
+        throw Error("bench scaling: " + std::to_string(static_cast<long>(point.grains)) + " grains: the child " +
                        (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
       points.push_back(unpacked(child.record, point));
       said(points.back());

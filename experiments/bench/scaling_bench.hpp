@@ -37,7 +37,7 @@ struct ScalingPoint {
 /// Tiles nx * ny near grains / block, as square as can be.
 std::pair<int, int> tiles_for(long grains, int block);
 
-/// Each packing in a child process, so that its memory is its own. `said` hears of each. Throws RunError where a child
+/// Each packing in a child process, so that its memory is its own. `said` hears of each. Throws Error where a child
 /// fails: out of memory, out of time.
 std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said);

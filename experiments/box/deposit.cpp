@@ -4,8 +4,9 @@
 
 #include "experiments/record/checkpoint.hpp"
 #include "platform/content_key.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "experiments/box/vibrated_box.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -102,7 +103,7 @@ class Depositor {
     };
     if (!steps(at, scene_.deposit.max_time, stop)) return false;
     if (!rests)
-      throw RunError("deposit: after deposit.max_time = " + std::to_string(scene_.deposit.max_time) +
+      throw Error("deposit: after deposit.max_time = " + std::to_string(scene_.deposit.max_time) +
                      " s the grains still move at " + std::to_string(rms_velocity_) +
                      " m/s rms: raise deposit.max_time or deposit.rest_velocity");
     at.rain_time = at.motion.time;
@@ -176,7 +177,7 @@ bool read_packing(const std::filesystem::path& file, const std::string& key, Pac
   if (!std::filesystem::exists(file)) return false;
   Checkpoint found = read_checkpoint(file);
   if (found.key != key || found.phase != "packing" || found.numbers.size() != 4)
-    throw RunError(file.string() + ": a packing of other settings: delete it, or give --new-packing");
+    throw Error(file.string() + ": a packing of other settings: delete it, or give --new-packing");
   packing.state = std::move(found.state);
   packing.memory = {std::move(found.contacts), std::move(found.impulses)};
   packing.top = found.numbers[0];

@@ -41,7 +41,7 @@ struct Packing {
 using DepositProgress = std::function<bool(BoxStage, double time, double rms_velocity, const StepRecord&)>;
 
 /// Deposits. `part`: checkpoint file of an unfinished deposit, continued when it is there, written every
-/// record.checkpoint_seconds and on interrupt. Returns false when interrupted. Throws RunError when the packing doesn't come to rest.
+/// record.checkpoint_seconds and on interrupt. Returns false when interrupted. Throws Error when the packing doesn't come to rest.
 bool deposit(const Scene& scene, const Rain& rain, const std::filesystem::path& part, const DepositProgress& progress,
              Packing& packing);
 
@@ -53,7 +53,7 @@ Vec3 deposit_gravity(const Scene& scene);
 std::string packing_key(const Scene& scene);
 
 void write_packing(const std::filesystem::path& file, const std::string& key, const Packing& packing);
-/// False when the file is not there. Throws RunError when it is broken or has another key.
+/// False when the file is not there. Throws Error when it is broken or has another key.
 bool read_packing(const std::filesystem::path& file, const std::string& key, Packing& packing);
 
 /// The driven system and its initial state: time and step counted from the start of the drive.

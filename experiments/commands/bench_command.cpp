@@ -178,7 +178,7 @@ CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action, con
   return command;
 }
 
-constexpr const char* footer =
+constexpr const char* bench_footer =
     R"(Results are <kind>.json and <kind>.csv with machine and commit; medians, means and quartiles.
 
 Examples:
@@ -193,7 +193,7 @@ Examples:
 void add_bench_command(CLI::App& program, Action& action) {
   CLI::App* bench = program.add_subcommand("bench", "How fast: kernels, whole steps, scaling, cost against accuracy");
   bench->require_subcommand(1);
-  bench->footer(footer);
+  bench->footer(bench_footer);
   const auto positive = CLI::Range(1L, 1'000'000'000L);
   {
     const auto words = std::make_shared<BenchWords>();

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <stdexcept>
 
-#include "experiments/run/run.hpp"
+#include "platform/exit_code.hpp"
 
 namespace CLI {
 class App;

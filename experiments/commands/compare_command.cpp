@@ -20,6 +20,7 @@
 #include "experiments/run/manifest.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "solvers/solver_list.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -54,7 +55,7 @@ void become_single_threaded(std::vector<std::string> words) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   execv("/proc/self/exe", pointers.data());
-  throw RunError("cannot start anew with OPENBLAS_NUM_THREADS=1");
+  throw Error("cannot start anew with OPENBLAS_NUM_THREADS=1");
 }
 
 bool show(const BenchRow& row, bool was_there, size_t done, size_t count) {
@@ -141,7 +142,7 @@ ExitCode compare(CompareOptions options) {
   return ExitCode::ok;
 }
 
-constexpr const char* footer =
+constexpr const char* compare_footer =
     R"(Cases are files (.hdf5, .h5, .dat), folders, patterns, and problems made on the spot:
   known:bodies=20,contacts=40,copies=1,mass_ratio=1e3,friction_min=0,friction_max=1,open=.25,slip=.35,frictionless=.1,seed=1,count=3
   stress:all                       the small ones that break solvers
@@ -189,7 +190,7 @@ void add_compare_command(CLI::App& program, Action& action) {
   command->add_option("--duration", live.duration, "Simulated from there under each backend [s]")->capture_default_str();
   command->add_option("--trajectory-seconds", live.trajectory_seconds, "Wall clock of one trajectory")->capture_default_str();
   command->add_option("--packing-cache", live.packing_cache, "Where deposited packings are kept (<output>/packings)")->type_name("DIR");
-  command->footer(footer);
+  command->footer(compare_footer);
   command->callback([options, &action] { action = [options] { return compare(*options); }; });
 }
 

@@ -10,6 +10,8 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/export/state_export.hpp"
+#include "platform/error.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 namespace {
@@ -25,7 +27,7 @@ struct ExportOptions {
 /// The stored frame nearest in time.
 void state_at(const std::filesystem::path& folder, double time, MotionState& state) {
   const std::vector<PoseFrame> frames = read_poses(folder);
-  if (frames.empty()) throw RunError(folder.string() + ": no poses are stored there");
+  if (frames.empty()) throw Error(folder.string() + ": no poses are stored there");
   const PoseFrame* nearest = &frames.front();
   for (const PoseFrame& frame : frames)
     if (std::abs(frame.time - time) < std::abs(nearest->time - time)) nearest = &frame;
@@ -36,11 +38,11 @@ ExitCode export_run(const ExportOptions& options) {
   ExportFormat format;
   try {
     format = export_format(options.format);
-  } catch (const RunError& error) {
+  } catch (const Error& error) {
     throw UsageError("export: --format: " + std::string(error.what()));
   }
   if (!std::filesystem::exists(options.source))
-    throw RunError(options.source.string() + ": no such run folder or checkpoint");
+    throw Error(options.source.string() + ": no such run folder or checkpoint");
   const bool is_folder = std::filesystem::is_directory(options.source);
   const std::filesystem::path folder =
       is_folder ? options.source : std::filesystem::absolute(options.source).parent_path();
@@ -52,7 +54,7 @@ ExitCode export_run(const ExportOptions& options) {
     state_at(folder, options.time, state);
   }
   if (state.pose.size() != system.bodies.size())
-    throw RunError(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
+    throw Error(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
                    " bodies, the scene beside it " + std::to_string(system.bodies.size()));
   export_state(system, state, format, options.output);
   std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step << '\n';

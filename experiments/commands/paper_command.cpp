@@ -11,13 +11,14 @@
 #include "platform/interrupt.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "experiments/plans/sweep.hpp"
+#include "experiments/paper/make_campaign.hpp"
 
 namespace ballast {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PaperOptions {
   std::string target;
   CampaignSettings campaign;
   SweepOptions sweep;
@@ -51,7 +52,7 @@ void print_plan(const Campaign& campaign, const fs::path& results) {
 }
 
 /// Stage by stage, so that time running out leaves whole figures.
-ExitCode run_stages(const Campaign& campaign, const Options& options) {
+ExitCode run_stages(const Campaign& campaign, const PaperOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   ExitCode worst = ExitCode::ok;
   for (const Plan& stage : stages_of(campaign, options.target)) {
@@ -67,7 +68,7 @@ ExitCode run_stages(const Campaign& campaign, const Options& options) {
   return worst;
 }
 
-ExitCode reproduce(Options options) {
+ExitCode reproduce(PaperOptions options) {
   if (!(options.sweep.max_seconds > 0.0)) throw UsageError("paper: --max-seconds: expected a number > 0");
   const std::vector<std::string> targets = paper_targets();
   const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
@@ -95,7 +96,7 @@ ExitCode reproduce(Options options) {
 
 void add_paper_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("paper", "Reproduces the paper: runs, figures 3 to 13, one report");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PaperOptions>();
   options->sweep.results = "results/paper";
   options->sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   command

@@ -5,6 +5,9 @@
 
 #include "experiments/run/capture.hpp"
 #include "experiments/commands/command.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/run_page/report.hpp"
+#include "experiments/run_page/report_origin.hpp"
 
 namespace ballast {
 
@@ -18,11 +21,28 @@ void check_capture(const std::string& text) {
   }
 }
 
+/// Draws the run's page where it is asked for or missing, and says what is where and what can be done next.
+void show_results(const RunEnd& end, const RunOptions& options, bool with_page) {
+  const bool has_page = std::filesystem::exists(end.folder / "report.html");
+  if (with_page && (!end.was_finished || !has_page)) write_report(end.folder);
+  if (end.was_finished) return;
+  std::cout << "\nresults in " << end.folder.string() << "\n";
+  if (with_page)
+    std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
+  std::cout << "  steps.csv     every step's scalars\n"
+            << "  record.h5     the same and the poses (HDF5)\n";
+  if (!options.capture.empty())
+    std::cout << "  capture/      friction problems of steps, for ballast compare\n";
+  std::cout << "  manifest.json machine, commit, parameters, summary\n\nwhat next\n"
+            << next_commands(end.has_grains) << std::flush;
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("run", "Runs a scene into a folder of results");
   auto options = std::make_shared<RunOptions>();
+  auto with_page = std::make_shared<bool>(true);
   command->add_option("scene", options->scene, "A scene's name (ballast scenes) or a TOML file")->required();
   command->add_option("--set", options->overrides, "Overrides one value of the scene: dotted.key=value, body.0.mass=2")
       ->type_name("KEY=VALUE")
@@ -53,7 +73,7 @@ void add_run_command(CLI::App& program, Action& action) {
       ->type_name("N")
       ->check(CLI::Range(1, 256));
   command->add_flag_callback(
-      "--no-report", [options] { options->report = false; }, "No figures and no page at the end");
+      "--no-report", [with_page] { *with_page = false; }, "No figures and no page at the end");
   command
       ->add_option("--max-seconds", options->max_seconds,
                    "Wall clock after which to write a checkpoint and exit with 3")
@@ -64,14 +84,15 @@ void add_run_command(CLI::App& program, Action& action) {
       "  ballast run vibrated_box --threads 2\n"
       "  ballast run vibrated_box --capture every=500 --output results/captured\n"
       "  ballast run incline --set 'gravity.direction=[0.3, 0, -1]'");
-  command->callback([options, &action] {
-    action = [options] {
+  command->callback([options, with_page, &action] {
+    action = [options, with_page] {
       if (!(options->max_seconds > 0.0)) throw UsageError("run: --max-seconds: expected a number > 0");
       if (!options->capture.empty()) check_capture(options->capture);
-      const ExitCode code = run(*options);
-      if (code != ExitCode::ok)
+      const RunEnd end = run(*options);
+      if (end.has_record) show_results(end, *options, *with_page);
+      if (end.code != ExitCode::ok)
         std::cerr << "ballast: " << options->scene << ": stopped before its end; --resume continues it" << std::endl;
-      return code;
+      return end.code;
     };
   });
 }

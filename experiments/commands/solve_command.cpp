@@ -150,7 +150,7 @@ ExitCode solve(const SolveOptions& options) {
   return verdict(solved);
 }
 
-constexpr const char* footer =
+constexpr const char* solve_footer =
     R"(The tolerance is on the judge's scaled natural map, rms over contacts, relative to the problem's velocity scale, the rms of q
 over rows; with --absolute it is in m/s.
 
@@ -182,7 +182,7 @@ void add_solve_command(CLI::App& program, Action& action) {
   command->add_option("--max-iterations", options->max_iterations, "Sweeps, Newton steps, ...")->capture_default_str();
   command->add_option("--max-seconds", options->max_seconds, "Wall clock per problem");
   command->add_flag("--json", options->json, "Rows as JSON instead of a table");
-  command->footer(footer);
+  command->footer(solve_footer);
   command->callback([options, &action] { action = [options] { return solve(*options); }; });
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SweepRequest {
   fs::path plan;
   SweepOptions sweep;
   bool dry_run = false;
@@ -43,7 +43,7 @@ void list_runs(const Plan& plan, const SweepOptions& sweep) {
   }
 }
 
-ExitCode sweep(Options options) {
+ExitCode sweep(SweepRequest options) {
   if (!(options.sweep.max_seconds > 0.0)) throw UsageError("sweep: --max-seconds: expected a number > 0");
   const Plan plan = read_plan(options.plan);
   if (options.sweep.results.empty()) options.sweep.results = fs::path("results") / plan.name;
@@ -64,7 +64,7 @@ ExitCode sweep(Options options) {
 
 void add_sweep_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("sweep", "Runs a plan: many runs, several at a time, each only once");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepRequest>();
   options->sweep.results.clear();
   options->sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   command->add_option("plan", options->plan, "A plan's file (docs/sweeps.md)")->required();

@@ -9,7 +9,6 @@
 namespace ballast {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* seconds_axis = "time  (s)";
 
 /// "cold_1e-08": no two tolerances alike.

@@ -9,7 +9,6 @@
 #include "experiments/compare/bench_html.hpp"
 #include "experiments/compare/page_drawing.hpp"
 #include "experiments/run_page/report_origin.hpp"
-#include "experiments/run/run.hpp"
 
 namespace ballast {
 namespace {

@@ -10,7 +10,7 @@
 namespace ballast {
 
 /// Reads manifest.json of `folder`; writes figures/*.svg, *.pdf and compare.html there. Without gnuplot the page has the tables alone and says so.
-/// Throws RunError.
+/// Throws Error.
 void write_bench_report(const std::filesystem::path& folder, std::span<const BenchRow> rows,
                         std::span<const ReferenceTimes> reference);
 

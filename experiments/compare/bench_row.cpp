@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -190,7 +190,7 @@ BenchRow bench_row_of_json(const std::string& text, const std::string& file) {
     }
     return row;
   } catch (const std::exception& error) {  // of JSON, or of a name
-    throw RunError(file + ": is no row of a bench: " + error.what());
+    throw Error(file + ": is no row of a bench: " + error.what());
   }
 }
 

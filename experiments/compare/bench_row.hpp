@@ -85,7 +85,7 @@ const std::vector<BenchColumn>& bench_columns();
 /// All rows without their histories; fields with commas or quotes are quoted.
 std::string bench_csv(const std::vector<BenchRow>& rows);
 
-/// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null. Throws RunError naming `file`.
+/// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null. Throws Error naming `file`.
 std::string to_json(const BenchRow& row);
 BenchRow bench_row_of_json(const std::string& text, const std::string& file);
 

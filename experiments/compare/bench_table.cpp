@@ -8,7 +8,6 @@
 namespace ballast {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 size_t index_of(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);

@@ -3,12 +3,16 @@
 
 #include <optional>
 #include <span>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "experiments/compare/bench_row.hpp"
 
 namespace ballast {
+
+/// Time or error of what was not reached.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One case by one solver to one tolerance, over its repeats.
 struct BenchCell {

@@ -9,7 +9,6 @@
 namespace ballast {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<std::string> solvers_of(std::span<const BenchRow> rows) {
   std::vector<std::string> names;

@@ -18,6 +18,7 @@
 #include "experiments/box/vibrated_box.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "platform/child_process.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -69,8 +70,7 @@ void make_start(const LiveOptions& options, const Scene& scene) {
   run_options.output = options.folder / "start";
   run_options.packing_cache = options.packing_cache.empty() ? options.folder / "packings" : options.packing_cache;
   run_options.resume = RunFolder(run_options.output).has_run();
-  run_options.report = false;
-  if (run(run_options) != ExitCode::ok) throw RunError(run_options.output.string() + ": the start was not reached");
+  if (run(run_options).code != ExitCode::ok) throw Error(run_options.output.string() + ": the start was not reached");
 }
 
 Start read_start(const LiveOptions& options, const Scene& scene) {
@@ -138,7 +138,7 @@ std::vector<double> in_child(const LiveOptions& options, const Scene& scene, con
 }
 
 void unpack(const std::vector<double>& record, const fs::path& file, Trajectory& trajectory) {
-  const auto bad = [&] { throw RunError(file.string() + ": is no trajectory: remove it"); };
+  const auto bad = [&] { throw Error(file.string() + ": is no trajectory: remove it"); };
   constexpr size_t head = 5;
   if (record.size() < head) bad();
   const size_t steps = static_cast<size_t>(record[0]), frames = static_cast<size_t>(record[1]), grains = static_cast<size_t>(record[2]);

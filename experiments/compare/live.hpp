@@ -54,7 +54,7 @@ struct LiveComparison {
 std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference);
 
 /// Steps every backend to every tolerance in a child process of its own; trajectories that are there are not made again. `said` hears of
-/// each; returning false stops. Throws SceneFileError, RunError.
+/// each; returning false stops. Throws SceneFileError, Error.
 LiveComparison run_live(const LiveOptions& options, const std::function<bool(const Trajectory&)>& said);
 
 /// live.csv (one row per trajectory), trajectories as steps-<solver>-<tolerance>.csv, figures/*.svg, *.pdf and live.html.

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -18,7 +18,7 @@ Html PageDrawing::draw(const ReportFigure& figure) {
     const std::string svg = render_svg(figure.plot, folder_);
     render_pdf(figure.plot, folder_);
     return html_figure(figure.plot.name, inline_svg(svg, figure.plot.name, figure.plot.title), figure.caption);
-  } catch (const RunError& error) {
+  } catch (const Error& error) {
     notices.push_back(std::string(error.what()) + ". The figure is left out.");
     return {};
   }
@@ -46,7 +46,7 @@ RunData read_provenance(const std::filesystem::path& folder) {
   data.folder = folder;
   data.manifest_text = read_whole_file(folder / "manifest.json");
   data.manifest = nlohmann::ordered_json::parse(data.manifest_text, nullptr, false);
-  if (!data.manifest.is_object()) throw RunError((folder / "manifest.json").string() + ": is no JSON object");
+  if (!data.manifest.is_object()) throw Error((folder / "manifest.json").string() + ": is no JSON object");
   return data;
 }
 

@@ -30,7 +30,7 @@ class PageDrawing {
 /// A section, or nothing when it is empty.
 Html section(const char* id, const std::string& heading, const Html& body);
 
-/// manifest.json of a folder, as provenance_table() and made_by() take it. Throws RunError.
+/// manifest.json of a folder, as provenance_table() and made_by() take it. Throws Error.
 RunData read_provenance(const std::filesystem::path& folder);
 
 }  // namespace ballast

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -42,7 +42,7 @@ std::vector<ReferenceTimes> read_reference_times(const std::filesystem::path& fi
   std::getline(lines, line);
   const std::vector<std::string> head = cells_of(line);
   const auto fail = [&](int number, const std::string& what) {
-    throw RunError(file.string() + ": line " + std::to_string(number) + ": " + what);
+    throw Error(file.string() + ": line " + std::to_string(number) + ": " + what);
   };
   if (head.size() < 3 || head[0] != "problem" || head.size() % 2 == 0)
     fail(1, "expected the header problem,ms_<tolerance>,solver_<tolerance>,...");

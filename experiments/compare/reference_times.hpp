@@ -26,7 +26,7 @@ struct ReferenceTimes {
 /// A file's name without what formats and conversions append: "CubeH8-condensed.dat", "CubeH8.hdf5" -> "CubeH8".
 std::string problem_stem(std::string name);
 
-/// CSV with the header problem,ms_<tolerance>,solver_<tolerance>[,...]: milliseconds, empty where nobody got there. Throws RunError naming file and
+/// CSV with the header problem,ms_<tolerance>,solver_<tolerance>[,...]: milliseconds, empty where nobody got there. Throws Error naming file and
 /// line.
 std::vector<ReferenceTimes> read_reference_times(const std::filesystem::path& file);
 

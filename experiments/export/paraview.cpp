@@ -6,7 +6,7 @@
 #include <string>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "experiments/export/vtp_file.hpp"
 
 namespace ballast {
@@ -50,7 +50,7 @@ void ParaviewSeries::recover(Series& series, long last_step) {
   for (const fs::path& file : obsolete) {
     std::error_code error;
     fs::remove(file, error);
-    if (error) throw RunError(file.string() + ": cannot remove: " + error.message());
+    if (error) throw Error(file.string() + ": cannot remove: " + error.message());
   }
 }
 

@@ -16,7 +16,7 @@ namespace ballast {
 /// the rest.
 class ParaviewSeries {
  public:
-  /// Writes into `folder`/paraview. `system` must outlive the series. Throws RunError naming the file.
+  /// Writes into `folder`/paraview. `system` must outlive the series. Throws Error naming the file.
   ParaviewSeries(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step);
 
   void add(const MotionState& state);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "experiments/export/vtp_file.hpp"
 
 namespace ballast {
@@ -101,10 +101,10 @@ EngineBox engine_box(const MechanicalSystem& system, const MotionState& state, c
   }
   const double width_x = hi[0] - lo[0], width_y = hi[1] - lo[1];
   if (!(width_x > 0.0 && width_y > 0.0) || std::isnan(lo[2]))
-    throw RunError(path.string() + ": cannot write as 'engines': the system has no floor and four upright walls");
+    throw Error(path.string() + ": cannot write as 'engines': the system has no floor and four upright walls");
   const double side = std::max(width_x, width_y);
   if (std::abs(width_x - width_y) > 0.01 * side)
-    throw RunError(path.string() + ": cannot write as 'engines': the box is " + std::to_string(width_x) + " m by " +
+    throw Error(path.string() + ": cannot write as 'engines': the box is " + std::to_string(width_x) + " m by " +
                    std::to_string(width_y) + " m, that format has square ones only");
   return {side, Vec3(0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]), lo[2])};
 }
@@ -153,7 +153,7 @@ ExportFormat export_format(const std::string& name) {
     if (name == known) return format;
     names.append(names.empty() ? "" : ", ").append(known);
   }
-  throw RunError("no export format '" + name + "': there are " + names);
+  throw Error("no export format '" + name + "': there are " + names);
 }
 
 void export_state(const MechanicalSystem& system, const MotionState& state, ExportFormat format, const fs::path& file) {

@@ -14,10 +14,10 @@ namespace ballast {
 /// engines  two files that the benches of other physics engines read: see docs of export_state
 enum class ExportFormat { obj, text, vtp, engines };
 
-/// By its name ("obj", ...). Throws RunError with the list of names.
+/// By its name ("obj", ...). Throws Error with the list of names.
 ExportFormat export_format(const std::string& name);
 
-/// Writes `file` beside and renames. Throws RunError naming it.
+/// Writes `file` beside and renames. Throws Error naming it.
 ///
 /// `engines` writes a scene into `file` and the state beside it, with the suffix ".state"; numbers are separated by
 /// blanks:

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -139,7 +139,7 @@ void write_contacts_vtp(const std::filesystem::path& path, double time, std::spa
 double read_vtp_time(const std::filesystem::path& path) {
   const std::string text = read_whole_file(path);
   const size_t at = text.find(time_opening);
-  if (at == std::string::npos) throw RunError(path.string() + ": is no frame of a ballast run: it has no TimeValue");
+  if (at == std::string::npos) throw Error(path.string() + ": is no frame of a ballast run: it has no TimeValue");
   return std::strtod(text.c_str() + at + time_opening.size(), nullptr);
 }
 

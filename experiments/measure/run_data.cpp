@@ -6,7 +6,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "experiments/record/recorder.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -34,7 +34,7 @@ std::string_view take_line(std::string_view& text) {
 }
 
 [[noreturn]] void fail(const fs::path& file, long line, const std::string& what) {
-  throw RunError(file.string() + ':' + std::to_string(line) + ": " + what);
+  throw Error(file.string() + ':' + std::to_string(line) + ": " + what);
 }
 
 double number(const fs::path& file, long line, const char* column, std::string_view field) {
@@ -83,7 +83,7 @@ void note_non_finite(const std::vector<StepRecord>& steps, std::vector<std::stri
 void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
   for (size_t k = 0; k < steps.size(); ++k)
     if (!std::isfinite(steps[k].time) || (k > 0 && steps[k].time <= steps[k - 1].time))
-      throw RunError(folder.string() + ": the record's time is not finite and growing in row " + std::to_string(k + 1));
+      throw Error(folder.string() + ": the record's time is not finite and growing in row " + std::to_string(k + 1));
 }
 
 void read_manifest(RunData& data) {
@@ -96,7 +96,7 @@ void read_manifest(RunData& data) {
   try {
     data.manifest_text = read_whole_file(file);
     nlohmann::ordered_json parsed = nlohmann::ordered_json::parse(data.manifest_text);
-    if (!parsed.is_object()) throw RunError("it is not an object");
+    if (!parsed.is_object()) throw Error("it is not an object");
     data.manifest = std::move(parsed);
   } catch (const std::exception& error) {
     data.notices.push_back(std::string("manifest.json cannot be read: ") + error.what());
@@ -158,7 +158,7 @@ double RunData::summary_number(const std::string& name) const {
 std::vector<StepRecord> read_steps_csv(const fs::path& file, std::vector<std::string>& notices) {
   const std::string content = read_whole_file(file);
   std::string_view text = content;
-  if (text.empty()) throw RunError(file.string() + ": is empty: no record");
+  if (text.empty()) throw Error(file.string() + ": is empty: no record");
   const auto columns = match_header(file, take_line(text), notices);
   StepRecord unknown;
   for (const StepColumn& column : step_columns()) unknown.*column.value = not_known;
@@ -173,17 +173,17 @@ std::vector<StepRecord> read_steps_csv(const fs::path& file, std::vector<std::st
     for (size_t c = 0; c < columns.size(); ++c)
       if (columns[c]) steps.back().*columns[c]->value = number(file, line, columns[c]->name, fields[c]);
   }
-  if (steps.empty()) throw RunError(file.string() + ": holds no step");
+  if (steps.empty()) throw Error(file.string() + ": holds no step");
   return steps;
 }
 
 RunData read_run_data(const fs::path& folder) {
   RunData data;
   data.folder = folder;
-  if (!fs::is_directory(folder)) throw RunError(folder.string() + ": no such folder");
+  if (!fs::is_directory(folder)) throw Error(folder.string() + ": no such folder");
   const fs::path csv = folder / "steps.csv";
   data.steps = fs::exists(csv) ? read_steps_csv(csv, data.notices) : read_steps(folder);
-  if (data.steps.empty()) throw RunError(folder.string() + ": the record holds no step");
+  if (data.steps.empty()) throw Error(folder.string() + ": the record holds no step");
   check_times(folder, data.steps);
   note_non_finite(data.steps, data.notices);
   read_manifest(data);

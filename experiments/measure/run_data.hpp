@@ -27,7 +27,7 @@ struct RunData {
   double summary_number(const std::string& name) const;
 };
 
-/// steps.csv, else record.h5 or the logs of a run still going. Throws RunError naming the file when there is no record, no row, no time,
+/// steps.csv, else record.h5 or the logs of a run still going. Throws Error naming the file when there is no record, no row, no time,
 /// or a row that cannot be read.
 RunData read_run_data(const std::filesystem::path& folder);
 

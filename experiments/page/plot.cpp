@@ -6,7 +6,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -39,12 +39,12 @@ std::string run_gnuplot(const Figure& figure, PlotFormat format, const fs::path&
   try {
     script = gnuplot_script(figure, format);
   } catch (const std::invalid_argument& error) {
-    throw RunError("figure " + figure.name + ": " + error.what());
+    throw Error("figure " + figure.name + ": " + error.what());
   }
   create_folder(commands.parent_path());
   write_whole_file(commands, script);
   ProgramResult child = run_child("gnuplot", {"-d", commands.string()}, seconds);
-  if (!child.succeeded()) throw RunError("figure " + figure.name + ": " + why(child, seconds));
+  if (!child.succeeded()) throw Error("figure " + figure.name + ": " + why(child, seconds));
   return std::move(child.output);
 }
 
@@ -61,7 +61,7 @@ void render_pdf(const Figure& figure, const fs::path& folder, double seconds) {
   fs::remove(pdf, ignored);
   const std::string output = run_gnuplot(figure, PlotFormat::pdf, commands, seconds);
   fs::remove(commands, ignored);
-  if (output.find("%%EOF") == std::string::npos) throw RunError("figure " + figure.name + ": gnuplot's PDF is incomplete");
+  if (output.find("%%EOF") == std::string::npos) throw Error("figure " + figure.name + ": gnuplot's PDF is incomplete");
   write_whole_file(pdf, output);
 }
 
@@ -72,7 +72,7 @@ std::string render_svg(const Figure& figure, const fs::path& folder, double seco
   // absolute: a name beginning with "-" or "<" would mean something to gnuplot
   const fs::path commands = fs::absolute(folder / (figure.name + ".gnuplot"));
   std::string output = run_gnuplot(figure, PlotFormat::svg, commands, seconds);
-  if (output.find("</svg>") == std::string::npos) throw RunError("figure " + figure.name + ": gnuplot's SVG is incomplete");
+  if (output.find("</svg>") == std::string::npos) throw Error("figure " + figure.name + ": gnuplot's SVG is incomplete");
   write_whole_file(svg, output);
   return output;
 }

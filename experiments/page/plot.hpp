@@ -69,7 +69,7 @@ std::string gnuplot_script(const Figure& figure, PlotFormat format = PlotFormat:
 std::string gnuplot_version();
 
 /// Writes folder/<name>.gnuplot and folder/<name>.svg, each beside and renamed, and returns the SVG's text. The child gets no shell and
-/// reads no configuration; it is ended after `seconds`. Throws RunError naming the figure; an older SVG of that name is gone then.
+/// reads no configuration; it is ended after `seconds`. Throws Error naming the figure; an older SVG of that name is gone then.
 std::string render_svg(const Figure& figure, const std::filesystem::path& folder, double seconds = 60.0);
 
 /// Writes folder/<name>.pdf in the same way: for papers. Nothing else is left behind.

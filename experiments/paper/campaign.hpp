@@ -86,15 +86,4 @@ inline constexpr double half_scale_case = 1.0;  ///< of Sweep::size: everything 
 inline constexpr double similar_case = 2.0;     ///< of Sweep::size: the gap too
 inline constexpr double base_lid_raise = 0.01;  ///< the paper's gap under the lid [m]
 
-/// Throws SceneFileError when the scene is none, or no vibrated box.
-Campaign make_campaign(const CampaignSettings& settings);
-
-/// Names that `ballast paper` takes: fig3 ... fig13, packing, looseness, sensitivity, investigation, all.
-std::vector<std::string> paper_targets();
-/// Indices of the runs a target needs, in the campaign's order. Throws std::invalid_argument naming the target and what
-/// there is.
-std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target);
-/// What a target needs as plans, one for each stage: to be run in this order. Throws as runs_for.
-std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target);
-
 }  // namespace ballast

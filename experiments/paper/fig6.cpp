@@ -7,7 +7,7 @@
 namespace ballast {
 namespace {
 
-constexpr double half_section = 0.05;  // grains whose centres are this near the middle plane are drawn [m]: two layers
+constexpr double half_section_of_grains = 0.05;  // grains whose centres are this near the middle plane are drawn [m]: two layers
 
 /// Arrows as lines: shaft and two barbs, NaN between them. Lengths in the plot's units (axes of equal scale).
 void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
@@ -40,7 +40,7 @@ Field draw(const StoredState& state) {
   std::vector<size_t> section;
   double squares = 0.0;
   for (size_t k = 0; k < static_cast<size_t>(state.system.grain_count); ++k)
-    if (std::abs(motion.pose[k].position.y() - middle) < half_section) {
+    if (std::abs(motion.pose[k].position.y() - middle) < half_section_of_grains) {
       section.push_back(k);
       squares += motion.velocity[k].squaredNorm();
     }

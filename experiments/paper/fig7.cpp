@@ -8,7 +8,7 @@
 namespace ballast {
 namespace {
 
-constexpr double half_section = 0.08;  // contacts this near the middle plane are drawn [m]
+constexpr double half_section_of_contacts = 0.08;  // contacts this near the middle plane are drawn [m]
 constexpr int classes = 8;             // of thickness
 
 /// Segments between the centres of touching grains (to the contact at walls), thicker for larger normal forces.
@@ -24,7 +24,7 @@ Panel chains(const StoredState& state, const char* title) {
     return body < state.system.grain_count ? motion.pose[static_cast<size_t>(body)].position : pair.position;
   };
   for (const PairForce& pair : pairs) {
-    if (std::abs(pair.position.y() - middle) > half_section) continue;
+    if (std::abs(pair.position.y() - middle) > half_section_of_contacts) continue;
     const Vec3 a = centre(pair.body_a, pair), b = centre(pair.body_b, pair);
     const double relative = pair.normal_force() / mean;  // up to 4 means the thickness grows with the force
     const auto k = static_cast<size_t>(std::min(classes - 1.0, std::floor(2.0 * relative)));
@@ -70,7 +70,7 @@ struct PhaseStress {
   }
 };
 
-constexpr std::pair<WallPhase, const char*> phases[] = {
+constexpr std::pair<WallPhase, const char*> stress_phases[] = {
     {WallPhase::passive, "passive"}, {WallPhase::jammed, "jammed"}, {WallPhase::active, "active"}};
 
 }  // namespace
@@ -101,8 +101,8 @@ PaperSection fig7_section(PaperData& data) {
       aspect = (*panels[k].y_max - *panels[k].y_min) / (*panels[k].x_max - *panels[k].x_min);
     });
     for (size_t k = 0; k < 3; ++k) {
-      angles[k].push_back(stress.inclination(phases[k].first));
-      ratios[k].push_back(stress.ratio(phases[k].first));
+      angles[k].push_back(stress.inclination(stress_phases[k].first));
+      ratios[k].push_back(stress.ratio(stress_phases[k].first));
     }
   }
   TextTable table{"Principal direction by phase, means over samples ± standard error",
@@ -113,7 +113,7 @@ PaperSection fig7_section(PaperData& data) {
     mean[k] = sample_mean(angles[k]);
     const SampleMean ratio = sample_mean(ratios[k]);
     table.rows.push_back(
-        {phases[k].second, with_error(mean[k].mean, mean[k].error), with_error(ratio.mean, ratio.error)});
+        {stress_phases[k].second, with_error(mean[k].mean, mean[k].error), with_error(ratio.mean, ratio.error)});
   }
   if (states == 0) {
     section.notes.push_back("PARTIAL: no stored states.");

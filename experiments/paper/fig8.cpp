@@ -8,7 +8,7 @@
 namespace ballast {
 namespace {
 
-constexpr int phases = 200;  // of a period, at which orbits are compared
+constexpr int orbit_phases = 200;  // of a period, at which orbits are compared
 
 /// The mean orbit over the periods that count: displacement from the period's first jamming position [m], velocity
 /// [m/s].
@@ -23,12 +23,12 @@ Orbit mean_orbit(const RunData& data) {
   settings.first_transient = transient_of(facts.frequency);
   const WallCycles cycles = wall_cycles(data.steps, facts.frequency, facts.step, settings);
   Orbit orbit;
-  orbit.x.assign(phases, 0.0);
-  orbit.v.assign(phases, 0.0);
+  orbit.x.assign(orbit_phases, 0.0);
+  orbit.v.assign(orbit_phases, 0.0);
   orbit.periods = static_cast<int>(cycles.periods.size());
   for (const WallPeriod& period : cycles.periods)
-    for (int k = 0; k < phases; ++k) {
-      const size_t sample = period.first + static_cast<size_t>(k) * (period.last - period.first) / phases;
+    for (int k = 0; k < orbit_phases; ++k) {
+      const size_t sample = period.first + static_cast<size_t>(k) * (period.last - period.first) / orbit_phases;
       orbit.x[static_cast<size_t>(k)] += (data.steps[sample].wall_x - period.x_before) / orbit.periods;
       orbit.v[static_cast<size_t>(k)] += cycles.velocity[sample] / orbit.periods;
     }
@@ -47,12 +47,12 @@ Orbit scaled(const Orbit& orbit, double x_factor, double v_factor) {
   return result;
 }
 
-/// rms over phases of the distance, each axis in units of the mean range of the two.
+/// rms over orbit_phases of the distance, each axis in units of the mean range of the two.
 double distance(const Orbit& a, const Orbit& b) {
   const double x_range = 0.5 * (range_of(a.x) + range_of(b.x)), v_range = 0.5 * (range_of(a.v) + range_of(b.v));
   double sum = 0.0;
-  for (size_t k = 0; k < phases; ++k)
-    sum += (std::pow((a.x[k] - b.x[k]) / x_range, 2) + std::pow((a.v[k] - b.v[k]) / v_range, 2)) / phases;
+  for (size_t k = 0; k < orbit_phases; ++k)
+    sum += (std::pow((a.x[k] - b.x[k]) / x_range, 2) + std::pow((a.v[k] - b.v[k]) / v_range, 2)) / orbit_phases;
   return std::sqrt(sum);
 }
 

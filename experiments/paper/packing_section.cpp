@@ -9,7 +9,7 @@
 namespace ballast {
 namespace {
 
-constexpr std::array phases{std::pair{WallPhase::jammed, "jammed"}, std::pair{WallPhase::active, "active"},
+constexpr std::array force_phases{std::pair{WallPhase::jammed, "jammed"}, std::pair{WallPhase::active, "active"},
                             std::pair{WallPhase::passive, "passive"}};
 
 struct Column {
@@ -75,14 +75,14 @@ PaperSection packing_section(PaperData& data) {
       "from Σ f ⊗ n/Σ f_n in the same way, each less what is before it; q/p = (σ₁ − σ₃)/(σ₁ + σ₂ + σ₃), which the "
       "field expects near 2/5 (a_c + a_n + a_t)."};
   const std::vector<MotionRun> runs = read_motion(data, section);
-  std::array<std::array<std::vector<double>, columns.size()>, phases.size()> values;
-  std::array<Histogram, phases.size()> histograms;
+  std::array<std::array<std::vector<double>, columns.size()>, force_phases.size()> values;
+  std::array<Histogram, force_phases.size()> histograms;
   int states = 0;
   for (const MotionRun& run : runs) {
-    std::array<std::array<std::vector<double>, columns.size()>, phases.size()> of_run;
+    std::array<std::array<std::vector<double>, columns.size()>, force_phases.size()> of_run;
     states += for_each_state(run, [&](const StoredState& state) {
-      for (size_t p = 0; p < phases.size(); ++p) {
-        if (state.phase != phases[p].first) continue;
+      for (size_t p = 0; p < force_phases.size(); ++p) {
+        if (state.phase != force_phases[p].first) continue;
         const PackingStatistics found =
             packing_statistics(state.system, state.at.state, state.at.contacts, state.at.impulses, state.step);
         for (size_t c = 0; c < columns.size(); ++c) of_run[p][c].push_back(found.*columns[c].value);
@@ -90,7 +90,7 @@ PaperSection packing_section(PaperData& data) {
             relative_normal_forces(state.system, pair_forces(state.at.contacts, state.at.impulses, state.step)));
       }
     });
-    for (size_t p = 0; p < phases.size(); ++p)
+    for (size_t p = 0; p < force_phases.size(); ++p)
       for (size_t c = 0; c < columns.size(); ++c) values[p][c].push_back(statistics(of_run[p][c]).mean);
   }
   if (states == 0) {
@@ -100,7 +100,7 @@ PaperSection packing_section(PaperData& data) {
   TextTable table{"By phase at 5 Hz, means over samples ± standard error", {"", "jammed", "active", "passive"}, {}};
   for (size_t c = 0; c < columns.size(); ++c) {
     table.rows.push_back({columns[c].name});
-    for (size_t p = 0; p < phases.size(); ++p) {
+    for (size_t p = 0; p < force_phases.size(); ++p) {
       const SampleMean mean = sample_mean(values[p][c]);
       table.rows.back().push_back(with_error(mean.mean, mean.error));
     }
@@ -112,11 +112,11 @@ PaperSection packing_section(PaperData& data) {
   panel.log_y = true;
   const Ink inks[] = {Ink::green, Ink::blue, Ink::vermilion};
   std::string tails;
-  for (size_t p = 0; p < phases.size(); ++p) {
+  for (size_t p = 0; p < force_phases.size(); ++p) {
     if (histograms[p].total == 0.0) continue;
-    panel.curves.push_back(histograms[p].curve(phases[p].second, inks[p]));
+    panel.curves.push_back(histograms[p].curve(force_phases[p].second, inks[p]));
     tails +=
-        (tails.empty() ? "" : ", ") + std::string(phases[p].second) + " β = " + digits(-histograms[p].tail().slope);
+        (tails.empty() ? "" : ", ") + std::string(force_phases[p].second) + " β = " + digits(-histograms[p].tail().slope);
   }
   if (panel.curves.empty()) return section;
   PaperFigure figure;

@@ -37,7 +37,7 @@ class PaperData {
 
   bool has(size_t run) const;
   std::filesystem::path folder(size_t run) const;
-  /// A finished run's record. Throws RunError.
+  /// A finished run's record. Throws Error.
   RunData read(size_t run) const;
   /// Finished ones of Campaign::motion.
   std::vector<size_t> motion() const;

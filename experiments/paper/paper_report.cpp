@@ -5,7 +5,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "experiments/page/html_page.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -82,7 +82,7 @@ void write_paper_report(PaperData& data, std::vector<PaperSection> sections, con
       pictures.emplace_back();
       try {
         pictures.back() = draw(figure.plot, folder);
-      } catch (const RunError& error) {
+      } catch (const Error& error) {
         section.notes.push_back(std::string(error.what()) + ". The figure is left out.");
       }
     }

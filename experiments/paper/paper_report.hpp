@@ -8,7 +8,7 @@
 namespace ballast {
 
 /// Writes the report of these sections into `folder`, each file beside and renamed. What gnuplot cannot draw becomes a
-/// note. Throws RunError.
+/// note. Throws Error.
 void write_paper_report(PaperData& data, std::vector<PaperSection> sections, const std::filesystem::path& folder);
 
 /// What the finished runs were made by: programs, machines, steps, wall clock; one sentence each.

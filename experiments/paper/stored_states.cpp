@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/run/run_folder.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 

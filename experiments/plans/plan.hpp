@@ -22,7 +22,7 @@ struct Plan {
 /// Reads a plan file (docs/sweeps.md). Throws SceneFileError naming file, key and value: also for a run that is not a valid scene.
 Plan read_plan(const std::filesystem::path& file);
 
-/// The plan as a file that read_plan reads to the same plan: every run written out. Throws RunError when it cannot be written.
+/// The plan as a file that read_plan reads to the same plan: every run written out. Throws Error when it cannot be written.
 void write_plan(const Plan& plan, const std::filesystem::path& file);
 
 /// Throws SceneFileError "<origin>: ..." when a name cannot be one or stands twice, or a run is no valid scene.

@@ -4,6 +4,7 @@
 #include "experiments/run/run_folder.hpp"
 #include "experiments/box/vibrated_box.hpp"
 #include "problems/scene/scene_file.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -65,7 +66,7 @@ long steps_in_log(const fs::path& run_folder) {
     const RowReader reader(log);
     const std::uintmax_t bytes = fs::file_size(log) - reader.header_bytes();
     return static_cast<long>(bytes / (sizeof(double) * reader.header().row_size + sizeof(std::uint64_t)));
-  } catch (const RunError&) {  // just being made
+  } catch (const Error&) {  // just being made
     return 0;
   }
 }

@@ -7,7 +7,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "experiments/run/manifest.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "experiments/run/run_folder.hpp"
 
 namespace ballast {
@@ -46,7 +46,7 @@ Facts facts_of(const fs::path& path, const std::string& key, long steps, bool fa
     facts.seconds = number_text(manifest.summary_number("drive_seconds"));
     facts.error = number_text(manifest.summary_number("error_mean_relative"));
     facts.commit = manifest.commit();
-  } catch (const RunError&) {  // not written yet, or damaged: the run itself will say so
+  } catch (const Error&) {  // not written yet, or damaged: the run itself will say so
   }
   return facts;
 }
@@ -65,7 +65,7 @@ std::string rows_of(const fs::path& results, const fs::path& file, const std::ma
               facts.commit + '\n';
     }
   } catch (const Json::exception& error) {
-    throw RunError(file.string() + ": is no plan that ballast noted: " + error.what());
+    throw Error(file.string() + ": is no plan that ballast noted: " + error.what());
   }
   return rows;
 }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "experiments/plans/resolved_run.hpp"
 #include "experiments/plans/results_index.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -115,7 +115,7 @@ void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::
   const std::vector<ResolvedRun> runs = resolve(absolute);
   const bool is_plain = folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") == std::string::npos;
   if (!is_plain)
-    throw RunError(folder.string() + ": stands in commands for a shell and Snakemake: expected a path without blanks, quotes and brackets");
+    throw Error(folder.string() + ": stands in commands for a shell and Snakemake: expected a path without blanks, quotes and brackets");
   for (const char* name : {"runs", "packings", "logs", "snakemake"}) create_folder(results / name);
   create_folder(folder / "slurm" / "jobs");
   note_plan(results, plan.name, runs);

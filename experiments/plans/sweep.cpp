@@ -17,6 +17,7 @@
 #include "experiments/plans/tasks.hpp"
 #include "platform/worker.hpp"
 #include "problems/scene/scene_file.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -163,7 +164,7 @@ ExitCode run_sweep(const Plan& plan, const SweepOptions& options) {
   const InterruptGuard guard;
   for (const char* name : {"runs", "packings", "logs"}) create_folder(options.results / name);
   const FileLock lock(options.results / "sweep.lock", briefly);
-  if (!lock.is_held()) throw RunError(options.results.string() + ": " + lock.holder() + " is sweeping there");
+  if (!lock.is_held()) throw Error(options.results.string() + ": " + lock.holder() + " is sweeping there");
   note_plan(options.results, plan.name, all);
   Engine engine(options, make_tasks(options.results, chosen));
   const auto finished = [](const Task& task) { return task.is_run() && task.state == TaskState::finished; };

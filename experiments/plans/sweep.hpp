@@ -29,7 +29,7 @@ struct SweepOptions {
 ///
 /// ok: all are finished. failure: some failed, or SIGINT or SIGTERM: all are stopped with checkpoints. time_limit: as that, after
 /// max_seconds. The same call goes on. Killed (-9), its children die with it, and the same call goes on at the last checkpoints.
-/// Throws SceneFileError, and RunError when another sweep works in the folder or it cannot be written.
+/// Throws SceneFileError, and Error when another sweep works in the folder or it cannot be written.
 ExitCode run_sweep(const Plan& plan, const SweepOptions& options);
 
 /// The runs of the plan that a shell's pattern names. Throws SceneFileError when there are none.

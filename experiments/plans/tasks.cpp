@@ -5,7 +5,7 @@
 #include <set>
 
 #include "experiments/box/packing_cache.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "experiments/run/run_folder.hpp"
 
 namespace ballast {
@@ -16,7 +16,7 @@ namespace {
 bool is_finished(const fs::path& folder, const std::string& key) {
   try {
     return RunFolder(folder).is_finished(key);
-  } catch (const RunError&) {
+  } catch (const Error&) {
     return false;
   }
 }

@@ -6,7 +6,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 // magic "BALLCKPT", u32 version, u32 byte order, u64 bytes of the body, body, u64 checksum of all before it.
 // Body: key, phase; time, step, body count, poses (position, w x y z), velocities, spins; contacts; impulses; numbers;
@@ -78,7 +78,7 @@ class Unpacker {
 
  private:
   [[noreturn]] void refuse() const {
-    throw RunError(file_.string() + ": checkpoint is inconsistent: a list has a wrong length");
+    throw Error(file_.string() + ": checkpoint is inconsistent: a list has a wrong length");
   }
   size_t count(size_t bytes_each) {
     const auto length = number<std::uint64_t>();
@@ -177,7 +177,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const std::string bytes = read_whole_file(file);
-  const auto refuse = [&](const std::string& why) { throw RunError(file.string() + ": " + why); };
+  const auto refuse = [&](const std::string& why) { throw Error(file.string() + ": " + why); };
   const auto head = [&]<class Number>(size_t at, Number) {
     Number value;
     std::memcpy(&value, bytes.data() + at, sizeof value);

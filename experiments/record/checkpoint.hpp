@@ -18,10 +18,10 @@ struct Checkpoint {
   std::vector<double> numbers;         ///< whatever else the phase keeps, in its own order
 };
 
-/// Binary, little-endian, with magic, version and a checksum; written to a neighbour, fsynced, renamed. Throws RunError.
+/// Binary, little-endian, with magic, version and a checksum; written to a neighbour, fsynced, renamed. Throws Error.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// Throws RunError naming the file: missing, truncated, checksum wrong, other version.
+/// Throws Error naming the file: missing, truncated, checksum wrong, other version.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 }  // namespace ballast

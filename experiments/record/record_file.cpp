@@ -4,7 +4,7 @@
 #include <map>
 
 #include "platform/hdf5_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -181,7 +181,7 @@ std::vector<StepRecord> read_record_steps(const std::filesystem::path& path) {
     const std::vector<double> values = file.read(std::string("steps/") + column.name);
     if (&column == &step_columns().front()) steps.resize(values.size());
     if (values.size() != steps.size())
-      throw RunError(path.string() + ": steps/" + column.name + " has another length than the rest");
+      throw Error(path.string() + ": steps/" + column.name + " has another length than the rest");
     for (size_t k = 0; k < steps.size(); ++k) steps[k].*column.value = values[k];
   }
   return steps;
@@ -192,7 +192,7 @@ std::vector<PoseFrame> read_record_poses(const std::filesystem::path& path) {
   const std::vector<double> time = file.read("poses/time"), step = file.read("poses/step");
   const Hdf5Shape shape = file.shape("poses/position");
   if (shape.size() != 3 || shape[0] != time.size() || step.size() != time.size())
-    throw RunError(path.string() + ": the datasets of /poses do not fit together");
+    throw Error(path.string() + ": the datasets of /poses do not fit together");
   std::vector<PoseFrame> frames;
   for (size_t k = 0; k < time.size(); ++k) {
     std::vector<double> row{step[k], time[k]};
@@ -201,7 +201,7 @@ std::vector<PoseFrame> read_record_poses(const std::filesystem::path& path) {
       row.insert(row.end(), slice.begin(), slice.end());
     }
     if (row.size() != pose_row_size(shape[1]))
-      throw RunError(path.string() + ": the datasets of /poses do not fit together");
+      throw Error(path.string() + ": the datasets of /poses do not fit together");
     frames.push_back(unpack_pose_row(row));
   }
   return frames;

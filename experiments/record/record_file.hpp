@@ -12,9 +12,14 @@
 //
 // Every dataset of numbers has the attributes unit and description.
 
+#include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
-#include "experiments/record/recorder.hpp"
+#include "experiments/record/pose_frame.hpp"
+#include "experiments/step/step_record.hpp"
+#include "problems/mechanics/mechanical_system.hpp"
 #include "platform/row_log.hpp"
 
 namespace ballast {
@@ -24,7 +29,7 @@ size_t pose_row_size(size_t bodies);
 void pack_pose_row(const MotionState& state, std::vector<double>& row);
 PoseFrame unpack_pose_row(std::span<const double> row);
 
-/// Both logs are read from their first row; all their rows must be safe. Throws RunError.
+/// Both logs are read from their first row; all their rows must be safe. Throws Error.
 void write_record_file(const std::filesystem::path& file, const MechanicalSystem& system, RowReader& steps,
                        RowReader& poses, const std::string& scene_text, const std::string& manifest_text);
 

@@ -6,7 +6,7 @@
 #include "platform/content_key.hpp"
 #include "experiments/record/record_file.hpp"
 #include "platform/row_log.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -54,8 +54,8 @@ RowLogHeader poses_header(const MechanicalSystem& system) {
 RowReader open_log(const fs::path& file, const RowLogHeader& expected) {
   RowReader reader(file);
   if (reader.header().text != expected.text || reader.header().row_size != expected.row_size)
-    throw RunError(file.string() + ": has other columns than this program writes");
-  if (reader.header().owner != expected.owner) throw RunError(file.string() + ": belongs to another system of bodies");
+    throw Error(file.string() + ": has other columns than this program writes");
+  if (reader.header().owner != expected.owner) throw Error(file.string() + ": belongs to another system of bodies");
   return reader;
 }
 
@@ -64,7 +64,7 @@ RowWriter continue_steps(const fs::path& file, const RowLogHeader& header, long 
   RowReader reader = open_log(file, header);
   for (long k = 0; k < last_step; ++k)
     if (reader.next().empty())
-      throw RunError(file.string() + ": has " + std::to_string(k) + " steps, the checkpoint is at step " +
+      throw Error(file.string() + ": has " + std::to_string(k) + " steps, the checkpoint is at step " +
                      std::to_string(last_step));
   return RowWriter(file, reader, last_step);
 }
@@ -96,7 +96,7 @@ void write_table(const fs::path& target, RowReader& rows) {
 void remove_stale(const fs::path& file) {
   std::error_code error;
   fs::remove(file, error);
-  if (error) throw RunError(file.string() + ": cannot remove: " + error.message());
+  if (error) throw Error(file.string() + ": cannot remove: " + error.message());
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ std::vector<StepRecord> read_steps(const fs::path& folder) {
   if (fs::exists(record_file(folder))) return read_record_steps(record_file(folder));
   RowReader rows(steps_log(folder));
   if (rows.header().row_size != step_columns().size())
-    throw RunError(steps_log(folder).string() + ": has other columns than this program reads");
+    throw Error(steps_log(folder).string() + ": has other columns than this program reads");
   std::vector<StepRecord> steps;
   for (auto row = rows.next(); !row.empty(); row = rows.next()) {
     steps.emplace_back();

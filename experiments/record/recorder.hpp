@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/record/pose_frame.hpp"
 #include "experiments/step/step_record.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
@@ -17,7 +18,7 @@ class Recorder {
  public:
   /// Opens or creates the logs in `folder`. Rows with step > `last_step` are cut off (0: start afresh, without any row,
   /// so that the frame of step 0 is added again). A steps.csv and record.h5 of before are removed: they would not be
-  /// this run's. `system` must outlive the recorder. Throws RunError (experiments/run.hpp) naming the file: unwritable,
+  /// this run's. `system` must outlive the recorder. Throws Error (experiments/run.hpp) naming the file: unwritable,
   /// shorter than last_step says, damaged, of another system or other columns.
   Recorder(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step);
   ~Recorder();
@@ -25,7 +26,7 @@ class Recorder {
   /// One call per step: row k is step k + 1.
   void add_step(const StepRecord& row);
   void add_poses(const MotionState& state);
-  /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws RunError (disk full
+  /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws Error (disk full
   /// ...).
   void flush();
   /// steps.csv and record.h5 from the logs, each written beside and renamed. `attributes`: manifest text stored in the
@@ -37,16 +38,8 @@ class Recorder {
   std::unique_ptr<Impl> impl_;
 };
 
-/// One stored frame.
-struct PoseFrame {
-  double time = 0.0;
-  long step = 0;
-  std::vector<Pose> pose;
-  std::vector<Vec3> velocity, spin;  ///< world frame, body frame
-};
-
 /// Reads back what a recorder wrote: record.h5, or where there is none the raw logs of a run still going. Throws
-/// RunError.
+/// Error.
 std::vector<StepRecord> read_steps(const std::filesystem::path& folder);
 std::vector<PoseFrame> read_poses(const std::filesystem::path& folder);
 

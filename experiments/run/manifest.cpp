@@ -13,7 +13,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "experiments/run/build_info.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -85,11 +85,11 @@ Manifest Manifest::read(const std::filesystem::path& file) {
   try {
     json = Json::parse(read_whole_file(file));
   } catch (const Json::exception& error) {
-    throw RunError(file.string() + ": is no JSON: " + error.what());
+    throw Error(file.string() + ": is no JSON: " + error.what());
   }
   const auto has = [&](const char* name, Json::value_t type) {
     if (!json.is_object() || !json.contains(name) || json[name].type() != type)
-      throw RunError(file.string() + ": is no manifest of a run: '" + name + "' is missing or of the wrong type");
+      throw Error(file.string() + ": is no manifest of a run: '" + name + "' is missing or of the wrong type");
   };
   for (const char* name : {"ballast", "machine", "summary"}) has(name, Json::value_t::object);
   for (const char* name : {"scene", "key", "started"}) has(name, Json::value_t::string);

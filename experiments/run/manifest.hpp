@@ -22,7 +22,7 @@ class Manifest {
  public:
   /// Of a run that starts now, on this machine, with this program.
   Manifest(const std::string& scene, const std::vector<std::string>& overrides, const std::string& key);
-  /// Of a run's folder. Throws RunError naming the file: missing, no JSON, no manifest.
+  /// Of a run's folder. Throws Error naming the file: missing, no JSON, no manifest.
   static Manifest read(const std::filesystem::path& file);
 
   ~Manifest();
@@ -44,7 +44,7 @@ class Manifest {
   double summary_number(const std::string& name) const;
 
   std::string text() const;
-  /// Writes beside and renames. Throws RunError.
+  /// Writes beside and renames. Throws Error.
   void write(const std::filesystem::path& file) const;
 
  private:

@@ -11,6 +11,7 @@
 #include "experiments/run/capture.hpp"
 #include "experiments/record/checkpoint.hpp"
 #include "platform/content_key.hpp"
+#include "platform/error.hpp"
 #include "platform/file_lock.hpp"
 #include "platform/interrupt.hpp"
 #include "experiments/run/manifest.hpp"
@@ -18,8 +19,6 @@
 #include "experiments/export/paraview.hpp"
 #include "experiments/record/progress.hpp"
 #include "experiments/record/recorder.hpp"
-#include "experiments/run_page/report.hpp"
-#include "experiments/run_page/report_origin.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/run/simulation.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -49,23 +48,30 @@ class Run {
         scene_(read_scene(find_scene(options.scene), options.overrides)),
         text_(resolved_scene_text(find_scene(options.scene), options.overrides)),
         key_(content_key(text_)),
-        folder_(RunFolder::of(options, scene_.name)),
+        folder_(RunFolder::of(options.output, scene_.name)),
         manifest_(scene_.name, options.overrides, key_) {
     scene_.solver.threads = options.threads;
     make_solver(scene_.solver.name);
     if (scene_.grains) make_solver(scene_.deposit.solver);  // a backend that is missing is said before anything is written
   }
 
-  ExitCode execute() {
-    if (options_.deposit_only) return deposit_only();
-    if (!open_folder()) return ExitCode::ok;
-    if (!prepare()) return stopped(why_stopped());
-    const LoopEnd end = loop();
-    manifest_.write(folder_.manifest());
-    if (end != LoopEnd::finished) return stopped(end);
-    if (options_.report) write_report(folder_.path());
-    say_where();
-    return ExitCode::ok;
+  RunEnd execute() {
+    RunEnd end;
+    end.folder = folder_.path();
+    end.has_grains = scene_.grains.has_value();
+    if (options_.deposit_only) {
+      end.code = deposit_only();
+    } else if (!open_folder()) {
+      end.has_record = end.was_finished = true;
+    } else if (!prepare()) {
+      end.code = stopped(why_stopped());
+    } else {
+      const LoopEnd why = loop();
+      manifest_.write(folder_.manifest());
+      end.has_record = why == LoopEnd::finished;
+      if (!end.has_record) end.code = stopped(why);
+    }
+    return end;
   }
 
  private:
@@ -78,7 +84,7 @@ class Run {
     if (options_.resume) folder_.reopen(text_);
     create_folder(folder_.path());
     lock_.emplace(folder_.path() / "run.lock", briefly);
-    if (!lock_->is_held()) throw RunError(folder_.path().string() + ": " + lock_->holder() + " is working there");
+    if (!lock_->is_held()) throw Error(folder_.path().string() + ": " + lock_->holder() + " is working there");
     if (options_.begin_or_resume && folder_.is_finished(key_)) {
       std::cout << folder_.path().string() << ": finished already" << std::endl;
       return false;
@@ -94,7 +100,7 @@ class Run {
   }
 
   ExitCode deposit_only() {
-    if (!scene_.grains) throw RunError(options_.scene + ": --deposit-only: has no [grains] to deposit");
+    if (!scene_.grains) throw Error(options_.scene + ": --deposit-only: has no [grains] to deposit");
     Packing packing;
     return take_packing(make_rain(scene_), packing) ? ExitCode::ok : stopped(why_stopped());
   }
@@ -115,7 +121,7 @@ class Run {
     run_.driven_wall = run_.system.first_driven_wall();
     if (options_.resume && std::filesystem::exists(folder_.checkpoint())) {
       Checkpoint found = read_checkpoint(folder_.checkpoint());
-      if (found.key != key_) throw RunError(folder_.checkpoint().string() + ": belongs to another scene");
+      if (found.key != key_) throw Error(folder_.checkpoint().string() + ": belongs to another scene");
       run_.memory = memory_of(found, folder_.checkpoint());
       run_.state = std::move(found.state);
       manifest_.resumed(run_.state.step);
@@ -241,17 +247,6 @@ class Run {
     return end == LoopEnd::time_limit ? ExitCode::time_limit : ExitCode::failure;
   }
 
-  void say_where() const {
-    const std::string folder = folder_.path().string();
-    std::cout << "\nresults in " << folder << "\n";
-    if (options_.report) std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
-    std::cout << "  steps.csv     every step's scalars\n"
-              << "  record.h5     the same and the poses (HDF5)\n"
-              << (options_.capture.empty() ? "" : "  capture/      friction problems of steps, for ballast compare\n")
-              << "  manifest.json machine, commit, parameters, summary\n\nwhat next\n"
-              << next_commands(scene_.grains.has_value()) << std::flush;
-  }
-
   RunOptions options_;
   Clock::time_point begin_ = Clock::now();
   Scene scene_;
@@ -264,14 +259,14 @@ class Run {
 
 }  // namespace
 
-ExitCode run(const RunOptions& options) {
+RunEnd run(const RunOptions& options) {
   InterruptGuard guard;
   return Run(options).execute();
 }
 
 MechanicalSystem system_of_run(const std::filesystem::path& path, MotionState& state) {
   const RunFolder folder(path);
-  if (!folder.has_run()) throw RunError(path.string() + ": no run here: scene.toml is missing");
+  if (!folder.has_run()) throw Error(path.string() + ": no run here: scene.toml is missing");
   const Scene scene = read_scene(folder.scene());
   const bool started = std::filesystem::exists(folder.checkpoint());
   if (!scene.grains) {
@@ -279,7 +274,7 @@ MechanicalSystem system_of_run(const std::filesystem::path& path, MotionState& s
     if (started) state = read_checkpoint(folder.checkpoint()).state;
     return system;
   }
-  if (!started) throw RunError(folder.checkpoint().string() + ": missing: the run has no state yet");
+  if (!started) throw Error(folder.checkpoint().string() + ": missing: the run has no state yet");
   state = read_checkpoint(folder.checkpoint()).state;
   const Rain rain = make_rain(scene);
   return box_system(scene, rain, BoxStage::drive, state.pose[rain.grains.size() + wall_lid].position.z());

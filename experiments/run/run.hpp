@@ -2,16 +2,13 @@
 // One run: a scene to a folder of results, resumable after any kind of death.
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "platform/exit_code.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
-
-/// Exit codes of the ballast program.
-enum class ExitCode { ok = 0, failure = 1, usage = 2, time_limit = 3, backend_missing = 4 };
 
 struct RunOptions {
   std::string scene;                   ///< name or path
@@ -25,24 +22,27 @@ struct RunOptions {
   bool new_packing = false;            ///< deposit again even if the cache has the packing
   std::string capture;                 ///< which steps to keep as problem files (CaptureSettings::parse); empty: none
   int threads = 1;                     ///< of the solver; the results are the same whatever their number
-  bool report = true;                  ///< figures and page at the end
   double max_seconds = 1e30;           ///< wall clock: checkpoint and exit code 3 after this
+};
+
+/// How a run ended.
+struct RunEnd {
+  ExitCode code = ExitCode::ok;
+  std::filesystem::path folder;  ///< of the run
+  bool has_record = false;       ///< the folder holds all of the run's steps
+  bool was_finished = false;     ///< it did so before: nothing was done
+  bool has_grains = false;       ///< a vibrated box, not only single bodies
 };
 
 /// Runs to the end, to the time limit, or to SIGINT/SIGTERM (checkpoint, then ExitCode::failure with the line that resumes).
 /// A folder is one process's at a time: another one that runs there throws, and a packing that another run deposits is waited for.
-/// Throws SceneFileError, InvalidProblem, MissingSolver, UnknownSolver, RunError: each with a one-line what().
+/// Throws SceneFileError, InvalidProblem, MissingSolver, UnknownSolver, Error: each with a one-line what().
 ///
 /// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5, checkpoint.bin, capture/ (if asked for), log/ (append-only raw
-/// rows from which the two records are made), figures/*.svg, report.html.
-ExitCode run(const RunOptions& options);
+/// rows from which the two records are made). Its page is write_report()'s (experiments/run_page).
+RunEnd run(const RunOptions& options);
 
-/// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest checkpointed state. Throws RunError.
+/// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest checkpointed state. Throws Error.
 MechanicalSystem system_of_run(const std::filesystem::path& folder, MotionState& state);
-
-class RunError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 }  // namespace ballast

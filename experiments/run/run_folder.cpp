@@ -4,12 +4,13 @@
 
 #include "platform/atomic_file.hpp"
 #include "experiments/run/manifest.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
 
-RunFolder RunFolder::of(const RunOptions& options, const std::string& scene_name) {
-  return RunFolder(options.output.empty() ? fs::path("results") / scene_name : options.output);
+RunFolder RunFolder::of(const fs::path& output, const std::string& scene_name) {
+  return RunFolder(output.empty() ? fs::path("results") / scene_name : output);
 }
 
 bool RunFolder::is_finished(const std::string& key) const {
@@ -21,14 +22,14 @@ bool RunFolder::is_finished(const std::string& key) const {
 
 void RunFolder::begin(const std::string& scene_text, bool overwrite) const {
   if (has_run() && !overwrite)
-    throw RunError(path_.string() + ": holds a run already: --resume continues it, --overwrite replaces it");
+    throw Error(path_.string() + ": holds a run already: --resume continues it, --overwrite replaces it");
   create_folder(path_);
   if (overwrite)  // only what a run writes: never a folder as a whole
     for (const char* name : {"scene.toml", "manifest.json", "checkpoint.bin", "steps.csv", "record.h5", "report.html", "log",
                              "figures", "paraview", "capture", "states"}) {
       std::error_code error;
       fs::remove_all(path_ / name, error);
-      if (error) throw RunError((path_ / name).string() + ": cannot remove: " + error.message());
+      if (error) throw Error((path_ / name).string() + ": cannot remove: " + error.message());
     }
   write_whole_file(scene(), scene_text);
 }
@@ -41,9 +42,9 @@ fs::path RunFolder::state_at(long step) const {
 
 void RunFolder::reopen(const std::string& scene_text) const {
   if (!has_run())
-    throw RunError(path_.string() + ": no run to resume: " + scene().filename().string() + " is missing");
+    throw Error(path_.string() + ": no run to resume: " + scene().filename().string() + " is missing");
   if (read_whole_file(scene()) != scene_text)
-    throw RunError(path_.string() + ": holds a run of other settings: give the same scene and --set, or --overwrite");
+    throw Error(path_.string() + ": holds a run of other settings: give the same scene and --set, or --overwrite");
 }
 
 }  // namespace ballast

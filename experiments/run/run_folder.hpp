@@ -4,15 +4,13 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/run/run.hpp"
-
 namespace ballast {
 
 class RunFolder {
  public:
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
-  /// Where the options put the run of this scene: options.output or results/<scene name>.
-  static RunFolder of(const RunOptions& options, const std::string& scene_name);
+  /// The folder `output`, or results/<scene name> where that is empty.
+  static RunFolder of(const std::filesystem::path& output, const std::string& scene_name);
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path scene() const { return path_ / "scene.toml"; }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "platform/interrupt.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -17,11 +17,11 @@ StepMemory memory_of(Checkpoint& checkpoint, const std::filesystem::path& file) 
   StepMemory memory{std::move(checkpoint.contacts), std::move(checkpoint.impulses)};
   for (const double number : checkpoint.numbers) {
     if (!(number >= StepMemory::asleep && number <= std::numeric_limits<int>::max() && number == std::floor(number)))
-      throw RunError(file.string() + ": checkpoint is inconsistent: " + std::to_string(number) + " is no number of steps at rest");
+      throw Error(file.string() + ": checkpoint is inconsistent: " + std::to_string(number) + " is no number of steps at rest");
     memory.rest.push_back(static_cast<int>(number));
   }
   if (!memory.rest.empty() && memory.rest.size() != checkpoint.state.pose.size())
-    throw RunError(file.string() + ": checkpoint is inconsistent: rest of " + std::to_string(memory.rest.size()) + " bodies");
+    throw Error(file.string() + ": checkpoint is inconsistent: rest of " + std::to_string(memory.rest.size()) + " bodies");
   return memory;
 }
 

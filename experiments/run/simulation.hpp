@@ -10,7 +10,7 @@ namespace ballast {
 
 /// A checkpoint of a drive; its numbers are who rests (StepMemory::rest), none in scenes without sleep.
 Checkpoint drive_checkpoint(const std::string& key, const std::string& phase, const MotionState& state, const StepMemory& memory);
-/// What it holds besides the motion; moved out of it. Throws RunError naming `file` when its numbers are not who rests.
+/// What it holds besides the motion; moved out of it. Throws Error naming `file` when its numbers are not who rests.
 StepMemory memory_of(Checkpoint& checkpoint, const std::filesystem::path& file);
 
 enum class LoopEnd { finished, interrupted, time_limit };

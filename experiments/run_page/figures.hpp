@@ -12,6 +12,9 @@
 
 namespace ballast {
 
+/// Label of every axis of time.
+inline constexpr const char* time_axis = "{/:Italic t}  (s)";
+
 struct ReportFigure {
   Figure plot;
   Html caption;

@@ -9,7 +9,6 @@
 namespace ballast {
 namespace {
 
-constexpr const char* time_axis = "{/:Italic t}  (s)";
 
 Panel time_panel(const RunData& data, const std::string& y_label, bool log_y) {
   Panel panel;

@@ -10,7 +10,6 @@
 namespace ballast {
 namespace {
 
-constexpr const char* time_axis = "{/:Italic t}  (s)";
 
 std::string print(const char* format, double value) {
   char text[64];

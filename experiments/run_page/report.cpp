@@ -8,7 +8,7 @@
 #include "experiments/page/plot.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "experiments/run_page/report_tables.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_summary.hpp"
 
@@ -29,7 +29,7 @@ Html draw(const std::vector<ReportFigure>& figures, RunData& data) {
     try {
       const std::string svg = render_svg(figure.plot, data.folder / "figures");
       html += html_figure(figure.plot.name, inline_svg(svg, figure.plot.name, figure.plot.title), figure.caption);
-    } catch (const RunError& error) {
+    } catch (const Error& error) {
       data.notices.push_back(std::string(error.what()) + ". The figure is left out.");
     }
   }

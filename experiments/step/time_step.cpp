@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "geometry/contact/contact_tracker.hpp"
-#include "solvers/backends/island_solver.hpp"
+#include "solvers/seam/island_solver.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

@@ -28,17 +28,6 @@ void in_one_thread(int parts, const std::function<void(int)>& part) {
 
 }  // namespace
 
-DetectionCounters& DetectionCounters::operator+=(const DetectionCounters& other) {
-  candidate_pairs += other.candidate_pairs;
-  cached_separations += other.cached_separations;
-  proved_axes += other.proved_axes;
-  full_tests += other.full_tests;
-  reused += other.reused;
-  manifolds += other.manifolds;
-  broad_phase_rebuilds += other.broad_phase_rebuilds;
-  return *this;
-}
-
 struct ContactDetector::State {
   State(std::vector<ContactShape> shapes, const DetectionSettings& detection)
       : settings(detection),

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/contact/collision_shape.hpp"
-#include "geometry/contact/contact_detector.hpp"
+#include "geometry/contact/contact_point.hpp"
 
 namespace ballast {
 

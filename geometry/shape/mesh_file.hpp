@@ -5,14 +5,9 @@
 #include <string>
 
 #include "geometry/shape/polyhedron.hpp"
+#include "geometry/shape/mesh_file_error.hpp"
 
 namespace ballast {
-
-/// What is wrong with a mesh file; what() starts with the file's name and says the line or the face.
-class MeshFileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Reads a closed convex polyhedron; the format follows the suffix (.obj, .stl). `scale` multiplies coordinates (0.001
 /// for millimetres). STL vertices are welded when they agree to 1e-6 of the size. Coplanar neighbours become one

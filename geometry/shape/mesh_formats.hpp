@@ -9,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/shape/mesh_file.hpp"
+#include "geometry/shape/mesh_file_error.hpp"
+#include "geometry/shape/polyhedron.hpp"
 
 namespace ballast::mesh_formats {
 

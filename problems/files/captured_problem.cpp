@@ -5,7 +5,7 @@
 
 #include "problems/files/fclib_file.hpp"
 #include "problems/files/hdf5_arrays.hpp"
-#include "problems/files/problem_file.hpp"
+#include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
 namespace {
@@ -13,8 +13,6 @@ namespace {
 const std::string group = "/ballast";
 
 std::string path_of(const char* name) { return group + "/" + name; }
-
-std::vector<double> as_vector(const Eigen::VectorXd& x) { return {x.data(), x.data() + x.size()}; }
 
 /// Reads arrays whose sizes are known and says which one is wrong.
 class SideReader {

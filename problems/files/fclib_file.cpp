@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <system_error>
 
 #include "problems/files/hdf5_arrays.hpp"
 
@@ -26,8 +27,6 @@ std::vector<double> read_vector(const Hdf5Arrays& file, const std::string& path,
       file.fail(path + "[" + std::to_string(i) + "] = " + std::to_string(values[i]) + " is not finite");
   return values;
 }
-
-Eigen::VectorXd as_eigen(const std::vector<double>& x) { return Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()); }
 
 /// Reads one matrix group. nzmax may exceed the datasets' length, which may exceed the entries: p, or nz, decides.
 class MatrixReader {
@@ -171,8 +170,6 @@ void write_matrix(Hdf5Arrays& file, const std::string& group, Matrix matrix) {
   file.write(group + "/x", std::vector<double>(matrix.valuePtr(), matrix.valuePtr() + entries));
 }
 
-std::vector<double> as_vector(const Eigen::VectorXd& x) { return {x.data(), x.data() + x.size()}; }
-
 void write_head(Hdf5Arrays& file, const std::string& root) {
   file.make_group(root);
   file.write(root + "/spacedim", std::vector<int>{3});
@@ -210,6 +207,28 @@ void write_fclib(const std::filesystem::path& path, const GlobalProblem& global)
   file.write("/fclib_global/vectors/w", as_vector(global.w));
   file.write("/fclib_global/vectors/mu", global.mu);
   file.close();
+}
+
+void write_problem(const std::filesystem::path& file, const FrictionProblem& problem,
+                   const std::function<void(Hdf5Arrays&)>& add) {
+  problem.validate();
+  const std::filesystem::path beside = file.string() + ".tmp";
+  try {
+    if (problem.has_dynamics)
+      write_fclib(beside, to_global_problem(problem));
+    else
+      write_fclib(beside, to_local_problem(problem));
+    if (add) {
+      Hdf5Arrays opened(beside, Hdf5Arrays::Mode::extend);
+      add(opened);
+      opened.close();
+    }
+    std::filesystem::rename(beside, file);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    throw ProblemFileError(file.string() + ": " + error.what());
+  }
 }
 
 }  // namespace ballast

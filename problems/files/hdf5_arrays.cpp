@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "problems/files/problem_file.hpp"
+#include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
 namespace {

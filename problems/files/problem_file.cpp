@@ -1,11 +1,9 @@
 #include "problems/files/problem_file.hpp"
 
-#include <system_error>
 #include <variant>
 
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/fclib_file.hpp"
-#include "problems/files/hdf5_arrays.hpp"
 #include "problems/files/siconos_text.hpp"
 
 namespace ballast {
@@ -22,28 +20,6 @@ FrictionProblem read_problem(const std::filesystem::path& file) {
     problem.validate();
     return problem;
   } catch (const InvalidProblem& error) {
-    throw ProblemFileError(file.string() + ": " + error.what());
-  }
-}
-
-void write_problem(const std::filesystem::path& file, const FrictionProblem& problem,
-                   const std::function<void(Hdf5Arrays&)>& add) {
-  problem.validate();
-  const std::filesystem::path beside = file.string() + ".tmp";
-  try {
-    if (problem.has_dynamics)
-      write_fclib(beside, to_global_problem(problem));
-    else
-      write_fclib(beside, to_local_problem(problem));
-    if (add) {
-      Hdf5Arrays opened(beside, Hdf5Arrays::Mode::extend);
-      add(opened);
-      opened.close();
-    }
-    std::filesystem::rename(beside, file);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
     throw ProblemFileError(file.string() + ": " + error.what());
   }
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "problems/files/problem_file.hpp"
+#include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
 namespace {
@@ -193,8 +193,6 @@ std::vector<double> read_reals(Words& words, std::size_t size, const char* of) {
   for (double& value : values) value = words.real(of);
   return values;
 }
-
-Eigen::VectorXd as_eigen(const std::vector<double>& x) { return Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()); }
 
 template <typename Sparse>
 void assign(Sparse& sparse, const TextMatrix& matrix) {

@@ -21,6 +21,13 @@ struct GlobalProblem {
   std::vector<double> mu;
 };
 
+inline std::vector<double> as_vector(const Eigen::VectorXd& x) {
+  return {x.data(), x.data() + x.size()};
+}
+inline Eigen::VectorXd as_eigen(const std::vector<double>& x) {
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
 FrictionProblem to_friction_problem(LocalProblem local);
 
 /// Keeps the dynamics form when the unknowns can be grouped into bodies of at most six so that M is block diagonal and

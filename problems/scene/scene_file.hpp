@@ -7,14 +7,9 @@
 #include <vector>
 
 #include "problems/scene/scene.hpp"
+#include "problems/scene/scene_file_error.hpp"
 
 namespace ballast {
-
-/// what(): "file: key = value: what is wrong and what was expected", one line.
-class SceneFileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Reads and validates a scene; every key must be known, of its type and in its range. `overrides`: "dotted.key=value" with a
 /// TOML value, applied before validation (command line --set). Mesh files are relative to the scene file.

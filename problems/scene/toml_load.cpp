@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "problems/scene/scene_file.hpp"
+#include "problems/scene/scene_file_error.hpp"
 #include "problems/scene/toml_reader.hpp"
 
 namespace ballast {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "problems/scene/scene_file.hpp"
+#include "problems/scene/scene_file_error.hpp"
 #include "problems/scene/toml_text.hpp"
 
 namespace ballast {

@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double unbounded = 1e20;
-
 /// min 1/2 x.W x + q.x in polar coordinates y (n, d1, d2): n >= 0 and 1 - |d|^2 >= 0 for each contact with friction.
 class ConeNlp final : public IpoptProgram {
  public:
@@ -27,11 +25,11 @@ class ConeNlp final : public IpoptProgram {
   int constraints() const override { return static_cast<int>(with_friction_.size()); }
 
   void bounds(VectorXd& x_low, VectorXd& x_high, VectorXd& g_low, VectorXd& g_high) const override {
-    x_low.setConstant(-unbounded);
-    x_high.setConstant(unbounded);
+    x_low.setConstant(-ipopt_unbounded);
+    x_high.setConstant(ipopt_unbounded);
     for (int k = 0; k < cones_.contact_count(); ++k) x_low[cones_.row_begin[k]] = 0.0;
     g_low.setZero();
-    g_high.setConstant(unbounded);
+    g_high.setConstant(ipopt_unbounded);
   }
   double objective(const VectorXd& y) const override {
     const VectorXd x = cones_.from_polar(y);

@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double unbounded = 1e20;
-
 // Unknowns of a contact with friction, in this order: n, d1, d2, speed, u_N, u_1, u_2; without friction n, u_N.
 // r_N = n, r_T = mu n d:
 //   u = W r + q,   0 <= n ⟂ u_N >= 0,   u_T + speed d = 0,   0 <= speed ⟂ 1 - |d|^2 >= 0
@@ -34,21 +32,21 @@ class MpccNlp final : public IpoptProgram {
   int constraints() const override { return cones_.row_count() + constraints_; }
 
   void bounds(VectorXd& x_low, VectorXd& x_high, VectorXd& g_low, VectorXd& g_high) const override {
-    x_low.setConstant(-unbounded);
-    x_high.setConstant(unbounded);
+    x_low.setConstant(-ipopt_unbounded);
+    x_high.setConstant(ipopt_unbounded);
     g_low.setZero();
     g_high.setZero();
     for (int k = 0; k < cones_.contact_count(); ++k) {
       const int v = variable_[k], g = row(k);
       x_low[v] = 0.0;
       x_low[velocity(k)] = 0.0;
-      g_low[g] = -unbounded;
+      g_low[g] = -ipopt_unbounded;
       g_high[g] = relaxation;
       if (!cones_.has_friction(k)) continue;
       x_low[v + 3] = 0.0;
       g_low[g + 3] = 0.0;  // 1 - |d|^2
-      g_high[g + 3] = unbounded;
-      g_low[g + 4] = -unbounded;
+      g_high[g + 3] = ipopt_unbounded;
+      g_low[g + 4] = -ipopt_unbounded;
       g_high[g + 4] = relaxation;
     }
   }

@@ -7,6 +7,9 @@
 
 namespace ballast {
 
+/// What Ipopt takes for no bound.
+inline constexpr double ipopt_unbounded = 1e20;
+
 /// min f(x), x and g(x) within bounds. Derivatives are lists of entries (row, column, value); entries of the same place
 /// are added. Ipopt asks for the places once: every call must list the same ones in the same order.
 class IpoptProgram {

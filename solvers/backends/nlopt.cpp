@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-struct Recipe {
+struct NloptRecipe {
   const char* name;
   nlopt_algorithm algorithm;
   SizeLimit largest;
@@ -56,7 +56,7 @@ void cones(unsigned m, double* result, unsigned n, const double* x, double* grad
 
 class Nlopt final : public Solver {
  public:
-  explicit Nlopt(const Recipe& recipe) : recipe_(recipe) {}
+  explicit Nlopt(const NloptRecipe& recipe) : recipe_(recipe) {}
 
   void prepare(const FrictionProblem& problem) override {
     if (!recipe_.largest.admits(problem))
@@ -138,17 +138,17 @@ class Nlopt final : public Solver {
     return evaluations;
   }
 
-  const Recipe& recipe_;
+  const NloptRecipe& recipe_;
   ConeProgram cones_;
 };
 
 // Svanberg's approximations have one curvature for all variables: the sharpest of the cones slows every contact down.
 // 40 contacts with friction and a singular W end at 1e-5 m/s after 20 s.
-const Recipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, nlopt_slsqp_limit, 400, "a dense quadratic program per step"};
-const Recipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
-const Recipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, nlopt_ccsaq_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
+const NloptRecipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, nlopt_slsqp_limit, 400, "a dense quadratic program per step"};
+const NloptRecipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
+const NloptRecipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, nlopt_ccsaq_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
 
-template <const Recipe& recipe>
+template <const NloptRecipe& recipe>
 std::unique_ptr<Solver> make_nlopt() {
   return std::make_unique<Nlopt>(recipe);
 }

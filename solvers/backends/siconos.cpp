@@ -20,7 +20,7 @@ extern "C" void numerics_set_verbose(int);  // in no header that C++ can read
 namespace ballast {
 namespace {
 
-struct Recipe {
+struct SiconosRecipe {
   const char* name;
   int solver;
   int first_iterations;  ///< of the first round; every round that runs out of them doubles the next
@@ -107,7 +107,7 @@ class BlockProblem {
 
 class Siconos final : public Solver {
  public:
-  explicit Siconos(const Recipe& recipe) : recipe_(recipe) {}
+  explicit Siconos(const SiconosRecipe& recipe) : recipe_(recipe) {}
 
   void prepare(const FrictionProblem& problem) override {
     moving_.take(problem);
@@ -155,24 +155,24 @@ class Siconos final : public Solver {
     return true;
   }
 
-  const Recipe& recipe_;
+  const SiconosRecipe& recipe_;
   MovingContacts moving_;
   BlockProblem blocks_;
 };
 
-const Recipe nsgs{"siconos_nsgs", SICONOS_FRICTION_3D_NSGS, 500, [](SolverOptions& options) {
+const SiconosRecipe nsgs{"siconos_nsgs", SICONOS_FRICTION_3D_NSGS, 500, [](SolverOptions& options) {
                     solver_options_update_internal(&options, 0, SICONOS_FRICTION_3D_ONECONTACT_NSN_GP_HYBRID);
                     options.internalSolvers[0]->iparam[SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY] =
                         SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_NSN_AND_PLI_NSN_LOOP;
                   }};
-const Recipe prox{"siconos_prox", SICONOS_FRICTION_3D_PROX, 100, [](SolverOptions&) {}};
-const Recipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2000, [](SolverOptions& options) {
+const SiconosRecipe prox{"siconos_prox", SICONOS_FRICTION_3D_PROX, 100, [](SolverOptions&) {}};
+const SiconosRecipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2000, [](SolverOptions& options) {
                     options.iparam[SICONOS_FRICTION_3D_ADMM_IPARAM_RHO_STRATEGY] =
                         SICONOS_FRICTION_3D_ADMM_RHO_STRATEGY_RESIDUAL_BALANCING;
                   }};
-const Recipe nsn_ac{"siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 100, [](SolverOptions&) {}};
+const SiconosRecipe nsn_ac{"siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 100, [](SolverOptions&) {}};
 
-template <const Recipe& recipe>
+template <const SiconosRecipe& recipe>
 std::unique_ptr<Solver> make_siconos() {
   return std::make_unique<Siconos>(recipe);
 }

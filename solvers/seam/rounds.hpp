@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "solvers/parts/moving_contacts.hpp"
+#include "solvers/seam/moving_contacts.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {

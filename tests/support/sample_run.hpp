@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "experiments/record/recorder.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/random.hpp"
 #include "tests/catch.hpp"
@@ -35,15 +35,15 @@ inline void put_bytes(const std::filesystem::path& file, std::string_view bytes)
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-/// The message of the RunError that `action` throws; fails the test when it throws none.
+/// The message of the Error that `action` throws; fails the test when it throws none.
 template <class Action>
 std::string run_error(Action&& action) {
   try {
     action();
-  } catch (const RunError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
-  FAIL("no RunError was thrown");
+  FAIL("no Error was thrown");
   return {};
 }
 

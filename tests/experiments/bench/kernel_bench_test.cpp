@@ -12,7 +12,7 @@
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/bench/sweep_floor.hpp"
 #include "experiments/compare/bench_options.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/solver_list.hpp"
 #include "solvers/gauss_seidel/sweep_kernels.hpp"
@@ -83,7 +83,7 @@ TEST_CASE("Results are written, read and compared") {
   CHECK_THAT(read_whole_file(folder.path() / "a" / "kernels.csv"), Catch::Contains("sweep,jacobi,ns,7,"));
   write_whole_file(folder.path() / "bad.json", "{\"kind\": 3}");
   CHECK_THROWS_WITH(read_bench_result(folder.path() / "bad.json"), Catch::Contains("bad.json"));
-  CHECK_THROWS_AS(read_bench_result(folder.path() / "none.json"), RunError);
+  CHECK_THROWS_AS(read_bench_result(folder.path() / "none.json"), Error);
 }
 
 TEST_CASE("Lists of numbers are read whole or refused") {

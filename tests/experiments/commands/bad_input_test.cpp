@@ -9,6 +9,7 @@
 #include "solvers/solver_list.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "platform/error.hpp"
 
 using namespace ballast;
 
@@ -213,6 +214,6 @@ TEST_CASE("every kind of failure has its exit code and its line") {
   CHECK(outcome([] { return ExitCode::ok; }) == "0 ");
   CHECK(outcome([] { return ExitCode::time_limit; }) == "3 ");
   CHECK(outcome([]() -> ExitCode { throw UsageError("two\nlines\n"); }) == "2 ballast: two lines\n");
-  CHECK(outcome([]() -> ExitCode { throw RunError("x"); }) == "1 ballast: x\n");
+  CHECK(outcome([]() -> ExitCode { throw Error("x"); }) == "1 ballast: x\n");
   CHECK(outcome([]() -> ExitCode { throw std::bad_alloc(); }) == "1 ballast: out of memory\n");
 }

@@ -11,7 +11,7 @@
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/run/manifest.hpp"
 #include "experiments/page/plot.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/page_sample.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -131,7 +131,7 @@ TEST_CASE("Reference times: names that differ by their suffixes, and ratios") {
   CHECK(compared[0].ratio(0.0, 60.0, false) == Approx(2.0));
   CHECK(compared[0].ratio(0.5, 60.0, true) == Approx(1.5));
   for (const char* bad : {"problem,ms\n", "problem,ms_1e-4,solver\nx,fast,me\n", "problem,ms_1e-4,solver\nx,1\n", ""})
-    CHECK_THROWS_AS(read_reference_times(folder.write("bad.csv", bad)), RunError);
+    CHECK_THROWS_AS(read_reference_times(folder.write("bad.csv", bad)), Error);
 }
 
 TEST_CASE("The page of a bench is well-formed and has what it promises") {

@@ -6,7 +6,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
 #include "experiments/measure/curve_fit.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/environment_guard.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -108,7 +108,7 @@ TEST_CASE("figures that make no sense are refused by name") {
   CHECK_THROWS_WITH(render_svg(figure, folder.path()), Contains("figure simple"));
   figure = simple_figure();
   figure.name = "../elsewhere";
-  CHECK_THROWS_AS(render_svg(figure, folder.path()), RunError);
+  CHECK_THROWS_AS(render_svg(figure, folder.path()), Error);
 }
 
 TEST_CASE("a failing gnuplot is one clear error, and no stale figure stays") {

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "experiments/paper/campaign.hpp"
+#include "experiments/paper/make_campaign.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 

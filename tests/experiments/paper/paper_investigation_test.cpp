@@ -7,6 +7,7 @@
 #include "experiments/paper/sections.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "experiments/paper/make_campaign.hpp"
 
 using namespace ballast;
 

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/paper/campaign.hpp"
+#include "experiments/paper/make_campaign.hpp"
 #include "experiments/run/run.hpp"
 #include "geometry/shape/random.hpp"
 #include "tests/catch.hpp"

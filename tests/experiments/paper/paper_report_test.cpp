@@ -8,6 +8,7 @@
 #include "tests/catch.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "experiments/paper/make_campaign.hpp"
 
 using namespace ballast;
 

@@ -137,12 +137,11 @@ TEST_CASE("A run that is captured has the same bits") {
   RunOptions options;
   options.scene = "shaken_plate";
   options.overrides = {"scene.duration=0.05"};
-  options.report = false;
   options.output = folder.path() / "plain";
-  const ExitCode plain = run(options);
+  const ExitCode plain = run(options).code;
   options.output = folder.path() / "captured";
   options.capture = "every=20";
-  const ExitCode captured = run(options);
+  const ExitCode captured = run(options).code;
   std::cout.rdbuf(old);
   REQUIRE(plain == ExitCode::ok);
   REQUIRE(captured == ExitCode::ok);

@@ -42,7 +42,6 @@ RunOptions small_run(const fs::path& output, const fs::path& packings) {
   options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=0.05", "solver.max_iterations=2000"};
   options.output = output;
   options.packing_cache = packings;
-  options.report = false;
   return options;
 }
 
@@ -66,12 +65,12 @@ bool killed_after(const RunOptions& options, int milliseconds) {
 TEST_CASE("the same input gives the same bits: deposit, drive, and whatever stopped it in between") {
   const Workplace place;
   const fs::path once = place.folder / "once", again = place.folder / "again", stopped = place.folder / "stopped";
-  REQUIRE(run(small_run(once, place.folder / "p1")) == ExitCode::ok);
+  REQUIRE(run(small_run(once, place.folder / "p1")).code == ExitCode::ok);
   const std::string physics = physics_of(once), state = state_of(once);
   REQUIRE(read_steps(once).size() == 200);
 
   SECTION("a second run with a deposit of its own") {
-    REQUIRE(run(small_run(again, place.folder / "p2")) == ExitCode::ok);
+    REQUIRE(run(small_run(again, place.folder / "p2")).code == ExitCode::ok);
     CHECK(physics_of(again) == physics);
     CHECK(state_of(again) == state);
   }
@@ -79,7 +78,7 @@ TEST_CASE("the same input gives the same bits: deposit, drive, and whatever stop
     RunOptions options = small_run(stopped, place.folder / "p3");
     options.max_seconds = 0.25;
     int stops = 0;
-    while (run(options) == ExitCode::time_limit) {
+    while (run(options).code == ExitCode::time_limit) {
       options.resume = true;
       options.max_seconds *= 1.05;  // under sanitizers, beside other work: it ends all the same
       REQUIRE(++stops < 100);
@@ -97,7 +96,7 @@ TEST_CASE("the same input gives the same bits: deposit, drive, and whatever stop
     }
     CHECK(kills >= 2);
     options.resume = true;
-    REQUIRE(run(options) == ExitCode::ok);
+    REQUIRE(run(options).code == ExitCode::ok);
     CHECK(physics_of(stopped) == physics);
     CHECK(state_of(stopped) == state);
   }
@@ -112,14 +111,14 @@ TEST_CASE("the same bits where contact points are held on to, whatever stopped t
     if (holds) options.overrides.push_back("detection.refresh_steps=7");
     return options;
   };
-  REQUIRE(run(holding("exact", false)) == ExitCode::ok);
-  REQUIRE(run(holding("whole", true)) == ExitCode::ok);
+  REQUIRE(run(holding("exact", false)).code == ExitCode::ok);
+  REQUIRE(run(holding("whole", true)).code == ExitCode::ok);
   const std::string physics = physics_of(place.folder / "whole"), state = state_of(place.folder / "whole");
   CHECK(physics != physics_of(place.folder / "exact"));  // it does something
   RunOptions options = holding("stopped", true);
   options.max_seconds = 0.02;
   int stops = 0;
-  while (run(options) == ExitCode::time_limit) {
+  while (run(options).code == ExitCode::time_limit) {
     CHECK(read_checkpoint(RunFolder(place.folder / "stopped").checkpoint()).state.step % 7 == 0);
     options.resume = true;
     options.max_seconds *= 1.05;
@@ -132,7 +131,7 @@ TEST_CASE("the same bits where contact points are held on to, whatever stopped t
 
 TEST_CASE("what a run shows: no grain escapes, overlap stays small, the energy account closes") {
   const Workplace place;
-  REQUIRE(run(small_run(place.folder / "run", place.folder / "p")) == ExitCode::ok);
+  REQUIRE(run(small_run(place.folder / "run", place.folder / "p")).code == ExitCode::ok);
   double work = 0.0, residual = 0.0;
   for (const StepRecord& row : read_steps(place.folder / "run")) {
     CHECK(row.penetration_max < 0.25e-3);
@@ -157,20 +156,20 @@ TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is"
   const fs::path folder = place.folder / "run";
   RunOptions options = small_run(folder, place.folder / "p");
   options.deposit_only = true;
-  REQUIRE(run(options) == ExitCode::ok);
+  REQUIRE(run(options).code == ExitCode::ok);
   CHECK_FALSE(fs::exists(folder));
   CHECK(std::distance(fs::directory_iterator(place.folder / "p"), fs::directory_iterator()) == 1);  // no lock, no part left
   options.deposit_only = false;
   options.begin_or_resume = true;
   options.max_seconds = 0.1;
   int stops = 0;
-  for (; run(options) == ExitCode::time_limit; ++stops) {
+  for (; run(options).code == ExitCode::time_limit; ++stops) {
     REQUIRE(stops < 100);
     options.max_seconds *= 1.1;  // under sanitizers, beside other work: it ends all the same
   }
   CHECK(stops >= 1);
   const auto written = fs::last_write_time(RunFolder(folder).manifest());
-  CHECK(run(options) == ExitCode::ok);
+  CHECK(run(options).code == ExitCode::ok);
   CHECK(fs::last_write_time(RunFolder(folder).manifest()) == written);
   CHECK_FALSE(fs::exists(folder / "run.lock"));
 }
@@ -180,15 +179,15 @@ TEST_CASE("a folder refuses what would lose a run") {
   RunOptions options = small_run(place.folder / "run", place.folder / "p");
   options.scene = "incline";
   options.overrides = {"scene.duration=0.01"};
-  REQUIRE(run(options) == ExitCode::ok);
+  REQUIRE(run(options).code == ExitCode::ok);
   CHECK_THROWS_WITH(run(options), Catch::Contains("holds a run already"));
   options.resume = true;
-  CHECK(run(options) == ExitCode::ok);  // finished: the report again
+  CHECK(run(options).code == ExitCode::ok);  // finished: the report again
   options.overrides = {"scene.duration=0.02"};
   CHECK_THROWS_WITH(run(options), Catch::Contains("other settings"));
   options.resume = false;
   options.overwrite = true;
-  CHECK(run(options) == ExitCode::ok);
+  CHECK(run(options).code == ExitCode::ok);
   CHECK(read_steps(options.output).size() == 20);
   options.output = "/proc/nowhere/run";
   CHECK_THROWS_WITH(run(options), Catch::Contains("/proc/nowhere"));

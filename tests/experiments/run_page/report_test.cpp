@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "experiments/measure/run_data.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
@@ -167,7 +167,7 @@ TEST_CASE("NaN, infinity and one single step") {
 
 TEST_CASE("no record, no report: the error names the file and the place") {
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(write_report(folder.path()), RunError);
+  CHECK_THROWS_AS(write_report(folder.path()), Error);
   CHECK_THROWS_WITH(write_report(folder.path() / "nowhere"), Contains("nowhere: no such folder"));
   folder.write("steps.csv", "");
   CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv: is empty"));

@@ -4,6 +4,7 @@
 #include "experiments/run/run.hpp"
 #include "tests/experiments/step/stacks.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "platform/error.hpp"
 
 using namespace ballast;
 
@@ -201,7 +202,7 @@ TEST_CASE("sleep: numbers of a checkpoint that are not who rests are refused") {
     try {
       memory_of(other, "some/checkpoint.bin");
       FAIL_CHECK("not refused");
-    } catch (const RunError& error) {
+    } catch (const Error& error) {
       CHECK(std::string(error.what()).rfind("some/checkpoint.bin: ", 0) == 0);
     }
   }

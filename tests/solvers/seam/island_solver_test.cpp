@@ -1,6 +1,6 @@
 // A backend island by island: each island gets the bits that it has alone, and what that makes of the whole.
 
-#include "solvers/backends/island_solver.hpp"
+#include "solvers/seam/island_solver.hpp"
 
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/stress_problems.hpp"

@@ -1,4 +1,4 @@
-#include "solvers/backends/island_solver.hpp"
+#include "solvers/seam/island_solver.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "solvers/parts/moving_contacts.hpp"
+#include "solvers/seam/moving_contacts.hpp"
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"

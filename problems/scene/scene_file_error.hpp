@@ -1,0 +1,13 @@
+#pragma once
+
+#include "platform/error.hpp"
+
+namespace ballast {
+
+/// what(): "file: key = value: what is wrong and what was expected", one line.
+class SceneFileError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace ballast

@@ -1,0 +1,185 @@
+// Who may include whom (docs/design.md), read from the sources and from CMake.
+
+#include <algorithm>
+
+#include "tests/catch.hpp"
+#include "tests/house/source_tree.hpp"
+
+using namespace ballast::house;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// The law of the house: beginning of a path -> beginnings of the paths that it may include.
+/// Doors between rooms (CMake) say more; none may say something else.
+const std::vector<std::pair<std::string, Words>> law = {
+    {"platform/", {"platform/"}},
+    {"geometry/", {"geometry/", "platform/"}},
+    {"problems/algebra/", {"problems/algebra/", "platform/"}},
+    {"problems/files/", {"problems/files/", "problems/algebra/", "platform/"}},
+    {"problems/", {"problems/", "geometry/", "platform/"}},
+    {"solvers/", {"solvers/", "problems/algebra/", "platform/"}},
+    {"experiments/", {"experiments/", "solvers/", "problems/", "geometry/", "platform/"}},
+    {"tests/",
+     {"tests/", "experiments/", "solvers/", "problems/", "geometry/", "platform/"}},
+};
+
+/// Beginning of a third-party header -> beginnings of the paths that may include it.
+const std::vector<std::pair<std::string, Words>> third_party = {
+    {"Eigen/", {"geometry/", "problems/", "solvers/", "experiments/", "tests/"}},
+    {"libqhull_r/", {"geometry/shape/convex_hull"}},
+    {"hdf5.h", {"platform/hdf5", "problems/files/hdf5", "tests/"}},
+    {"toml++/", {"problems/scene/"}},
+    {"CLI/", {"experiments/commands/"}},
+    {"benchmark/", {"experiments/bench/kernels"}},
+    {"nlohmann/", {"experiments/", "tests/"}},
+    {"cholmod.h", {"solvers/parts/sparse_factor"}},
+    {"umfpack.h", {"solvers/parts/sparse_factor"}},
+    {"klu.h", {"solvers/parts/sparse_factor"}},
+    {"Ip", {"solvers/backends/ipopt"}},
+    {"nlopt.h", {"solvers/backends/nlopt", "tests/solvers/backends/nlopt"}},
+    {"siconos/", {"solvers/backends/siconos"}},
+    {"catch2/", {"tests/catch.hpp", "tests/test_main.cpp"}},
+};
+
+/// POSIX; every other header of the C or C++ library has neither a slash nor a suffix.
+const Words posix = {"fcntl.h", "fnmatch.h", "glob.h",   "poll.h",   "signal.h",
+                     "spawn.h", "stdlib.h",  "unistd.h", "dlfcn.h", "sys/"};
+
+bool begins_like_one_of(const std::string& text, const Words& beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](const std::string& b) { return text.starts_with(b); });
+}
+
+std::string wrong_system_include(const std::string& path, const std::string& header) {
+  for (const auto& [beginning, allowed] : third_party)
+    if (header.starts_with(beginning))
+      return begins_like_one_of(path, allowed)
+                 ? ""
+                 : path + ": <" + header + "> belongs in another room";
+  if (begins_like_one_of(header, posix)) return "";
+  if (header.find_first_of("/.") == std::string::npos) return "";
+  return path + ": <" + header + "> is in no table of tests/house/include_test.cpp";
+}
+
+std::string wrong_own_include(const std::string& path, const std::string& header,
+                              const Arrows& doors_of) {
+  if (!std::filesystem::is_regular_file(root() / header))
+    return path + ": \"" + header + "\" is no file seen from the root";
+  const auto rule = std::find_if(law.begin(), law.end(),
+                                 [&](const auto& r) { return path.starts_with(r.first); });
+  if (rule == law.end()) return path + ": is in no room";
+  if (!begins_like_one_of(header, rule->second))
+    return path + ": the law forbids \"" + header + "\"";
+  if (path.starts_with("tests/")) return "";
+  const auto room = doors_of.find(room_of(path));
+  if (room == doors_of.end()) return path + ": its folder is no ballast_room of CMake";
+  if (!room->second.contains(room_of(header)))
+    return path + ": its room has no door to \"" + header + "\" (DOORS of ballast_room)";
+  return "";
+}
+
+Words breaches(const SourceFile& file, const Arrows& doors_of) {
+  Words found;
+  for (const Include& include : file.includes) {
+    const std::string wrong = include.own
+                                  ? wrong_own_include(file.path, include.header, doors_of)
+                                  : wrong_system_include(file.path, include.header);
+    if (!wrong.empty()) found.push_back(wrong);
+  }
+  return found;
+}
+
+Arrows module_arrows(const std::vector<SourceFile>& files) {
+  Arrows arrows;
+  for (const SourceFile& file : files)
+    for (const Include& include : file.includes)
+      if (include.own && module_of(include.header) != module_of(file.path))
+        arrows[module_of(file.path)].insert(module_of(include.header));
+  return arrows;
+}
+
+std::string text_of(const std::set<std::string>& ring) {
+  std::string text;
+  for (const std::string& name : ring) text += (text.empty() ? "" : " <-> ") + name;
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("every include goes through a door, and downward") {
+  const Arrows doors_of = doors();
+  const std::vector<SourceFile> files = all_sources(true);
+  CHECK(files.size() > 400);  // the right folder was read
+  CHECK(doors_of.size() > 20);
+  for (const SourceFile& file : files)
+    for (const std::string& breach : breaches(file, doors_of)) FAIL_CHECK(breach);
+}
+
+TEST_CASE("no modules include each other in a ring, and no rooms") {
+  const std::vector<SourceFile> files = all_sources(false);
+  for (const auto& ring : rings(module_arrows(files))) FAIL_CHECK(text_of(ring));
+  Arrows rooms;
+  for (const auto& [from, all] : module_arrows(files))
+    for (const std::string& to : all)
+      if (room_of(from) != room_of(to)) rooms[room_of(from)].insert(room_of(to));
+  for (const auto& ring : rings(rooms)) FAIL_CHECK(text_of(ring));
+}
+
+TEST_CASE("rings are found") {
+  CHECK(rings({{"a", {"b"}}, {"b", {"c"}}, {"c", {}}}).empty());
+  const auto found = rings({{"a", {"b"}}, {"b", {"c", "d"}}, {"c", {"a"}}, {"d", {"b"}}});
+  REQUIRE(found.size() == 1);
+  CHECK(found[0] == std::set<std::string>{"a", "b", "c", "d"});
+  CHECK(rings({{"a", {"b"}}, {"b", {"a"}}, {"x", {"y"}}, {"y", {"x"}}}).size() == 2);
+}
+
+TEST_CASE("rooms and doors are read from CMake") {
+  std::map<std::string, std::string> folder_of;
+  const Arrows found = read_rooms(
+      "ballast_room(upper\n  SOURCES\n    attic/a.cpp\n    attic/b.cpp\n  DOORS lower\n"
+      "  LIBRARIES x::y)\nballast_room(lower SOURCES ${made}/m.cpp cellar/c.cpp)\n",
+      "house", folder_of);
+  CHECK(found == Arrows{{"upper", {"lower"}}, {"lower", {}}});
+  CHECK(folder_of["upper"] == "house/attic");
+  CHECK(folder_of["lower"] == "house/cellar");
+}
+
+TEST_CASE("the reader of includes sees what is forbidden") {
+  struct Example {
+    const char *path, *text;
+    bool allowed;
+  };
+  const std::vector<Example> examples = {
+      {"geometry/shape/a.cpp", "#include \"problems/algebra/friction_problem.hpp\"\n", false},
+      {"geometry/shape/a.cpp", "#include \"geometry/shape/pose.hpp\"\n", true},
+      {"geometry/shape/a.cpp", "#include \"geometry/contact/contact_point.hpp\"\n", false},
+      {"geometry/contact/a.cpp", "#include \"geometry/shape/pose.hpp\"\n", true},
+      {"problems/algebra/a.cpp", "#include \"problems/scene/scene.hpp\"\n", false},
+      {"problems/algebra/a.cpp", "#include \"geometry/shape/pose.hpp\"\n", false},
+      {"problems/scene/a.cpp", "#include \"geometry/shape/pose.hpp\"\n", true},
+      {"problems/scene/a.cpp", "#include \"solvers/seam/solver.hpp\"\n", false},
+      {"solvers/parts/a.cpp", "#include \"geometry/shape/pose.hpp\"\n", false},
+      {"solvers/parts/a.cpp", "  #include   \"problems/mechanics/assemble.hpp\"  // why\n", false},
+      {"solvers/parts/a.cpp", "#include \"problems/algebra/friction_cone.hpp\"\n", true},
+      {"solvers/seam/a.cpp", "#include \"solvers/backends/auto.hpp\"\n", false},
+      {"experiments/step/a.cpp", "#include \"tests/catch.hpp\"\n", false},
+      {"experiments/step/a.cpp", "#include \"experiments/run/run.hpp\"\n", false},
+      {"experiments/run/a.cpp", "#include \"experiments/step/time_step.hpp\"\n", true},
+      {"tests/a.cpp", "#include \"experiments/run/run.hpp\"\n", true},
+      {"cellar/a.cpp", "#include \"geometry/shape/pose.hpp\"\n", false},
+      {"solvers/seam/a.cpp", "#include \"solver.hpp\"\n", false},
+      {"solvers/seam/a.cpp", "#include <toml++/toml.h>\n", false},
+      {"solvers/seam/a.cpp", "#include <cholmod.h>\n", false},
+      {"solvers/parts/sparse_factor.cpp", "#include <cholmod.h>\n", true},
+      {"solvers/seam/a.cpp", "#include <boost/any.hpp>\n", false},
+      {"solvers/seam/a.cpp", "#include <strange.h>\n", false},
+      {"solvers/seam/a.cpp", "#include <vector>\n#include <Eigen/Dense>\n", true},
+  };
+  const Arrows doors_of = doors();
+  for (const Example& example : examples) {
+    INFO(example.path << ": " << example.text);
+    CHECK(breaches(parse_source(example.path, example.text), doors_of).empty() == example.allowed);
+  }
+}

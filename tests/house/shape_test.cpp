@@ -1,0 +1,95 @@
+// The shape of the sources: lines and files that a reader can take in, and a test beside every module.
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/catch.hpp"
+#include "tests/house/source_tree.hpp"
+
+using namespace ballast::house;
+
+namespace {
+
+constexpr size_t longest_file = 300;   // lines
+constexpr size_t widest_line = 100;    // columns
+
+std::vector<std::string> breaches(const std::string& path, const std::string& text) {
+  std::vector<std::string> found;
+  const std::vector<std::string> lines = lines_of(text);
+  if (lines.size() > longest_file)
+    found.push_back(path + ": " + std::to_string(lines.size()) + " lines, at most " +
+                    std::to_string(longest_file));
+  for (size_t k = 0; k < lines.size(); ++k)
+    if (columns(lines[k]) > widest_line)
+      found.push_back(path + ":" + std::to_string(k + 1) + ": " + std::to_string(columns(lines[k])) +
+                      " columns, at most " + std::to_string(widest_line));
+  if (path.ends_with(".hpp") && text.find("#pragma once") == std::string::npos)
+    found.push_back(path + ": no #pragma once");
+  return found;
+}
+
+/// Module -> why it has no test of its own name beside it: tests/house/exceptions.txt,
+/// a line each, "module: reason".
+std::map<std::string, std::string> exceptions() {
+  std::map<std::string, std::string> reasons;
+  for (const std::string& line : lines_of(content(root() / "tests/house/exceptions.txt"))) {
+    if (line.empty() || line[0] == '#') continue;
+    const size_t colon = line.find(": ");
+    REQUIRE(colon != std::string::npos);
+    reasons[line.substr(0, colon)] = line.substr(colon + 2);
+  }
+  return reasons;
+}
+
+bool has_test(const std::string& module) {
+  return std::filesystem::is_regular_file(root() / "tests" / (module + "_test.cpp"));
+}
+
+}  // namespace
+
+TEST_CASE("no file is too long and no line too wide") {
+  for (const SourceFile& file : all_sources(true))
+    for (const std::string& breach : breaches(file.path, file.text)) FAIL_CHECK(breach);
+}
+
+TEST_CASE("what is too long or too wide is seen") {
+  CHECK(breaches("a.cpp", std::string(longest_file, '\n')).empty());
+  CHECK(breaches("a.cpp", std::string(longest_file + 1, '\n')).size() == 1);
+  CHECK(breaches("a.cpp", std::string(widest_line, 'x') + "\n").empty());
+  CHECK(breaches("a.cpp", std::string(widest_line + 1, 'x') + "\n").size() == 1);
+  std::string accents;
+  for (size_t k = 0; k < widest_line; ++k) accents += "µ";
+  CHECK(breaches("a.cpp", accents).empty());  // columns, not bytes
+  CHECK(breaches("a.hpp", "int x;\n").size() == 1);
+}
+
+TEST_CASE("every source folder has tests, in the same tree") {
+  std::set<std::string> rooms;
+  for (const SourceFile& file : all_sources(false)) rooms.insert(room_of(file.path));
+  for (const std::string& room : rooms) {
+    INFO(room);
+    const auto folder = root() / "tests" / room;
+    REQUIRE(std::filesystem::is_directory(folder));
+    const std::filesystem::directory_iterator entries(folder);
+    CHECK(std::any_of(begin(entries), end(entries), [](const auto& entry) {
+      return entry.path().string().ends_with("_test.cpp");
+    }));
+  }
+}
+
+TEST_CASE("every module has its test beside it, or a reason in the list of exceptions") {
+  const std::map<std::string, std::string> reasons = exceptions();
+  std::set<std::string> modules;
+  for (const SourceFile& file : all_sources(false))
+    if (file.path.ends_with(".cpp")) modules.insert(module_of(file.path));
+  for (const std::string& module : modules) {
+    INFO(module);
+    CHECK((has_test(module) || reasons.contains(module)));
+  }
+  for (const auto& [module, reason] : reasons) {
+    INFO(module << ": in tests/house/exceptions.txt");
+    CHECK(modules.contains(module));
+    CHECK_FALSE(has_test(module));
+    CHECK(reason.size() > 10);
+  }
+}

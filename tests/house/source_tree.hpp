@@ -1,0 +1,56 @@
+#pragma once
+// The project's sources as data: files, rooms, doors and includes, for the tests of the house.
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ballast::house {
+
+/// One `#include`. `header`: between the quotation marks or the angle brackets.
+struct Include {
+  std::string header;
+  bool own = false;  ///< in quotation marks: a file of this project
+};
+
+struct SourceFile {
+  std::string path;  ///< from the project's root
+  std::string text;
+  std::vector<Include> includes;
+};
+
+/// Names -> names that they lead to.
+using Arrows = std::map<std::string, std::set<std::string>>;
+
+/// The folder of the project.
+std::filesystem::path root();
+std::string content(const std::filesystem::path& file);
+std::vector<std::string> lines_of(const std::string& text);
+
+SourceFile parse_source(const std::string& path, const std::string& text);
+/// Every .hpp and .cpp below the top folders, tests included when asked for. Sorted by path.
+std::vector<SourceFile> all_sources(bool with_tests);
+
+/// "solvers/seam/solver" of "solvers/seam/solver.hpp": a header and its source are one module.
+std::string module_of(const std::string& path);
+/// "solvers/seam" of "solvers/seam/solver.hpp".
+std::string room_of(const std::string& path);
+
+/// Room -> rooms that it may include, itself included: what the `ballast_room` calls of all
+/// CMakeLists.txt say, followed through. Two libraries of one folder are one room.
+Arrows doors();
+/// The same from the text of one CMakeLists.txt that lies in `folder`: library -> libraries, and in
+/// `folder_of` library -> folder of its first source.
+Arrows read_rooms(const std::string& text, const std::string& folder,
+                  std::map<std::string, std::string>& folder_of);
+
+/// Groups of names that lead to each other in a ring (Tarjan 1972); empty when there is none.
+std::vector<std::set<std::string>> rings(const Arrows& arrows);
+
+/// Characters that a reader sees, not bytes: UTF-8 continuation bytes are not counted.
+size_t columns(std::string_view line);
+
+}  // namespace ballast::house
