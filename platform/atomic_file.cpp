@@ -34,7 +34,8 @@ void sync_folder(const fs::path& folder) {
   errno = 0;
   const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
   if (descriptor < 0) throw_file_error(folder, "open");
-  fsync(descriptor);  // some file systems refuse it on folders: the rename is then as safe as it gets
+  fsync(
+      descriptor);  // some file systems refuse it on folders: the rename is then as safe as it gets
   ::close(descriptor);
 }
 
@@ -42,7 +43,8 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), neighbour_
   neighbour_ += ".tmp";
   errno = 0;
   struct stat status;
-  // renaming over a folder fails only after all has been written; over a device it would replace the device
+  // renaming over a folder fails only after all has been written; over a device it would replace
+  // the device
   if (stat(target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     throw Error(target_.string() + ": cannot write: it is not a regular file");
   file_ = std::fopen(neighbour_.c_str(), "wb");

@@ -7,9 +7,9 @@
 
 namespace ballast {
 
-/// A file written as `<target>.tmp` beside its target; commit() makes it safe on disk and renames it over the target.
-/// Without commit() the target stays as it was and the neighbour is removed. Every failure is a Error that names the
-/// target and the reason.
+/// A file written as `<target>.tmp` beside its target; commit() makes it safe on disk and renames
+/// it over the target. Without commit() the target stays as it was and the neighbour is removed.
+/// Every failure is a Error that names the target and the reason.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);

@@ -19,7 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Before the entries: what says that they follow, and how many. After them: the same word once more.
+/// Before the entries: what says that they follow, and how many. After them: the same word once
+/// more.
 struct Head {
   std::uint64_t word;
   std::uint64_t entries;
@@ -39,7 +40,8 @@ bool write_all(int pipe, const void* data, std::size_t size) {
 }
 
 /// Never returns: the parent's destructors, exit handlers and unwritten output are not the child's.
-[[noreturn]] void be_child(int pipe, pid_t parent, const std::function<void(std::vector<double>&)>& work) {
+[[noreturn]] void be_child(int pipe, pid_t parent,
+                           const std::function<void(std::vector<double>&)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // the parent died before the line above
   for (const int number : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGFPE}) signal(number, SIG_DFL);
@@ -60,7 +62,8 @@ bool write_all(int pipe, const void* data, std::size_t size) {
 }
 
 /// Reads until the other end is closed; false when the time is over first.
-bool read_until_closed(int pipe, Clock::time_point begin, double max_seconds, std::vector<char>& bytes) {
+bool read_until_closed(int pipe, Clock::time_point begin, double max_seconds,
+                       std::vector<char>& bytes) {
   char buffer[65536];
   for (;;) {
     const double left = max_seconds - std::chrono::duration<double>(Clock::now() - begin).count();
@@ -82,20 +85,25 @@ bool parse(const std::vector<char>& bytes, std::vector<double>& record) {
   std::uint64_t last;
   if (bytes.size() < sizeof head + sizeof last) return false;
   std::memcpy(&head, bytes.data(), sizeof head);
-  if (head.word != mark || bytes.size() != sizeof head + head.entries * sizeof(double) + sizeof last) return false;
+  if (head.word != mark ||
+      bytes.size() != sizeof head + head.entries * sizeof(double) + sizeof last)
+    return false;
   std::memcpy(&last, bytes.data() + bytes.size() - sizeof last, sizeof last);
   if (last != mark) return false;
   record.resize(head.entries);
-  if (head.entries > 0) std::memcpy(record.data(), bytes.data() + sizeof head, head.entries * sizeof(double));
+  if (head.entries > 0)
+    std::memcpy(record.data(), bytes.data() + sizeof head, head.entries * sizeof(double));
   return true;
 }
 
 }  // namespace
 
-ChildResult run_in_child(double max_seconds, const std::function<void(std::vector<double>&)>& work) {
+ChildResult run_in_child(double max_seconds,
+                         const std::function<void(std::vector<double>&)>& work) {
   const Clock::time_point begin = Clock::now();
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+  if (pipe2(ends, O_CLOEXEC) != 0)
+    throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
   const pid_t parent = getpid(), child = fork();
   if (child < 0) {
     const int error = errno;
@@ -111,7 +119,8 @@ ChildResult run_in_child(double max_seconds, const std::function<void(std::vecto
   std::vector<char> bytes;
   const bool closed = read_until_closed(ends[0], begin, max_seconds, bytes);
   close(ends[0]);
-  // Harmless for a child that is through: it has written, and is about to exit or already waits to be collected.
+  // Harmless for a child that is through: it has written, and is about to exit or already waits to
+  // be collected.
   kill(child, SIGKILL);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }

@@ -1,5 +1,6 @@
 #pragma once
-// Foreign code in a process of its own: what crashes, exits, leaks or cannot be interrupted there harms nobody here.
+// Foreign code in a process of its own: what crashes, exits, leaks or cannot be interrupted there
+// harms nobody here.
 
 #include <functional>
 #include <string>
@@ -14,10 +15,12 @@ struct ChildResult {
   std::vector<double> record;  ///< what the child wrote; empty unless complete
 };
 
-/// Runs `work` in a forked child and waits for what it puts into `record`, at most `max_seconds` of wall clock; then
-/// the child is killed. Only a record that arrived whole counts, whatever the exit code says (Debian's Ipopt can die
-/// with code 0). The child prints nowhere, lets no exception out, and dies with its parent; it is always waited for.
-/// Throws std::runtime_error when no process can be made.
-ChildResult run_in_child(double max_seconds, const std::function<void(std::vector<double>& record)>& work);
+/// Runs `work` in a forked child and waits for what it puts into `record`, at most `max_seconds` of
+/// wall clock; then the child is killed. Only a record that arrived whole counts, whatever the exit
+/// code says (Debian's Ipopt can die with code 0). The child prints nowhere, lets no exception out,
+/// and dies with its parent; it is always waited for. Throws std::runtime_error when no process can
+/// be made.
+ChildResult run_in_child(double max_seconds,
+                         const std::function<void(std::vector<double>& record)>& work);
 
 }  // namespace ballast

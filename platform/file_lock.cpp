@@ -12,11 +12,13 @@
 namespace ballast {
 namespace {
 
-/// The file under that name is still the one that was opened: its last holder may have removed it meanwhile.
+/// The file under that name is still the one that was opened: its last holder may have removed it
+/// meanwhile.
 bool is_current(int descriptor, const std::filesystem::path& file) {
-  struct stat opened {}, named {};
-  return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
-         opened.st_dev == named.st_dev;
+  struct stat opened {
+  }, named{};
+  return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
 }  // namespace
@@ -58,7 +60,8 @@ void FileLock::sign() const {
   char host[65] = "";
   gethostname(host, sizeof host - 1);
   const std::string text = "process " + std::to_string(getpid()) + " on " + host;
-  if (ftruncate(descriptor_, 0) != 0 || pwrite(descriptor_, text.data(), text.size(), 0) < 0) return;
+  if (ftruncate(descriptor_, 0) != 0 || pwrite(descriptor_, text.data(), text.size(), 0) < 0)
+    return;
 }
 
 FileLock::~FileLock() {

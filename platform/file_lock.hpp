@@ -7,15 +7,16 @@
 
 namespace ballast {
 
-/// flock on a file that is made for it and removed with it. The kernel lets go when the process dies, kill -9 included, and children
-/// that are another program don't inherit it. Over NFS it is a lock among all machines that mount the folder.
+/// flock on a file that is made for it and removed with it. The kernel lets go when the process
+/// dies, kill -9 included, and children that are another program don't inherit it. Over NFS it is a
+/// lock among all machines that mount the folder.
 class FileLock {
  public:
   /// Asks whether to go on waiting; called some twenty times a second.
   using Patience = std::function<bool(double seconds_waited)>;
 
-  /// Waits until the lock is free; `patience` returning false gives up: is_held() is then false. The folder must be there.
-  /// Throws Error when the file cannot be made or locked.
+  /// Waits until the lock is free; `patience` returning false gives up: is_held() is then false.
+  /// The folder must be there. Throws Error when the file cannot be made or locked.
   FileLock(std::filesystem::path file, const Patience& patience);
   ~FileLock();
   FileLock(const FileLock&) = delete;

@@ -14,19 +14,22 @@ namespace ballast {
 namespace {
 
 constexpr size_t memory_increment = size_t{4} << 20;  // by which the file in memory grows
-constexpr hsize_t chunk_bytes = 1 << 16;              // of compressed data; smaller datasets are stored as they are
+constexpr hsize_t chunk_bytes =
+    1 << 16;  // of compressed data; smaller datasets are stored as they are
 constexpr unsigned deflate_level = 4;
 
 hsize_t product(const Hdf5Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
 
-/// Memory of a file in memory: malloc's, but kept when the file is closed. H5Fget_file_image would copy it, and spoils
-/// the checksum of the superblock (HDF5 1.10).
+/// Memory of a file in memory: malloc's, but kept when the file is closed. H5Fget_file_image would
+/// copy it, and spoils the checksum of the superblock (HDF5 1.10).
 namespace image_memory {
 using Op = H5FD_file_image_op_t;
 void* allocate(size_t size, Op, void*) { return std::malloc(size); }
-void* copy(void* to, const void* from, size_t size, Op, void*) { return std::memcpy(to, from, size); }
+void* copy(void* to, const void* from, size_t size, Op, void*) {
+  return std::memcpy(to, from, size);
+}
 void* resize(void* bytes, size_t size, Op, void*) { return std::realloc(bytes, size); }
 herr_t release(void* bytes, Op op, void* image) {
   if (op == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
@@ -41,9 +44,11 @@ herr_t keep_image(void*) { return 0; }
 
 /// Opens a file that lives in memory only: its name is never used.
 hid_t create_in_memory(Hdf5Writer::Image& image) {
-  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5FD_file_image_callbacks_t callbacks{image_memory::allocate,    image_memory::copy,       image_memory::resize,
-                                        image_memory::release,     image_memory::same_image, image_memory::keep_image,
+  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
+      creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5FD_file_image_callbacks_t callbacks{image_memory::allocate,    image_memory::copy,
+                                        image_memory::resize,      image_memory::release,
+                                        image_memory::same_image,  image_memory::keep_image,
                                         static_cast<void*>(&image)};
   H5Pset_fapl_core(access, memory_increment, false);
   H5Pset_file_image_callbacks(access, &callbacks);
@@ -52,7 +57,8 @@ hid_t create_in_memory(Hdf5Writer::Image& image) {
   return H5Fcreate("record in memory", H5F_ACC_TRUNC, creation, access);
 }
 
-/// Length of a file with superblock version 2 (HDF5 1.8's): its end-of-file address. 0 for anything else.
+/// Length of a file with superblock version 2 (HDF5 1.8's): its end-of-file address. 0 for anything
+/// else.
 size_t file_length(const unsigned char* bytes) {
   constexpr unsigned char beginning[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n', 2, 8, 8};
   constexpr size_t end_of_file = 28;
@@ -62,7 +68,9 @@ size_t file_length(const unsigned char* bytes) {
   return length;
 }
 
-hid_t open_for_reading(const std::filesystem::path& file) { return H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT); }
+hid_t open_for_reading(const std::filesystem::path& file) {
+  return H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+}
 
 Hdf5Id text_type() {
   Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -86,22 +94,27 @@ Hdf5Silence::Hdf5Silence() {
 Hdf5Silence::~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& target)
-    : target_(target), file_(checked(create_in_memory(image_), target, "make a file in memory"), H5Fclose) {}
+    : target_(target),
+      file_(checked(create_in_memory(image_), target, "make a file in memory"), H5Fclose) {}
 
-hid_t Hdf5Writer::check(hid_t result, const std::string& what) const { return checked(result, target_, what); }
+hid_t Hdf5Writer::check(hid_t result, const std::string& what) const {
+  return checked(result, target_, what);
+}
 
 void Hdf5Writer::add_group(const std::string& name) {
   const Hdf5Id creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false);
-  const Hdf5Id group(check(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), "make " + name),
-                     H5Gclose);
+  const Hdf5Id group(
+      check(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), "make " + name),
+      H5Gclose);
 }
 
-void Hdf5Writer::add_text(const std::string& object, const std::string& attribute, const std::string& text) {
+void Hdf5Writer::add_text(const std::string& object, const std::string& attribute,
+                          const std::string& text) {
   const std::string what = "write the attribute " + attribute + " of " + object;
   const Hdf5Id type = text_type(), space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Id id(check(H5Acreate_by_name(file_, object.c_str(), attribute.c_str(), type, space, H5P_DEFAULT,
-                                          H5P_DEFAULT, H5P_DEFAULT),
+  const Hdf5Id id(check(H5Acreate_by_name(file_, object.c_str(), attribute.c_str(), type, space,
+                                          H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                         what),
                   H5Aclose);
   const char* value = text.c_str();
@@ -120,38 +133,49 @@ Hdf5Id Hdf5Writer::make_dataset(const std::string& name, hid_t type, const Hdf5S
     if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) H5Pset_deflate(creation, deflate_level);
     H5Pset_fletcher32(creation);
   }
-  const Hdf5Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
-  return Hdf5Id(check(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), "make " + name),
-                H5Dclose);
+  const Hdf5Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                     H5Sclose);
+  return Hdf5Id(
+      check(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+            "make " + name),
+      H5Dclose);
 }
 
-void Hdf5Writer::write(const std::string& name, hid_t stored, hid_t given, const void* values, const Hdf5Shape& shape) {
+void Hdf5Writer::write(const std::string& name, hid_t stored, hid_t given, const void* values,
+                       const Hdf5Shape& shape) {
   const Hdf5Id dataset = make_dataset(name, stored, shape);
-  if (product(shape) > 0) check(H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
+  if (product(shape) > 0)
+    check(H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
 }
 
-void Hdf5Writer::add(const std::string& name, std::span<const double> values, const Hdf5Shape& shape) {
+void Hdf5Writer::add(const std::string& name, std::span<const double> values,
+                     const Hdf5Shape& shape) {
   write(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), shape);
 }
 
-void Hdf5Writer::add(const std::string& name, std::span<const std::int32_t> values, const Hdf5Shape& shape) {
+void Hdf5Writer::add(const std::string& name, std::span<const std::int32_t> values,
+                     const Hdf5Shape& shape) {
   write(name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.data(), shape);
 }
 
-void Hdf5Writer::add(const std::string& name, std::span<const std::int64_t> values, const Hdf5Shape& shape) {
+void Hdf5Writer::add(const std::string& name, std::span<const std::int64_t> values,
+                     const Hdf5Shape& shape) {
   write(name, H5T_STD_I64LE, H5T_NATIVE_INT64, values.data(), shape);
 }
 
 void Hdf5Writer::add(const std::string& name, const std::vector<std::string>& texts) {
   std::vector<const char*> pointers;
   for (const std::string& text : texts) pointers.push_back(text.c_str());
-  const Hdf5Id type = text_type(), space(H5Screate_simple(1, Hdf5Shape{texts.size()}.data(), nullptr), H5Sclose);
+  const Hdf5Id type = text_type(),
+               space(H5Screate_simple(1, Hdf5Shape{texts.size()}.data(), nullptr), H5Sclose);
   const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false);
   const Hdf5Id dataset(
-      check(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), "make " + name),
+      check(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+            "make " + name),
       H5Dclose);
-  if (!texts.empty()) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "write " + name);
+  if (!texts.empty())
+    check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "write " + name);
 }
 
 Hdf5Id Hdf5Writer::add_slices(const std::string& name, const Hdf5Shape& shape) {
@@ -164,9 +188,12 @@ void Hdf5Writer::write_slice(const Hdf5Id& dataset, hsize_t index, std::span<con
   H5Sget_simple_extent_dims(space, count.data(), nullptr);
   start[0] = index;
   count[0] = 1;
-  const Hdf5Id memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
-  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "select a slice");
-  check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), "write a slice");
+  const Hdf5Id memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
+                      H5Sclose);
+  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+        "select a slice");
+  check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()),
+        "write a slice");
 }
 
 void Hdf5Writer::commit() {
@@ -180,9 +207,12 @@ Hdf5Writer::Image::~Image() { std::free(bytes); }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
     : path_(file),
-      file_(checked(open_for_reading(file), file, "open it: missing, truncated or no HDF5 file"), H5Fclose) {}
+      file_(checked(open_for_reading(file), file, "open it: missing, truncated or no HDF5 file"),
+            H5Fclose) {}
 
-hid_t Hdf5Reader::check(hid_t result, const std::string& what) const { return checked(result, path_, what); }
+hid_t Hdf5Reader::check(hid_t result, const std::string& what) const {
+  return checked(result, path_, what);
+}
 
 Hdf5Id Hdf5Reader::open(const std::string& name) const {
   return Hdf5Id(check(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), "find " + name), H5Dclose);
@@ -194,7 +224,8 @@ bool Hdf5Reader::has(const std::string& name) const {
 
 Hdf5Shape Hdf5Reader::shape(const std::string& name) const {
   const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
-  Hdf5Shape shape(static_cast<size_t>(check(H5Sget_simple_extent_ndims(space), "give the shape of " + name)));
+  Hdf5Shape shape(
+      static_cast<size_t>(check(H5Sget_simple_extent_ndims(space), "give the shape of " + name)));
   H5Sget_simple_extent_dims(space, shape.data(), nullptr);
   return shape;
 }
@@ -202,7 +233,8 @@ Hdf5Shape Hdf5Reader::shape(const std::string& name) const {
 std::vector<double> Hdf5Reader::read(const std::string& name) const {
   std::vector<double> values(product(shape(name)));
   if (!values.empty())
-    check(H5Dread(open(name), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "read " + name);
+    check(H5Dread(open(name), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+          "read " + name);
   return values;
 }
 
@@ -212,9 +244,11 @@ std::vector<double> Hdf5Reader::read_slice(const std::string& name, hsize_t inde
   start[0] = index;
   std::vector<double> values(product(count));
   const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
-  const Hdf5Id memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  const Hdf5Id memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
+                      H5Sclose);
   const std::string what = "read slice " + std::to_string(index) + " of " + name;
-  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), what);
+  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+        what);
   check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), what);
   return values;
 }
@@ -230,8 +264,10 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
 
 std::string Hdf5Reader::read_text(const std::string& object, const std::string& attribute) const {
   const std::string what = "read the attribute " + attribute + " of " + object;
-  const Hdf5Id id(check(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), what),
-                  H5Aclose);
+  const Hdf5Id id(
+      check(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+            what),
+      H5Aclose);
   const Hdf5Id type = text_type(), space(H5Aget_space(id), H5Sclose);
   char* value = nullptr;
   check(H5Aread(id, type, &value), what);

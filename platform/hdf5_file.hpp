@@ -1,6 +1,6 @@
 #pragma once
-// The little of HDF5's C API that records need. Every failure is a Error that names the file; HDF5 itself says
-// nothing.
+// The little of HDF5's C API that records need. Every failure is a Error that names the file; HDF5
+// itself says nothing.
 
 #include <hdf5.h>
 
@@ -46,9 +46,9 @@ class Hdf5Silence {
 
 using Hdf5Shape = std::vector<hsize_t>;
 
-/// Builds an HDF5 file in memory and writes it to disk whole: HDF5 cannot recover from a disk that fills up while it
-/// writes. The format is HDF5 1.8's, with checksums of metadata and of compressed data, and without times of day: equal
-/// contents are equal bytes.
+/// Builds an HDF5 file in memory and writes it to disk whole: HDF5 cannot recover from a disk that
+/// fills up while it writes. The format is HDF5 1.8's, with checksums of metadata and of compressed
+/// data, and without times of day: equal contents are equal bytes.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::filesystem::path& target);
@@ -66,8 +66,8 @@ class Hdf5Writer {
   Hdf5Id add_slices(const std::string& name, const Hdf5Shape& shape);
   void write_slice(const Hdf5Id& dataset, hsize_t index, std::span<const double> values);
 
-  /// Writes beside the target and renames. All datasets handed out must be closed by then; nothing can be added
-  /// afterwards.
+  /// Writes beside the target and renames. All datasets handed out must be closed by then; nothing
+  /// can be added afterwards.
   void commit();
 
   /// The bytes of the file in memory, which HDF5 leaves to us when it closes the file.
@@ -78,7 +78,8 @@ class Hdf5Writer {
 
  private:
   Hdf5Id make_dataset(const std::string& name, hid_t type, const Hdf5Shape& shape);
-  void write(const std::string& name, hid_t stored, hid_t given, const void* values, const Hdf5Shape& shape);
+  void write(const std::string& name, hid_t stored, hid_t given, const void* values,
+             const Hdf5Shape& shape);
   hid_t check(hid_t result, const std::string& what) const;
 
   Hdf5Silence silence_;

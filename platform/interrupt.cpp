@@ -7,7 +7,8 @@ namespace ballast {
 namespace {
 
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // the only kind that a signal handler may touch
+static_assert(
+    std::atomic<bool>::is_always_lock_free);  // the only kind that a signal handler may touch
 
 extern "C" void on_signal(int signal) {
   interrupted = true;

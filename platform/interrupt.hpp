@@ -3,7 +3,8 @@
 
 namespace ballast {
 
-/// Catches SIGINT and SIGTERM while alive; a second signal of the same kind ends the program at once.
+/// Catches SIGINT and SIGTERM while alive; a second signal of the same kind ends the program at
+/// once.
 class InterruptGuard {
  public:
   InterruptGuard();

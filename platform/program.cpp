@@ -23,7 +23,9 @@ std::vector<std::string> child_environment() {
   std::vector<std::string> variables{"LC_ALL=C"};
   for (char** entry = environ; *entry; ++entry) {
     const std::string variable = *entry;
-    if (variable.rfind("LC_ALL=", 0) == 0 || variable.rfind("GNUPLOT", 0) == 0 || variable.rfind("GNUTERM=", 0) == 0) continue;
+    if (variable.rfind("LC_ALL=", 0) == 0 || variable.rfind("GNUPLOT", 0) == 0 ||
+        variable.rfind("GNUTERM=", 0) == 0)
+      continue;
     variables.push_back(variable);
   }
   return variables;
@@ -40,7 +42,8 @@ struct Pipe {
   int read_end = -1, write_end = -1;
   Pipe() {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
     read_end = ends[0];
     write_end = ends[1];
   }
@@ -65,16 +68,19 @@ bool take(int descriptor, std::string& text) {
 }
 
 /// Reads both until the child closes them; false when time is up or it is too much.
-bool read_both(const Pipe& output, const Pipe& errors, Clock::time_point deadline, ProgramResult& result) {
+bool read_both(const Pipe& output, const Pipe& errors, Clock::time_point deadline,
+               ProgramResult& result) {
   constexpr size_t most = 256u << 20;
   pollfd waiting[2] = {{output.read_end, POLLIN, 0}, {errors.read_end, POLLIN, 0}};
   std::string* texts[2] = {&result.output, &result.errors};
   while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0 || result.output.size() + result.errors.size() > most) return false;
     if (poll(waiting, 2, static_cast<int>(std::min<long long>(left, 1000))) <= 0) continue;
     for (int k = 0; k < 2; ++k)
-      if (waiting[k].fd >= 0 && waiting[k].revents != 0 && !take(waiting[k].fd, *texts[k])) waiting[k].fd = -1;
+      if (waiting[k].fd >= 0 && waiting[k].revents != 0 && !take(waiting[k].fd, *texts[k]))
+        waiting[k].fd = -1;
   }
   return true;
 }
@@ -98,7 +104,8 @@ int wait_for(pid_t child, Clock::time_point deadline, bool& timed_out) {
 
 }  // namespace
 
-ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, double seconds) {
+ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments,
+                        double seconds) {
   Pipe output, errors;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -108,7 +115,8 @@ ProgramResult run_child(const std::string& program, const std::vector<std::strin
   std::vector<std::string> words{program}, environment = child_environment();
   words.insert(words.end(), arguments.begin(), arguments.end());
   pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, pointers(words).data(), pointers(environment).data());
+  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, pointers(words).data(),
+                                 pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   output.close_write_end();
   errors.close_write_end();
@@ -119,7 +127,8 @@ ProgramResult run_child(const std::string& program, const std::vector<std::strin
     result.errors = std::strerror(error);
     return result;
   }
-  const auto deadline = Clock::now() + std::chrono::milliseconds(static_cast<long long>(1e3 * seconds));
+  const auto deadline =
+      Clock::now() + std::chrono::milliseconds(static_cast<long long>(1e3 * seconds));
   if (!read_both(output, errors, deadline, result)) {
     result.timed_out = true;
     kill(child, SIGKILL);

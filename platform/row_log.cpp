@@ -24,7 +24,8 @@ struct FixedHeader {
 };
 static_assert(sizeof(FixedHeader) == 40);
 
-/// How many rows are safe, at its fixed place after the header's fixed part: it alone is written again.
+/// How many rows are safe, at its fixed place after the header's fixed part: it alone is written
+/// again.
 struct SafeMark {
   std::uint64_t rows, checksum;
   explicit SafeMark(std::uint64_t count = 0)
@@ -53,7 +54,8 @@ row_log::File open_file(const std::filesystem::path& path, const char* mode, con
 
 }  // namespace
 
-RowReader::RowReader(const std::filesystem::path& file) : path_(file), file_(open_file(file, "rb", "open")) {
+RowReader::RowReader(const std::filesystem::path& file)
+    : path_(file), file_(open_file(file, "rb", "open")) {
   read_header();
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
@@ -61,7 +63,7 @@ RowReader::RowReader(const std::filesystem::path& file) : path_(file), file_(ope
   row_count_ = static_cast<long>((bytes - header_bytes_) / row_bytes(header_.row_size));
   if (row_count_ < safe_count_)
     throw Error(path_.string() + ": is truncated: " + std::to_string(row_count_) + " rows of " +
-                   std::to_string(safe_count_) + " are there");
+                std::to_string(safe_count_) + " are there");
   values_.resize(header_.row_size);
 }
 
@@ -76,14 +78,16 @@ void RowReader::read_header() {
            std::to_string(version));
   SafeMark safe;
   read(&safe, sizeof safe);
-  if (safe.checksum != SafeMark(safe.rows).checksum) refuse("is damaged: the checksum of its count of rows is wrong");
+  if (safe.checksum != SafeMark(safe.rows).checksum)
+    refuse("is damaged: the checksum of its count of rows is wrong");
   const std::uintmax_t bytes = std::filesystem::file_size(path_);
   if (fixed.text_length > bytes) refuse("is truncated in its header");
   header_.text.resize(fixed.text_length);
   read(header_.text.data(), header_.text.size());
   std::uint64_t checksum;
   read(&checksum, sizeof checksum);
-  if (checksum != header_checksum(fixed, header_.text)) refuse("is damaged: the checksum of its header is wrong");
+  if (checksum != header_checksum(fixed, header_.text))
+    refuse("is damaged: the checksum of its header is wrong");
   header_.row_size = fixed.row_size;
   header_.owner = fixed.owner;
   safe_count_ = static_cast<long>(safe.rows);
@@ -104,7 +108,8 @@ std::span<const double> RowReader::next() {
   read(&checksum, sizeof checksum);
   if (checksum != row_checksum(row_, values_)) {
     if (row_ < safe_count_)
-      throw Error(path_.string() + ": is damaged: the checksum of row " + std::to_string(row_) + " is wrong");
+      throw Error(path_.string() + ": is damaged: the checksum of row " + std::to_string(row_) +
+                  " is wrong");
     row_count_ = row_;
     return {};
   }
@@ -115,7 +120,8 @@ std::span<const double> RowReader::next() {
 void RowReader::rewind() {
   row_ = 0;
   errno = 0;
-  if (std::fseek(file_.get(), static_cast<long>(header_bytes_), SEEK_SET) != 0) throw_file_error(path_, "read");
+  if (std::fseek(file_.get(), static_cast<long>(header_bytes_), SEEK_SET) != 0)
+    throw_file_error(path_, "read");
 }
 
 RowWriter::RowWriter(const std::filesystem::path& file, const RowLogHeader& header)
@@ -133,7 +139,10 @@ RowWriter::RowWriter(const std::filesystem::path& file, const RowLogHeader& head
 }
 
 RowWriter::RowWriter(const std::filesystem::path& file, const RowReader& reader, long kept)
-    : path_(file), file_(open_file(file, "r+b", "write")), row_size_(reader.header().row_size), row_count_(kept) {
+    : path_(file),
+      file_(open_file(file, "r+b", "write")),
+      row_size_(reader.header().row_size),
+      row_count_(kept) {
   mark_safe(kept);  // before the cut: never more safe rows than there are
   const long end = static_cast<long>(reader.header_bytes() + kept * row_bytes(row_size_));
   errno = 0;
@@ -143,8 +152,8 @@ RowWriter::RowWriter(const std::filesystem::path& file, const RowReader& reader,
 
 void RowWriter::append(std::span<const double> row) {
   if (row.size() != row_size_)
-    throw Error(path_.string() + ": a row of " + std::to_string(row.size()) + " numbers instead of " +
-                   std::to_string(row_size_));
+    throw Error(path_.string() + ": a row of " + std::to_string(row.size()) +
+                " numbers instead of " + std::to_string(row_size_));
   const std::uint64_t checksum = row_checksum(row_count_, row);
   write(row.data(), row.size_bytes());
   write(&checksum, sizeof checksum);

@@ -1,12 +1,14 @@
 #pragma once
-// Append-only file of fixed-size rows of doubles: what a run that may be killed at any moment writes into.
+// Append-only file of fixed-size rows of doubles: what a run that may be killed at any moment
+// writes into.
 //
-//   magic "BALLROWS", u32 version, u32 byte order, u64 doubles per row, u64 owner, u64 length of text,
-//   u64 safe, u64 checksum of safe, text, u64 checksum of all of this without safe,
-//   then rows: doubles, u64 checksum of the row's number and its doubles.
+//   magic "BALLROWS", u32 version, u32 byte order, u64 doubles per row, u64 owner, u64 length of
+//   text, u64 safe, u64 checksum of safe, text, u64 checksum of all of this without safe, then
+//   rows: doubles, u64 checksum of the row's number and its doubles.
 //
-// The first `safe` rows have been made safe on disk: that one of them is cut off or damaged is an error. What follows
-// them is taken as long as it is whole: the end of a log after a power cut may be anything.
+// The first `safe` rows have been made safe on disk: that one of them is cut off or damaged is an
+// error. What follows them is taken as long as it is whole: the end of a log after a power cut may
+// be anything.
 
 #include <cstdint>
 #include <cstdio>
@@ -42,7 +44,8 @@ class RowReader {
   /// Bytes before the first row.
   size_t header_bytes() const { return header_bytes_; }
 
-  /// The next row, valid until the next call; empty after the last. Throws Error when a safe row is damaged.
+  /// The next row, valid until the next call; empty after the last. Throws Error when a safe row is
+  /// damaged.
   std::span<const double> next();
   void rewind();
 
@@ -63,7 +66,8 @@ class RowWriter {
  public:
   /// Creates the file, or replaces it.
   RowWriter(const std::filesystem::path& file, const RowLogHeader& header);
-  /// Continues a file after its first `kept` rows; what follows them is cut off. `reader` has read that file so far.
+  /// Continues a file after its first `kept` rows; what follows them is cut off. `reader` has read
+  /// that file so far.
   RowWriter(const std::filesystem::path& file, const RowReader& reader, long kept);
 
   void append(std::span<const double> row);

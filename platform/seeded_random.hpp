@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers with the same bits on every machine and library: splitmix64 (Steele, Lea, Flood 2014) and plain
-// arithmetic.
+// Random numbers with the same bits on every machine and library: splitmix64 (Steele, Lea, Flood
+// 2014) and plain arithmetic.
 
 #include <cmath>
 #include <cstdint>

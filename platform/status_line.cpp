@@ -11,15 +11,19 @@
 namespace ballast {
 namespace {
 
-/// Of the terminal that stderr is: a longer line could not be rewritten. Asked each time, as windows change.
+/// Of the terminal that stderr is: a longer line could not be rewritten. Asked each time, as
+/// windows change.
 size_t terminal_columns() {
   winsize window{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 ? window.ws_col - 1u : std::string::npos;
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 ? window.ws_col - 1u
+                                                                             : std::string::npos;
 }
 
 }  // namespace
 
-StatusLine::Style StatusLine::style_of_stderr() { return isatty(STDERR_FILENO) ? Style::bar : Style::lines; }
+StatusLine::Style StatusLine::style_of_stderr() {
+  return isatty(STDERR_FILENO) ? Style::bar : Style::lines;
+}
 
 void StatusLine::write(std::string text) {
   if (style_ == Style::quiet) return;
@@ -45,9 +49,12 @@ std::string duration_text(double seconds) {
   if (!(seconds < 1e6)) return "?";
   const long s = std::lround(seconds);
   char text[40];
-  if (s < 60) std::snprintf(text, sizeof text, "%ld s", s);
-  else if (s < 3600) std::snprintf(text, sizeof text, "%ld min %02ld s", s / 60, s % 60);
-  else std::snprintf(text, sizeof text, "%ld h %02ld min", s / 3600, s / 60 % 60);
+  if (s < 60)
+    std::snprintf(text, sizeof text, "%ld s", s);
+  else if (s < 3600)
+    std::snprintf(text, sizeof text, "%ld min %02ld s", s / 60, s % 60);
+  else
+    std::snprintf(text, sizeof text, "%ld h %02ld min", s / 3600, s / 60 % 60);
   return text;
 }
 

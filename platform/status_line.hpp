@@ -1,5 +1,6 @@
 #pragma once
-// A line that says how far something is: rewrites itself on a terminal, is written now and then elsewhere.
+// A line that says how far something is: rewrites itself on a terminal, is written now and then
+// elsewhere.
 
 #include <iosfwd>
 #include <string>
@@ -23,7 +24,8 @@ class StatusLine {
   double interval() const { return style_ == Style::bar ? 0.1 : 10.0; }
 
   void write(std::string text);
-  /// Ends the line that is being rewritten, if one is: to be called before anything else is printed.
+  /// Ends the line that is being rewritten, if one is: to be called before anything else is
+  /// printed.
   void end();
 
  private:

@@ -37,7 +37,8 @@ namespace {
 
 }  // namespace
 
-Worker::Worker(const fs::path& program, const std::vector<std::string>& arguments, const fs::path& log) {
+Worker::Worker(const fs::path& program, const std::vector<std::string>& arguments,
+               const fs::path& log) {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) throw_file_error(log, "open");
   std::vector<std::string> texts{program.string()};

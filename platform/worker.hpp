@@ -9,13 +9,16 @@
 
 namespace ballast {
 
-/// A program that runs beside this one and writes into a log. It is in a process group of its own, so that Ctrl-C reaches it only by
-/// stop(); it dies at once (SIGKILL) when this process dies, however that comes about.
+/// A program that runs beside this one and writes into a log. It is in a process group of its own,
+/// so that Ctrl-C reaches it only by stop(); it dies at once (SIGKILL) when this process dies,
+/// however that comes about.
 class Worker {
  public:
-  /// `program`: a path. What it writes is appended to `log`. Single-threaded linear algebra (OPENBLAS_NUM_THREADS=1 ...) unless the
-  /// environment says otherwise. Throws Error when there can be no child. Not to be called with threads about.
-  Worker(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& log);
+  /// `program`: a path. What it writes is appended to `log`. Single-threaded linear algebra
+  /// (OPENBLAS_NUM_THREADS=1 ...) unless the environment says otherwise. Throws Error when there
+  /// can be no child. Not to be called with threads about.
+  Worker(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+         const std::filesystem::path& log);
   /// Kills it if it still runs.
   ~Worker();
   Worker(const Worker&) = delete;

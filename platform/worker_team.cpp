@@ -3,7 +3,8 @@
 namespace ballast {
 namespace {
 
-/// Some hundred microseconds: longer than the gap between two loops of a solve, shorter than the rest of a time step.
+/// Some hundred microseconds: longer than the gap between two loops of a solve, shorter than the
+/// rest of a time step.
 constexpr int spins = 10000;
 
 inline void pause() {
@@ -21,8 +22,10 @@ void WorkerTeam::resize(int threads) {
   if (threads == members_) return;
   stop();
   members_ = threads;
-  const unsigned seen = round_.load();  // taken here: a thread that starts late must not miss the first round
-  for (int member = 1; member < threads; ++member) workers_.emplace_back([this, member, seen] { work(member, seen); });
+  const unsigned seen =
+      round_.load();  // taken here: a thread that starts late must not miss the first round
+  for (int member = 1; member < threads; ++member)
+    workers_.emplace_back([this, member, seen] { work(member, seen); });
 }
 
 void WorkerTeam::stop() {
@@ -53,14 +56,16 @@ void WorkerTeam::start(int parts, Call call, const void* context) {
 void WorkerTeam::work(int member, unsigned seen) {
   while (true) {
     unsigned now = seen;
-    for (int spin = 0; spin < spins && (now = round_.load(std::memory_order_acquire)) == seen; ++spin) pause();
+    for (int spin = 0; spin < spins && (now = round_.load(std::memory_order_acquire)) == seen;
+         ++spin)
+      pause();
     if (now == seen) {
       round_.wait(seen, std::memory_order_acquire);
       continue;
     }
     seen = now;
     if (ends_) return;
-      for (int part = member; part < parts_; part += members_) call_(context_, part);
+    for (int part = member; part < parts_; part += members_) call_(context_, part);
     busy_.fetch_sub(1, std::memory_order_release);
   }
 }

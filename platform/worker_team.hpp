@@ -1,5 +1,6 @@
 #pragma once
-// A few threads that wait close by: for loops of some ten microseconds, thousands of times a second.
+// A few threads that wait close by: for loops of some ten microseconds, thousands of times a
+// second.
 
 #include <atomic>
 #include <thread>
@@ -19,14 +20,17 @@ class WorkerTeam {
   void resize(int threads);
   int size() const { return members_; }
 
-  /// task(part) for every part in [0, parts), each on one thread, and returns when all are done. `task` must not throw.
+  /// task(part) for every part in [0, parts), each on one thread, and returns when all are done.
+  /// `task` must not throw.
   template <typename Task>
   void run(int parts, const Task& task) {
     if (members_ == 1 || parts < 2) {
       for (int part = 0; part < parts; ++part) task(part);
       return;
     }
-    start(parts, [](const void* context, int part) { (*static_cast<const Task*>(context))(part); }, &task);
+    start(
+        parts, [](const void* context, int part) { (*static_cast<const Task*>(context))(part); },
+        &task);
   }
 
  private:

@@ -27,13 +27,15 @@ constexpr const char* suitesparse = "libsuitesparse-dev";
 /// Built at the first call: makers of optional backends are known only then.
 const std::vector<SolverEntry>& entries() {
   static const std::vector<SolverEntry> list = {
-      {"auto", "ours, recommended: sweeps where they are enough, proximal Newton where not", ContactLaw::coulomb, auto_maker(),
-       suitesparse},
-      {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)", ContactLaw::coulomb,
-       [] { return make_gauss_seidel(); }, ""},
-      {"pgs_projection", "pgs, each contact by one projection (De Saxce, Feng 1998)", ContactLaw::coulomb,
+      {"auto", "ours, recommended: sweeps where they are enough, proximal Newton where not",
+       ContactLaw::coulomb, auto_maker(), suitesparse},
+      {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)",
+       ContactLaw::coulomb, [] { return make_gauss_seidel(); }, ""},
+      {"pgs_projection", "pgs, each contact by one projection (De Saxce, Feng 1998)",
+       ContactLaw::coulomb,
        [] { return make_gauss_seidel({.variant = {.rule = LocalRule::projection}}); }, ""},
-      {"pgs_newton", "pgs, each contact by Newton on Alart-Curnier's function (1991)", ContactLaw::coulomb,
+      {"pgs_newton", "pgs, each contact by Newton on Alart-Curnier's function (1991)",
+       ContactLaw::coulomb,
        [] { return make_gauss_seidel({.variant = {.rule = LocalRule::newton}}); }, ""},
       {"psor", "pgs over-relaxed by 1.3", ContactLaw::coulomb,
        [] { return make_gauss_seidel({.variant = {.relaxation = 1.3}}); }, ""},
@@ -41,56 +43,70 @@ const std::vector<SolverEntry>& entries() {
        [] { return make_gauss_seidel({.variant = {.order = SweepOrder::symmetric}}); }, ""},
       {"pgs_random", "pgs, contacts in another seeded order every sweep", ContactLaw::coulomb,
        [] { return make_gauss_seidel({.variant = {.order = SweepOrder::random}}); }, ""},
-      {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)", ContactLaw::coulomb,
-       [] { return make_nncg(); }, ""},
-      {"jacobi", "damped block Jacobi, each contact solved exactly: the parallel baseline", ContactLaw::coulomb,
-       [] { return make_jacobi(); }, ""},
-      {"anderson_pgs", "pgs with safeguarded Anderson acceleration (Walker, Ni 2011)", ContactLaw::coulomb,
-       [] { return make_anderson_pgs(); }, ""},
+      {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)",
+       ContactLaw::coulomb, [] { return make_nncg(); }, ""},
+      {"jacobi", "damped block Jacobi, each contact solved exactly: the parallel baseline",
+       ContactLaw::coulomb, [] { return make_jacobi(); }, ""},
+      {"anderson_pgs", "pgs with safeguarded Anderson acceleration (Walker, Ni 2011)",
+       ContactLaw::coulomb, [] { return make_anderson_pgs(); }, ""},
       {"apgd", "accelerated projected gradient with s-update (Mazhar 2015)", ContactLaw::coulomb,
        [] { return make_apgd(); }, ""},
-      {"spg", "spectral projected gradient with s-update (Birgin, Martinez, Raydan 2000)", ContactLaw::coulomb,
-       [] { return make_spg(); }, ""},
-      {"admm", "alternating directions on one sparse factorisation, with s-update (Acary, Bremond, Huber 2018)",
+      {"spg", "spectral projected gradient with s-update (Birgin, Martinez, Raydan 2000)",
+       ContactLaw::coulomb, [] { return make_spg(); }, ""},
+      {"admm",
+       "alternating directions on one sparse factorisation, with s-update (Acary, Bremond, Huber "
+       "2018)",
        ContactLaw::coulomb, admm_maker(), suitesparse},
-      {"interior_point", "primal-dual for second-order cones, Nesterov-Todd scaling, with s-update (Acary et al. 2023)",
+      {"interior_point",
+       "primal-dual for second-order cones, Nesterov-Todd scaling, with s-update (Acary et al. "
+       "2023)",
        ContactLaw::coulomb, interior_point_maker(), suitesparse},
-      {"sap", "unconstrained convex problem in velocities (Castro 2022), proximal steps", ContactLaw::convex_relaxation,
-       sap_maker(), suitesparse},
-      {"newton_ac", "semismooth Newton on Alart and Curnier's function, sparse LU (Alart, Curnier 1991)",
+      {"sap", "unconstrained convex problem in velocities (Castro 2022), proximal steps",
+       ContactLaw::convex_relaxation, sap_maker(), suitesparse},
+      {"newton_ac",
+       "semismooth Newton on Alart and Curnier's function, sparse LU (Alart, Curnier 1991)",
        ContactLaw::coulomb, newton_ac_maker(), suitesparse},
-      {"newton_nm", "semismooth Newton on the natural map, sparse LU", ContactLaw::coulomb, newton_nm_maker(), suitesparse},
-      {"newton_fb", "semismooth Newton on Fischer and Burmeister's function, sparse LU (Fukushima, Luo, Tseng 2002)",
+      {"newton_nm", "semismooth Newton on the natural map, sparse LU", ContactLaw::coulomb,
+       newton_nm_maker(), suitesparse},
+      {"newton_fb",
+       "semismooth Newton on Fischer and Burmeister's function, sparse LU (Fukushima, Luo, Tseng "
+       "2002)",
        ContactLaw::coulomb, newton_fb_maker(), suitesparse},
-      {"prox_newton", "proximal-point steps, each by semismooth Newton (Acary, Bremond, Huber 2018)",
+      {"prox_newton",
+       "proximal-point steps, each by semismooth Newton (Acary, Bremond, Huber 2018)",
        ContactLaw::coulomb, prox_newton_maker(), suitesparse},
-      {"ipopt", "convex cone program with s-update by Ipopt's interior point (Waechter, Biegler 2006)", ContactLaw::coulomb,
-       ipopt_maker(), "coinor-libipopt-dev"},
-      {"ipopt_mpcc", "program with complementarity constraints, relaxed towards zero (Scholtes 2001), by Ipopt",
+      {"ipopt",
+       "convex cone program with s-update by Ipopt's interior point (Waechter, Biegler 2006)",
+       ContactLaw::coulomb, ipopt_maker(), "coinor-libipopt-dev"},
+      {"ipopt_mpcc",
+       "program with complementarity constraints, relaxed towards zero (Scholtes 2001), by Ipopt",
        ContactLaw::coulomb, ipopt_mpcc_maker(), "coinor-libipopt-dev"},
       {"nlopt_slsqp", "convex cone program with s-update by NLopt's SLSQP (Kraft 1994)",
        ContactLaw::coulomb, nlopt_slsqp_maker(), "libnlopt-dev", nlopt_slsqp_limit},
-      {"nlopt_mma", "convex cone program with s-update by NLopt's MMA (Svanberg 2002)", ContactLaw::coulomb,
-       nlopt_mma_maker(), "libnlopt-dev", nlopt_mma_limit},
-      {"nlopt_ccsaq", "convex cone program with s-update by NLopt's CCSAQ (Svanberg 2002)", ContactLaw::coulomb,
-       nlopt_ccsaq_maker(), "libnlopt-dev", nlopt_ccsaq_limit},
-      {"pyramid_lemke", "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996)", ContactLaw::pyramid,
-       [] { return make_pyramid_lemke(); }, "", PyramidLemkeSettings{}.limit()},
+      {"nlopt_mma", "convex cone program with s-update by NLopt's MMA (Svanberg 2002)",
+       ContactLaw::coulomb, nlopt_mma_maker(), "libnlopt-dev", nlopt_mma_limit},
+      {"nlopt_ccsaq", "convex cone program with s-update by NLopt's CCSAQ (Svanberg 2002)",
+       ContactLaw::coulomb, nlopt_ccsaq_maker(), "libnlopt-dev", nlopt_ccsaq_limit},
+      {"pyramid_lemke",
+       "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996)",
+       ContactLaw::pyramid, [] { return make_pyramid_lemke(); }, "",
+       PyramidLemkeSettings{}.limit()},
       {"siconos_nsgs", "Siconos: nonsmooth Gauss-Seidel, hybrid local Newton", ContactLaw::coulomb,
        siconos_nsgs_maker(), "libsiconos-numerics-dev"},
       {"siconos_prox", "Siconos: proximal point around a nonsmooth Newton", ContactLaw::coulomb,
        siconos_prox_maker(), "libsiconos-numerics-dev"},
-      {"siconos_admm", "Siconos: ADMM, penalty by residual balancing", ContactLaw::coulomb, siconos_admm_maker(),
-       "libsiconos-numerics-dev"},
-      {"siconos_nsn_ac", "Siconos: nonsmooth Newton on Alart-Curnier's function", ContactLaw::coulomb,
-       siconos_nsn_ac_maker(), "libsiconos-numerics-dev"},
+      {"siconos_admm", "Siconos: ADMM, penalty by residual balancing", ContactLaw::coulomb,
+       siconos_admm_maker(), "libsiconos-numerics-dev"},
+      {"siconos_nsn_ac", "Siconos: nonsmooth Newton on Alart-Curnier's function",
+       ContactLaw::coulomb, siconos_nsn_ac_maker(), "libsiconos-numerics-dev"},
   };
   return list;
 }
 
 std::string all_names() {
   std::string names;
-  for (const SolverEntry& entry : entries()) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  for (const SolverEntry& entry : entries())
+    names += (names.empty() ? "" : ", ") + std::string(entry.name);
   return names;
 }
 
@@ -107,7 +123,8 @@ const SolverEntry& find_solver(std::string_view name) {
 std::unique_ptr<Solver> make_solver(std::string_view name) {
   const SolverEntry& entry = find_solver(name);
   if (!entry.make)
-    throw MissingSolver("solver '" + std::string(name) + "' was built without its library; install " + entry.missing +
+    throw MissingSolver("solver '" + std::string(name) +
+                        "' was built without its library; install " + entry.missing +
                         " and build again. There are: " + all_names());
   return entry.make();
 }

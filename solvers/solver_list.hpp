@@ -14,8 +14,8 @@ struct SolverEntry {
   const char* name;         ///< as on the command line
   const char* description;  ///< one line, with the source
   ContactLaw law;
-  SolverMaker make;     ///< null: built without the library it needs
-  const char* missing;  ///< what to install when make is null
+  SolverMaker make;        ///< null: built without the library it needs
+  const char* missing;     ///< what to install when make is null
   SizeLimit largest = {};  ///< what it promises to take
 };
 
@@ -31,7 +31,8 @@ class MissingSolver : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-const SolverEntry& find_solver(std::string_view name);       ///< throws UnknownSolver
-std::unique_ptr<Solver> make_solver(std::string_view name);  ///< throws UnknownSolver, MissingSolver
+const SolverEntry& find_solver(std::string_view name);  ///< throws UnknownSolver
+std::unique_ptr<Solver> make_solver(
+    std::string_view name);  ///< throws UnknownSolver, MissingSolver
 
 }  // namespace ballast

@@ -29,7 +29,8 @@ AccuracyRow row_of(const Trajectory& trajectory, double scale) {
   }
   const double steps = static_cast<double>(trajectory.steps.size());
   if (steps > 1.0) {
-    const double simulated = (trajectory.steps.back().time - trajectory.steps.front().time) * steps / (steps - 1.0);
+    const double simulated =
+        (trajectory.steps.back().time - trajectory.steps.front().time) * steps / (steps - 1.0);
     row.seconds_per_second = seconds / simulated;
     row.error_mean /= steps;
     row.iterations /= steps;
@@ -42,7 +43,8 @@ AccuracyRow row_of(const Trajectory& trajectory, double scale) {
 size_t least_error(const std::vector<AccuracyRow>& rows) {
   size_t best = rows.size();
   for (size_t k = 0; k < rows.size(); ++k)
-    if (rows[k].complete && (best == rows.size() || rows[k].error_mean < rows[best].error_mean)) best = k;
+    if (rows[k].complete && (best == rows.size() || rows[k].error_mean < rows[best].error_mean))
+      best = k;
   return best;
 }
 
@@ -96,7 +98,8 @@ std::vector<Measurement> accuracy_measurements(const std::vector<AccuracyRow>& r
 }
 
 Figure accuracy_figure(const std::vector<AccuracyRow>& rows) {
-  const Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::orange, Ink::purple, Ink::sky, Ink::black};
+  const Ink inks[] = {Ink::blue,   Ink::vermilion, Ink::green, Ink::orange,
+                      Ink::purple, Ink::sky,       Ink::black};
   Figure figure;
   figure.name = "accuracy";
   figure.title = "Error against the cost of a simulated second";
@@ -107,7 +110,8 @@ Figure accuracy_figure(const std::vector<AccuracyRow>& rows) {
   panel.log_x = panel.log_y = true;
   std::vector<std::string> solvers;
   for (const AccuracyRow& row : rows)
-    if (std::find(solvers.begin(), solvers.end(), row.solver) == solvers.end()) solvers.push_back(row.solver);
+    if (std::find(solvers.begin(), solvers.end(), row.solver) == solvers.end())
+      solvers.push_back(row.solver);
   for (size_t k = 0; k < solvers.size(); ++k) {
     std::vector<std::pair<double, double>> points;
     for (const AccuracyRow& row : rows)

@@ -1,6 +1,6 @@
 #pragma once
-// `ballast bench accuracy`: what a simulated second costs at which error, by solver and limit (the closed loop of
-// `ballast compare --live`).
+// `ballast bench accuracy`: what a simulated second costs at which error, by solver and limit (the
+// closed loop of `ballast compare --live`).
 
 #include <functional>
 
@@ -11,18 +11,19 @@
 namespace ballast {
 
 struct AccuracyOptions {
-  LiveOptions live;             ///< its tolerances: solved to these, with as many iterations as that takes
+  LiveOptions live;  ///< its tolerances: solved to these, with as many iterations as that takes
   std::vector<int> iterations;  ///< and so many in every step
 };
 
 /// One solver under one limit, from the common start.
 struct AccuracyRow {
-  std::string solver, limit;                   ///< "200 iterations", "tolerance 0.001"
-  double seconds_per_second = 0.0;             ///< wall clock of steps per simulated second
-  double error_mean = 0.0, error_worst = 0.0;  ///< judge: rms natural map over contacts [g h], over steps
-  double iterations = 0.0;                     ///< mean
-  double distance = 0.0;     ///< rms over grains at the end [m] from the reference: the trajectory of the least mean
-                             ///< error; NaN without one
+  std::string solver, limit;        ///< "200 iterations", "tolerance 0.001"
+  double seconds_per_second = 0.0;  ///< wall clock of steps per simulated second
+  double error_mean = 0.0,
+         error_worst = 0.0;  ///< judge: rms natural map over contacts [g h], over steps
+  double iterations = 0.0;   ///< mean
+  double distance = 0.0;  ///< rms over grains at the end [m] from the reference: the trajectory of
+                          ///< the least mean error; NaN without one
   double penetration = 0.0;  ///< [m] largest
   bool complete = false;
 };

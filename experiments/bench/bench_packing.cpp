@@ -4,9 +4,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "platform/interrupt.hpp"
 #include "experiments/box/packing_cache.hpp"
 #include "platform/error.hpp"
+#include "platform/interrupt.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -83,7 +83,8 @@ BenchStart tiled_start(const DepositedBox& box, int nx, int ny) {
       const Vec3 shift(ix * box.scene.box.length, iy * box.scene.box.width, 0.0);
       rain.grains.insert(rain.grains.end(), box.rain.grains.begin(), box.rain.grains.end());
       for (int b = 0; b < grains; ++b) {
-        state.pose.push_back({box.packing.state.pose[b].position + shift, box.packing.state.pose[b].rotation});
+        state.pose.push_back(
+            {box.packing.state.pose[b].position + shift, box.packing.state.pose[b].rotation});
         state.velocity.push_back(box.packing.state.velocity[b]);
         state.spin.push_back(box.packing.state.spin[b]);
       }

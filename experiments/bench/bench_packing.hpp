@@ -1,5 +1,6 @@
 #pragma once
-// Packings for `ballast bench`: the vibrated box as deposited, and large ones of the same kind made of it.
+// Packings for `ballast bench`: the vibrated box as deposited, and large ones of the same kind made
+// of it.
 
 #include <filesystem>
 #include <string>
@@ -16,8 +17,8 @@ struct DepositedBox {
   Packing packing;
 };
 
-/// From `cache`, or deposited now and kept there (resumable). Throws Error: a scene without grains, interrupted;
-/// SceneFileError.
+/// From `cache`, or deposited now and kept there (resumable). Throws Error: a scene without grains,
+/// interrupted; SceneFileError.
 DepositedBox deposited_box(const std::string& scene, const std::vector<std::string>& overrides,
                            const std::filesystem::path& cache);
 
@@ -31,9 +32,10 @@ struct BenchStart {
 /// The driven box at its first step.
 BenchStart driven_start(const DepositedBox& box);
 
-/// nx by ny copies of the packing side by side, without the walls between them, in one large box whose walls stand
-/// still (the settling stage: with the raised lid). Blocks do not overlap, because each lay between its walls; where
-/// those stood a seam of a grain's width is looser than the rest. Copies share the shapes of the first.
+/// nx by ny copies of the packing side by side, without the walls between them, in one large box
+/// whose walls stand still (the settling stage: with the raised lid). Blocks do not overlap,
+/// because each lay between its walls; where those stood a seam of a grain's width is looser than
+/// the rest. Copies share the shapes of the first.
 BenchStart tiled_start(const DepositedBox& box, int nx, int ny);
 
 }  // namespace ballast

@@ -11,8 +11,9 @@ std::vector<long> whole_numbers(const std::string& list, long most) {
     long number = 0;
     const auto [end, error] = std::from_chars(list.data() + begin, list.data() + comma, number);
     if (error != std::errc{} || end != list.data() + comma || number < 1 || number > most)
-      throw std::invalid_argument("'" + list.substr(begin, comma - begin) + "': expected whole numbers from 1 to " +
-                                  std::to_string(most) + ", separated by commas");
+      throw std::invalid_argument("'" + list.substr(begin, comma - begin) +
+                                  "': expected whole numbers from 1 to " + std::to_string(most) +
+                                  ", separated by commas");
     numbers.push_back(number);
     begin = comma + 1;
   }

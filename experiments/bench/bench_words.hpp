@@ -7,7 +7,8 @@
 
 namespace ballast {
 
-/// "1000,10000": whole numbers from 1 to `most`. Throws std::invalid_argument saying what was expected.
+/// "1000,10000": whole numbers from 1 to `most`. Throws std::invalid_argument saying what was
+/// expected.
 std::vector<long> whole_numbers(const std::string& list, long most);
 
 }  // namespace ballast

@@ -15,7 +15,8 @@ constexpr double grain_radius = 0.0375;  // [m] the paper's middle size
 constexpr double pair_spacing = 10.0 * grain_radius;
 
 /// How far b stands from a along x when they begin to touch, by halving [m].
-double touching_distance(const Polyhedron& a, const Polyhedron& b, const Quat& turn_a, const Quat& turn_b) {
+double touching_distance(const Polyhedron& a, const Polyhedron& b, const Quat& turn_a,
+                         const Quat& turn_b) {
   const std::vector<ContactShape> shapes{{&a, {}, false}, {&b, {}, false}};
   ContactDetector detector(shapes, {});
   const double none[] = {0.0, 0.0};
@@ -99,14 +100,16 @@ GrainPairs grain_pairs(int vertices, bool touching, int count) {
       shake.push_back(random.rotation() * Vec3(grain_radius, 0, 0));
       spin.push_back(random.rotation() * Vec3::UnitZ());
     }
-    const double touch = touching_distance(*pairs.shapes[2 * k], *pairs.shapes[2 * k + 1], turn[0], turn[1]);
+    const double touch =
+        touching_distance(*pairs.shapes[2 * k], *pairs.shapes[2 * k + 1], turn[0], turn[1]);
     const Vec3 place(0.0, pair_spacing * k, 0.0);
     base.push_back({place, turn[0]});
     base.push_back({place + Vec3(touch + (touching ? -4e-3 : 0.1) * grain_radius, 0, 0), turn[1]});
   }
   constexpr int visits = 32;
   const double amplitude =
-      4e-4 * visits / (2.0 * std::numbers::pi);  // the fastest step is 4e-4, half of it motion and half turn
+      4e-4 * visits /
+      (2.0 * std::numbers::pi);  // the fastest step is 4e-4, half of it motion and half turn
   for (int visit = 0; visit < visits; ++visit) {
     const double at = 0.5 * amplitude * std::sin(2.0 * std::numbers::pi * visit / visits);
     std::vector<Pose> poses = base;

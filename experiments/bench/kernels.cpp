@@ -20,7 +20,8 @@ class SampleReporter : public benchmark::BenchmarkReporter {
     for (const Run& run : runs) {
       if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
       const std::string& name = run.run_name.function_name;
-      samples[name].push_back(1e9 * run.cpu_accumulated_time / static_cast<double>(run.iterations) / items_.at(name));
+      samples[name].push_back(1e9 * run.cpu_accumulated_time / static_cast<double>(run.iterations) /
+                              items_.at(name));
     }
   }
   std::map<std::string, std::vector<double>> samples;
@@ -30,7 +31,8 @@ class SampleReporter : public benchmark::BenchmarkReporter {
 };
 
 /// Copies of the problem that make its records larger than any cache.
-int streaming_copies(const KernelProblem& problem, const KernelBenchOptions& options, const MachineFacts& facts) {
+int streaming_copies(const KernelProblem& problem, const KernelBenchOptions& options,
+                     const MachineFacts& facts) {
   const double last = facts.caches.empty() ? 32e6 : 1024.0 * facts.caches.back().kilobytes;
   const double wanted = options.streaming_MB > 0.0 ? 1e6 * options.streaming_MB : 2.0 * last;
   return 1 + static_cast<int>(wanted / std::max(1.0, sweep_floor(problem.problem).working_set));
@@ -38,8 +40,8 @@ int streaming_copies(const KernelProblem& problem, const KernelBenchOptions& opt
 
 }  // namespace
 
-std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelBenchOptions& options,
-                                     const MachineFacts& facts) {
+std::vector<Measurement> run_kernels(const KernelProblem& problem,
+                                     const KernelBenchOptions& options, const MachineFacts& facts) {
   std::vector<Kernel> kernels;
   add_detection_kernels(kernels);
   add_problem_kernels(problem, kernels);
@@ -52,11 +54,12 @@ std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelB
   for (const Kernel& kernel : kernels) {
     const std::string name = kernel.group + "/" + kernel.name;
     items[name] = kernel.items;
-    benchmark::RegisterBenchmark(name.c_str(),
-                                 [&kernel](benchmark::State& state) {
-                                   kernel.call();  // what is made at the first call is not part of the next
-                                   for (auto _ : state) kernel.call();
-                                 })
+    benchmark::RegisterBenchmark(
+        name.c_str(),
+        [&kernel](benchmark::State& state) {
+          kernel.call();  // what is made at the first call is not part of the next
+          for (auto _ : state) kernel.call();
+        })
         ->MinTime(options.min_time)
         ->Repetitions(options.repeats);
   }
@@ -72,8 +75,10 @@ std::vector<Measurement> run_kernels(const KernelProblem& problem, const KernelB
     if (found != reporter.samples.end())
       measurements.push_back(measurement_of(kernel.group, kernel.name, kernel.unit, found->second));
   }
-  if (measurements.empty()) throw std::invalid_argument("no kernel is called like '" + options.filter + "'");
-  for (Measurement& m : floor_measurements(problem.problem, facts)) measurements.push_back(std::move(m));
+  if (measurements.empty())
+    throw std::invalid_argument("no kernel is called like '" + options.filter + "'");
+  for (Measurement& m : floor_measurements(problem.problem, facts))
+    measurements.push_back(std::move(m));
   return measurements;
 }
 

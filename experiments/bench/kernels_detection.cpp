@@ -48,8 +48,9 @@ struct ManifoldWork {
     for (int k = 0; k < pairs.count(); ++k) {
       const Pose &a = pairs.poses[0][2 * k], &b = pairs.poses[0][2 * k + 1];
       const Mat3 into_a = a.rotation.toRotationMatrix().transpose();
-      const ShapePair pair(shapes[2 * k], shapes[2 * k + 1],
-                           {into_a * b.rotation.toRotationMatrix(), into_a * (b.position - a.position)});
+      const ShapePair pair(
+          shapes[2 * k], shapes[2 * k + 1],
+          {into_a * b.rotation.toRotationMatrix(), into_a * (b.position - a.position)});
       AxisFeature hint;
       SeparatingAxis axis;
       if (is_separated(search.find(pair, 2.0 * pairs.reach, hint, axis))) continue;
@@ -58,7 +59,8 @@ struct ManifoldWork {
     }
   }
   void all() {
-    for (size_t k = 0; k < tests.size(); ++k) points += manifold.points(tests[k], axes[k], 2.0 * pairs.reach, 4).size();
+    for (size_t k = 0; k < tests.size(); ++k)
+      points += manifold.points(tests[k], axes[k], 2.0 * pairs.reach, 4).size();
   }
 };
 
@@ -70,13 +72,14 @@ void add_detection_kernels(std::vector<Kernel>& kernels) {
     for (const bool touching : {true, false})
       for (const bool cached : {false, true}) {
         const auto work = std::make_shared<DetectionWork>(vertices, touching, cached);
-        kernels.push_back({"pair",
-                           std::string(touching ? "touching" : "apart") + (cached ? " cached" : " cold") + suffix,
-                           "ns/pair", pair_count, [work] { work->next(); }});
+        kernels.push_back(
+            {"pair",
+             std::string(touching ? "touching" : "apart") + (cached ? " cached" : " cold") + suffix,
+             "ns/pair", pair_count, [work] { work->next(); }});
       }
     const auto work = std::make_shared<ManifoldWork>(vertices);
-    kernels.push_back({"manifold", "clip and reduce" + suffix, "ns/pair", static_cast<double>(work->tests.size()),
-                       [work] { work->all(); }});
+    kernels.push_back({"manifold", "clip and reduce" + suffix, "ns/pair",
+                       static_cast<double>(work->tests.size()), [work] { work->all(); }});
   }
 }
 

@@ -34,8 +34,8 @@ void add_factor_kernels(const KernelProblem& problem, std::vector<Kernel>& kerne
   const double contacts = problem.problem.contact_count();
   kernels.push_back({"factor", "factorisation of the packing", "ns/contact", contacts,
                      [work] { work->shifted.factor(work->shift, work->sigma); }});
-  kernels.push_back(
-      {"factor", "solve with it", "ns/contact", contacts, [work] { work->shifted.solve(work->b, work->x); }});
+  kernels.push_back({"factor", "solve with it", "ns/contact", contacts,
+                     [work] { work->shifted.solve(work->b, work->x); }});
 }
 
 }  // namespace ballast

@@ -5,9 +5,11 @@
 
 namespace ballast {
 
-std::vector<Measurement> run_kernels(const KernelProblem&, const KernelBenchOptions&, const MachineFacts&) {
+std::vector<Measurement> run_kernels(const KernelProblem&, const KernelBenchOptions&,
+                                     const MachineFacts&) {
   throw MissingSolver(
-      "bench kernels: this program was built without Google Benchmark (libbenchmark-dev, BALLAST_BENCHMARK)");
+      "bench kernels: this program was built without Google Benchmark (libbenchmark-dev, "
+      "BALLAST_BENCHMARK)");
 }
 
 }  // namespace ballast

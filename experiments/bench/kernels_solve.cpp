@@ -25,7 +25,8 @@ struct ProblemWork {
     assembler.to_world(rows = at.impulses.head(problem.row_count()), at.contacts, world);
   }
   void assemble() {
-    assembler.assemble(at.start.state, v_free, at.h, at.start.state.time + at.h, at.contacts, problem);
+    assembler.assemble(at.start.state, v_free, at.h, at.start.state.time + at.h, at.contacts,
+                       problem);
   }
 };
 
@@ -35,7 +36,9 @@ struct SweepWork {
   BodySweep sweep;
 
   SweepWork(const KernelProblem& from, int copies, int threads)
-      : problem(repeated(from.problem, copies)), start(repeated(from.warm, copies)), end(start.size()) {
+      : problem(repeated(from.problem, copies)),
+        start(repeated(from.warm, copies)),
+        end(start.size()) {
     sweep.use_threads(threads);
     sweep.prepare(problem);
     sweep.load(problem, start);
@@ -66,7 +69,8 @@ struct OneContactWork {
       for (int k = 1; k < 3; ++k) one.u[k] = random.uniform(-reach, reach);
       Eigen::Vector3d r = Eigen::Vector3d::Zero();
       double lambda = 0.0;
-      if (solve_one_contact(w, Eigen::Vector3d(one.u[0], one.u[1], one.u[2]), mu, r, lambda) == wanted)
+      if (solve_one_contact(w, Eigen::Vector3d(one.u[0], one.u[1], one.u[2]), mu, r, lambda) ==
+          wanted)
         cases.push_back(one);
     }
   }
@@ -90,16 +94,19 @@ void add_problem_kernels(const KernelProblem& problem, std::vector<Kernel>& kern
   add("assembly", [work] { work->assemble(); });
   add("validation", [work] { work->problem.validate(); });
   add("judge", [work] { work->judge.judge(work->problem, work->rows); });
-  add("rows to world", [work] { work->assembler.to_world(work->rows, work->at.contacts, work->world); });
+  add("rows to world",
+      [work] { work->assembler.to_world(work->rows, work->at.contacts, work->world); });
   add("world to rows", [work] { work->assembler.to_rows(work->world, work->rows); });
 }
 
-void add_sweep_kernels(const KernelProblem& problem, int streaming_copies, std::vector<Kernel>& kernels) {
+void add_sweep_kernels(const KernelProblem& problem, int streaming_copies,
+                       std::vector<Kernel>& kernels) {
   const auto cached = std::make_shared<SweepWork>(problem, 1, 1),
              streaming = std::make_shared<SweepWork>(problem, streaming_copies, 1);
-  const auto add = [&](const char* name, const std::shared_ptr<SweepWork>& work, std::function<void()> call) {
-    kernels.push_back(
-        {"sweep", name, "ns/contact", static_cast<double>(work->problem.contact_count()), std::move(call)});
+  const auto add = [&](const char* name, const std::shared_ptr<SweepWork>& work,
+                       std::function<void()> call) {
+    kernels.push_back({"sweep", name, "ns/contact",
+                       static_cast<double>(work->problem.contact_count()), std::move(call)});
   };
   add("sweep, the packing alone", cached, [cached] { cached->sweep.sweep(); });
   add("sweep, streaming copies of it", streaming, [streaming] { streaming->sweep.sweep(); });
@@ -111,11 +118,13 @@ void add_sweep_kernels(const KernelProblem& problem, int streaming_copies, std::
 
 void add_one_contact_kernels(std::vector<Kernel>& kernels) {
   const std::pair<const char*, ContactStatus> statuses[] = {
-      {"take-off", ContactStatus::open}, {"stick", ContactStatus::stick}, {"slip, cold root", ContactStatus::slip}};
+      {"take-off", ContactStatus::open},
+      {"stick", ContactStatus::stick},
+      {"slip, cold root", ContactStatus::slip}};
   for (const auto& [name, status] : statuses) {
     const auto work = std::make_shared<OneContactWork>(status);
-    kernels.push_back(
-        {"one contact", name, "ns/contact", static_cast<double>(work->cases.size()), [work] { work->all(); }});
+    kernels.push_back({"one contact", name, "ns/contact", static_cast<double>(work->cases.size()),
+                       [work] { work->all(); }});
   }
 }
 

@@ -7,11 +7,12 @@
 #include <filesystem>
 #include <fstream>
 
-// Vectors stay inside inlined functions, so GCC's note about their calling convention does not apply.
+// Vectors stay inside inlined functions, so GCC's note about their calling convention does not
+// apply.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__clang__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #define BALLAST_FOR_EACH_CPU __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define BALLAST_FOR_EACH_CPU
@@ -39,14 +40,15 @@ BALLAST_FOR_EACH_CPU double sum_of(const double* values, size_t count) {
   return sum;
 }
 
-BALLAST_FOR_EACH_CPU void triad(double* a, const double* b, const double* c, double s, size_t count) {
+BALLAST_FOR_EACH_CPU void triad(double* a, const double* b, const double* c, double s,
+                                size_t count) {
   for (size_t i = 0; i < count; ++i) a[i] = b[i] + s * c[i];
 }
 
 /// 2 * 8 * 10 flops a round: ten chains hide the latency.
 BALLAST_FOR_EACH_CPU double multiply_and_add(long rounds) {
-  Vector8 x0 = {1, 2, 3, 4, 5, 6, 7, 8}, x1 = x0, x2 = x0, x3 = x0, x4 = x0, x5 = x0, x6 = x0, x7 = x0, x8 = x0,
-          x9 = x0;
+  Vector8 x0 = {1, 2, 3, 4, 5, 6, 7, 8}, x1 = x0, x2 = x0, x3 = x0, x4 = x0, x5 = x0, x6 = x0,
+          x7 = x0, x8 = x0, x9 = x0;
   const Vector8 factor = x0 * 0.0 + 0.999999, shift = x0 * 0.0 + 1e-6;
   for (long i = 0; i < rounds; ++i) {
     x0 = x0 * factor + shift;
@@ -79,7 +81,8 @@ double best_seconds(int passes, const Work& work) {
 std::vector<CacheSize> cache_sizes() {
   std::vector<CacheSize> caches;
   for (int index = 0; index < 8; ++index) {
-    const std::filesystem::path folder = "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index);
+    const std::filesystem::path folder =
+        "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index);
     std::string level, type, size;
     if (!(std::ifstream(folder / "level") >> level && std::ifstream(folder / "type") >> type &&
           std::ifstream(folder / "size") >> size))
@@ -93,7 +96,8 @@ std::vector<CacheSize> cache_sizes() {
 /// Doubles on a cache line's border.
 struct AlignedDoubles {
   explicit AlignedDoubles(size_t count) : storage(count + 8, 1.0) {
-    first = reinterpret_cast<double*>((reinterpret_cast<size_t>(storage.data()) + 63) & ~size_t{63});
+    first =
+        reinterpret_cast<double*>((reinterpret_cast<size_t>(storage.data()) + 63) & ~size_t{63});
   }
   std::vector<double> storage;
   double* first;
@@ -113,7 +117,8 @@ double cpu_seconds() {
 double read_bandwidth(std::size_t bytes) {
   const size_t count = std::max<size_t>(bytes / sizeof(double) / 32 * 32, 32);
   const AlignedDoubles values(count);
-  const int again = static_cast<int>(std::max<size_t>(1, (size_t{1} << 24) / (count * sizeof(double))));
+  const int again =
+      static_cast<int>(std::max<size_t>(1, (size_t{1} << 24) / (count * sizeof(double))));
   const double seconds = best_seconds(10, [&] {
     for (int k = 0; k < again; ++k) kept = sum_of(values.first, count);
   });
@@ -131,8 +136,8 @@ MachineFacts measure_machine() {
   facts.triad_GB_s = 1e-9 * 3.0 * sizeof(double) * static_cast<double>(count) /
                      best_seconds(5, [&] { triad(a.first, b.first, c.first, 0.5, count); });
   const long rounds = 200000;
-  facts.gflops =
-      1e-9 * 160.0 * static_cast<double>(rounds) / best_seconds(10, [&] { kept = multiply_and_add(rounds); });
+  facts.gflops = 1e-9 * 160.0 * static_cast<double>(rounds) /
+                 best_seconds(10, [&] { kept = multiply_and_add(rounds); });
   return facts;
 }
 

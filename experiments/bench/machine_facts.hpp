@@ -16,8 +16,8 @@ struct MachineFacts {
   std::vector<CacheSize> caches;
   double read_GB_s = 0.0;   ///< of an array four times the last cache, at least 256 MB
   double triad_GB_s = 0.0;  ///< a[i] = b[i] + s c[i] of such arrays; three transfers counted
-  double gflops =
-      0.0;  ///< multiplications and additions apart, as our build makes them (no fused ones), widest vectors
+  double gflops = 0.0;  ///< multiplications and additions apart, as our build makes them (no fused
+                        ///< ones), widest vectors
 };
 
 /// Takes about half a second; best of several passes, because others may share the machine.

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/run/manifest.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
@@ -41,8 +41,8 @@ std::string in_digits(double value) {
 
 }  // namespace
 
-Measurement measurement_of(const std::string& group, const std::string& name, const std::string& unit,
-                           std::vector<double> values) {
+Measurement measurement_of(const std::string& group, const std::string& name,
+                           const std::string& unit, std::vector<double> values) {
   if (values.empty()) throw std::invalid_argument("no value of " + group + "/" + name);
   std::sort(values.begin(), values.end());
   const double count = static_cast<double>(values.size());
@@ -56,10 +56,12 @@ Measurement measurement_of(const std::string& group, const std::string& name, co
           static_cast<long>(values.size())};
 }
 
-void write_bench_result(const std::filesystem::path& folder, const std::string& kind, const std::string& command,
-                        const MachineFacts& facts, const std::vector<Measurement>& measurements) {
+void write_bench_result(const std::filesystem::path& folder, const std::string& kind,
+                        const std::string& command, const MachineFacts& facts,
+                        const std::vector<Measurement>& measurements) {
   create_folder(folder);
-  Json json = Json::parse(Manifest("bench " + kind, {command}, "").text());  // program, machine, time of day
+  Json json = Json::parse(
+      Manifest("bench " + kind, {command}, "").text());  // program, machine, time of day
   json.erase("resumed");
   json.erase("summary");
   json["kind"] = kind;
@@ -77,23 +79,31 @@ void write_bench_result(const std::filesystem::path& folder, const std::string& 
                                     {"high", m.high},
                                     {"samples", m.samples}});
     char numbers[160];
-    std::snprintf(numbers, sizeof numbers, ",%.6g,%.6g,%.6g,%.6g,%ld\n", m.median, m.mean, m.low, m.high, m.samples);
+    std::snprintf(numbers, sizeof numbers, ",%.6g,%.6g,%.6g,%.6g,%ld\n", m.median, m.mean, m.low,
+                  m.high, m.samples);
     csv += m.group + ',' + m.name + ',' + m.unit + numbers;
   }
-  write_whole_file(folder / (kind + ".json"), json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole_file(folder / (kind + ".json"),
+                   json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_whole_file(folder / (kind + ".csv"), csv);
 }
 
 BenchResult read_bench_result(const std::filesystem::path& file) {
   try {
     const Json json = Json::parse(read_whole_file(file));
-    BenchResult result{
-        json.at("kind"), json.at("command"), json.at("ballast").at("commit"), json.at("machine").at("cpu"), {}};
+    BenchResult result{json.at("kind"),
+                       json.at("command"),
+                       json.at("ballast").at("commit"),
+                       json.at("machine").at("cpu"),
+                       {}};
     // a number that was not finite was written as null
-    const auto number = [](const Json& value) { return value.is_null() ? std::nan("") : value.get<double>(); };
+    const auto number = [](const Json& value) {
+      return value.is_null() ? std::nan("") : value.get<double>();
+    };
     for (const Json& m : json.at("measurements"))
-      result.measurements.push_back({m.at("group"), m.at("name"), m.at("unit"), number(m.at("median")),
-                                     number(m.at("mean")), number(m.at("low")), number(m.at("high")), m.at("samples")});
+      result.measurements.push_back({m.at("group"), m.at("name"), m.at("unit"),
+                                     number(m.at("median")), number(m.at("mean")),
+                                     number(m.at("low")), number(m.at("high")), m.at("samples")});
     return result;
   } catch (const Json::exception& error) {
     throw Error(file.string() + ": is no result of ballast bench: " + error.what());
@@ -101,14 +111,17 @@ BenchResult read_bench_result(const std::filesystem::path& file) {
 }
 
 std::string bench_ratio_table(const BenchResult& a, const BenchResult& b) {
-  const auto origin = [](const BenchResult& r) { return r.commit.substr(0, 12) + " (" + r.cpu + ")"; };
+  const auto origin = [](const BenchResult& r) {
+    return r.commit.substr(0, 12) + " (" + r.cpu + ")";
+  };
   std::string table = "A: " + origin(a) + ", " + a.kind + "  \nB: " + origin(b) + ", " + b.kind +
                       "\n\n| measurement | unit | A | B | B/A |\n|---|---|---:|---:|---:|\n",
               alone;
   const auto find = [](const BenchResult& r, const Measurement& m) {
-    return std::find_if(r.measurements.begin(), r.measurements.end(), [&](const Measurement& other) {
-      return other.full_name() == m.full_name() && other.unit == m.unit;
-    });
+    return std::find_if(r.measurements.begin(), r.measurements.end(),
+                        [&](const Measurement& other) {
+                          return other.full_name() == m.full_name() && other.unit == m.unit;
+                        });
   };
   for (const Measurement& m : a.measurements) {
     const auto other = find(b, m);
@@ -117,8 +130,8 @@ std::string bench_ratio_table(const BenchResult& a, const BenchResult& b) {
       continue;
     }
     const std::string ratio = m.median == 0.0 ? "" : in_digits(other->median / m.median);
-    table += "| " + m.full_name() + " | " + m.unit + " | " + in_digits(m.median) + " | " + in_digits(other->median) +
-             " | " + ratio + " |\n";
+    table += "| " + m.full_name() + " | " + m.unit + " | " + in_digits(m.median) + " | " +
+             in_digits(other->median) + " | " + ratio + " |\n";
   }
   for (const Measurement& m : b.measurements)
     if (find(a, m) == a.measurements.end()) alone += "only in B: " + m.full_name() + "  \n";
@@ -129,8 +142,9 @@ std::string measurement_table(const std::vector<Measurement>& measurements) {
   std::string table;
   for (const Measurement& m : measurements) {
     char line[300];
-    std::snprintf(line, sizeof line, "%-58s %11.5g  mean %11.5g  [%.4g, %.4g] %s, %ld\n", m.full_name().c_str(),
-                  m.median, m.mean, m.low, m.high, m.unit.c_str(), m.samples);
+    std::snprintf(line, sizeof line, "%-58s %11.5g  mean %11.5g  [%.4g, %.4g] %s, %ld\n",
+                  m.full_name().c_str(), m.median, m.mean, m.low, m.high, m.unit.c_str(),
+                  m.samples);
     table += line;
   }
   return table;

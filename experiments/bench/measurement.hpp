@@ -1,5 +1,6 @@
 #pragma once
-// What `ballast bench` measures: named samples with their unit, kept as JSON and CSV with the machine and the commit.
+// What `ballast bench` measures: named samples with their unit, kept as JSON and CSV with the
+// machine and the commit.
 
 #include <filesystem>
 #include <string>
@@ -18,8 +19,8 @@ struct Measurement {
 };
 
 /// Throws std::invalid_argument when there is no value.
-Measurement measurement_of(const std::string& group, const std::string& name, const std::string& unit,
-                           std::vector<double> values);
+Measurement measurement_of(const std::string& group, const std::string& name,
+                           const std::string& unit, std::vector<double> values);
 
 /// A file of results: of one kind (kernels, step, scaling, accuracy), machine and program.
 struct BenchResult {
@@ -28,14 +29,15 @@ struct BenchResult {
 };
 
 /// Writes folder/<kind>.json and folder/<kind>.csv, each beside and renamed. Throws Error.
-void write_bench_result(const std::filesystem::path& folder, const std::string& kind, const std::string& command,
-                        const MachineFacts& facts, const std::vector<Measurement>& measurements);
+void write_bench_result(const std::filesystem::path& folder, const std::string& kind,
+                        const std::string& command, const MachineFacts& facts,
+                        const std::vector<Measurement>& measurements);
 
 /// A file made by write_bench_result. Throws Error naming the file and what is wrong in it.
 BenchResult read_bench_result(const std::filesystem::path& file);
 
-/// What two files have in common as a Markdown table: medians, and b over a. Measurements of one file alone are named
-/// below it.
+/// What two files have in common as a Markdown table: medians, and b over a. Measurements of one
+/// file alone are named below it.
 std::string bench_ratio_table(const BenchResult& a, const BenchResult& b);
 
 /// The same measurements as a table for the terminal.

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/step/record_column.hpp"
 #include "experiments/run/run.hpp"
-#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "experiments/step/record_column.hpp"
 #include "platform/child_process.hpp"
-#include "solvers/solver_list.hpp"
 #include "platform/error.hpp"
+#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
@@ -23,10 +23,13 @@ double peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-double median_of(std::vector<double> values) { return measurement_of("", "", "", std::move(values)).median; }
+double median_of(std::vector<double> values) {
+  return measurement_of("", "", "", std::move(values)).median;
+}
 
 /// Wall clock of a sweep [s].
-double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int sweeps, int threads) {
+double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int sweeps,
+                     int threads) {
   BodySweep sweep;
   sweep.use_threads(threads);
   sweep.prepare(problem);
@@ -35,24 +38,27 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
   for (int k = 0; k < sweeps; ++k) {
     const auto begin = std::chrono::steady_clock::now();
     sweep.sweep();
-    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    seconds.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   return median_of(std::move(seconds));
 }
 
 /// Solves the step's problem once more by another solver, and notes what that took.
-void solve_again(const std::string& solver, const FrictionProblem& problem, const Impulses& start, const Budget& budget,
-                 ScalingPoint& point) {
+void solve_again(const std::string& solver, const FrictionProblem& problem, const Impulses& start,
+                 const Budget& budget, ScalingPoint& point) {
   const std::unique_ptr<Solver> backend = make_solver(solver);
   backend->use_threads(point.threads);
   SolverRunner runner;
   const SolverRun run = runner.run(*backend, problem, start, budget);
-  point.iterations.push_back(run.success ? run.solved.iterations : std::numeric_limits<double>::infinity());
+  point.iterations.push_back(run.success ? run.solved.iterations
+                                         : std::numeric_limits<double>::infinity());
   point.seconds.push_back(run.prepare_seconds + run.solve_seconds);
 }
 
 /// What the child does.
-ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint point) {
+ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& options,
+                             ScalingPoint point) {
   const double before = peak_bytes();
   BenchStart start = tiled_start(box, point.nx, point.ny);
   StepSettings settings = step_settings(box.scene);
@@ -81,7 +87,8 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
   budget.tolerance = options.tolerance * settings.velocity_scale();
   budget.max_iterations = options.max_iterations;
   if (options.cold_start) warm.setZero();
-  for (const std::string& solver : options.solvers) solve_again(solver, stepper.problem(), warm, budget, point);
+  for (const std::string& solver : options.solvers)
+    solve_again(solver, stepper.problem(), warm, budget, point);
   return point;
 }
 
@@ -93,9 +100,11 @@ std::vector<double> packed(const ScalingPoint& p) {
 }
 
 ScalingPoint unpacked(const std::vector<double>& record, ScalingPoint p) {
-  double* const values[] = {&p.contacts, &p.detect, &p.assemble, &p.solve, &p.step, &p.sweep, &p.bytes};
+  double* const values[] = {&p.contacts, &p.detect, &p.assemble, &p.solve,
+                            &p.step,     &p.sweep,  &p.bytes};
   for (size_t k = 0; k < std::size(values); ++k) *values[k] = record.at(k);
-  const auto first = record.begin() + std::size(values), middle = first + (record.end() - first) / 2;
+  const auto first = record.begin() + std::size(values),
+             middle = first + (record.end() - first) / 2;
   p.iterations.assign(first, middle);
   p.seconds.assign(middle, record.end());
   return p;
@@ -123,18 +132,22 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
         record = packed(measure_packing(box, options, point));
       });
       if (child.end != ChildEnd::complete)
-        throw Error("bench scaling: " + std::to_string(static_cast<long>(point.grains)) + " grains: the child " +
-                       (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
+        throw Error(
+            "bench scaling: " + std::to_string(static_cast<long>(point.grains)) +
+            " grains: the child " +
+            (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
       points.push_back(unpacked(child.record, point));
       said(points.back());
     }
   return points;
 }
 
-std::vector<Measurement> scaling_measurements(const ScalingOptions& options, const std::vector<ScalingPoint>& points) {
+std::vector<Measurement> scaling_measurements(const ScalingOptions& options,
+                                              const std::vector<ScalingPoint>& points) {
   std::vector<Measurement> result;
   for (const ScalingPoint& p : points) {
-    const std::string group = std::to_string(p.threads) + (p.threads == 1 ? " thread, " : " threads, ") +
+    const std::string group = std::to_string(p.threads) +
+                              (p.threads == 1 ? " thread, " : " threads, ") +
                               std::to_string(static_cast<long>(p.grains)) + " grains";
     const auto add = [&](const std::string& name, const char* unit, double value) {
       result.push_back(measurement_of(group, name, unit, {value}));
@@ -145,13 +158,15 @@ std::vector<Measurement> scaling_measurements(const ScalingOptions& options, con
     add("solve", "ns/grain", p.solve);
     add("step", "ns/grain", p.step);
     add("sweep", "ns/grain", p.sweep);
-    add("sweep per contact", "ns/contact", p.contacts > 0.0 ? p.sweep * p.grains / p.contacts : 0.0);
+    add("sweep per contact", "ns/contact",
+        p.contacts > 0.0 ? p.sweep * p.grains / p.contacts : 0.0);
     add("memory", "B/grain", p.bytes);
     for (size_t k = 0; k < p.iterations.size(); ++k) {
       const bool reached = std::isfinite(p.iterations[k]);
       if (reached) add("iterations needed, " + options.solvers[k], "iterations", p.iterations[k]);
-      add((reached ? "time to the tolerance, " : "time, tolerance not reached, ") + options.solvers[k], "ms",
-          1e3 * p.seconds[k]);
+      add((reached ? "time to the tolerance, " : "time, tolerance not reached, ") +
+              options.solvers[k],
+          "ms", 1e3 * p.seconds[k]);
     }
   }
   return result;
@@ -172,7 +187,8 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
   figure.title = "Cost per grain over grains";
   figure.height = 620;
   figure.panels.resize(2);
-  const auto add = [&](Panel& panel, int threads, const std::string& title, Ink ink, const auto& value) {
+  const auto add = [&](Panel& panel, int threads, const std::string& title, Ink ink,
+                       const auto& value) {
     Curve curve;
     for (const ScalingPoint& p : points)
       if (p.threads == threads && std::isfinite(value(p))) {
@@ -186,9 +202,11 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
   };
   for (const int threads : options.threads)
     for (const Line& line : lines)
-      add(figure.panels[0], threads, line.title, line.ink, [&](const ScalingPoint& p) { return p.*line.value; });
+      add(figure.panels[0], threads, line.title, line.ink,
+          [&](const ScalingPoint& p) { return p.*line.value; });
   for (size_t k = 0; k < options.solvers.size(); ++k)
-    add(figure.panels[1], options.threads.front(), options.solvers[k], solver_inks[k % std::size(solver_inks)],
+    add(figure.panels[1], options.threads.front(), options.solvers[k],
+        solver_inks[k % std::size(solver_inks)],
         [k](const ScalingPoint& p) { return p.iterations.at(k); });
   figure.panels[0].y_label = "ns per grain";
   figure.panels[1].y_label = "iterations needed";

@@ -19,7 +19,8 @@ struct ScalingOptions {
   double tolerance = 1e-2;      ///< [g h] for the iterations needed
   int max_iterations = 300;
   std::vector<std::string> solvers{"pgs", "nncg"};
-  bool cold_start = false;  ///< those begin from no impulses: every load must find its way through the packing
+  bool cold_start =
+      false;  ///< those begin from no impulses: every load must find its way through the packing
   double max_seconds = 3600.0;  ///< wall clock of one packing
 };
 
@@ -27,8 +28,9 @@ struct ScalingOptions {
 struct ScalingPoint {
   int threads = 1, nx = 1, ny = 1;
   double grains = 0.0, contacts = 0.0;
-  double detect = 0.0, assemble = 0.0, solve = 0.0, step = 0.0;  ///< ns per grain and step, medians; wall clock
-  double sweep = 0.0;                                            ///< ns per grain and sweep
+  double detect = 0.0, assemble = 0.0, solve = 0.0,
+         step = 0.0;   ///< ns per grain and step, medians; wall clock
+  double sweep = 0.0;  ///< ns per grain and sweep
   double bytes = 0.0;  ///< of the process per grain, at its most, beyond what it had before
   std::vector<double> iterations;  ///< per solver, to the tolerance; not reached: infinite
   std::vector<double> seconds;     ///< per solver, wall clock of prepare and solve
@@ -37,13 +39,14 @@ struct ScalingPoint {
 /// Tiles nx * ny near grains / block, as square as can be.
 std::pair<int, int> tiles_for(long grains, int block);
 
-/// Each packing in a child process, so that its memory is its own. `said` hears of each. Throws Error where a child
-/// fails: out of memory, out of time.
+/// Each packing in a child process, so that its memory is its own. `said` hears of each. Throws
+/// Error where a child fails: out of memory, out of time.
 std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said);
 
 /// Group "<threads> threads, <grains> grains".
-std::vector<Measurement> scaling_measurements(const ScalingOptions& options, const std::vector<ScalingPoint>& points);
+std::vector<Measurement> scaling_measurements(const ScalingOptions& options,
+                                              const std::vector<ScalingPoint>& points);
 
 /// ns per grain of detection, assembly and a sweep, and the iterations needed, over grains.
 Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPoint>& points);

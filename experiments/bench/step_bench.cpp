@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "experiments/step/record_column.hpp"
 #include "experiments/measure/wall_cycles.hpp"
+#include "experiments/step/record_column.hpp"
 
 namespace ballast {
 namespace {
@@ -24,27 +24,31 @@ std::vector<StepQuantity> quantities(double scale) {
   const auto counter = [](long DetectionCounters::*count) {
     return [count](const BenchStep& s) { return static_cast<double>(s.counters.*count); };
   };
-  const auto column = [](double StepRecord::*value) { return [value](const BenchStep& s) { return s.record.*value; }; };
-  return {{"step", "ms", [](const BenchStep& s) { return 1e3 * step_seconds(s.record); }},
-          {"step, CPU", "ms", [](const BenchStep& s) { return 1e3 * s.cpu_seconds; }},
-          {"detect", "ms", phase(&StepRecord::seconds_detect)},
-          {"assemble", "ms", phase(&StepRecord::seconds_assemble)},
-          {"solve", "ms", phase(&StepRecord::seconds_solve)},
-          {"judge", "ms", phase(&StepRecord::seconds_judge)},
-          {"correct", "ms", phase(&StepRecord::seconds_correct)},
-          {"other", "ms", phase(&StepRecord::seconds_other)},
-          {"pairs in the broad phase's list", "pairs", counter(&DetectionCounters::candidate_pairs)},
-          {"separated by the cache", "pairs", counter(&DetectionCounters::cached_separations)},
-          {"cached axis proved", "pairs", counter(&DetectionCounters::proved_axes)},
-          {"full searches", "pairs", counter(&DetectionCounters::full_tests)},
-          {"points held on to", "pairs", counter(&DetectionCounters::reused)},
-          {"touching pairs", "pairs", counter(&DetectionCounters::manifolds)},
-          {"contacts", "contacts", column(&StepRecord::contacts)},
-          {"active contacts", "contacts", column(&StepRecord::active_contacts)},
-          {"iterations", "iterations", column(&StepRecord::iterations)},
-          {"error rms", "g h", [scale](const BenchStep& s) { return s.record.error_rms / scale; }},
-          {"error of the worst contact", "g h", [scale](const BenchStep& s) { return s.record.error_max / scale; }},
-          {"penetration max", "um", [](const BenchStep& s) { return 1e6 * s.record.penetration_max; }}};
+  const auto column = [](double StepRecord::*value) {
+    return [value](const BenchStep& s) { return s.record.*value; };
+  };
+  return {
+      {"step", "ms", [](const BenchStep& s) { return 1e3 * step_seconds(s.record); }},
+      {"step, CPU", "ms", [](const BenchStep& s) { return 1e3 * s.cpu_seconds; }},
+      {"detect", "ms", phase(&StepRecord::seconds_detect)},
+      {"assemble", "ms", phase(&StepRecord::seconds_assemble)},
+      {"solve", "ms", phase(&StepRecord::seconds_solve)},
+      {"judge", "ms", phase(&StepRecord::seconds_judge)},
+      {"correct", "ms", phase(&StepRecord::seconds_correct)},
+      {"other", "ms", phase(&StepRecord::seconds_other)},
+      {"pairs in the broad phase's list", "pairs", counter(&DetectionCounters::candidate_pairs)},
+      {"separated by the cache", "pairs", counter(&DetectionCounters::cached_separations)},
+      {"cached axis proved", "pairs", counter(&DetectionCounters::proved_axes)},
+      {"full searches", "pairs", counter(&DetectionCounters::full_tests)},
+      {"points held on to", "pairs", counter(&DetectionCounters::reused)},
+      {"touching pairs", "pairs", counter(&DetectionCounters::manifolds)},
+      {"contacts", "contacts", column(&StepRecord::contacts)},
+      {"active contacts", "contacts", column(&StepRecord::active_contacts)},
+      {"iterations", "iterations", column(&StepRecord::iterations)},
+      {"error rms", "g h", [scale](const BenchStep& s) { return s.record.error_rms / scale; }},
+      {"error of the worst contact", "g h",
+       [scale](const BenchStep& s) { return s.record.error_max / scale; }},
+      {"penetration max", "um", [](const BenchStep& s) { return 1e6 * s.record.penetration_max; }}};
 }
 
 void add_group(const std::string& group, const std::vector<const BenchStep*>& steps, double scale,
@@ -65,12 +69,14 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
     visits += step->record.iterations * step->record.contacts;
   }
   if (visits > 0.0)
-    to.push_back(measurement_of(group, "solve per iteration and contact", "ns", {1e9 * solve / visits}));
+    to.push_back(
+        measurement_of(group, "solve per iteration and contact", "ns", {1e9 * solve / visits}));
 }
 
 }  // namespace
 
-std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long steps, int threads) {
+std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long steps,
+                                     int threads) {
   StepSettings settings = step_settings(scene);
   settings.solver.threads = threads;
   TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
@@ -86,14 +92,18 @@ std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long 
   return result;
 }
 
-std::vector<Measurement> step_measurements(const Scene& scene, const std::vector<BenchStep>& steps, int threads) {
+std::vector<Measurement> step_measurements(const Scene& scene, const std::vector<BenchStep>& steps,
+                                           int threads) {
   std::vector<const BenchStep*> all, active, passive, jammed;
   double fastest = 0.0;
   for (const BenchStep& step : steps) fastest = std::max(fastest, std::abs(step.record.wall_v));
   for (const BenchStep& step : steps) {
     all.push_back(&step);
     const double v = step.record.wall_v;
-    (std::abs(v) <= WallSettings{}.jammed_speed * fastest ? jammed : v > 0.0 ? active : passive).push_back(&step);
+    (std::abs(v) <= WallSettings{}.jammed_speed * fastest ? jammed
+     : v > 0.0                                            ? active
+                                                          : passive)
+        .push_back(&step);
   }
   const double scale = step_settings(scene).velocity_scale();
   const std::string prefix = std::to_string(threads) + (threads == 1 ? " thread, " : " threads, ");
@@ -111,16 +121,19 @@ Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
     double StepRecord::*seconds;
     Ink ink;
   };
-  const Line lines[] = {
-      {"solve", &StepRecord::seconds_solve, Ink::blue},    {"detect", &StepRecord::seconds_detect, Ink::vermilion},
-      {"judge", &StepRecord::seconds_judge, Ink::green},   {"assemble", &StepRecord::seconds_assemble, Ink::orange},
-      {"correct", &StepRecord::seconds_correct, Ink::sky}, {"other", &StepRecord::seconds_other, Ink::grey}};
+  const Line lines[] = {{"solve", &StepRecord::seconds_solve, Ink::blue},
+                        {"detect", &StepRecord::seconds_detect, Ink::vermilion},
+                        {"judge", &StepRecord::seconds_judge, Ink::green},
+                        {"assemble", &StepRecord::seconds_assemble, Ink::orange},
+                        {"correct", &StepRecord::seconds_correct, Ink::sky},
+                        {"other", &StepRecord::seconds_other, Ink::grey}};
   Figure figure;
   figure.name = "step";
   figure.title = "Where the time of a step goes";
   figure.height = 620;
   figure.panels.resize(2);
-  const size_t length = std::max<size_t>(1, steps.size() / static_cast<size_t>(std::max(1, windows)));
+  const size_t length =
+      std::max<size_t>(1, steps.size() / static_cast<size_t>(std::max(1, windows)));
   const auto medians = [&](const auto& value) {
     Curve curve;
     for (size_t begin = 0; begin + length <= steps.size(); begin += length) {

@@ -2,10 +2,9 @@
 
 #include <chrono>
 
+#include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"
 #include "platform/content_key.hpp"
-#include "platform/error.hpp"
-#include "experiments/box/vibrated_box.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
@@ -20,7 +19,11 @@ struct DepositState {
 };
 
 void save(const std::filesystem::path& part, const std::string& key, const DepositState& at) {
-  write_checkpoint(part, {key, name_of(at.stage), at.motion, at.memory.contacts, at.memory.impulses,
+  write_checkpoint(part, {key,
+                          name_of(at.stage),
+                          at.motion,
+                          at.memory.contacts,
+                          at.memory.impulses,
                           {at.lid, at.top, at.rain_time}});
 }
 
@@ -61,7 +64,8 @@ void enter(DepositState& at, BoxStage stage) {
 
 class Depositor {
  public:
-  Depositor(const Scene& scene, const Rain& rain, const std::filesystem::path& part, const DepositProgress& progress)
+  Depositor(const Scene& scene, const Rain& rain, const std::filesystem::path& part,
+            const DepositProgress& progress)
       : scene_(scene), rain_(rain), part_(part), progress_(progress), key_(packing_key(scene)) {}
 
   bool run(Packing& packing) {
@@ -104,8 +108,8 @@ class Depositor {
     if (!steps(at, scene_.deposit.max_time, stop)) return false;
     if (!rests)
       throw Error("deposit: after deposit.max_time = " + std::to_string(scene_.deposit.max_time) +
-                     " s the grains still move at " + std::to_string(rms_velocity_) +
-                     " m/s rms: raise deposit.max_time or deposit.rest_velocity");
+                  " s the grains still move at " + std::to_string(rms_velocity_) +
+                  " m/s rms: raise deposit.max_time or deposit.rest_velocity");
     at.rain_time = at.motion.time;
     const MechanicalSystem system = box_system(scene_, rain_, BoxStage::rain, at.lid);
     at.top = packing_top(system, at.motion);
@@ -130,7 +134,8 @@ class Depositor {
     at.motion.velocity[lid].setZero();
   }
 
-  /// Steps the current stage for at most `duration`, or until stop(time, rms velocity). False: interrupted.
+  /// Steps the current stage for at most `duration`, or until stop(time, rms velocity). False:
+  /// interrupted.
   template <class Stop>
   bool steps(DepositState& at, double duration, Stop&& stop) {
     const MechanicalSystem system = box_system(scene_, rain_, at.stage, at.lid);
@@ -143,7 +148,8 @@ class Depositor {
       rms_velocity_ = grain_rms_velocity(system, at.motion);
       const bool goes_on = progress_(at.stage, at.motion.time, rms_velocity_, record);
       const auto now = std::chrono::steady_clock::now();
-      if (!goes_on || std::chrono::duration<double>(now - saved).count() > scene_.record.checkpoint_seconds) {
+      if (!goes_on ||
+          std::chrono::duration<double>(now - saved).count() > scene_.record.checkpoint_seconds) {
         save(part_, key_, at);
         saved = now;
       }
@@ -163,13 +169,18 @@ class Depositor {
 
 }  // namespace
 
-bool deposit(const Scene& scene, const Rain& rain, const std::filesystem::path& part, const DepositProgress& progress,
-             Packing& packing) {
+bool deposit(const Scene& scene, const Rain& rain, const std::filesystem::path& part,
+             const DepositProgress& progress, Packing& packing) {
   return Depositor(scene, rain, part, progress).run(packing);
 }
 
-void write_packing(const std::filesystem::path& file, const std::string& key, const Packing& packing) {
-  write_checkpoint(file, {key, "packing", packing.state, packing.memory.contacts, packing.memory.impulses,
+void write_packing(const std::filesystem::path& file, const std::string& key,
+                   const Packing& packing) {
+  write_checkpoint(file, {key,
+                          "packing",
+                          packing.state,
+                          packing.memory.contacts,
+                          packing.memory.impulses,
                           {packing.top, packing.lid, packing.rain_time, packing.rest_velocity}});
 }
 

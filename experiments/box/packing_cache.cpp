@@ -3,9 +3,9 @@
 #include <chrono>
 #include <iostream>
 
+#include "experiments/record/progress.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/file_lock.hpp"
-#include "experiments/record/progress.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -18,13 +18,15 @@ bool find_packing(const fs::path& file, const std::string& key, Packing& packing
 }
 
 /// deposit() with a line that says how far it is.
-bool deposit_visibly(const Scene& scene, const Rain& rain, const fs::path& part, const std::function<bool()>& goes_on, Packing& packing) {
+bool deposit_visibly(const Scene& scene, const Rain& rain, const fs::path& part,
+                     const std::function<bool()>& goes_on, Packing& packing) {
   Progress progress;
   BoxStage last = BoxStage::rain;
   const auto show = [&](BoxStage stage, double time, double velocity, const StepRecord& record) {
     if (stage != last) progress.restart();
     last = stage;
-    const double most[] = {scene.deposit.max_time, scene.deposit.lid_time, scene.deposit.settle_time};
+    const double most[] = {scene.deposit.max_time, scene.deposit.lid_time,
+                           scene.deposit.settle_time};
     progress.show(name_of(stage), time, most[static_cast<int>(stage)], record, velocity);
     return goes_on();
   };
@@ -39,14 +41,16 @@ fs::path packing_file(const fs::path& cache, const std::string& key) {
   return (cache / ("packing-" + key + ".bin")).lexically_normal();
 }
 
-bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order, Packing& packing, double& deposit_seconds) {
+bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order, Packing& packing,
+                  double& deposit_seconds) {
   using Clock = std::chrono::steady_clock;
   const std::string key = packing_key(scene);
   const fs::path file = packing_file(order.cache, key), part = file.string() + ".part";
   if (!order.anew && find_packing(file, key, packing)) return true;
   create_folder(order.cache);
   const FileLock lock(file.string() + ".lock", [&](double waited) {
-    if (waited == 0.0) std::cout << "waiting for the packing that another run deposits" << std::endl;
+    if (waited == 0.0)
+      std::cout << "waiting for the packing that another run deposits" << std::endl;
     return order.goes_on();
   });
   if (!lock.is_held()) return false;
@@ -55,7 +59,8 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
     fs::remove(part);
   }
   if (find_packing(file, key, packing)) return true;  // made by whoever held the lock
-  std::cout << "depositing " << rain.grains.size() << " grains (kept in " << file.string() << ")" << std::endl;
+  std::cout << "depositing " << rain.grains.size() << " grains (kept in " << file.string() << ")"
+            << std::endl;
   const auto begin = Clock::now();
   if (!deposit_visibly(scene, rain, part, order.goes_on, packing)) return false;
   write_packing(file, key, packing);

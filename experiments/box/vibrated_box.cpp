@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
-#include "platform/content_key.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "geometry/shape/random.hpp"
+#include "platform/content_key.hpp"
 
 namespace ballast {
 namespace {
@@ -13,26 +13,32 @@ namespace {
 /// One user's mesh, as read (its size comes from the size class).
 std::vector<PrincipalShape> grains_from_meshes(const GrainsSpec& spec) {
   std::vector<PrincipalShape> meshes, grains;
-  for (const std::string& file : spec.meshes) meshes.push_back(to_principal_frame(read_mesh_hull(file)));
+  for (const std::string& file : spec.meshes)
+    meshes.push_back(to_principal_frame(read_mesh_hull(file)));
   // sizes and their order as for generated grains; shapes in turn
-  const auto sized = make_grains(spec.count, spec.distribution, spec.size_convention, spec.shape, spec.seed);
+  const auto sized =
+      make_grains(spec.count, spec.distribution, spec.size_convention, spec.shape, spec.seed);
   for (int k = 0; k < spec.count; ++k) {
     const Polyhedron& mesh = meshes[k % meshes.size()].shape;
     const double scale = sized[k].shape.circumradius() / mesh.circumradius();
     std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
     for (Vec3& vertex : vertices) vertex *= scale;
     std::vector<std::vector<int>> faces;
-    for (int f = 0; f < mesh.face_count(); ++f) faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
+    for (int f = 0; f < mesh.face_count(); ++f)
+      faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
     grains.push_back(to_principal_frame(Polyhedron(std::move(vertices), std::move(faces))));
   }
   return grains;
 }
 
-/// Centres of non-overlapping bounding spheres, drawn at random, large ones first: a loose rain. Grows the height when it is full.
-std::vector<Vec3> scatter(const std::vector<double>& radii, double length, double width, double& height, Random& random) {
+/// Centres of non-overlapping bounding spheres, drawn at random, large ones first: a loose rain.
+/// Grows the height when it is full.
+std::vector<Vec3> scatter(const std::vector<double>& radii, double length, double width,
+                          double& height, Random& random) {
   std::vector<size_t> order(radii.size());
   for (size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return radii[a] > radii[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return radii[a] > radii[b]; });
   std::vector<Vec3> centres(radii.size());
   for (size_t done = 0; done < order.size(); ++done) {
     const double r = radii[order[done]];
@@ -41,7 +47,8 @@ std::vector<Vec3> scatter(const std::vector<double>& radii, double length, doubl
         height *= 1.05;
         attempt = 0;
       }
-      const Vec3 centre(random.uniform(r, length - r), random.uniform(r, width - r), random.uniform(r, height - r));
+      const Vec3 centre(random.uniform(r, length - r), random.uniform(r, width - r),
+                        random.uniform(r, height - r));
       const bool is_free = std::all_of(order.begin(), order.begin() + done, [&](size_t other) {
         const double distance = r + radii[other];
         return (centre - centres[other]).squaredNorm() > distance * distance;
@@ -73,19 +80,23 @@ void drive_by(WallSpec& spec, double mass, const HarmonicLoad& load) {
 
 const char* name_of(BoxStage stage) {
   switch (stage) {
-    case BoxStage::rain: return "rain";
-    case BoxStage::press: return "press";
-    case BoxStage::settle: return "settle";
-    case BoxStage::drive: return "drive";
+    case BoxStage::rain:
+      return "rain";
+    case BoxStage::press:
+      return "press";
+    case BoxStage::settle:
+      return "settle";
+    case BoxStage::drive:
+      return "drive";
   }
   return "?";
 }
 
 Rain make_rain(const Scene& scene) {
   const GrainsSpec& spec = *scene.grains;
-  const auto shapes = spec.meshes.empty()
-                          ? make_grains(spec.count, spec.distribution, spec.size_convention, spec.shape, spec.seed)
-                          : grains_from_meshes(spec);
+  const auto shapes = spec.meshes.empty() ? make_grains(spec.count, spec.distribution,
+                                                        spec.size_convention, spec.shape, spec.seed)
+                                          : grains_from_meshes(spec);
   Random random(spec.seed ^ 0x5261696eull);  // its own stream: "Rain"
   std::vector<double> radii;
   double sphere_volume = 0.0;
@@ -94,9 +105,11 @@ Rain make_rain(const Scene& scene) {
     sphere_volume += 4.0 / 3.0 * std::numbers::pi * std::pow(radii.back(), 3);
   }
   Rain rain;
-  rain.height = std::max(sphere_volume / (scene.deposit.fill_fraction * scene.box.length * scene.box.width),
-                         2.0 * *std::max_element(radii.begin(), radii.end()));
-  const std::vector<Vec3> centres = scatter(radii, scene.box.length, scene.box.width, rain.height, random);
+  rain.height =
+      std::max(sphere_volume / (scene.deposit.fill_fraction * scene.box.length * scene.box.width),
+               2.0 * *std::max_element(radii.begin(), radii.end()));
+  const std::vector<Vec3> centres =
+      scatter(radii, scene.box.length, scene.box.width, rain.height, random);
   for (size_t k = 0; k < shapes.size(); ++k) {
     BodySpec body;
     body.name = "grain " + std::to_string(k);
@@ -120,7 +133,8 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
   system.gravity = deposits ? deposit_gravity(scene) : scene.gravity;
   system.friction = deposits ? scene.deposit.friction : scene.friction;
   system.restitution = scene.restitution;
-  for (const BodySpec& grain : rain.grains) add_body(system, unused, grain, grain.mass / scene.grains->density);
+  for (const BodySpec& grain : rain.grains)
+    add_body(system, unused, grain, grain.mass / scene.grains->density);
 
   const BoxSpec& box = scene.box;
   const double horizontal = deposits ? scene.deposit.friction : box.friction_horizontal;
@@ -163,24 +177,29 @@ std::string packing_key(const Scene& scene) {
   std::ostringstream text;
   text.precision(17);
   const GrainsSpec& g = *scene.grains;
-  text << "packing 2;" << g.count << ' ' << g.seed << ' ' << g.density << ' ' << static_cast<int>(g.size_convention);
+  text << "packing 2;" << g.count << ' ' << g.seed << ' ' << g.density << ' '
+       << static_cast<int>(g.size_convention);
   for (const SizeClass& size : g.distribution) text << ' ' << size.size << ' ' << size.fraction;
-  text << ';' << g.shape.min_vertices << ' ' << g.shape.max_vertices << ' ' << g.shape.elongation_min << ' '
-       << g.shape.elongation_max << ' ' << g.shape.flatness_min << ' ' << g.shape.flatness_max << ' ' << g.shape.roughness;
+  text << ';' << g.shape.min_vertices << ' ' << g.shape.max_vertices << ' '
+       << g.shape.elongation_min << ' ' << g.shape.elongation_max << ' ' << g.shape.flatness_min
+       << ' ' << g.shape.flatness_max << ' ' << g.shape.roughness;
   for (const std::string& mesh : g.meshes) text << ';' << mesh;
   const BoxSpec& b = scene.box;
   text << ';' << b.length << ' ' << b.width << ' ' << b.friction_vertical;
   const DepositSpec& d = scene.deposit;
-  text << ';' << d.step << ' ' << d.friction << ' ' << d.fill_fraction << ' ' << d.max_time << ' ' << d.rest_velocity << ' '
-       << d.lid_pressure_weight << ' ' << d.lid_time << ' ' << d.settle_time << ' ' << d.settle_step << ' '
-       << deposit_gravity(scene).z() << ' ' << d.solver << ' ' << d.tolerance << ' ' << d.max_iterations;
+  text << ';' << d.step << ' ' << d.friction << ' ' << d.fill_fraction << ' ' << d.max_time << ' '
+       << d.rest_velocity << ' ' << d.lid_pressure_weight << ' ' << d.lid_time << ' '
+       << d.settle_time << ' ' << d.settle_step << ' ' << deposit_gravity(scene).z() << ' '
+       << d.solver << ' ' << d.tolerance << ' ' << d.max_iterations;
   text << ';' << scene.drive.lid_raise << ' ' << scene.restitution;
   const CorrectionSpec& c = scene.correction;
-  text << ';' << c.enabled << ' ' << c.slop << ' ' << c.fraction << ' ' << c.sweeps << ' ' << scene.detection.max_points;
+  text << ';' << c.enabled << ' ' << c.slop << ' ' << c.fraction << ' ' << c.sweeps << ' '
+       << scene.detection.max_points;
   return content_key(text.str());
 }
 
-MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packing& packing, MotionState& state) {
+MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packing& packing,
+                              MotionState& state) {
   state = packing.state;
   state.time = 0.0;
   state.step = 0;
@@ -190,7 +209,8 @@ MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packin
 ControlVolume box_control_volume(const Scene& scene, double top) {
   const ControlVolumeSpec& margin = scene.control_volume;
   return {Vec3(margin.margin_x, margin.margin_y, margin.margin_floor),
-          Vec3(scene.box.length - margin.margin_x, scene.box.width - margin.margin_y, top - margin.margin_top)};
+          Vec3(scene.box.length - margin.margin_x, scene.box.width - margin.margin_y,
+               top - margin.margin_top)};
 }
 
 }  // namespace ballast

@@ -4,8 +4,8 @@
 #include <new>
 #include <ostream>
 
-#include "experiments/run/build_info.hpp"
 #include "experiments/commands/command.hpp"
+#include "experiments/run/build_info.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -63,11 +63,14 @@ ExitCode perform(const Action& action, std::ostream& err) {
 }
 
 int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
-  CLI::App program("Nonsmooth contact dynamics of polyhedral grains, and a bench of frictional-contact solvers",
-                   "ballast");
+  CLI::App program(
+      "Nonsmooth contact dynamics of polyhedral grains, and a bench of frictional-contact solvers",
+      "ballast");
   program.footer(examples);
   program.set_version_flag("--version", build_line());
-  Action action = []() -> ExitCode { throw UsageError("a subcommand is required (ballast --help)"); };
+  Action action = []() -> ExitCode {
+    throw UsageError("a subcommand is required (ballast --help)");
+  };
   add_run_command(program, action);
   add_solve_command(program, action);
   add_compare_command(program, action);

@@ -52,10 +52,12 @@ std::vector<int> ints_of(const char* option, const std::string& list, long most)
 
 void say(const std::string& text) { std::cout << text << std::flush; }
 
-ExitCode finish(const BenchWords& words, const std::string& kind, const std::string& command, const MachineFacts& facts,
-                const std::vector<Measurement>& measurements, const Figure* figure) {
+ExitCode finish(const BenchWords& words, const std::string& kind, const std::string& command,
+                const MachineFacts& facts, const std::vector<Measurement>& measurements,
+                const Figure* figure) {
   write_bench_result(words.output, kind, command, facts, measurements);
-  std::string where = "\nresults in " + words.output.string() + ": " + kind + ".json, " + kind + ".csv";
+  std::string where =
+      "\nresults in " + words.output.string() + ": " + kind + ".json, " + kind + ".csv";
   if (figure && words.plot && !gnuplot_version().empty()) {
     render_svg(*figure, words.output);
     where += ", " + figure->name + ".svg";
@@ -75,7 +77,8 @@ ExitCode bench_kernels(const BenchWords& words) {
   const DepositedBox box = deposited_box(words.scene, words.overrides, words.packing_cache);
   const MachineFacts facts = measure_machine();
   const KernelProblem problem = kernel_problem(box, 20);
-  const auto measurements = usage("--filter", [&] { return run_kernels(problem, words.kernels, facts); });
+  const auto measurements =
+      usage("--filter", [&] { return run_kernels(problem, words.kernels, facts); });
   return finish(words, "kernels", command_of(words, "kernels"), facts, measurements, nullptr);
 }
 
@@ -86,13 +89,16 @@ ExitCode bench_step(const BenchWords& words) {
   std::vector<Measurement> measurements;
   Figure figure;
   for (const int count : threads) {
-    const std::vector<BenchStep> steps = measure_steps(box.scene, driven_start(box), words.steps, count);
+    const std::vector<BenchStep> steps =
+        measure_steps(box.scene, driven_start(box), words.steps, count);
     if (count == threads.front()) figure = step_figure(steps, 50);
-    for (Measurement& m : step_measurements(box.scene, steps, count)) measurements.push_back(std::move(m));
+    for (Measurement& m : step_measurements(box.scene, steps, count))
+      measurements.push_back(std::move(m));
   }
   return finish(words, "step",
-                command_of(words, "step --steps " + std::to_string(words.steps) + " --threads " + words.threads), facts,
-                measurements, &figure);
+                command_of(words, "step --steps " + std::to_string(words.steps) + " --threads " +
+                                      words.threads),
+                facts, measurements, &figure);
 }
 
 ExitCode bench_scaling(const BenchWords& words) {
@@ -112,15 +118,19 @@ ExitCode bench_scaling(const BenchWords& words) {
   const MachineFacts facts = measure_machine();
   const auto points = measure_scaling(box, options, [](const ScalingPoint& p) {
     std::cout << p.nx << " x " << p.ny << " copies, " << p.grains << " grains, " << p.threads
-              << " threads: " << 1e-3 * p.step << " us a grain and step, " << p.bytes << " B a grain" << std::endl;
+              << " threads: " << 1e-3 * p.step << " us a grain and step, " << p.bytes
+              << " B a grain" << std::endl;
   });
   const Figure figure = scaling_figure(options, points);
   char rest[120];
-  std::snprintf(rest, sizeof rest, " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d%s", words.steps,
-                words.warm_up, words.tolerance, words.max_iterations, words.cold_start ? " --cold" : "");
-  return finish(words, "scaling",
-                command_of(words, "scaling --grains " + words.grains + " --threads " + words.threads + rest), facts,
-                scaling_measurements(options, points), &figure);
+  std::snprintf(rest, sizeof rest,
+                " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d%s", words.steps,
+                words.warm_up, words.tolerance, words.max_iterations,
+                words.cold_start ? " --cold" : "");
+  return finish(
+      words, "scaling",
+      command_of(words, "scaling --grains " + words.grains + " --threads " + words.threads + rest),
+      facts, scaling_measurements(options, points), &figure);
 }
 
 ExitCode bench_accuracy(const BenchWords& words) {
@@ -134,7 +144,8 @@ ExitCode bench_accuracy(const BenchWords& words) {
   options.live.solvers = usage("--solvers", [&] { return bench_solvers(words.solvers); });
   options.live.tolerances.clear();
   if (words.tolerances != "none")
-    options.live.tolerances = usage("--tolerances", [&] { return bench_tolerances(words.tolerances); });
+    options.live.tolerances =
+        usage("--tolerances", [&] { return bench_tolerances(words.tolerances); });
   options.live.packing_cache = words.packing_cache;
   options.live.folder = words.output / "live";
   options.iterations = ints_of("--iterations", words.iterations, 1'000'000'000);
@@ -144,11 +155,12 @@ ExitCode bench_accuracy(const BenchWords& words) {
   });
   const Figure figure = accuracy_figure(rows);
   char window[80];
-  std::snprintf(window, sizeof window, "accuracy --from %g --duration %g", words.from, words.duration);
-  const std::string limits =
-      " --solvers " + words.solvers + " --tolerances " + words.tolerances + " --iterations " + words.iterations;
-  return finish(words, "accuracy", command_of(words, window + limits), measure_machine(), accuracy_measurements(rows),
-                &figure);
+  std::snprintf(window, sizeof window, "accuracy --from %g --duration %g", words.from,
+                words.duration);
+  const std::string limits = " --solvers " + words.solvers + " --tolerances " + words.tolerances +
+                             " --iterations " + words.iterations;
+  return finish(words, "accuracy", command_of(words, window + limits), measure_machine(),
+                accuracy_measurements(rows), &figure);
 }
 
 ExitCode bench_diff(const BenchWords& words) {
@@ -157,18 +169,21 @@ ExitCode bench_diff(const BenchWords& words) {
 }
 
 /// A subcommand of bench with what all that measure have.
-CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action, const char* name, const char* about,
-                        const char* scene, ExitCode (*act)(const BenchWords&)) {
+CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action, const char* name,
+                        const char* about, const char* scene, ExitCode (*act)(const BenchWords&)) {
   CLI::App* command = bench->add_subcommand(name, about);
   command->add_option("scene", words->scene, std::string("A scene with grains (") + scene + ")");
-  command->add_option("--set", words->overrides, "Overrides one value of the scene: dotted.key=value")
+  command
+      ->add_option("--set", words->overrides, "Overrides one value of the scene: dotted.key=value")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1);
   command->add_option("--packing-cache", words->packing_cache, "Where deposited packings are kept")
       ->capture_default_str()
       ->type_name("DIR");
-  command->add_option("--output", words->output, "Folder of the results")->capture_default_str()->type_name("DIR");
+  command->add_option("--output", words->output, "Folder of the results")
+      ->capture_default_str()
+      ->type_name("DIR");
   command->add_flag_callback(
       "--no-plot", [words] { words->plot = false; }, "No figure");
   command->callback([words, &action, act, command, scene] {
@@ -191,26 +206,30 @@ Examples:
 }  // namespace
 
 void add_bench_command(CLI::App& program, Action& action) {
-  CLI::App* bench = program.add_subcommand("bench", "How fast: kernels, whole steps, scaling, cost against accuracy");
+  CLI::App* bench = program.add_subcommand(
+      "bench", "How fast: kernels, whole steps, scaling, cost against accuracy");
   bench->require_subcommand(1);
   bench->footer(bench_footer);
   const auto positive = CLI::Range(1L, 1'000'000'000L);
   {
     const auto words = std::make_shared<BenchWords>();
-    CLI::App* command =
-        add_measuring(bench, words, action, "kernels", "The inner loops on their own, beside the machine's limits",
-                      "vibrated_box_small", bench_kernels);
+    CLI::App* command = add_measuring(bench, words, action, "kernels",
+                                      "The inner loops on their own, beside the machine's limits",
+                                      "vibrated_box_small", bench_kernels);
     command->add_option("--filter", words->kernels.filter, "Regular expression over group/name");
-    command->add_option("--min-time", words->kernels.min_time, "CPU seconds of a repetition")->capture_default_str();
-    command->add_option("--repeats", words->kernels.repeats, "Repetitions")->capture_default_str()->check(positive);
+    command->add_option("--min-time", words->kernels.min_time, "CPU seconds of a repetition")
+        ->capture_default_str();
+    command->add_option("--repeats", words->kernels.repeats, "Repetitions")
+        ->capture_default_str()
+        ->check(positive);
     command->add_option("--streaming-MB", words->kernels.streaming_MB,
                         "Least records of the streaming sweep (0: twice the last cache)");
   }
   {
     const auto words = std::make_shared<BenchWords>();
-    CLI::App* command =
-        add_measuring(bench, words, action, "step", "Whole steps by phase, from the deposited packing driven",
-                      "vibrated_box", bench_step);
+    CLI::App* command = add_measuring(bench, words, action, "step",
+                                      "Whole steps by phase, from the deposited packing driven",
+                                      "vibrated_box", bench_step);
     command->add_option("--steps", words->steps, "Steps")->capture_default_str()->check(positive);
     command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
         ->capture_default_str();
@@ -219,17 +238,26 @@ void add_bench_command(CLI::App& program, Action& action) {
     const auto words = std::make_shared<BenchWords>();
     words->steps = 10;
     words->solvers = "pgs,nncg";
-    CLI::App* command = add_measuring(bench, words, action, "scaling",
-                                      "Cost per grain of growing packings: copies of the deposited one side by side",
-                                      "vibrated_box", bench_scaling);
-    command->add_option("--grains", words->grains, "Grains, separated by commas: each the nearest number of copies")
+    CLI::App* command = add_measuring(
+        bench, words, action, "scaling",
+        "Cost per grain of growing packings: copies of the deposited one side by side",
+        "vibrated_box", bench_scaling);
+    command
+        ->add_option("--grains", words->grains,
+                     "Grains, separated by commas: each the nearest number of copies")
         ->capture_default_str();
     command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
         ->capture_default_str();
-    command->add_option("--steps", words->steps, "Measured steps")->capture_default_str()->check(positive);
-    command->add_option("--warm-up", words->warm_up, "Steps before them")->capture_default_str()->check(positive);
-    command->add_option("--solvers", words->solvers, "Whose iterations are counted")->capture_default_str();
-    command->add_option("--tolerance", words->tolerance, "To this error [g h]")->capture_default_str();
+    command->add_option("--steps", words->steps, "Measured steps")
+        ->capture_default_str()
+        ->check(positive);
+    command->add_option("--warm-up", words->warm_up, "Steps before them")
+        ->capture_default_str()
+        ->check(positive);
+    command->add_option("--solvers", words->solvers, "Whose iterations are counted")
+        ->capture_default_str();
+    command->add_option("--tolerance", words->tolerance, "To this error [g h]")
+        ->capture_default_str();
     command->add_flag("--cold", words->cold_start, "From no impulses, not from the last step's");
     command->add_option("--max-iterations", words->max_iterations, "At most so many")
         ->capture_default_str()
@@ -238,14 +266,19 @@ void add_bench_command(CLI::App& program, Action& action) {
   {
     const auto words = std::make_shared<BenchWords>();
     words->solvers = "nncg,pgs,anderson_pgs,apgd";
-    CLI::App* command = add_measuring(bench, words, action, "accuracy", "What a simulated second costs at which error",
+    CLI::App* command = add_measuring(bench, words, action, "accuracy",
+                                      "What a simulated second costs at which error",
                                       "vibrated_box", bench_accuracy);
     command->add_option("--solvers", words->solvers, "Separated by commas")->capture_default_str();
-    command->add_option("--tolerances", words->tolerances, "Solved to these [g h]; none: not")->capture_default_str();
-    command->add_option("--iterations", words->iterations, "And with so many iterations in every step")
+    command->add_option("--tolerances", words->tolerances, "Solved to these [g h]; none: not")
         ->capture_default_str();
-    command->add_option("--from", words->from, "Simulated time where all begin [s]")->capture_default_str();
-    command->add_option("--duration", words->duration, "Simulated from there [s]")->capture_default_str();
+    command
+        ->add_option("--iterations", words->iterations, "And with so many iterations in every step")
+        ->capture_default_str();
+    command->add_option("--from", words->from, "Simulated time where all begin [s]")
+        ->capture_default_str();
+    command->add_option("--duration", words->duration, "Simulated from there [s]")
+        ->capture_default_str();
   }
   const auto words = std::make_shared<BenchWords>();
   CLI::App* command = bench->add_subcommand("diff", "Two result files as a ratio table (Markdown)");

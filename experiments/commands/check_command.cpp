@@ -6,8 +6,8 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/record/checkpoint.hpp"
 #include "experiments/commands/command.hpp"
+#include "experiments/record/checkpoint.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "problems/files/problem_file.hpp"
@@ -29,31 +29,36 @@ void check_scene(const std::string& file, const CheckOptions& options) {
   make_solver(scene.solver.name);
   std::cout << file << ": scene " << scene.name << ": ";
   if (scene.grains)
-    std::cout << scene.grains->count << " grains in a box of " << scene.box.length << " m x " << scene.box.width
-              << " m, driven at " << scene.drive.frequency << " Hz";
+    std::cout << scene.grains->count << " grains in a box of " << scene.box.length << " m x "
+              << scene.box.width << " m, driven at " << scene.drive.frequency << " Hz";
   else
     std::cout << scene.bodies.size() << " bodies, " << scene.walls.size() << " walls";
-  std::cout << ", " << scene.step_count() << " steps of " << scene.step << " s, solver " << scene.solver.name << '\n';
+  std::cout << ", " << scene.step_count() << " steps of " << scene.step << " s, solver "
+            << scene.solver.name << '\n';
 }
 
 void check_mesh(const std::string& file, const CheckOptions& options) {
-  const Polyhedron mesh = options.hull ? read_mesh_hull(file, options.scale) : read_mesh(file, options.scale);
+  const Polyhedron mesh =
+      options.hull ? read_mesh_hull(file, options.scale) : read_mesh(file, options.scale);
   const PrincipalShape principal = to_principal_frame(mesh);
-  std::cout << file << ": mesh: " << mesh.vertex_count() << " vertices, " << mesh.edge_count() << " edges, "
-            << mesh.face_count() << " faces, volume " << principal.volume << " m^3, centre of mass ("
-            << principal.pose.position.x() << ", " << principal.pose.position.y() << ", " << principal.pose.position.z()
-            << ") m, circumradius " << principal.shape.circumradius() << " m, inradius " << principal.shape.inradius()
-            << " m, principal inertia per density (" << principal.inertia.x() << ", " << principal.inertia.y() << ", "
+  std::cout << file << ": mesh: " << mesh.vertex_count() << " vertices, " << mesh.edge_count()
+            << " edges, " << mesh.face_count() << " faces, volume " << principal.volume
+            << " m^3, centre of mass (" << principal.pose.position.x() << ", "
+            << principal.pose.position.y() << ", " << principal.pose.position.z()
+            << ") m, circumradius " << principal.shape.circumradius() << " m, inradius "
+            << principal.shape.inradius() << " m, principal inertia per density ("
+            << principal.inertia.x() << ", " << principal.inertia.y() << ", "
             << principal.inertia.z() << ") m^5\n";
 }
 
 void check_problem(const std::string& file) {
   const FrictionProblem problem = read_problem(file);
   problem.validate();
-  std::cout << file << ": problem: " << problem.contact_count() << " contacts, " << problem.row_count() << " rows";
+  std::cout << file << ": problem: " << problem.contact_count() << " contacts, "
+            << problem.row_count() << " rows";
   if (problem.has_dynamics)
-    std::cout << ", M and H of " << problem.dynamics.body_count() << " bodies, " << problem.dynamics.dof_count()
-              << " unknowns";
+    std::cout << ", M and H of " << problem.dynamics.body_count() << " bodies, "
+              << problem.dynamics.dof_count() << " unknowns";
   if (problem.has_delassus) std::cout << ", W with " << problem.delassus.w.nonZeros() << " entries";
   if (problem.contact_count() > 0) {
     const auto [low, high] = std::minmax_element(problem.friction.begin(), problem.friction.end());
@@ -64,9 +69,10 @@ void check_problem(const std::string& file) {
 
 void check_checkpoint(const std::string& file) {
   const Checkpoint checkpoint = read_checkpoint(file);
-  std::cout << file << ": checkpoint of scene " << checkpoint.key << ": phase " << checkpoint.phase << ", step "
-            << checkpoint.state.step << ", " << checkpoint.state.time << " s, " << checkpoint.state.pose.size()
-            << " bodies, " << checkpoint.contacts.size() << " contacts\n";
+  std::cout << file << ": checkpoint of scene " << checkpoint.key << ": phase " << checkpoint.phase
+            << ", step " << checkpoint.state.step << ", " << checkpoint.state.time << " s, "
+            << checkpoint.state.pose.size() << " bodies, " << checkpoint.contacts.size()
+            << " contacts\n";
 }
 
 void check(const std::string& file, const CheckOptions& options) {
@@ -84,7 +90,8 @@ void check(const std::string& file, const CheckOptions& options) {
   else if (suffix == ".bin" || suffix == ".part")
     check_checkpoint(file);
   else if (std::filesystem::exists(file) || !suffix.empty())
-    throw UsageError(file + ": unknown kind of file, expected .toml, .obj, .stl, .hdf5, .h5, .dat or .bin");
+    throw UsageError(
+        file + ": unknown kind of file, expected .toml, .obj, .stl, .hdf5, .h5, .dat or .bin");
   else
     check_scene(find_scene(file).string(), options);
 }
@@ -92,19 +99,26 @@ void check(const std::string& file, const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("check", "Says what is in files, or what is wrong with the first bad one");
+  CLI::App* command = program.add_subcommand(
+      "check", "Says what is in files, or what is wrong with the first bad one");
   auto options = std::make_shared<CheckOptions>();
   command
       ->add_option("files", options->files,
-                   "Scenes (.toml, or by name), meshes (.obj, .stl), problems (.hdf5, .dat), checkpoints (.bin)")
+                   "Scenes (.toml, or by name), meshes (.obj, .stl), problems (.hdf5, .dat), "
+                   "checkpoints (.bin)")
       ->required();
-  command->add_option("--set", options->overrides, "Overrides one value of the scenes: dotted.key=value")
+  command
+      ->add_option("--set", options->overrides,
+                   "Overrides one value of the scenes: dotted.key=value")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1);
-  command->add_option("--scale", options->scale, "Metres per unit of the meshes: 0.001 for millimetres")
+  command
+      ->add_option("--scale", options->scale,
+                   "Metres per unit of the meshes: 0.001 for millimetres")
       ->capture_default_str();
-  command->add_flag("--hull", options->hull, "Meshes: the convex hull of the vertices, for scanned grains");
+  command->add_flag("--hull", options->hull,
+                    "Meshes: the convex hull of the vertices, for scanned grains");
   command->footer(
       "Examples:\n  ballast check mine.toml grain.stl problem.hdf5 results/mine/checkpoint.bin\n"
       "  ballast check scan.stl --hull --scale 0.001");

@@ -1,5 +1,6 @@
 #pragma once
-// The subcommands of the ballast program. Each adds its options to the command line; what it then does is an Action.
+// The subcommands of the ballast program. Each adds its options to the command line; what it then
+// does is an Action.
 
 #include <functional>
 #include <iosfwd>
@@ -35,11 +36,12 @@ void add_sweep_command(CLI::App& program, Action& action);
 void add_check_command(CLI::App& program, Action& action);
 void add_version_command(CLI::App& program, Action& action);
 
-/// The whole program: parses, acts, and turns every failure into one line "ballast: ..." on `err` and an exit code.
+/// The whole program: parses, acts, and turns every failure into one line "ballast: ..." on `err`
+/// and an exit code.
 int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err);
 
-/// Carries out an action. An exception becomes its line on `err` and its exit code: UsageError and UnknownSolver named
-/// on the command line 2, MissingSolver 4, everything else 1.
+/// Carries out an action. An exception becomes its line on `err` and its exit code: UsageError and
+/// UnknownSolver named on the command line 2, MissingSolver 4, everything else 1.
 ExitCode perform(const Action& action, std::ostream& err);
 
 }  // namespace ballast

@@ -10,17 +10,17 @@
 #include <iostream>
 #include <memory>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/bench_options.hpp"
 #include "experiments/compare/bench_report.hpp"
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/reference_times.hpp"
-#include "platform/interrupt.hpp"
 #include "experiments/run/manifest.hpp"
 #include "experiments/run_page/report_origin.hpp"
-#include "solvers/solver_list.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/interrupt.hpp"
+#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
@@ -46,7 +46,8 @@ std::vector<std::string> own_words() {
   return words;
 }
 
-/// A threaded BLAS reads its number of threads when it is loaded: where nothing is said, this program begins again with one.
+/// A threaded BLAS reads its number of threads when it is loaded: where nothing is said, this
+/// program begins again with one.
 void become_single_threaded(std::vector<std::string> words) {
   if (getenv("OPENBLAS_NUM_THREADS") || words.empty()) return;
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
@@ -60,14 +61,17 @@ void become_single_threaded(std::vector<std::string> words) {
 
 bool show(const BenchRow& row, bool was_there, size_t done, size_t count) {
   char text[200];
-  std::snprintf(text, sizeof text, "%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done, count,
-                row.case_name.c_str(), row.solver.c_str(), row.tolerance, name_of(row.start), name_of(row.outcome),
-                row.seconds(), row.error, was_there ? "  (was there)" : "", row.is_false_success() ? "  JUDGE DISAGREES" : "");
+  std::snprintf(text, sizeof text,
+                "%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done, count,
+                row.case_name.c_str(), row.solver.c_str(), row.tolerance, name_of(row.start),
+                name_of(row.outcome), row.seconds(), row.error, was_there ? "  (was there)" : "",
+                row.is_false_success() ? "  JUDGE DISAGREES" : "");
   std::cout << text << std::endl;
   return !InterruptGuard::requested();
 }
 
-/// What is wrong with the words; std::invalid_argument from the parsers gets its option's name here.
+/// What is wrong with the words; std::invalid_argument from the parsers gets its option's name
+/// here.
 void parse(CompareOptions& options) {
   const auto with_name = [](const char* option, const auto& work) {
     try {
@@ -83,22 +87,28 @@ void parse(CompareOptions& options) {
   with_name("--tolerances", [&] { bench.tolerances = bench_tolerances(options.tolerances); });
   with_name("--starts", [&] { bench.starts = bench_starts(options.starts); });
   with_name("--measure", [&] { bench.measure = measure_of(options.measure); });
-  if (options.cases.empty() == options.live.scene.empty()) throw UsageError("compare: expected cases, or --live SCENE");
+  if (options.cases.empty() == options.live.scene.empty())
+    throw UsageError("compare: expected cases, or --live SCENE");
   if (!(options.live.start >= 0.0)) throw UsageError("compare: --from: expected a number >= 0");
-  if (!(options.live.duration > 0.0)) throw UsageError("compare: --duration: expected a number > 0");
-  if (!(options.live.trajectory_seconds > 0.0)) throw UsageError("compare: --trajectory-seconds: expected a number > 0");
+  if (!(options.live.duration > 0.0))
+    throw UsageError("compare: --duration: expected a number > 0");
+  if (!(options.live.trajectory_seconds > 0.0))
+    throw UsageError("compare: --trajectory-seconds: expected a number > 0");
   if (bench.repeats < 1) throw UsageError("compare: --repeats: expected a number >= 1");
   if (!(bench.max_seconds > 0.0)) throw UsageError("compare: --max-seconds: expected a number > 0");
-  if (!(bench.limits.memory_MB >= 0.0)) throw UsageError("compare: --memory: expected a number >= 0");
+  if (!(bench.limits.memory_MB >= 0.0))
+    throw UsageError("compare: --memory: expected a number >= 0");
 }
 
 ExitCode interrupted() {
-  std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on" << std::endl;
+  std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on"
+            << std::endl;
   return ExitCode::failure;
 }
 
 bool show_trajectory(const Trajectory& trajectory) {
-  std::cout << trajectory.label() << ": " << trajectory.steps.size() << " steps, " << trajectory.ended << std::endl;
+  std::cout << trajectory.label() << ": " << trajectory.steps.size() << " steps, "
+            << trajectory.ended << std::endl;
   return !InterruptGuard::requested();
 }
 
@@ -115,8 +125,10 @@ ExitCode compare_live(const CompareOptions& options) {
   manifest.summary("blas", loaded_blas());
   manifest.write(options.output / "manifest.json");
   write_live_report(options.output, comparison);
-  std::cout << "\nresults in " << options.output.string() << "\n  live.html   figures and the table: open it in a browser\n"
-            << "  live.csv    one row per trajectory; steps-*.csv: every step's scalars" << std::endl;
+  std::cout << "\nresults in " << options.output.string()
+            << "\n  live.html   figures and the table: open it in a browser\n"
+            << "  live.csv    one row per trajectory; steps-*.csv: every step's scalars"
+            << std::endl;
   return ExitCode::ok;
 }
 
@@ -126,7 +138,8 @@ ExitCode compare(CompareOptions options) {
   become_single_threaded(words);
   options.bench.folder = options.output;
   for (const std::string& word : words)
-    options.bench.command += (options.bench.command.empty() ? "" : " ") + shell_word(&word == &words[0] ? "ballast" : word);
+    options.bench.command += (options.bench.command.empty() ? "" : " ") +
+                             shell_word(&word == &words[0] ? "ballast" : word);
   if (!options.live.scene.empty()) return compare_live(options);
   std::vector<ReferenceTimes> reference;
   if (!options.reference.empty()) reference = read_reference_times(options.reference);
@@ -135,7 +148,8 @@ ExitCode compare(CompareOptions options) {
   const std::vector<BenchRow> rows = run_bench(cases, options.bench, show);
   if (InterruptGuard::requested()) return interrupted();
   if (options.report) write_bench_report(options.output, rows, reference);
-  std::cout << '\n' << bench_summary(rows, reference) << "\nresults in " << options.output.string() << "\n"
+  std::cout << '\n'
+            << bench_summary(rows, reference) << "\nresults in " << options.output.string() << "\n"
             << (options.report ? "  compare.html  figures and tables: open it in a browser\n" : "")
             << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
             << "  manifest.json program, machine, BLAS, options" << std::endl;
@@ -169,27 +183,60 @@ Examples:
 }  // namespace
 
 void add_compare_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("compare", "Backends on identical problems: accuracy against cost, figures, a page");
+  CLI::App* command = program.add_subcommand(
+      "compare", "Backends on identical problems: accuracy against cost, figures, a page");
   auto options = std::make_shared<CompareOptions>();
   BenchOptions& bench = options->bench;
-  command->add_option("cases", options->cases, "Problem files, folders, patterns, known:..., stress:...");
-  command->add_option("--solvers", options->solvers, "Names, separated by commas, or all")->capture_default_str();
-  command->add_option("--tolerances", options->tolerances, "Separated by commas")->capture_default_str();
-  command->add_option("--starts", options->starts, "cold, warm or cold,warm; warm where a case has a warm start")->capture_default_str();
+  command->add_option("cases", options->cases,
+                      "Problem files, folders, patterns, known:..., stress:...");
+  command->add_option("--solvers", options->solvers, "Names, separated by commas, or all")
+      ->capture_default_str();
+  command->add_option("--tolerances", options->tolerances, "Separated by commas")
+      ->capture_default_str();
+  command
+      ->add_option("--starts", options->starts,
+                   "cold, warm or cold,warm; warm where a case has a warm start")
+      ->capture_default_str();
   command->add_option("--measure", options->measure, "natural_map or fclib")->capture_default_str();
-  command->add_option("--repeats", bench.repeats, "Interleaved; tables show the median")->capture_default_str();
-  command->add_option("--max-seconds", bench.max_seconds, "Wall clock of one solve, prepare included")->capture_default_str();
-  command->add_option("--memory", bench.limits.memory_MB, "Address space of one child in MB; 0: no limit")->capture_default_str();
-  command->add_option("--reference", options->reference, "CSV of others' times: problem,ms_1e-4,solver_1e-4,...")->type_name("FILE");
-  command->add_option("--output", options->output, "Folder of the results")->capture_default_str()->type_name("DIR");
-  command->add_flag_callback("--no-report", [options] { options->report = false; }, "No figures and no page");
+  command->add_option("--repeats", bench.repeats, "Interleaved; tables show the median")
+      ->capture_default_str();
+  command
+      ->add_option("--max-seconds", bench.max_seconds, "Wall clock of one solve, prepare included")
+      ->capture_default_str();
+  command
+      ->add_option("--memory", bench.limits.memory_MB,
+                   "Address space of one child in MB; 0: no limit")
+      ->capture_default_str();
+  command
+      ->add_option("--reference", options->reference,
+                   "CSV of others' times: problem,ms_1e-4,solver_1e-4,...")
+      ->type_name("FILE");
+  command->add_option("--output", options->output, "Folder of the results")
+      ->capture_default_str()
+      ->type_name("DIR");
+  command->add_flag_callback(
+      "--no-report", [options] { options->report = false; }, "No figures and no page");
   LiveOptions& live = options->live;
-  command->add_option("--live", live.scene, "Instead of cases: a scene's closed loop from one start under each backend and tolerance")->type_name("SCENE");
-  command->add_option("--set", live.overrides, "Of that scene: dotted.key=value")->type_name("KEY=VALUE")->take_all()->expected(1);
-  command->add_option("--from", live.start, "Simulated time up to which the scene's own solver goes, once for all [s]");
-  command->add_option("--duration", live.duration, "Simulated from there under each backend [s]")->capture_default_str();
-  command->add_option("--trajectory-seconds", live.trajectory_seconds, "Wall clock of one trajectory")->capture_default_str();
-  command->add_option("--packing-cache", live.packing_cache, "Where deposited packings are kept (<output>/packings)")->type_name("DIR");
+  command
+      ->add_option(
+          "--live", live.scene,
+          "Instead of cases: a scene's closed loop from one start under each backend and tolerance")
+      ->type_name("SCENE");
+  command->add_option("--set", live.overrides, "Of that scene: dotted.key=value")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  command->add_option("--from", live.start,
+                      "Simulated time up to which the scene's own solver goes, once for all [s]");
+  command->add_option("--duration", live.duration, "Simulated from there under each backend [s]")
+      ->capture_default_str();
+  command
+      ->add_option("--trajectory-seconds", live.trajectory_seconds, "Wall clock of one trajectory")
+      ->capture_default_str();
+  command
+      ->add_option("--packing-cache", live.packing_cache,
+                   "Where deposited packings are kept (<output>/packings)")
+      ->type_name("DIR");
   command->footer(compare_footer);
   command->callback([options, &action] { action = [options] { return compare(*options); }; });
 }

@@ -6,12 +6,12 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/record/checkpoint.hpp"
 #include "experiments/commands/command.hpp"
-#include "experiments/record/recorder.hpp"
 #include "experiments/export/state_export.hpp"
-#include "platform/error.hpp"
+#include "experiments/record/checkpoint.hpp"
+#include "experiments/record/recorder.hpp"
 #include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -55,28 +55,36 @@ ExitCode export_run(const ExportOptions& options) {
   }
   if (state.pose.size() != system.bodies.size())
     throw Error(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
-                   " bodies, the scene beside it " + std::to_string(system.bodies.size()));
+                " bodies, the scene beside it " + std::to_string(system.bodies.size()));
   export_state(system, state, format, options.output);
-  std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step << '\n';
+  std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step
+            << '\n';
   return ExitCode::ok;
 }
 
 }  // namespace
 
 void add_export_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("export", "Writes one state of a run for other programs");
+  CLI::App* command =
+      program.add_subcommand("export", "Writes one state of a run for other programs");
   auto options = std::make_shared<ExportOptions>();
-  command->add_option("source", options->source, "A run's folder, or a checkpoint in it")->required();
+  command->add_option("source", options->source, "A run's folder, or a checkpoint in it")
+      ->required();
   command
       ->add_option("--format", options->format,
-                   "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two files for other "
+                   "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two "
+                   "files for other "
                    "engines' benches")
       ->capture_default_str();
-  command->add_option("--output", options->output, "The file to write")->required()->type_name("FILE");
-  CLI::Option* time = command->add_option("--time", options->time, "The stored frame nearest to this time [s]");
+  command->add_option("--output", options->output, "The file to write")
+      ->required()
+      ->type_name("FILE");
+  CLI::Option* time =
+      command->add_option("--time", options->time, "The stored frame nearest to this time [s]");
   command->add_flag("--last", options->last, "The latest checkpoint (default)")->excludes(time);
   command->footer(
-      "Examples:\n  ballast export results/vibrated_box --format vtp --time 0.25 --output quarter.vtp\n"
+      "Examples:\n  ballast export results/vibrated_box --format vtp --time 0.25 --output "
+      "quarter.vtp\n"
       "  ballast export results/vibrated_box/checkpoint.bin --format text --output state.txt");
   command->callback([options, &action] { action = [options] { return export_run(*options); }; });
 }

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/run/build_info.hpp"
 #include "experiments/commands/command.hpp"
+#include "experiments/run/build_info.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -18,12 +18,14 @@ namespace ballast {
 namespace {
 
 void print_solvers() {
-  std::cout << std::left << std::setw(16) << "name" << std::setw(19) << "law" << std::setw(7) << "built"
-            << std::setw(10) << "largest" << "what it is (largest: contacts with friction that it takes)\n";
+  std::cout << std::left << std::setw(16) << "name" << std::setw(19) << "law" << std::setw(7)
+            << "built" << std::setw(10) << "largest"
+            << "what it is (largest: contacts with friction that it takes)\n";
   for (const SolverEntry& entry : solver_list()) {
     std::cout << std::setw(16) << entry.name << std::setw(19) << name_of(entry.law) << std::setw(7)
               << (entry.make ? "yes" : "no") << std::setw(10)
-              << (entry.largest.none() ? "any" : std::to_string(entry.largest.with_friction)) << entry.description;
+              << (entry.largest.none() ? "any" : std::to_string(entry.largest.with_friction))
+              << entry.description;
     if (!entry.make) std::cout << " [install " << entry.missing << "]";
     std::cout << '\n';
   }
@@ -32,21 +34,25 @@ void print_solvers() {
 void print_solvers_json() {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const SolverEntry& entry : solver_list())
-    list.push_back({{"name", entry.name},
-                    {"law", name_of(entry.law)},
-                    {"built", entry.make != nullptr},
-                    {"largest", {{"contacts", entry.largest.contacts}, {"with_friction", entry.largest.with_friction}}},
-                    {"missing", entry.make ? "" : entry.missing},
-                    {"description", entry.description}});
+    list.push_back(
+        {{"name", entry.name},
+         {"law", name_of(entry.law)},
+         {"built", entry.make != nullptr},
+         {"largest",
+          {{"contacts", entry.largest.contacts}, {"with_friction", entry.largest.with_friction}}},
+         {"missing", entry.make ? "" : entry.missing},
+         {"description", entry.description}});
   std::cout << list.dump(2) << '\n';
 }
 
 void print_scenes() {
   std::cout << "in " << scene_folder().string() << ":\n" << std::left;
-  for (const auto& [name, title] : list_scenes()) std::cout << std::setw(22) << name << title << '\n';
+  for (const auto& [name, title] : list_scenes())
+    std::cout << std::setw(22) << name << title << '\n';
 }
 
-void print_scene(const std::string& name, const std::vector<std::string>& overrides, bool resolved) {
+void print_scene(const std::string& name, const std::vector<std::string>& overrides,
+                 bool resolved) {
   const std::filesystem::path file = find_scene(name);
   if (resolved || !overrides.empty()) {
     std::cout << resolved_scene_text(file, overrides);
@@ -69,14 +75,16 @@ void print_version() {
             << "compiler      " << info.compiler << '\n'
             << "build type    " << info.build_type << '\n'
             << "flags         " << info.flags << '\n';
-  for (const auto& [name, version] : info.libraries) std::cout << std::left << std::setw(14) << name << version << '\n';
+  for (const auto& [name, version] : info.libraries)
+    std::cout << std::left << std::setw(14) << name << version << '\n';
   std::cout << "processor     " << processor() << '\n';
 }
 
 }  // namespace
 
 void add_solvers_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("solvers", "Lists the solvers: name, law, whether built, what it is");
+  CLI::App* command =
+      program.add_subcommand("solvers", "Lists the solvers: name, law, whether built, what it is");
   auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "As JSON");
   command->callback([json, &action] {
@@ -96,14 +104,17 @@ void add_scenes_command(CLI::App& program, Action& action) {
   };
   auto options = std::make_shared<Options>();
   command->add_option("name", options->name, "The scene to print: a start for one of your own");
-  command->add_flag("--resolved", options->resolved, "With every default filled in, as runs keep it")->needs("name");
+  command
+      ->add_flag("--resolved", options->resolved, "With every default filled in, as runs keep it")
+      ->needs("name");
   command->add_option("--set", options->overrides, "With this override, resolved: dotted.key=value")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1)
       ->needs("name");
   command->footer(
-      "Examples:\n  ballast scenes\n  ballast scenes incline > mine.toml\n  ballast scenes vibrated_box --resolved");
+      "Examples:\n  ballast scenes\n  ballast scenes incline > mine.toml\n  ballast scenes "
+      "vibrated_box --resolved");
   command->callback([options, &action] {
     action = [options] {
       if (options->name.empty())
@@ -116,7 +127,8 @@ void add_scenes_command(CLI::App& program, Action& action) {
 }
 
 void add_version_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("version", "Version, commit, compiler, libraries, processor");
+  CLI::App* command =
+      program.add_subcommand("version", "Version, commit, compiler, libraries, processor");
   command->callback([&action] {
     action = [] {
       print_version();

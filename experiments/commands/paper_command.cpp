@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "experiments/commands/command.hpp"
-#include "platform/interrupt.hpp"
+#include "experiments/paper/make_campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "experiments/plans/sweep.hpp"
-#include "experiments/paper/make_campaign.hpp"
+#include "platform/interrupt.hpp"
 
 namespace ballast {
 namespace {
@@ -33,22 +33,23 @@ std::string joined(const std::vector<std::string>& words) {
 
 void print_plan(const Campaign& campaign, const fs::path& results) {
   const PaperData data(campaign, results);
-  std::cout << std::left << std::setw(16) << "stage" << std::setw(52) << "run" << std::right << std::setw(8) << "steps"
-            << std::setw(10) << "core-s"
+  std::cout << std::left << std::setw(16) << "stage" << std::setw(52) << "run" << std::right
+            << std::setw(8) << "steps" << std::setw(10) << "core-s"
             << "  state\n";
   double left = 0.0;
   for (size_t k = 0; k < campaign.runs.size(); ++k) {
     const CampaignRun& run = campaign.runs[k];
     if (!data.has(k)) left += run.seconds;
-    std::cout << std::left << std::setw(16) << run.stage << std::setw(52) << run.planned.name << std::right
-              << std::setw(8) << run.steps << std::setw(10) << std::lround(run.seconds)
-              << (data.has(k) ? "  finished\n" : "  –\n");
+    std::cout << std::left << std::setw(16) << run.stage << std::setw(52) << run.planned.name
+              << std::right << std::setw(8) << run.steps << std::setw(10)
+              << std::lround(run.seconds) << (data.has(k) ? "  finished\n" : "  –\n");
   }
   std::cout << '\n'
-            << campaign.runs.size() << " runs, " << campaign.steps() << " steps, " << campaign.packings
-            << " packings: about " << std::lround(campaign.seconds())
-            << " core-seconds (1200 grains, a core to each run); " << data.finished() << " finished, about "
-            << std::lround(left) << " core-seconds of drives left" << std::endl;
+            << campaign.runs.size() << " runs, " << campaign.steps() << " steps, "
+            << campaign.packings << " packings: about " << std::lround(campaign.seconds())
+            << " core-seconds (1200 grains, a core to each run); " << data.finished()
+            << " finished, about " << std::lround(left) << " core-seconds of drives left"
+            << std::endl;
 }
 
 /// Stage by stage, so that time running out leaves whole figures.
@@ -57,7 +58,8 @@ ExitCode run_stages(const Campaign& campaign, const PaperOptions& options) {
   ExitCode worst = ExitCode::ok;
   for (const Plan& stage : stages_of(campaign, options.target)) {
     SweepOptions sweep = options.sweep;
-    sweep.max_seconds -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    sweep.max_seconds -=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!(sweep.max_seconds > 0.0)) return ExitCode::time_limit;
     std::cout << "stage " << stage.name << ": " << stage.runs.size() << " runs" << std::endl;
     const ExitCode code = run_sweep(stage, sweep);
@@ -69,7 +71,8 @@ ExitCode run_stages(const Campaign& campaign, const PaperOptions& options) {
 }
 
 ExitCode reproduce(PaperOptions options) {
-  if (!(options.sweep.max_seconds > 0.0)) throw UsageError("paper: --max-seconds: expected a number > 0");
+  if (!(options.sweep.max_seconds > 0.0))
+    throw UsageError("paper: --max-seconds: expected a number > 0");
   const std::vector<std::string> targets = paper_targets();
   const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
   if (!is_target && options.target != "plan" && options.target != "report")
@@ -95,7 +98,8 @@ ExitCode reproduce(PaperOptions options) {
 }  // namespace
 
 void add_paper_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("paper", "Reproduces the paper: runs, figures 3 to 13, one report");
+  CLI::App* command =
+      program.add_subcommand("paper", "Reproduces the paper: runs, figures 3 to 13, one report");
   auto options = std::make_shared<PaperOptions>();
   options->sweep.results = "results/paper";
   options->sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -104,16 +108,22 @@ void add_paper_command(CLI::App& program, Action& action) {
                    "What: all; " + joined(paper_targets()) +
                        "; plan (lists the runs); report (draws what is there, runs nothing)")
       ->required();
-  command->add_option("--jobs", options->sweep.jobs, "Runs at a time (as many as there are processors)")
+  command
+      ->add_option("--jobs", options->sweep.jobs,
+                   "Runs at a time (as many as there are processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
-  command->add_option("--results", options->sweep.results, "The folder of runs (results/paper)")->type_name("DIR");
-  command->add_option("--output", options->output, "The folder of the report (<results>/report)")->type_name("DIR");
+  command->add_option("--results", options->sweep.results, "The folder of runs (results/paper)")
+      ->type_name("DIR");
+  command->add_option("--output", options->output, "The folder of the report (<results>/report)")
+      ->type_name("DIR");
   command
-      ->add_option("--max-seconds", options->sweep.max_seconds,
-                   "Wall clock after which runs write checkpoints; the report is written all the same")
+      ->add_option(
+          "--max-seconds", options->sweep.max_seconds,
+          "Wall clock after which runs write checkpoints; the report is written all the same")
       ->type_name("S");
-  command->add_option("--scene", options->campaign.scene, "Another vibrated box (vibrated_box)")->type_name("SCENE");
+  command->add_option("--scene", options->campaign.scene, "Another vibrated box (vibrated_box)")
+      ->type_name("SCENE");
   command->add_option("--set", options->campaign.overrides, "Overrides one value in every run")
       ->type_name("KEY=VALUE")
       ->take_all()
@@ -127,7 +137,8 @@ void add_paper_command(CLI::App& program, Action& action) {
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   command->footer(
-      "Finished runs are not made again; stopped ones go on. What is missing is said in the report.\n\n"
+      "Finished runs are not made again; stopped ones go on. What is missing is said in the "
+      "report.\n\n"
       "Examples:\n  ballast paper all --jobs 2\n  ballast paper fig9\n  ballast paper plan\n"
       "  ballast paper report --results results/paper --output docs/paper");
   command->callback([options, &action] { action = [options] { return reproduce(*options); }; });

@@ -3,8 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/run/capture.hpp"
 #include "experiments/commands/command.hpp"
+#include "experiments/run/capture.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run_page/report.hpp"
 #include "experiments/run_page/report_origin.hpp"
@@ -21,7 +21,8 @@ void check_capture(const std::string& text) {
   }
 }
 
-/// Draws the run's page where it is asked for or missing, and says what is where and what can be done next.
+/// Draws the run's page where it is asked for or missing, and says what is where and what can be
+/// done next.
 void show_results(const RunEnd& end, const RunOptions& options, bool with_page) {
   const bool has_page = std::filesystem::exists(end.folder / "report.html");
   if (with_page && (!end.was_finished || !has_page)) write_report(end.folder);
@@ -43,33 +44,44 @@ void add_run_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("run", "Runs a scene into a folder of results");
   auto options = std::make_shared<RunOptions>();
   auto with_page = std::make_shared<bool>(true);
-  command->add_option("scene", options->scene, "A scene's name (ballast scenes) or a TOML file")->required();
-  command->add_option("--set", options->overrides, "Overrides one value of the scene: dotted.key=value, body.0.mass=2")
+  command->add_option("scene", options->scene, "A scene's name (ballast scenes) or a TOML file")
+      ->required();
+  command
+      ->add_option("--set", options->overrides,
+                   "Overrides one value of the scene: dotted.key=value, body.0.mass=2")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1);
-  command->add_option("--output", options->output, "The run's folder (results/<scene>)")->type_name("DIR");
-  CLI::Option* resume = command->add_flag("--resume", options->resume, "Continues the run found in the folder");
+  command->add_option("--output", options->output, "The run's folder (results/<scene>)")
+      ->type_name("DIR");
+  CLI::Option* resume =
+      command->add_flag("--resume", options->resume, "Continues the run found in the folder");
   CLI::Option* overwrite =
-      command->add_flag("--overwrite", options->overwrite, "Replaces the run found in the folder")->excludes(resume);
+      command->add_flag("--overwrite", options->overwrite, "Replaces the run found in the folder")
+          ->excludes(resume);
   command
-      ->add_flag("--continue", options->begin_or_resume,
-                 "Continues the run found in the folder or begins one; does nothing when it is finished")
+      ->add_flag(
+          "--continue", options->begin_or_resume,
+          "Continues the run found in the folder or begins one; does nothing when it is finished")
       ->excludes(resume)
       ->excludes(overwrite);
-  command->add_flag("--deposit-only", options->deposit_only, "Only sees to it that the packing is in the cache");
-  command->add_flag("--new-packing", options->new_packing, "Deposits the grains again, whatever the cache has");
+  command->add_flag("--deposit-only", options->deposit_only,
+                    "Only sees to it that the packing is in the cache");
+  command->add_flag("--new-packing", options->new_packing,
+                    "Deposits the grains again, whatever the cache has");
   command
       ->add_option("--packing-cache", options->packing_cache,
                    "Where deposited packings are kept (<output>/../packings)")
       ->type_name("DIR");
   command
       ->add_option("--capture", options->capture,
-                   "Keeps the friction problems of steps as FCLIB files in <output>/capture: every=50 (two consecutive "
+                   "Keeps the friction problems of steps as FCLIB files in <output>/capture: "
+                   "every=50 (two consecutive "
                    "ones each; steps=3: three), from=1000,to=1020")
       ->type_name("WHICH");
   command
-      ->add_option("--threads", options->threads, "Threads of the solver (1); the results are the same to the last bit")
+      ->add_option("--threads", options->threads,
+                   "Threads of the solver (1); the results are the same to the last bit")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
   command->add_flag_callback(
@@ -80,18 +92,21 @@ void add_run_command(CLI::App& program, Action& action) {
       ->type_name("S");
   command->footer(
       "Examples:\n  ballast run vibrated_box\n"
-      "  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 --output results/fine\n"
+      "  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 --output "
+      "results/fine\n"
       "  ballast run vibrated_box --threads 2\n"
       "  ballast run vibrated_box --capture every=500 --output results/captured\n"
       "  ballast run incline --set 'gravity.direction=[0.3, 0, -1]'");
   command->callback([options, with_page, &action] {
     action = [options, with_page] {
-      if (!(options->max_seconds > 0.0)) throw UsageError("run: --max-seconds: expected a number > 0");
+      if (!(options->max_seconds > 0.0))
+        throw UsageError("run: --max-seconds: expected a number > 0");
       if (!options->capture.empty()) check_capture(options->capture);
       const RunEnd end = run(*options);
       if (end.has_record) show_results(end, *options, *with_page);
       if (end.code != ExitCode::ok)
-        std::cerr << "ballast: " << options->scene << ": stopped before its end; --resume continues it" << std::endl;
+        std::cerr << "ballast: " << options->scene
+                  << ": stopped before its end; --resume continues it" << std::endl;
       return end.code;
     };
   });

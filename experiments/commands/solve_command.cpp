@@ -45,17 +45,25 @@ struct Measure {
 
 // What the headings mean is said in the command's help.
 constexpr std::array measures{
-    Measure{"rms", "natural_map_rms", [](const SolvedFile& s) { return s.run.error.natural_map_rms; }},
-    Measure{"max", "natural_map_max", [](const SolvedFile& s) { return s.run.error.natural_map_max; }},
-    Measure{"scale", "velocity_scale", [](const SolvedFile& s) { return s.run.error.velocity_scale; }},
+    Measure{"rms", "natural_map_rms",
+            [](const SolvedFile& s) { return s.run.error.natural_map_rms; }},
+    Measure{"max", "natural_map_max",
+            [](const SolvedFile& s) { return s.run.error.natural_map_max; }},
+    Measure{"scale", "velocity_scale",
+            [](const SolvedFile& s) { return s.run.error.velocity_scale; }},
     Measure{"fclib", "fclib", [](const SolvedFile& s) { return s.run.error.fclib; }},
-    Measure{"cone", "cone_violation", [](const SolvedFile& s) { return s.run.error.cone_violation; }},
-    Measure{"min_uN", "min_normal_velocity", [](const SolvedFile& s) { return s.run.error.min_normal_velocity; }},
-    Measure{"compl", "complementarity", [](const SolvedFile& s) { return s.run.error.complementarity; }},
+    Measure{"cone", "cone_violation",
+            [](const SolvedFile& s) { return s.run.error.cone_violation; }},
+    Measure{"min_uN", "min_normal_velocity",
+            [](const SolvedFile& s) { return s.run.error.min_normal_velocity; }},
+    Measure{"compl", "complementarity",
+            [](const SolvedFile& s) { return s.run.error.complementarity; }},
     Measure{"power", "power", [](const SolvedFile& s) { return s.run.error.power; }},
-    Measure{"momentum", "momentum_residual", [](const SolvedFile& s) { return s.run.error.momentum_residual; }},
+    Measure{"momentum", "momentum_residual",
+            [](const SolvedFile& s) { return s.run.error.momentum_residual; }},
     Measure{"own", "own_residual", [](const SolvedFile& s) { return s.run.solved.own_residual; }},
-    Measure{"prepare_s", "prepare_seconds", [](const SolvedFile& s) { return s.run.prepare_seconds; }},
+    Measure{"prepare_s", "prepare_seconds",
+            [](const SolvedFile& s) { return s.run.prepare_seconds; }},
     Measure{"solve_s", "solve_seconds", [](const SolvedFile& s) { return s.run.solve_seconds; }},
 };
 
@@ -68,24 +76,27 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
     solved.tolerance *= scale;
   }
   const auto solver = make_solver(options.solver);  // a new one for each: nothing is carried over
-  solved.run = runner.run(*solver, problem, {}, {solved.tolerance, options.max_iterations, options.max_seconds, false});
+  solved.run = runner.run(*solver, problem, {},
+                          {solved.tolerance, options.max_iterations, options.max_seconds, false});
   return solved;
 }
 
 void print_heading(size_t width) {
-  std::cout << std::left << std::setw(static_cast<int>(width)) << "problem" << std::right << std::setw(9) << "contacts"
-            << std::setw(8) << "rows"
-            << "  " << std::left << std::setw(18) << "stopped" << std::right << std::setw(8) << "iter" << std::setw(4)
-            << "ok";
+  std::cout << std::left << std::setw(static_cast<int>(width)) << "problem" << std::right
+            << std::setw(9) << "contacts" << std::setw(8) << "rows"
+            << "  " << std::left << std::setw(18) << "stopped" << std::right << std::setw(8)
+            << "iter" << std::setw(4) << "ok";
   for (const Measure& m : measures) std::cout << std::setw(10) << m.heading;
   std::cout << std::setw(8) << "worst" << '\n';
 }
 
 void print_row(const SolvedFile& s, size_t width) {
-  std::cout << std::left << std::setw(static_cast<int>(width)) << std::filesystem::path(s.file).filename().string()
-            << std::right << std::setw(9) << s.contacts << std::setw(8) << s.rows << "  " << std::left << std::setw(18)
-            << name_of(s.run.solved.reason) << std::right << std::setw(8) << s.run.solved.iterations << std::setw(4)
-            << (s.run.success ? "yes" : "no") << std::scientific << std::setprecision(2);
+  std::cout << std::left << std::setw(static_cast<int>(width))
+            << std::filesystem::path(s.file).filename().string() << std::right << std::setw(9)
+            << s.contacts << std::setw(8) << s.rows << "  " << std::left << std::setw(18)
+            << name_of(s.run.solved.reason) << std::right << std::setw(8) << s.run.solved.iterations
+            << std::setw(4) << (s.run.success ? "yes" : "no") << std::scientific
+            << std::setprecision(2);
   for (const Measure& m : measures) std::cout << std::setw(10) << m.value(s);
   std::cout << std::setw(8) << s.run.error.worst_contact << std::endl;
 }
@@ -105,7 +116,8 @@ nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options)
   return row;
 }
 
-/// Every file solved: ok. Otherwise one line, and time_limit when nothing but the clock was in the way.
+/// Every file solved: ok. Otherwise one line, and time_limit when nothing but the clock was in the
+/// way.
 ExitCode verdict(const std::vector<SolvedFile>& solved) {
   std::string failures;
   size_t count = 0;
@@ -117,15 +129,16 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
     failures += (failures.empty() ? "" : ", ") + s.file + " (" + name_of(s.run.solved.reason) + ")";
   }
   if (count == 0) return ExitCode::ok;
-  std::cerr << "ballast: " << count << " of " << solved.size() << " problems did not reach the tolerance: " << failures
-            << '\n';
+  std::cerr << "ballast: " << count << " of " << solved.size()
+            << " problems did not reach the tolerance: " << failures << '\n';
   return only_time ? ExitCode::time_limit : ExitCode::failure;
 }
 
 ExitCode solve(const SolveOptions& options) {
   if (!(options.tolerance >= 0.0) || !std::isfinite(options.tolerance))
     throw UsageError("solve: --tolerance: expected a number >= 0");
-  if (options.max_iterations < 1) throw UsageError("solve: --max-iterations: expected a number >= 1");
+  if (options.max_iterations < 1)
+    throw UsageError("solve: --max-iterations: expected a number >= 1");
   if (!(options.max_seconds > 0.0)) throw UsageError("solve: --max-seconds: expected a number > 0");
   try {
     make_solver(options.solver);  // before any file is read
@@ -172,14 +185,17 @@ Examples:
 }  // namespace
 
 void add_solve_command(CLI::App& program, Action& action) {
-  CLI::App* command =
-      program.add_subcommand("solve", "Solves stored problems and prints every measure of their errors");
+  CLI::App* command = program.add_subcommand(
+      "solve", "Solves stored problems and prints every measure of their errors");
   auto options = std::make_shared<SolveOptions>();
   command->add_option("files", options->files, "Problems: FCLIB .hdf5, Siconos .dat")->required();
-  command->add_option("--solver", options->solver, "As listed by ballast solvers")->capture_default_str();
-  command->add_option("--tolerance", options->tolerance, "Relative to the velocity scale")->capture_default_str();
+  command->add_option("--solver", options->solver, "As listed by ballast solvers")
+      ->capture_default_str();
+  command->add_option("--tolerance", options->tolerance, "Relative to the velocity scale")
+      ->capture_default_str();
   command->add_flag("--absolute", options->absolute, "The tolerance is in m/s");
-  command->add_option("--max-iterations", options->max_iterations, "Sweeps, Newton steps, ...")->capture_default_str();
+  command->add_option("--max-iterations", options->max_iterations, "Sweeps, Newton steps, ...")
+      ->capture_default_str();
   command->add_option("--max-seconds", options->max_seconds, "Wall clock per problem");
   command->add_flag("--json", options->json, "Rows as JSON instead of a table");
   command->footer(solve_footer);

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <set>
 
+#include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
 #include "platform/interrupt.hpp"
-#include "experiments/run/manifest.hpp"
 
 namespace ballast {
 namespace {
@@ -29,32 +29,36 @@ std::vector<Attempt> attempts_of(const BenchOptions& options, const LoadedCase& 
   for (const double tolerance : options.tolerances)
     for (const StartKind start : options.starts) {
       if (start == StartKind::warm && loaded.warm_start.size() == 0) continue;
-      for (const BenchSolver& solver : options.solvers) attempts.push_back({&solver, tolerance, start});
+      for (const BenchSolver& solver : options.solvers)
+        attempts.push_back({&solver, tolerance, start});
     }
   return attempts;
 }
 
-std::string key_of(const BenchOptions& options, const std::string& binary, const BenchCase& bench_case,
-                   const CaseFacts& facts, const Attempt& attempt, int repeat) {
+std::string key_of(const BenchOptions& options, const std::string& binary,
+                   const BenchCase& bench_case, const CaseFacts& facts, const Attempt& attempt,
+                   int repeat) {
   char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "%.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance, options.max_seconds,
-                options.max_iterations, options.limits.memory_MB, options.limits.warm_seconds, options.limits.most_runs,
-                repeat);
-  return content_key("bench row 1|" + binary + '|' + bench_case.name + '|' + facts.content + '|' + attempt.solver->name +
-                     '|' + name_of(options.measure) + '|' + name_of(attempt.start) + '|' + numbers);
+  std::snprintf(numbers, sizeof numbers, "%.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance,
+                options.max_seconds, options.max_iterations, options.limits.memory_MB,
+                options.limits.warm_seconds, options.limits.most_runs, repeat);
+  return content_key("bench row 1|" + binary + '|' + bench_case.name + '|' + facts.content + '|' +
+                     attempt.solver->name + '|' + name_of(options.measure) + '|' +
+                     name_of(attempt.start) + '|' + numbers);
 }
 
 /// One bench under way.
 class Bench {
  public:
-  Bench(const std::vector<BenchCase>& cases, const BenchOptions& options, const BenchProgress& progress)
+  Bench(const std::vector<BenchCase>& cases, const BenchOptions& options,
+        const BenchProgress& progress)
       : cases_(cases), options_(options), progress_(progress), binary_(binary_key()) {}
 
   std::vector<BenchRow> execute() {
     create_folder(options_.folder / "rows");
     Manifest manifest("compare", {options_.command}, binary_);
-    count_ = cases_.size() * options_.tolerances.size() * options_.starts.size() * options_.solvers.size() *
-             static_cast<size_t>(options_.repeats);
+    count_ = cases_.size() * options_.tolerances.size() * options_.starts.size() *
+             options_.solvers.size() * static_cast<size_t>(options_.repeats);
     for (int repeat = 0; repeat < options_.repeats && goes_on_; ++repeat)
       for (size_t c = 0; c < cases_.size() && goes_on_; ++c) try_case(cases_[c], repeat);
     write_whole_file(options_.folder / "results.csv", bench_csv(rows_));
@@ -67,12 +71,13 @@ class Bench {
   void try_case(const BenchCase& bench_case, int repeat) {
     const LoadedCase loaded = bench_case.load();
     const std::vector<Attempt> attempts = attempts_of(options_, loaded);
-    done_ += options_.tolerances.size() * options_.starts.size() * options_.solvers.size() - attempts.size();
+    done_ += options_.tolerances.size() * options_.starts.size() * options_.solvers.size() -
+             attempts.size();
     for (const Attempt& attempt : attempts) {
       if (!goes_on_) return;
       ++done_;
-      const std::string identity = bench_case.name + '|' + attempt.solver->name + '|' + name_of(attempt.start) + '|' +
-                                   std::to_string(attempt.tolerance);
+      const std::string identity = bench_case.name + '|' + attempt.solver->name + '|' +
+                                   name_of(attempt.start) + '|' + std::to_string(attempt.tolerance);
       if (repeat > 0 && unsolved_.contains(identity)) continue;
       bool was_there = false;
       BenchRow row = row_of(bench_case, loaded, attempt, repeat, was_there);
@@ -82,8 +87,8 @@ class Bench {
     }
   }
 
-  BenchRow row_of(const BenchCase& bench_case, const LoadedCase& loaded, const Attempt& attempt, int repeat,
-                  bool& was_there) const {
+  BenchRow row_of(const BenchCase& bench_case, const LoadedCase& loaded, const Attempt& attempt,
+                  int repeat, bool& was_there) const {
     BenchRow row;
     row.key = key_of(options_, binary_, bench_case, loaded.facts, attempt, repeat);
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
@@ -117,7 +122,9 @@ class Bench {
     manifest.summary("repeats", options_.repeats);
     manifest.summary("blas", loaded_blas());
     // of this process, the BLAS's included; children have the one that works
-    manifest.summary("threads", static_cast<double>(std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator())));
+    manifest.summary("threads",
+                     static_cast<double>(std::distance(fs::directory_iterator("/proc/self/task"),
+                                                       fs::directory_iterator())));
     double load[3];
     if (getloadavg(load, 3) == 3) manifest.summary("load_at_end", load[0]);
     long solved = 0, denied = 0;
@@ -153,7 +160,8 @@ std::string loaded_blas() {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
     const std::string name = line.substr(line.rfind('/') + 1);
-    for (const char* beginning : {"libopenblas", "libblas", "liblapack", "libmkl", "libblis", "libatlas", "libcblas"})
+    for (const char* beginning :
+         {"libopenblas", "libblas", "liblapack", "libmkl", "libblis", "libatlas", "libcblas"})
       if (line.find('/') != std::string::npos && name.rfind(beginning, 0) == 0) found.insert(name);
   }
   std::string all;

@@ -30,8 +30,8 @@ LoadedCase load_captured(const fs::path& file) {
     if (c < 0) return std::string();
     const size_t k = static_cast<size_t>(c);
     char text[96];
-    std::snprintf(text, sizeof text, "contact %d (bodies %d and %d, gap %.2g m)", c, captured->id_a[k], captured->id_b[k],
-                  captured->gap[k]);
+    std::snprintf(text, sizeof text, "contact %d (bodies %d and %d, gap %.2g m)", c,
+                  captured->id_a[k], captured->id_b[k], captured->gap[k]);
     return std::string(text);
   };
   return loaded;
@@ -50,7 +50,8 @@ BenchCase file_case(const fs::path& file) {
             [file] { return load_case(read_problem(file)); }};
   const CapturedProblem captured = read_captured(file);
   const std::string run = run_of_captured(file);
-  return {run + "/" + file.stem().string(), run + (captured.phase == "none" ? "" : ", " + captured.phase),
+  return {run + "/" + file.stem().string(),
+          run + (captured.phase == "none" ? "" : ", " + captured.phase),
           [file] { return load_captured(file); }};
 }
 
@@ -71,7 +72,8 @@ void add_files(const fs::path& path, std::vector<fs::path>& files) {
   const size_t before = files.size();
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path))
     if (entry.is_regular_file() && is_problem_file(entry.path())) files.push_back(entry.path());
-  if (files.size() == before) throw BenchCaseError(path.string() + ": no problem file (.hdf5, .h5, .dat) in this folder");
+  if (files.size() == before)
+    throw BenchCaseError(path.string() + ": no problem file (.hdf5, .h5, .dat) in this folder");
   std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
 }
 
@@ -81,10 +83,13 @@ void add_file_cases(const std::string& word, std::vector<BenchCase>& cases) {
     add_files(word, files);
   } else {
     for (const fs::path& match : matches(word)) add_files(match, files);
-    if (files.empty()) throw BenchCaseError(word + ": no such file, folder or pattern; made cases begin with known: or stress:");
+    if (files.empty())
+      throw BenchCaseError(
+          word + ": no such file, folder or pattern; made cases begin with known: or stress:");
   }
   for (const fs::path& file : files) {
-    if (!is_problem_file(file)) throw BenchCaseError(file.string() + ": is no problem file (.hdf5, .h5, .dat)");
+    if (!is_problem_file(file))
+      throw BenchCaseError(file.string() + ": is no problem file (.hdf5, .h5, .dat)");
     cases.push_back(file_case(file));
   }
 }
@@ -101,7 +106,8 @@ void make_names_unique(std::vector<BenchCase>& cases) {
 std::string family_of_file(const std::string& file_name) {
   std::string family = file_name.substr(0, file_name.find('-'));
   family = family.substr(0, family.find('.'));
-  while (!family.empty() && (std::isdigit(static_cast<unsigned char>(family.back())) || family.back() == '_'))
+  while (!family.empty() &&
+         (std::isdigit(static_cast<unsigned char>(family.back())) || family.back() == '_'))
     family.pop_back();
   return family.empty() ? file_name : family;
 }
@@ -109,8 +115,10 @@ std::string family_of_file(const std::string& file_name) {
 std::vector<BenchCase> bench_cases(const std::vector<std::string>& words) {
   std::vector<BenchCase> cases;
   for (const std::string& word : words) {
-    if (is_made_case(word)) add_made_cases(word, cases);
-    else add_file_cases(word, cases);
+    if (is_made_case(word))
+      add_made_cases(word, cases);
+    else
+      add_file_cases(word, cases);
   }
   make_names_unique(cases);
   return cases;

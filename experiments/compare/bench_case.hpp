@@ -1,5 +1,6 @@
 #pragma once
-// The problems of a bench: files, folders, patterns and manufactured ones, each with what the figures want to know of it.
+// The problems of a bench: files, folders, patterns and manufactured ones, each with what the
+// figures want to know of it.
 
 #include <functional>
 #include <stdexcept>
@@ -10,7 +11,8 @@
 
 namespace ballast {
 
-/// A case that cannot be had: no such file, a pattern that matches nothing, an unknown setting. One line.
+/// A case that cannot be had: no such file, a pattern that matches nothing, an unknown setting. One
+/// line.
 class BenchCaseError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,25 +21,29 @@ class BenchCaseError : public std::runtime_error {
 /// What cost is drawn against.
 struct CaseFacts {
   int contacts = 0, rows = 0;
-  int dofs = 0;              ///< unknowns of the dynamics form; 0 when only W is known
-  double rank_deficiency = 0.0;  ///< 1 - rank(W)/rows. By eigenvalues up to 1000 rows; above, from the unknowns (a lower bound),
-                                 ///< and NaN where only W is known
-  double mass_ratio = 1.0;       ///< largest over smallest mass of the bodies in contact; where only W is known, of lambda_max(W_cc)
-  double velocity_scale = 1.0;   ///< errors are relative to it [m/s]: rms of q over rows; g h for captured problems
-  std::string content;           ///< key of the problem, its start and its scale
+  int dofs = 0;                  ///< unknowns of the dynamics form; 0 when only W is known
+  double rank_deficiency = 0.0;  ///< 1 - rank(W)/rows. By eigenvalues up to 1000 rows; above, from
+                                 ///< the unknowns (a lower bound), and NaN where only W is known
+  double mass_ratio = 1.0;  ///< largest over smallest mass of the bodies in contact; where only W
+                            ///< is known, of lambda_max(W_cc)
+  double velocity_scale =
+      1.0;  ///< errors are relative to it [m/s]: rms of q over rows; g h for captured problems
+  std::string content;  ///< key of the problem, its start and its scale
 };
 
 struct LoadedCase {
   FrictionProblem problem;
   Impulses warm_start;  ///< empty: the case has none
   CaseFacts facts;
-  /// Where a contact is, for who looks for the worst one: "contact 12", with bodies and gap where they are known.
+  /// Where a contact is, for who looks for the worst one: "contact 12", with bodies and gap where
+  /// they are known.
   std::function<std::string(int)> describe_contact;
 };
 
 struct BenchCase {
   std::string name;    ///< unique in a bench: a file's name, or the words that make the problem
-  std::string family;  ///< cases of one kind: the file's name up to its numbers, the run and phase of a captured one
+  std::string family;  ///< cases of one kind: the file's name up to its numbers, the run and phase
+                       ///< of a captured one
   /// Throws ProblemFileError, InvalidProblem.
   std::function<LoadedCase()> load;
 };
@@ -50,13 +56,16 @@ std::vector<BenchCase> bench_cases(const std::vector<std::string>& words);
 
 /// Problems made on the spot: words that begin with known: or stress:.
 bool is_made_case(const std::string& word);
-void add_made_cases(const std::string& word, std::vector<BenchCase>& cases);  ///< throws BenchCaseError
+void add_made_cases(const std::string& word,
+                    std::vector<BenchCase>& cases);  ///< throws BenchCaseError
 
-/// A case without warm start; errors are relative to `velocity_scale` [m/s], or to the rms of q when that is 0. Throws InvalidProblem.
+/// A case without warm start; errors are relative to `velocity_scale` [m/s], or to the rms of q
+/// when that is 0. Throws InvalidProblem.
 LoadedCase load_case(FrictionProblem problem, double velocity_scale = 0.0);
 
 /// Measures a problem. Throws InvalidProblem.
-CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start, double velocity_scale);
+CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start,
+                     double velocity_scale);
 
 /// "Capsules-i101-404.dat" -> "Capsules", "Rover1039.dat" -> "Rover".
 std::string family_of_file(const std::string& file_name);

@@ -23,8 +23,9 @@ std::string suffix_of(const BenchTable& table) {
 double decade_above(double value) { return std::pow(10.0, std::ceil(std::log10(value) - 1e-9)); }
 double decade_below(double value) { return std::pow(10.0, std::floor(std::log10(value) + 1e-9)); }
 
-ReportFigure profile(const BenchTable& table, const std::string& name, const std::string& title, const std::string& x_label,
-                     const std::vector<StepCurve>& curves, double first, double last, Html caption) {
+ReportFigure profile(const BenchTable& table, const std::string& name, const std::string& title,
+                     const std::string& x_label, const std::vector<StepCurve>& curves, double first,
+                     double last, Html caption) {
   Panel panel;
   panel.x_label = x_label;
   panel.y_label = "fraction of cases solved";
@@ -44,8 +45,8 @@ ReportFigure profile(const BenchTable& table, const std::string& name, const std
 }
 
 Html what_of(const BenchTable& table) {
-  return Html{"Tolerance "} + exact(table.tolerance) + Html{", "} + Html{name_of(table.start)} + Html{" start, "} +
-         exact(static_cast<double>(table.cases.size())) + Html{" cases. "};
+  return Html{"Tolerance "} + exact(table.tolerance) + Html{", "} + Html{name_of(table.start)} +
+         Html{" start, "} + exact(static_cast<double>(table.cases.size())) + Html{" cases. "};
 }
 
 /// One quantity of the cases that cost is drawn against.
@@ -55,13 +56,18 @@ struct CostAxis {
   double (*value)(const CaseFacts&);
 };
 constexpr CostAxis cost_axes[] = {
-    {"contacts", "contacts", "contacts", true, [](const CaseFacts& f) { return static_cast<double>(f.contacts); }},
-    {"rank", "rank deficiency of {/:Italic W},  1 − rank/rows", "rank deficiency of <i>W</i>", false, [](const CaseFacts& f) { return f.rank_deficiency; }},
-    {"mass_ratio", "mass ratio", "mass ratio", true, [](const CaseFacts& f) { return f.mass_ratio; }},
+    {"contacts", "contacts", "contacts", true,
+     [](const CaseFacts& f) { return static_cast<double>(f.contacts); }},
+    {"rank", "rank deficiency of {/:Italic W},  1 − rank/rows", "rank deficiency of <i>W</i>",
+     false, [](const CaseFacts& f) { return f.rank_deficiency; }},
+    {"mass_ratio", "mass ratio", "mass ratio", true,
+     [](const CaseFacts& f) { return f.mass_ratio; }},
 };
 
 const CaseFacts& facts_of(const BenchTable& table, size_t c) {
-  return std::find_if(table.cells[c].begin(), table.cells[c].end(), [](const BenchCell& cell) { return cell.row != nullptr; })->row->facts;
+  return std::find_if(table.cells[c].begin(), table.cells[c].end(),
+                      [](const BenchCell& cell) { return cell.row != nullptr; })
+      ->row->facts;
 }
 
 }  // namespace
@@ -81,7 +87,8 @@ Curve stairs(const StepCurve& steps, double last, Curve curve) {
 }
 
 Curve styled(size_t k, const std::string& title) {
-  constexpr Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::orange, Ink::purple, Ink::sky, Ink::black, Ink::grey};
+  constexpr Ink inks[] = {Ink::blue,   Ink::vermilion, Ink::green, Ink::orange,
+                          Ink::purple, Ink::sky,       Ink::black, Ink::grey};
   constexpr size_t count = std::size(inks);
   Curve curve;
   curve.title = plain_text(title);
@@ -95,7 +102,8 @@ int height_for(size_t entries) { return 440 + 22 * static_cast<int>(entries / 3)
 
 std::string figure_name(const std::string& text) {
   std::string name;
-  for (const char c : text) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
+  for (const char c : text)
+    name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
   return name;
 }
 
@@ -115,15 +123,22 @@ std::vector<ReportFigure> profile_figures(const BenchTable& table) {
   }
   if (!(most_cost > 0.0)) return {};
   const double last_ratio = std::max(10.0, decade_above(most_ratio));
-  const double first = decade_below(least_cost), last = std::max(10.0 * first, decade_above(most_cost));
-  return {profile(table, "performance", "Performance profile", "time over the fastest backend’s time",
-                  performance_profiles(times, last_ratio), 1.0, last_ratio,
-                  Html{"<b>Performance profile</b> (Dolan–Moré). "} + what_of(table) +
-                      Html{"The share of the cases that a backend solves within so many times the fastest backend’s time. <span class=\"look\">Left edge: "
-                           "how often it is the fastest; right edge: how many it solves at all.</span>"}),
-          profile(table, "data", "Data profile", "time per contact  (s)", data_profiles(times, sizes, first, last), first, last,
-                  Html{"<b>Data profile</b> (Moré–Wild, with time per contact as the unit of cost). "} + what_of(table) +
-                      Html{"The share of the cases solved when so much time is given for each contact."})};
+  const double first = decade_below(least_cost),
+               last = std::max(10.0 * first, decade_above(most_cost));
+  return {
+      profile(
+          table, "performance", "Performance profile", "time over the fastest backend’s time",
+          performance_profiles(times, last_ratio), 1.0, last_ratio,
+          Html{"<b>Performance profile</b> (Dolan–Moré). "} + what_of(table) +
+              Html{"The share of the cases that a backend solves within so many times the fastest "
+                   "backend’s time. <span class=\"look\">Left edge: "
+                   "how often it is the fastest; right edge: how many it solves at all.</span>"}),
+      profile(
+          table, "data", "Data profile", "time per contact  (s)",
+          data_profiles(times, sizes, first, last), first, last,
+          Html{"<b>Data profile</b> (Moré–Wild, with time per contact as the unit of cost). "} +
+              what_of(table) +
+              Html{"The share of the cases solved when so much time is given for each contact."})};
 }
 
 std::vector<ReportFigure> cost_figures(const BenchTable& table) {
@@ -142,7 +157,8 @@ std::vector<ReportFigure> cost_figures(const BenchTable& table) {
       curve.opacity = 0.8;
       for (size_t c = 0; c < table.cases.size(); ++c) {
         const double x = axis.value(facts_of(table, c)), y = table.cells[c][s].median;
-        if (!std::isfinite(x) || !std::isfinite(y) || !(y > 0.0) || (axis.is_log && !(x > 0.0))) continue;
+        if (!std::isfinite(x) || !std::isfinite(y) || !(y > 0.0) || (axis.is_log && !(x > 0.0)))
+          continue;
         curve.x.push_back(x);
         curve.y.push_back(y);
         places.insert(x);
@@ -156,8 +172,9 @@ std::vector<ReportFigure> cost_figures(const BenchTable& table) {
     figure.title = std::string("Cost against ") + axis.name;
     figure.height = height_for(panel.curves.size());
     figure.panels = {panel};
-    figures.push_back({figure, Html{"<b>Cost against "} + Html{axis.words} + Html{"</b>. "} + what_of(table) +
-                                   Html{"Time of prepare and solve; only what was solved is drawn."}});
+    figures.push_back(
+        {figure, Html{"<b>Cost against "} + Html{axis.words} + Html{"</b>. "} + what_of(table) +
+                     Html{"Time of prepare and solve; only what was solved is drawn."}});
   }
   return figures;
 }

@@ -9,15 +9,18 @@
 
 namespace ballast {
 
-/// Performance and data profiles, cost against contacts, rank deficiency and mass ratio, of one table. Empty when nobody solved anything.
+/// Performance and data profiles, cost against contacts, rank deficiency and mass ratio, of one
+/// table. Empty when nobody solved anything.
 std::vector<ReportFigure> profile_figures(const BenchTable& table);
 std::vector<ReportFigure> cost_figures(const BenchTable& table);
 
-/// Error against time on one case from one start: each backend's history to its tightest tolerance, and where each tolerance was reached.
-/// Without panels when there is nothing to draw.
-ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::string& case_name, StartKind start);
+/// Error against time on one case from one start: each backend's history to its tightest tolerance,
+/// and where each tolerance was reached. Without panels when there is nothing to draw.
+ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::string& case_name,
+                                   StartKind start);
 /// The same over a family: geometric means over its cases.
-ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family, StartKind start);
+ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family,
+                           StartKind start);
 
 /// The k-th backend's line: eight colours, then the same dashed, then thin.
 Curve styled(size_t k, const std::string& title);

@@ -18,7 +18,8 @@ Html count(long value) { return value == 0 ? Html{""} : exact(static_cast<double
 const BenchRow* nearest(const std::vector<BenchCell>& line) {
   const BenchRow* best = nullptr;
   for (const BenchCell& cell : line)
-    if (cell.row && std::isfinite(cell.row->error) && (!best || cell.row->error < best->error)) best = cell.row;
+    if (cell.row && std::isfinite(cell.row->error) && (!best || cell.row->error < best->error))
+      best = cell.row;
   return best;
 }
 
@@ -49,41 +50,52 @@ std::vector<BackendSummary> backend_summaries(const BenchTable& table, double li
       summary.law = cell.row->law;
       summary.solved += cell.solved;
       summary.timeouts += cell.row->outcome == Outcome::timeout;
-      summary.crashes += cell.row->outcome == Outcome::crashed || cell.row->outcome == Outcome::out_of_memory;
+      summary.crashes +=
+          cell.row->outcome == Outcome::crashed || cell.row->outcome == Outcome::out_of_memory;
       summary.unsupported += cell.row->outcome == Outcome::unsupported;
       summary.false_successes += cell.row->is_false_success();
       if (cell.solved && cell.median > 0.0)
-        summary.largest_spread = std::max(summary.largest_spread, (cell.slowest - cell.fastest) / cell.median);
+        summary.largest_spread =
+            std::max(summary.largest_spread, (cell.slowest - cell.fastest) / cell.median);
       times.push_back(std::min(cell.median, limit));
       if (std::isinf(table.fastest(c))) continue;
       ratios_of.push_back(times.back());
       best.push_back(table.fastest(c));
     }
     summary.mean_seconds = shifted_geometric_mean(times, shift);
-    summary.mean_ratio = best.empty() ? std::nan("") : shifted_geometric_ratio(ratios_of, best, shift);
+    summary.mean_ratio =
+        best.empty() ? std::nan("") : shifted_geometric_ratio(ratios_of, best, shift);
     summaries.push_back(std::move(summary));
   }
-  std::stable_sort(summaries.begin(), summaries.end(), [](const BackendSummary& a, const BackendSummary& b) {
-    return a.solved != b.solved ? a.solved > b.solved : a.mean_seconds < b.mean_seconds;
-  });
+  std::stable_sort(
+      summaries.begin(), summaries.end(), [](const BackendSummary& a, const BackendSummary& b) {
+        return a.solved != b.solved ? a.solved > b.solved : a.mean_seconds < b.mean_seconds;
+      });
   return summaries;
 }
 
 Html backends_html(const BenchTable& table, double limit) {
   HtmlTable html;
-  html.head = {{"backend"}, {"law"}, {"solved"}, {"mean time"}, {"over fastest"}, {"time&shy;outs"}, {"crashes"}, {"not taken"}, {"claims denied"}, {"spread"}};
+  html.head = {{"backend"},       {"law"},     {"solved"},    {"mean time"},     {"over fastest"},
+               {"time&shy;outs"}, {"crashes"}, {"not taken"}, {"claims denied"}, {"spread"}};
   html.is_number = {false, false, true, true, true, true, true, true, true, true};
   for (const BackendSummary& s : backend_summaries(table, limit))
-    html.rows.push_back({escaped(s.solver), escaped(s.law), exact(s.solved) + Html{" of "} + exact(static_cast<double>(table.cases.size())),
-                         time_of(s.mean_seconds), number(s.mean_ratio), count(s.timeouts), count(s.crashes), count(s.unsupported),
-                         s.false_successes ? Html{"<span class=\"missed\">"} + exact(s.false_successes) + Html{"</span>"} : Html{""},
-                         s.largest_spread > 0.0 ? quantity(100.0 * s.largest_spread, "%", 2) : Html{""}});
+    html.rows.push_back(
+        {escaped(s.solver), escaped(s.law),
+         exact(s.solved) + Html{" of "} + exact(static_cast<double>(table.cases.size())),
+         time_of(s.mean_seconds), number(s.mean_ratio), count(s.timeouts), count(s.crashes),
+         count(s.unsupported),
+         s.false_successes
+             ? Html{"<span class=\"missed\">"} + exact(s.false_successes) + Html{"</span>"}
+             : Html{""},
+         s.largest_spread > 0.0 ? quantity(100.0 * s.largest_spread, "%", 2) : Html{""}});
   return to_html(html);
 }
 
 Html cases_html(const BenchTable& table) {
   HtmlTable html;
-  html.head = {{"case"}, {"contacts"}, {"solved by"}, {"fastest"}, {"time"}, {"error"}, {"worst contact"}};
+  html.head = {{"case"}, {"contacts"}, {"solved by"},    {"fastest"},
+               {"time"}, {"error"},    {"worst contact"}};
   html.is_number = {false, true, true, false, true, true, false};
   for (size_t c = 0; c < table.cases.size(); ++c) {
     const std::vector<BenchCell>& line = table.cells[c];
@@ -93,13 +105,17 @@ Html cases_html(const BenchTable& table) {
       if (cell.solved && cell.median == best) row = cell.row;
     const bool is_solved = row != nullptr;
     if (!row) row = nearest(line);
-    const long solvers = std::count_if(line.begin(), line.end(), [](const BenchCell& cell) { return cell.solved; });
-    const BenchCell& any = *std::find_if(line.begin(), line.end(), [](const BenchCell& cell) { return cell.row != nullptr; });
-    html.rows.push_back({escaped(table.cases[c]), exact(any.row->facts.contacts),
-                         is_solved ? exact(static_cast<double>(solvers)) : Html{"<span class=\"missed\">none</span>"},
-                         row ? escaped(is_solved ? row->solver : "nearest: " + row->solver) : Html{""},
-                         row ? time_of(is_solved ? best : row->seconds()) : Html{""}, row ? number(row->error, 2) : Html{""},
-                         row ? escaped(row->worst) : Html{""}});
+    const long solvers =
+        std::count_if(line.begin(), line.end(), [](const BenchCell& cell) { return cell.solved; });
+    const BenchCell& any = *std::find_if(line.begin(), line.end(),
+                                         [](const BenchCell& cell) { return cell.row != nullptr; });
+    html.rows.push_back(
+        {escaped(table.cases[c]), exact(any.row->facts.contacts),
+         is_solved ? exact(static_cast<double>(solvers))
+                   : Html{"<span class=\"missed\">none</span>"},
+         row ? escaped(is_solved ? row->solver : "nearest: " + row->solver) : Html{""},
+         row ? time_of(is_solved ? best : row->seconds()) : Html{""},
+         row ? number(row->error, 2) : Html{""}, row ? escaped(row->worst) : Html{""}});
   }
   return to_html(html);
 }
@@ -110,32 +126,49 @@ Html failures_html(std::span<const BenchRow> rows) {
   html.is_number = {false, false, true, false, true};
   for (const BenchRow& row : rows) {
     const bool died = row.outcome == Outcome::crashed || row.outcome == Outcome::out_of_memory;
-    if (!died && !row.is_false_success() && (row.note.empty() || row.outcome != Outcome::stopped)) continue;
-    const std::string what = row.is_false_success() ? "claims success, the judge denies it" : std::string(name_of(row.outcome)) + (row.note.empty() ? "" : ": " + row.note);
-    html.rows.push_back({escaped(row.case_name), escaped(row.solver), exact(row.tolerance), escaped(what), number(row.error, 2)});
+    if (!died && !row.is_false_success() && (row.note.empty() || row.outcome != Outcome::stopped))
+      continue;
+    const std::string what = row.is_false_success() ? "claims success, the judge denies it"
+                                                    : std::string(name_of(row.outcome)) +
+                                                          (row.note.empty() ? "" : ": " + row.note);
+    html.rows.push_back({escaped(row.case_name), escaped(row.solver), exact(row.tolerance),
+                         escaped(what), number(row.error, 2)});
   }
   return html.rows.empty() ? Html{} : to_html(html);
 }
 
 Html reference_html(const ReferenceComparison& comparison, double limit) {
   HtmlTable ratios;
-  ratios.head = {{"shift of the mean"}, {"our fastest over theirs"}, {"<code>auto</code> over theirs"}};
+  ratios.head = {
+      {"shift of the mean"}, {"our fastest over theirs"}, {"<code>auto</code> over theirs"}};
   ratios.is_number = {true, true, true};
   for (const double shift : mean_shifts)
-    ratios.rows.push_back({quantity(1e3 * shift, "ms"), number(comparison.ratio(shift, limit, false)), number(comparison.ratio(shift, limit, true))});
+    ratios.rows.push_back({quantity(1e3 * shift, "ms"),
+                           number(comparison.ratio(shift, limit, false)),
+                           number(comparison.ratio(shift, limit, true))});
   HtmlTable lines;
-  lines.head = {{"case"}, {"theirs"}, {"by"}, {"ours"}, {"by"}, {"ratio"}, {"<code>auto</code>"}, {"ratio"}};
+  lines.head = {{"case"}, {"theirs"}, {"by"}, {"ours"}, {"by"}, {"ratio"}, {"<code>auto</code>"},
+                {"ratio"}};
   lines.is_number = {false, true, false, true, false, true, true, true};
   for (const ReferenceComparison::Line& line : comparison.lines) {
-    const auto ratio = [&](double ours) { return line.theirs > 0.0 ? number(ours / line.theirs) : Html{""}; };
-    lines.rows.push_back({escaped(line.case_name), time_of(line.theirs), escaped(line.their_solver), time_of(line.ours), escaped(line.our_solver),
-                          ratio(line.ours), time_of(line.automatic), ratio(line.automatic)});
+    const auto ratio = [&](double ours) {
+      return line.theirs > 0.0 ? number(ours / line.theirs) : Html{""};
+    };
+    lines.rows.push_back({escaped(line.case_name), time_of(line.theirs), escaped(line.their_solver),
+                          time_of(line.ours), escaped(line.our_solver), ratio(line.ours),
+                          time_of(line.automatic), ratio(line.automatic)});
   }
-  Html html = Html{"<h3>Tolerance "} + exact(comparison.tolerance) + Html{"</h3>\n"} + to_html(ratios);
-  html += Html{"<p>Shifted geometric means over "} + exact(static_cast<double>(comparison.lines.size())) +
-          Html{" problems that the reference solved; one that we did not solve counts with "} + quantity(limit, "s") + Html{".</p>\n"};
-  if (!comparison.missing.empty()) html += Html{"<p><span class=\"missed\">Not solved by us:</span> "} + names(comparison.missing) + Html{".</p>\n"};
-  if (!comparison.only_ours.empty()) html += Html{"<p>Solved by us alone: "} + names(comparison.only_ours) + Html{".</p>\n"};
+  Html html =
+      Html{"<h3>Tolerance "} + exact(comparison.tolerance) + Html{"</h3>\n"} + to_html(ratios);
+  html += Html{"<p>Shifted geometric means over "} +
+          exact(static_cast<double>(comparison.lines.size())) +
+          Html{" problems that the reference solved; one that we did not solve counts with "} +
+          quantity(limit, "s") + Html{".</p>\n"};
+  if (!comparison.missing.empty())
+    html += Html{"<p><span class=\"missed\">Not solved by us:</span> "} +
+            names(comparison.missing) + Html{".</p>\n"};
+  if (!comparison.only_ours.empty())
+    html += Html{"<p>Solved by us alone: "} + names(comparison.only_ours) + Html{".</p>\n"};
   return html + to_html(lines);
 }
 

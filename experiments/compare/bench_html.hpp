@@ -16,9 +16,11 @@ inline constexpr double mean_shifts[] = {1e-5, 1e-4, 1e-3};
 struct BackendSummary {
   std::string solver, law;
   int solved = 0, timeouts = 0, crashes = 0, unsupported = 0, false_successes = 0;
-  double mean_seconds = 0.0;   ///< shifted geometric mean over all cases (shift 1 ms); unsolved: the limit
-  double mean_ratio = 0.0;     ///< the same of time over the fastest backend's, over cases that somebody solved
-  double largest_spread = 0.0; ///< (slowest - fastest)/median over repeats
+  double mean_seconds =
+      0.0;  ///< shifted geometric mean over all cases (shift 1 ms); unsolved: the limit
+  double mean_ratio =
+      0.0;  ///< the same of time over the fastest backend's, over cases that somebody solved
+  double largest_spread = 0.0;  ///< (slowest - fastest)/median over repeats
 };
 /// Sorted: most solved first, then fastest. `limit`: seconds that an unsolved case counts.
 std::vector<BackendSummary> backend_summaries(const BenchTable& table, double limit);
@@ -27,7 +29,8 @@ std::vector<BackendSummary> backend_summaries(const BenchTable& table, double li
 double limit_of(std::span<const BenchRow> rows);
 
 Html backends_html(const BenchTable& table, double limit);
-/// Case by case: fastest backend, its time and spread, or how near anybody came; the worst contact by name.
+/// Case by case: fastest backend, its time and spread, or how near anybody came; the worst contact
+/// by name.
 Html cases_html(const BenchTable& table);
 /// Claims that the judge denies, crashes and memory: empty when there are none.
 Html failures_html(std::span<const BenchRow> rows);

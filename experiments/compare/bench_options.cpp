@@ -19,7 +19,8 @@ std::vector<std::string> words_of(const std::string& list, const char* what) {
     begin = end + 1;
   }
   for (const std::string& word : words)
-    if (word.empty()) throw std::invalid_argument("'" + list + "': expected " + what + ", separated by commas");
+    if (word.empty())
+      throw std::invalid_argument("'" + list + "': expected " + what + ", separated by commas");
   return words;
 }
 
@@ -35,7 +36,8 @@ std::vector<BenchSolver> bench_solvers(const std::string& list) {
   for (const std::string& name : words_of(list, "names of solvers")) {
     make_solver(name);  // says what is wrong with a name
     const SolverEntry& entry = find_solver(name);
-    if (std::none_of(solvers.begin(), solvers.end(), [&](const BenchSolver& s) { return s.name == name; }))
+    if (std::none_of(solvers.begin(), solvers.end(),
+                     [&](const BenchSolver& s) { return s.name == name; }))
       solvers.push_back({entry.name, entry.law, entry.make});
   }
   return solvers;
@@ -46,7 +48,8 @@ std::vector<double> bench_tolerances(const std::string& list) {
   for (const std::string& word : words_of(list, "numbers > 0")) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !(value > 0.0) || !std::isfinite(value))
+    if (error != std::errc() || end != word.data() + word.size() || !(value > 0.0) ||
+        !std::isfinite(value))
       throw std::invalid_argument("'" + word + "': expected a number > 0");
     tolerances.push_back(value);
   }
@@ -58,7 +61,8 @@ std::vector<double> bench_tolerances(const std::string& list) {
 std::vector<StartKind> bench_starts(const std::string& list) {
   std::vector<StartKind> starts;
   for (const std::string& word : words_of(list, "cold or warm"))
-    if (const StartKind start = start_of(word); std::find(starts.begin(), starts.end(), start) == starts.end())
+    if (const StartKind start = start_of(word);
+        std::find(starts.begin(), starts.end(), start) == starts.end())
       starts.push_back(start);
   return starts;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The words of `ballast compare` -> settings. Everything wrong is a std::invalid_argument that says what was expected.
+// The words of `ballast compare` -> settings. Everything wrong is a std::invalid_argument that says
+// what was expected.
 
 #include <string>
 #include <vector>
@@ -8,7 +9,8 @@
 
 namespace ballast {
 
-/// "pgs,nncg", or "all": every backend that was built. Throws UnknownSolver, MissingSolver for names.
+/// "pgs,nncg", or "all": every backend that was built. Throws UnknownSolver, MissingSolver for
+/// names.
 std::vector<BenchSolver> bench_solvers(const std::string& list);
 
 /// "1e-4,1e-8": numbers > 0, sorted from loose to tight, each once.

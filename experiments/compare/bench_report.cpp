@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/compare/bench_figures.hpp"
 #include "experiments/compare/bench_html.hpp"
 #include "experiments/compare/page_drawing.hpp"
 #include "experiments/run_page/report_origin.hpp"
+#include "platform/atomic_file.hpp"
 
 namespace ballast {
 namespace {
@@ -19,14 +19,17 @@ template <typename Name>
 std::vector<std::string> names_in(std::span<const BenchRow> rows, Name&& name_of_row) {
   std::vector<std::string> names;
   for (const BenchRow& row : rows)
-    if (std::find(names.begin(), names.end(), name_of_row(row)) == names.end()) names.push_back(name_of_row(row));
+    if (std::find(names.begin(), names.end(), name_of_row(row)) == names.end())
+      names.push_back(name_of_row(row));
   return names;
 }
 
 std::vector<StartKind> starts_in(std::span<const BenchRow> rows) {
   std::vector<StartKind> starts;
   for (const StartKind start : {StartKind::cold, StartKind::warm})
-    if (std::any_of(rows.begin(), rows.end(), [&](const BenchRow& row) { return row.start == start; })) starts.push_back(start);
+    if (std::any_of(rows.begin(), rows.end(),
+                    [&](const BenchRow& row) { return row.start == start; }))
+      starts.push_back(start);
   return starts;
 }
 
@@ -39,17 +42,25 @@ std::string heading_of(const BenchTable& table) {
 Html header(std::span<const BenchRow> rows, const RunData& data) {
   const size_t cases = names_in(rows, [](const BenchRow& r) { return r.case_name; }).size();
   const size_t solvers = names_in(rows, [](const BenchRow& r) { return r.solver; }).size();
-  Html html = Html{"<header>\n<h1>Solvers of frictional contact, compared</h1>\n<p class=\"lede\">"} + exact(static_cast<double>(solvers)) +
-              Html{" backends on "} + exact(static_cast<double>(cases)) + Html{" problems, "} + exact(static_cast<double>(rows.size())) +
-              Html{" solves. Measure: "} + escaped(rows.empty() ? "" : name_of(rows[0].measure)) + Html{".</p>\n"};
-  if (const std::string made = made_by(data); !made.empty()) html += Html{"<p class=\"lede\">"} + escaped(made) + Html{"</p>\n"};
+  Html html =
+      Html{"<header>\n<h1>Solvers of frictional contact, compared</h1>\n<p class=\"lede\">"} +
+      exact(static_cast<double>(solvers)) + Html{" backends on "} +
+      exact(static_cast<double>(cases)) + Html{" problems, "} +
+      exact(static_cast<double>(rows.size())) + Html{" solves. Measure: "} +
+      escaped(rows.empty() ? "" : name_of(rows[0].measure)) + Html{".</p>\n"};
+  if (const std::string made = made_by(data); !made.empty())
+    html += Html{"<p class=\"lede\">"} + escaped(made) + Html{"</p>\n"};
   return html + Html{"</header>\n"};
 }
 
 Html explanation(double limit) {
-  return Html{"<p><i>Solved</i>: the backend says so, and the judge, outside the backend’s process and from the impulses alone, agrees. Times are of prepare and solve, "
-              "medians over repeats. <i>Mean time</i>: shifted geometric mean over all cases (shift 1&#8239;ms); what was not solved counts with "} +
-         quantity(limit, "s") + Html{". <i>Over fastest</i>: the same of the time over the fastest backend’s.</p>\n"};
+  return Html{
+             "<p><i>Solved</i>: the backend says so, and the judge, outside the backend’s process "
+             "and from the impulses alone, agrees. Times are of prepare and solve, "
+             "medians over repeats. <i>Mean time</i>: shifted geometric mean over all cases (shift "
+             "1&#8239;ms); what was not solved counts with "} +
+         quantity(limit, "s") +
+         Html{". <i>Over fastest</i>: the same of the time over the fastest backend’s.</p>\n"};
 }
 
 Html options_table(const RunData& data) {
@@ -57,7 +68,10 @@ Html options_table(const RunData& data) {
   table.css_class = "facts";
   if (const auto summary = data.manifest.find("summary"); summary != data.manifest.end())
     for (const auto& [name, value] : summary->items())
-      table.rows.push_back({escaped(name), value.is_number() ? exact(value.get<double>()) : escaped(value.is_string() ? value.get<std::string>() : value.dump())});
+      table.rows.push_back(
+          {escaped(name), value.is_number() ? exact(value.get<double>())
+                                            : escaped(value.is_string() ? value.get<std::string>()
+                                                                        : value.dump())});
   return to_html(table);
 }
 
@@ -79,7 +93,8 @@ Html family_figures(std::span<const BenchRow> rows, PageDrawing& drawing) {
 
 }  // namespace
 
-void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows, std::span<const ReferenceTimes> reference) {
+void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows,
+                        std::span<const ReferenceTimes> reference) {
   const RunData data = read_provenance(folder);
   const std::vector<BenchTable> tables = bench_tables(rows);
   const double limit = limit_of(rows);
@@ -93,8 +108,11 @@ void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows, 
     costs += drawing.draw(cost_figures(table));
   }
   if (!reference.empty() && !rows.empty() && rows[0].measure != Measure::fclib)
-    drawing.notices.push_back("The reference's times are to the measure fclib, this bench's are not: their ratio compares unlike things.");
-  for (const ReferenceComparison& comparison : compare_with_reference(tables, reference)) references += reference_html(comparison, limit);
+    drawing.notices.push_back(
+        "The reference's times are to the measure fclib, this bench's are not: their ratio "
+        "compares unlike things.");
+  for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
+    references += reference_html(comparison, limit);
   const Html families = family_figures(rows, drawing), cases = case_figures(rows, drawing);
   Html body = header(rows, data) + drawing.notices_html();
   body += section("backends", "The backends", overview);
@@ -107,10 +125,12 @@ void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows, 
   body += section("case-figures", "Accuracy against cost, case by case", cases);
   body += section("options", "Options", options_table(data));
   body += section("provenance", "Program and machine", provenance_table(data));
-  write_whole_file(folder / "compare.html", html_page("Solvers of frictional contact, compared", body));
+  write_whole_file(folder / "compare.html",
+                   html_page("Solvers of frictional contact, compared", body));
 }
 
-std::string bench_summary(std::span<const BenchRow> rows, std::span<const ReferenceTimes> reference) {
+std::string bench_summary(std::span<const BenchRow> rows,
+                          std::span<const ReferenceTimes> reference) {
   std::string text;
   char line[200];
   const double limit = limit_of(rows);
@@ -118,17 +138,22 @@ std::string bench_summary(std::span<const BenchRow> rows, std::span<const Refere
   for (const BenchTable& table : tables) {
     text += heading_of(table) + ", " + std::to_string(table.cases.size()) + " cases\n";
     for (const BackendSummary& s : backend_summaries(table, limit)) {
-      std::snprintf(line, sizeof line, "  %-16s solved %4d   mean %10.4g ms   over fastest %8.3g   timeouts %d, crashes %d, not taken %d%s\n",
-                    s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.mean_ratio, s.timeouts, s.crashes, s.unsupported,
-                    s.false_successes ? "   CLAIMS DENIED" : "");
+      std::snprintf(line, sizeof line,
+                    "  %-16s solved %4d   mean %10.4g ms   over fastest %8.3g   timeouts %d, "
+                    "crashes %d, not taken %d%s\n",
+                    s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.mean_ratio, s.timeouts,
+                    s.crashes, s.unsupported, s.false_successes ? "   CLAIMS DENIED" : "");
       text += line;
     }
   }
   for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
     for (const double shift : mean_shifts) {
-      std::snprintf(line, sizeof line, "reference, tolerance %g, shift %g ms: our fastest / theirs %.3g, auto / theirs %.3g (%zu problems, %zu not solved by us)\n",
-                    comparison.tolerance, 1e3 * shift, comparison.ratio(shift, limit, false), comparison.ratio(shift, limit, true),
-                    comparison.lines.size(), comparison.missing.size());
+      std::snprintf(line, sizeof line,
+                    "reference, tolerance %g, shift %g ms: our fastest / theirs %.3g, auto / "
+                    "theirs %.3g (%zu problems, %zu not solved by us)\n",
+                    comparison.tolerance, 1e3 * shift, comparison.ratio(shift, limit, false),
+                    comparison.ratio(shift, limit, true), comparison.lines.size(),
+                    comparison.missing.size());
       text += line;
     }
   return text;

@@ -9,12 +9,13 @@
 
 namespace ballast {
 
-/// Reads manifest.json of `folder`; writes figures/*.svg, *.pdf and compare.html there. Without gnuplot the page has the tables alone and says so.
-/// Throws Error.
+/// Reads manifest.json of `folder`; writes figures/*.svg, *.pdf and compare.html there. Without
+/// gnuplot the page has the tables alone and says so. Throws Error.
 void write_bench_report(const std::filesystem::path& folder, std::span<const BenchRow> rows,
                         std::span<const ReferenceTimes> reference);
 
 /// The table of backends as text for a terminal, and the ratios to the reference.
-std::string bench_summary(std::span<const BenchRow> rows, std::span<const ReferenceTimes> reference);
+std::string bench_summary(std::span<const BenchRow> rows,
+                          std::span<const ReferenceTimes> reference);
 
 }  // namespace ballast

@@ -16,7 +16,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* measure_names[] = {"natural_map", "fclib"};
 constexpr const char* start_names[] = {"cold", "warm"};
-constexpr const char* outcome_names[] = {"solved", "stopped", "timeout", "crashed", "out_of_memory", "unsupported"};
+constexpr const char* outcome_names[] = {"solved",  "stopped",       "timeout",
+                                         "crashed", "out_of_memory", "unsupported"};
 
 template <typename Enum, size_t count>
 Enum by_name(const char* const (&names)[count], const std::string& name, const char* what) {
@@ -71,13 +72,17 @@ void for_members(Row& row, F&& f) {
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json json_of(double value) { return number(value); }
 template <typename Value>
-Json json_of(const Value& value) { return value; }
+Json json_of(const Value& value) {
+  return value;
+}
 
 void take(const Json& json, double& value) {
   value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 template <typename Value>
-void take(const Json& json, Value& value) { value = json.get<Value>(); }
+void take(const Json& json, Value& value) {
+  value = json.get<Value>();
+}
 
 std::string print(const char* format, double value) {
   char text[40];
@@ -100,8 +105,12 @@ std::string quoted(const std::string& text) {
 const char* name_of(Measure measure) { return measure_names[static_cast<size_t>(measure)]; }
 const char* name_of(StartKind start) { return start_names[static_cast<size_t>(start)]; }
 const char* name_of(Outcome outcome) { return outcome_names[static_cast<size_t>(outcome)]; }
-Measure measure_of(const std::string& name) { return by_name<Measure>(measure_names, name, "measure"); }
-StartKind start_of(const std::string& name) { return by_name<StartKind>(start_names, name, "start"); }
+Measure measure_of(const std::string& name) {
+  return by_name<Measure>(measure_names, name, "measure");
+}
+StartKind start_of(const std::string& name) {
+  return by_name<StartKind>(start_names, name, "start");
+}
 
 const std::vector<BenchColumn>& bench_columns() {
   using R = const BenchRow&;
@@ -115,31 +124,40 @@ const std::vector<BenchColumn>& bench_columns() {
       {"start", "cold: zero; warm: the run's", [](R r) { return std::string(name_of(r.start)); }},
       {"repeat", "from 0", [](R r) { return std::to_string(r.repeat); }},
       {"max_seconds", "the limit", [](R r) { return print("%g", r.max_seconds); }},
-      {"outcome", "solved: claimed and judged", [](R r) { return std::string(name_of(r.outcome)); }},
+      {"outcome", "solved: claimed and judged",
+       [](R r) { return std::string(name_of(r.outcome)); }},
       {"reason", "why the backend stopped", [](R r) { return r.reason; }},
-      {"claimed", "1: the backend says that it is done", [](R r) { return std::to_string(r.claimed); }},
+      {"claimed", "1: the backend says that it is done",
+       [](R r) { return std::to_string(r.claimed); }},
       {"judged", "1: the judge finds it so", [](R r) { return std::to_string(r.judged); }},
       {"error", "in the measure", [](R r) { return print("%.6g", r.error); }},
-      {"seconds", "prepare and solve, fastest run in the child", [](R r) { return print("%.6g", r.seconds()); }},
+      {"seconds", "prepare and solve, fastest run in the child",
+       [](R r) { return print("%.6g", r.seconds()); }},
       {"prepare_seconds", "", [](R r) { return print("%.6g", r.prepare_seconds); }},
       {"solve_seconds", "", [](R r) { return print("%.6g", r.solve_seconds); }},
-      {"first_seconds", "of the child's first run", [](R r) { return print("%.6g", r.first_seconds); }},
+      {"first_seconds", "of the child's first run",
+       [](R r) { return print("%.6g", r.first_seconds); }},
       {"runs", "solves in the child", [](R r) { return std::to_string(r.runs); }},
       {"iterations", "", [](R r) { return std::to_string(r.iterations); }},
-      {"rounds", "of falling natural-map tolerance (measure fclib)", [](R r) { return std::to_string(r.rounds); }},
+      {"rounds", "of falling natural-map tolerance (measure fclib)",
+       [](R r) { return std::to_string(r.rounds); }},
       {"natural_map_rms", "[m/s]", [](R r) { return print("%.6g", r.natural_map_rms); }},
       {"natural_map_max", "[m/s]", [](R r) { return print("%.6g", r.natural_map_max); }},
       {"fclib", "what Siconos prints", [](R r) { return print("%.6g", r.fclib); }},
       {"cone_violation", "[N s]", [](R r) { return print("%.6g", r.cone_violation); }},
       {"min_normal_velocity", "[m/s]", [](R r) { return print("%.6g", r.min_normal_velocity); }},
-      {"own_residual", "the backend's own: no evidence", [](R r) { return print("%.6g", r.own_residual); }},
+      {"own_residual", "the backend's own: no evidence",
+       [](R r) { return print("%.6g", r.own_residual); }},
       {"worst", "contact of natural_map_max", [](R r) { return r.worst; }},
       {"peak_memory_MB", "of the child", [](R r) { return print("%.4g", r.peak_memory_MB); }},
       {"contacts", "", [](R r) { return std::to_string(r.facts.contacts); }},
       {"rows", "", [](R r) { return std::to_string(r.facts.rows); }},
-      {"dofs", "unknowns of bodies in contact; 0: only W is known", [](R r) { return std::to_string(r.facts.dofs); }},
-      {"rank_deficiency", "1 - rank(W)/rows", [](R r) { return print("%.4g", r.facts.rank_deficiency); }},
-      {"mass_ratio", "of bodies in contact; where only W is known, of lambda_max(W_cc)", [](R r) { return print("%.4g", r.facts.mass_ratio); }},
+      {"dofs", "unknowns of bodies in contact; 0: only W is known",
+       [](R r) { return std::to_string(r.facts.dofs); }},
+      {"rank_deficiency", "1 - rank(W)/rows",
+       [](R r) { return print("%.4g", r.facts.rank_deficiency); }},
+      {"mass_ratio", "of bodies in contact; where only W is known, of lambda_max(W_cc)",
+       [](R r) { return print("%.4g", r.facts.mass_ratio); }},
       {"velocity_scale", "[m/s]", [](R r) { return print("%.6g", r.facts.velocity_scale); }},
       {"note", "", [](R r) { return r.note; }},
       {"key", "of problem, backend, options and binary", [](R r) { return r.key; }},
@@ -157,7 +175,8 @@ std::string bench_csv(const std::vector<BenchRow>& rows) {
     text.back() = '\n';
   };
   add_line([](const BenchColumn& column) { return std::string(column.name); });
-  for (const BenchRow& row : rows) add_line([&](const BenchColumn& column) { return quoted(column.text(row)); });
+  for (const BenchRow& row : rows)
+    add_line([&](const BenchColumn& column) { return quoted(column.text(row)); });
   return text;
 }
 
@@ -168,7 +187,8 @@ std::string to_json(const BenchRow& row) {
   json["start"] = name_of(row.start);
   json["outcome"] = name_of(row.outcome);
   Json& history = json["history"] = Json::array();
-  for (const HistoryRow& h : row.history) history.push_back({h.round, h.iteration, number(h.seconds), number(h.error)});
+  for (const HistoryRow& h : row.history)
+    history.push_back({h.round, h.iteration, number(h.seconds), number(h.error)});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -11,7 +11,8 @@ namespace ballast {
 
 /// What a tolerance bounds.
 enum class Measure {
-  natural_map,  ///< the judge's scaled natural map, rms over contacts, relative to the case's velocity scale
+  natural_map,  ///< the judge's scaled natural map, rms over contacts, relative to the case's
+                ///< velocity scale
   fclib,        ///< ContactError::fclib: what Siconos prints
 };
 enum class StartKind { cold, warm };
@@ -19,7 +20,8 @@ enum class StartKind { cold, warm };
 /// How an attempt ended. Only `solved` counts: the backend says so and the judge agrees.
 enum class Outcome {
   solved,
-  stopped,        ///< by itself: limit, stall, failure (see reason), or with a claim that the judge denies
+  stopped,        ///< by itself: limit, stall, failure (see reason), or with a claim that the judge
+                  ///< denies
   timeout,        ///< over the time limit, by itself or killed
   crashed,        ///< the child process died
   out_of_memory,  ///< allocation refused under the memory limit
@@ -37,7 +39,8 @@ StartKind start_of(const std::string& name);
 struct HistoryRow {
   int round = 0, iteration = 0;
   double seconds = 0.0;  ///< of solve(), all rounds
-  double error = 0.0;    ///< scaled natural map rms over the case's velocity scale: the backend's own figure
+  double error =
+      0.0;  ///< scaled natural map rms over the case's velocity scale: the backend's own figure
 };
 
 struct BenchRow {
@@ -52,9 +55,10 @@ struct BenchRow {
 
   // what came of it
   Outcome outcome = Outcome::crashed;
-  std::string reason;  ///< the backend's StopReason; empty when none was heard
-  std::string note;    ///< why it failed
-  bool claimed = false;  ///< the backend (measure fclib: the driver of its rounds) says that the tolerance is reached
+  std::string reason;    ///< the backend's StopReason; empty when none was heard
+  std::string note;      ///< why it failed
+  bool claimed = false;  ///< the backend (measure fclib: the driver of its rounds) says that the
+                         ///< tolerance is reached
   bool judged = false;   ///< the judge, in another process, finds the error below the tolerance
   double error = 0.0;    ///< in the row's measure, the judge's
   double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< the judge's [m/s]
@@ -85,7 +89,8 @@ const std::vector<BenchColumn>& bench_columns();
 /// All rows without their histories; fields with commas or quotes are quoted.
 std::string bench_csv(const std::vector<BenchRow>& rows);
 
-/// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null. Throws Error naming `file`.
+/// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null. Throws
+/// Error naming `file`.
 std::string to_json(const BenchRow& row);
 BenchRow bench_row_of_json(const std::string& text, const std::string& file);
 

@@ -8,7 +8,6 @@
 namespace ballast {
 namespace {
 
-
 size_t index_of(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<size_t>(found - names.begin());
@@ -34,7 +33,8 @@ BenchCell cell_of(const std::vector<const BenchRow*>& repeats) {
   for (const BenchRow* row : repeats) {
     const bool solved = row->outcome == Outcome::solved;
     cell.solved = cell.solved && solved;
-    if (solved && (cell.row->outcome != Outcome::solved || row->seconds() < cell.row->seconds())) cell.row = row;
+    if (solved && (cell.row->outcome != Outcome::solved || row->seconds() < cell.row->seconds()))
+      cell.row = row;
     seconds.push_back(row->seconds());
   }
   if (cell.solved) {
@@ -76,7 +76,8 @@ std::vector<std::vector<double>> BenchTable::times() const {
 }
 
 int BenchTable::solved_by(size_t solver) const {
-  return static_cast<int>(std::count_if(cells.begin(), cells.end(), [&](const auto& line) { return line[solver].solved; }));
+  return static_cast<int>(std::count_if(cells.begin(), cells.end(),
+                                        [&](const auto& line) { return line[solver].solved; }));
 }
 
 double BenchTable::fastest(size_t case_index) const {
@@ -86,7 +87,9 @@ double BenchTable::fastest(size_t case_index) const {
 }
 
 std::vector<BenchTable> bench_tables(std::span<const BenchRow> rows) {
-  std::map<std::pair<StartKind, double>, std::map<std::pair<size_t, size_t>, std::vector<const BenchRow*>>> groups;
+  std::map<std::pair<StartKind, double>,
+           std::map<std::pair<size_t, size_t>, std::vector<const BenchRow*>>>
+      groups;
   std::vector<std::string> cases, solvers;
   for (const BenchRow& row : rows) {
     const size_t c = index_of(cases, row.case_name), s = index_of(solvers, row.solver);
@@ -99,10 +102,13 @@ std::vector<BenchTable> bench_tables(std::span<const BenchRow> rows) {
       std::vector<BenchCell> line;
       for (size_t s = 0; s < solvers.size(); ++s) {
         const auto found = repeats.find({c, s});
-        line.push_back(cell_of(found == repeats.end() ? std::vector<const BenchRow*>() : found->second));
+        line.push_back(
+            cell_of(found == repeats.end() ? std::vector<const BenchRow*>() : found->second));
       }
       // a case without a warm start is in no warm table
-      if (std::none_of(line.begin(), line.end(), [](const BenchCell& cell) { return cell.row != nullptr; })) continue;
+      if (std::none_of(line.begin(), line.end(),
+                       [](const BenchCell& cell) { return cell.row != nullptr; }))
+        continue;
       table.cases.push_back(cases[c]);
       table.cells.push_back(std::move(line));
     }
@@ -123,7 +129,8 @@ double shifted_geometric_ratio(std::span<const double> a, std::span<const double
   return std::exp(sum / static_cast<double>(a.size()));
 }
 
-std::vector<StepCurve> performance_profiles(const std::vector<std::vector<double>>& times, double last) {
+std::vector<StepCurve> performance_profiles(const std::vector<std::vector<double>>& times,
+                                            double last) {
   const size_t solvers = times.empty() ? 0 : times[0].size();
   std::vector<StepCurve> curves;
   for (size_t s = 0; s < solvers; ++s) {
@@ -137,13 +144,14 @@ std::vector<StepCurve> performance_profiles(const std::vector<std::vector<double
   return curves;
 }
 
-std::vector<StepCurve> data_profiles(const std::vector<std::vector<double>>& times, std::span<const double> sizes, double first,
-                                     double last) {
+std::vector<StepCurve> data_profiles(const std::vector<std::vector<double>>& times,
+                                     std::span<const double> sizes, double first, double last) {
   const size_t solvers = times.empty() ? 0 : times[0].size();
   std::vector<StepCurve> curves;
   for (size_t s = 0; s < solvers; ++s) {
     std::vector<double> costs;
-    for (size_t c = 0; c < times.size(); ++c) costs.push_back(times[c][s] / std::max(1.0, sizes[c]));
+    for (size_t c = 0; c < times.size(); ++c)
+      costs.push_back(times[c][s] / std::max(1.0, sizes[c]));
     curves.push_back(counted(std::move(costs), first, last));
   }
   return curves;
@@ -152,14 +160,16 @@ std::vector<StepCurve> data_profiles(const std::vector<std::vector<double>>& tim
 StepCurve best_so_far(const BenchRow& row) {
   StepCurve curve;
   for (const HistoryRow& point : row.history) {
-    if (!std::isfinite(point.error) || (!curve.y.empty() && point.error >= curve.y.back())) continue;
+    if (!std::isfinite(point.error) || (!curve.y.empty() && point.error >= curve.y.back()))
+      continue;
     curve.x.push_back(row.prepare_seconds + point.seconds);
     curve.y.push_back(point.error);
   }
   return curve;
 }
 
-std::vector<double> mean_error_at(std::span<const StepCurve> curves, std::span<const double> times) {
+std::vector<double> mean_error_at(std::span<const StepCurve> curves,
+                                  std::span<const double> times) {
   std::vector<double> means;
   for (const double time : times) {
     double sum = 0.0;
@@ -167,11 +177,13 @@ std::vector<double> mean_error_at(std::span<const StepCurve> curves, std::span<c
     for (const StepCurve& curve : curves) {
       if (curve.x.empty()) continue;
       const auto after = std::upper_bound(curve.x.begin(), curve.x.end(), time);
-      const size_t k = after == curve.x.begin() ? 0 : static_cast<size_t>(after - curve.x.begin()) - 1;
+      const size_t k =
+          after == curve.x.begin() ? 0 : static_cast<size_t>(after - curve.x.begin()) - 1;
       sum += std::log(std::max(curve.y[k], 1e-16));
       ++count;
     }
-    means.push_back(count ? std::exp(sum / static_cast<double>(count)) : std::numeric_limits<double>::quiet_NaN());
+    means.push_back(count ? std::exp(sum / static_cast<double>(count))
+                          : std::numeric_limits<double>::quiet_NaN());
   }
   return means;
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <cstdio>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -72,8 +72,9 @@ double rank_deficiency(const FrictionProblem& problem, int touched_dofs) {
   if (rows == 0) return 0.0;
   if (rows <= most_rows_for_eigenvalues) {
     const Eigen::MatrixXd w = Eigen::MatrixXd(delassus_matrix(problem));
-    const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (w + w.transpose()), Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                       0.5 * (w + w.transpose()), Eigen::EigenvaluesOnly)
+                                       .eigenvalues();
     const double least = 1e-10 * values.cwiseAbs().maxCoeff();
     return 1.0 - static_cast<double>((values.array() > least).count()) / rows;
   }
@@ -107,7 +108,9 @@ double ratio_of(const std::vector<double>& values) {
 double mass_ratio(const FrictionProblem& problem, const std::vector<int>& touched) {
   std::vector<double> values;
   if (problem.has_dynamics) {  // a block's first entry: translations come first
-    for (const int body : touched) values.push_back(problem.dynamics.mass[static_cast<size_t>(problem.dynamics.mass_begin[body])]);
+    for (const int body : touched)
+      values.push_back(
+          problem.dynamics.mass[static_cast<size_t>(problem.dynamics.mass_begin[body])]);
   } else {
     std::vector<Eigen::Matrix3d> blocks;
     delassus_diagonal(problem, blocks);
@@ -123,13 +126,18 @@ LoadedCase load_case(FrictionProblem problem, double velocity_scale) {
   LoadedCase loaded;
   loaded.problem = std::move(problem);
   // what the judge calls velocity scale: the rms of q
-  if (!(velocity_scale > 0.0)) velocity_scale = contact_error(loaded.problem, Impulses::Zero(loaded.problem.row_count())).velocity_scale;
+  if (!(velocity_scale > 0.0))
+    velocity_scale =
+        contact_error(loaded.problem, Impulses::Zero(loaded.problem.row_count())).velocity_scale;
   loaded.facts = case_facts(loaded.problem, {}, velocity_scale);
-  loaded.describe_contact = [](int c) { return c < 0 ? std::string() : "contact " + std::to_string(c); };
+  loaded.describe_contact = [](int c) {
+    return c < 0 ? std::string() : "contact " + std::to_string(c);
+  };
   return loaded;
 }
 
-CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start, double velocity_scale) {
+CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start,
+                     double velocity_scale) {
   problem.validate();
   CaseFacts facts;
   facts.contacts = problem.contact_count();

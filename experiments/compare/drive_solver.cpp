@@ -6,8 +6,9 @@
 namespace ballast {
 namespace {
 
-/// The natural map falls by at most this a round: how it compares with `fclib` changes on the way down, and where impulses are large in the
-/// file's units a natural map far too small would be asked for at once.
+/// The natural map falls by at most this a round: how it compares with `fclib` changes on the way
+/// down, and where impulses are large in the file's units a natural map far too small would be
+/// asked for at once.
 constexpr double largest_fall = 1e-3;
 /// Aims a little below the tolerance, because the two measures are not quite proportional.
 constexpr double aim = 0.7;
@@ -34,15 +35,17 @@ class Rounds {
       error = driven_.last.error;
       driven_.claimed = error.finite && error.fclib <= settings_.tolerance;
       start = driven_.last.solved.impulses;
-    } while (!driven_.claimed && driven_.last.solved.reason == StopReason::reached_tolerance && target > 0.0 &&
-             driven_.rounds < most_rounds && driven_.seconds() < settings_.max_seconds);
+    } while (!driven_.claimed && driven_.last.solved.reason == StopReason::reached_tolerance &&
+             target > 0.0 && driven_.rounds < most_rounds &&
+             driven_.seconds() < settings_.max_seconds);
     return std::move(driven_);
   }
 
  private:
   /// Where `fclib` should be below its tolerance, were the two measures proportional.
   double next_target(const ContactError& error, double last) const {
-    const double proportional = error.fclib > 0.0 ? aim * error.natural_map_rms * settings_.tolerance / error.fclib : 0.0;
+    const double proportional =
+        error.fclib > 0.0 ? aim * error.natural_map_rms * settings_.tolerance / error.fclib : 0.0;
     return std::min(0.5 * last, std::max(proportional, largest_fall * error.natural_map_rms));
   }
 
@@ -52,11 +55,13 @@ class Rounds {
     budget.max_iterations = settings_.max_iterations;
     budget.max_seconds = std::max(1e-9, settings_.max_seconds - driven_.seconds());
     budget.keep_history = true;
-    SolverRun run = driven_.rounds == 0 ? runner_.run(solver_, problem_, std::move(start), budget)
-                                        : runner_.run_again(solver_, problem_, std::move(start), budget);
+    SolverRun run = driven_.rounds == 0
+                        ? runner_.run(solver_, problem_, std::move(start), budget)
+                        : runner_.run_again(solver_, problem_, std::move(start), budget);
     for (const HistoryPoint& point : run.solved.history)
       driven_.history.push_back({driven_.rounds, driven_.iterations + point.iteration,
-                                 driven_.solve_seconds + point.seconds, point.error / settings_.velocity_scale});
+                                 driven_.solve_seconds + point.seconds,
+                                 point.error / settings_.velocity_scale});
     ++driven_.rounds;
     driven_.iterations += run.solved.iterations;
     driven_.prepare_seconds += run.prepare_seconds;

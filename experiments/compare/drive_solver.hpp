@@ -1,5 +1,6 @@
 #pragma once
-// One solve as a bench wants it: to a tolerance in either measure, timed outside the judge, with its history.
+// One solve as a bench wants it: to a tolerance in either measure, timed outside the judge, with
+// its history.
 
 #include "experiments/compare/bench_row.hpp"
 #include "solvers/seam/run_solver.hpp"
@@ -23,9 +24,10 @@ struct DrivenSolve {
   double seconds() const { return prepare_seconds + solve_seconds; }
 };
 
-/// natural_map: one solve. fclib: backends stop on the natural map, so the tolerance on it falls in rounds, each started from the
-/// last one's impulses, until the judge's ContactError::fclib is small enough; the rounds' times are added, the judge's not.
-/// The only place that does this. Throws UnsupportedProblem, InvalidProblem, std::bad_alloc.
+/// natural_map: one solve. fclib: backends stop on the natural map, so the tolerance on it falls in
+/// rounds, each started from the last one's impulses, until the judge's ContactError::fclib is
+/// small enough; the rounds' times are added, the judge's not. The only place that does this.
+/// Throws UnsupportedProblem, InvalidProblem, std::bad_alloc.
 DrivenSolve drive_solver(Solver& solver, const FrictionProblem& problem, const Impulses& start,
                          const DriveSettings& settings);
 

@@ -9,17 +9,18 @@
 namespace ballast {
 namespace {
 
-
 std::vector<std::string> solvers_of(std::span<const BenchRow> rows) {
   std::vector<std::string> names;
   for (const BenchRow& row : rows)
-    if (std::find(names.begin(), names.end(), row.solver) == names.end()) names.push_back(row.solver);
+    if (std::find(names.begin(), names.end(), row.solver) == names.end())
+      names.push_back(row.solver);
   return names;
 }
 
 /// Rows of the first repeat, from `start`.
 template <typename Test>
-std::vector<const BenchRow*> selected(std::span<const BenchRow> rows, StartKind start, Test&& test) {
+std::vector<const BenchRow*> selected(std::span<const BenchRow> rows, StartKind start,
+                                      Test&& test) {
   std::vector<const BenchRow*> found;
   for (const BenchRow& row : rows)
     if (row.start == start && row.repeat == 0 && test(row)) found.push_back(&row);
@@ -27,10 +28,13 @@ std::vector<const BenchRow*> selected(std::span<const BenchRow> rows, StartKind 
 }
 
 /// The history to the tightest tolerance that has one.
-const BenchRow* longest_history(const std::vector<const BenchRow*>& rows, const std::string& solver) {
+const BenchRow* longest_history(const std::vector<const BenchRow*>& rows,
+                                const std::string& solver) {
   const BenchRow* best = nullptr;
   for (const BenchRow* row : rows)
-    if (row->solver == solver && !row->history.empty() && (!best || row->tolerance < best->tolerance)) best = row;
+    if (row->solver == solver && !row->history.empty() &&
+        (!best || row->tolerance < best->tolerance))
+      best = row;
   return best;
 }
 
@@ -40,7 +44,8 @@ Curve arrivals(const std::vector<const BenchRow*>& rows, const std::string& solv
   curve.width = 2.4;
   curve.title.clear();
   for (const BenchRow* row : rows) {
-    if (row->solver != solver || row->outcome != Outcome::solved || !(row->natural_map_rms > 0.0)) continue;
+    if (row->solver != solver || row->outcome != Outcome::solved || !(row->natural_map_rms > 0.0))
+      continue;
     curve.x.push_back(row->seconds());
     curve.y.push_back(row->natural_map_rms / row->facts.velocity_scale);
   }
@@ -59,7 +64,8 @@ void mark_tolerances(const std::vector<const BenchRow*>& rows, Panel& panel) {
   if (rows.empty() || rows[0]->measure != Measure::natural_map) return;
   std::set<double> tolerances;
   for (const BenchRow* row : rows) tolerances.insert(row->tolerance);
-  for (const double tolerance : tolerances) panel.lines.push_back({tolerance, "", false, Ink::grey});
+  for (const double tolerance : tolerances)
+    panel.lines.push_back({tolerance, "", false, Ink::grey});
 }
 
 /// What a log axis cannot show: errors far below rounding flatten the picture.
@@ -85,8 +91,10 @@ Figure figure_of(const std::string& name, const std::string& title, Panel panel)
 
 }  // namespace
 
-ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::string& case_name, StartKind start) {
-  const std::vector<const BenchRow*> mine = selected(rows, start, [&](const BenchRow& row) { return row.case_name == case_name; });
+ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::string& case_name,
+                                   StartKind start) {
+  const std::vector<const BenchRow*> mine =
+      selected(rows, start, [&](const BenchRow& row) { return row.case_name == case_name; });
   const std::vector<std::string> solvers = solvers_of(rows);
   Panel panel = error_panel();
   for (size_t s = 0; s < solvers.size(); ++s) {
@@ -107,17 +115,22 @@ ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::st
     panel.curves.push_back(std::move(points));
   }
   mark_tolerances(mine, panel);
-  Html caption = Html{"<b>"} + escaped(case_name) + Html{"</b>, "} + Html{name_of(start)} + Html{" start"};
+  Html caption =
+      Html{"<b>"} + escaped(case_name) + Html{"</b>, "} + Html{name_of(start)} + Html{" start"};
   if (!mine.empty())
-    caption += Html{": "} + exact(mine[0]->facts.contacts) + Html{" contacts, rank deficiency "} + number(mine[0]->facts.rank_deficiency, 2) +
-               Html{", mass ratio "} + number(mine[0]->facts.mass_ratio, 2);
+    caption += Html{": "} + exact(mine[0]->facts.contacts) + Html{" contacts, rank deficiency "} +
+               number(mine[0]->facts.rank_deficiency, 2) + Html{", mass ratio "} +
+               number(mine[0]->facts.mass_ratio, 2);
   caption += Html{". Lines: least error so far; dots: where a tolerance was reached."};
-  return {figure_of("case_" + figure_name(case_name) + "_" + name_of(start), "Error against time: " + case_name, std::move(panel)),
+  return {figure_of("case_" + figure_name(case_name) + "_" + name_of(start),
+                    "Error against time: " + case_name, std::move(panel)),
           std::move(caption)};
 }
 
-ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family, StartKind start) {
-  const std::vector<const BenchRow*> mine = selected(rows, start, [&](const BenchRow& row) { return row.family == family; });
+ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family,
+                           StartKind start) {
+  const std::vector<const BenchRow*> mine =
+      selected(rows, start, [&](const BenchRow& row) { return row.family == family; });
   std::set<std::string> cases;
   for (const BenchRow* row : mine) cases.insert(row->case_name);
   const std::vector<std::string> solvers = solvers_of(rows);
@@ -128,7 +141,8 @@ ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& fa
       std::vector<const BenchRow*> of_case;
       for (const BenchRow* row : mine)
         if (row->case_name == name) of_case.push_back(row);
-      if (const BenchRow* row = longest_history(of_case, solvers[s])) curves.push_back(best_so_far(*row));
+      if (const BenchRow* row = longest_history(of_case, solvers[s]))
+        curves.push_back(best_so_far(*row));
     }
     if (curves.size() < cases.size()) continue;  // a mean over other cases would not compare
     double first = infinity, last = 0.0;
@@ -138,15 +152,21 @@ ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& fa
     if (!(last > first)) continue;
     Curve curve = styled(s, solvers[s]);
     constexpr int samples = 160;
-    for (int k = 0; k <= samples; ++k) curve.x.push_back(first * std::pow(last / first, static_cast<double>(k) / samples));
+    for (int k = 0; k <= samples; ++k)
+      curve.x.push_back(first * std::pow(last / first, static_cast<double>(k) / samples));
     curve.y = mean_error_at(curves, curve.x);
     panel.curves.push_back(std::move(curve));
   }
   mark_tolerances(mine, panel);
-  Html caption = Html{"<b>Family "} + escaped(family) + Html{"</b>, "} + exact(static_cast<double>(cases.size())) + Html{" cases, "} +
-                 Html{name_of(start)} + Html{" start: geometric mean over the cases of the least error reached by then. Backends that cannot take every case of "
-                      "the family are left out."};
-  return {figure_of("family_" + figure_name(family) + "_" + name_of(start), "Error against time: family " + family, std::move(panel)),
+  Html caption = Html{"<b>Family "} + escaped(family) + Html{"</b>, "} +
+                 exact(static_cast<double>(cases.size())) + Html{" cases, "} +
+                 Html{name_of(start)} +
+                 Html{
+                     " start: geometric mean over the cases of the least error reached by then. "
+                     "Backends that cannot take every case of "
+                     "the family are left out."};
+  return {figure_of("family_" + figure_name(family) + "_" + name_of(start),
+                    "Error against time: family " + family, std::move(panel)),
           std::move(caption)};
 }
 

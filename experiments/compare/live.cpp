@@ -7,18 +7,18 @@
 #include <cstring>
 #include <optional>
 
-#include "platform/atomic_file.hpp"
+#include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"
-#include "platform/content_key.hpp"
-#include "platform/interrupt.hpp"
 #include "experiments/run/manifest.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/run/simulation.hpp"
-#include "experiments/box/vibrated_box.hpp"
-#include "problems/scene/scene_file.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/child_process.hpp"
+#include "platform/content_key.hpp"
 #include "platform/error.hpp"
+#include "platform/interrupt.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {
@@ -35,16 +35,20 @@ struct Start {
   std::string key;  ///< of its checkpoint's content
 };
 
-/// A trajectory is kept as doubles: steps, frames, grains, how it ended, letters of why; then the columns of each step, each frame's time and
-/// positions, and the letters.
+/// A trajectory is kept as doubles: steps, frames, grains, how it ended, letters of why; then the
+/// columns of each step, each frame's time and positions, and the letters.
 enum class Ended { complete, time_limit, unsupported, failed };
 
 const char* words_of(Ended ended) {
   switch (ended) {
-    case Ended::complete: return "complete";
-    case Ended::time_limit: return "time limit";
-    case Ended::unsupported: return "the backend cannot take the problem";
-    case Ended::failed: return "failed";
+    case Ended::complete:
+      return "complete";
+    case Ended::time_limit:
+      return "time limit";
+    case Ended::unsupported:
+      return "the backend cannot take the problem";
+    case Ended::failed:
+      return "failed";
   }
   return "";
 }
@@ -56,21 +60,26 @@ void append_step(const StepRecord& step, std::vector<double>& rows) {
 void append_frame(const MotionState& state, int grains, std::vector<double>& frames) {
   frames.push_back(state.time);
   for (int b = 0; b < grains; ++b)
-    for (int axis = 0; axis < 3; ++axis) frames.push_back(state.pose[static_cast<size_t>(b)].position[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      frames.push_back(state.pose[static_cast<size_t>(b)].position[axis]);
 }
 
-/// The scene run by its own solver to the common start, in a folder of its own: an ordinary run, resumed if it is there.
+/// The scene run by its own solver to the common start, in a folder of its own: an ordinary run,
+/// resumed if it is there.
 void make_start(const LiveOptions& options, const Scene& scene) {
   RunOptions run_options;
   run_options.scene = options.scene;
   run_options.overrides = options.overrides;
   char duration[64];
-  std::snprintf(duration, sizeof duration, "scene.duration=%.17g", std::max(options.start, scene.step));
+  std::snprintf(duration, sizeof duration, "scene.duration=%.17g",
+                std::max(options.start, scene.step));
   run_options.overrides.push_back(duration);
   run_options.output = options.folder / "start";
-  run_options.packing_cache = options.packing_cache.empty() ? options.folder / "packings" : options.packing_cache;
+  run_options.packing_cache =
+      options.packing_cache.empty() ? options.folder / "packings" : options.packing_cache;
   run_options.resume = RunFolder(run_options.output).has_run();
-  if (run(run_options).code != ExitCode::ok) throw Error(run_options.output.string() + ": the start was not reached");
+  if (run(run_options).code != ExitCode::ok)
+    throw Error(run_options.output.string() + ": the start was not reached");
 }
 
 Start read_start(const LiveOptions& options, const Scene& scene) {
@@ -82,32 +91,37 @@ Start read_start(const LiveOptions& options, const Scene& scene) {
   start.state = std::move(checkpoint.state);
   start.key = content_key(read_whole_file(folder.checkpoint()));
   if (scene.grains)
-    start.control_volume = box_control_volume(scene, Manifest::read(folder.manifest()).summary_number("packing_top_m"));
+    start.control_volume = box_control_volume(
+        scene, Manifest::read(folder.manifest()).summary_number("packing_top_m"));
   return start;
 }
 
 /// What the child does: steps until the end, or the time is over.
-Ended step_on(const LiveOptions& options, const Scene& scene, Start start, const BenchSolver& solver, double tolerance,
-              std::vector<double>& rows, std::vector<double>& frames, std::string& why) {
+Ended step_on(const LiveOptions& options, const Scene& scene, Start start,
+              const BenchSolver& solver, double tolerance, std::vector<double>& rows,
+              std::vector<double>& frames, std::string& why) {
   StepSettings settings = step_settings(scene);
   settings.solver.name = solver.name;
   settings.solver.tolerance = tolerance;
   settings.solver.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1 << 30;
   settings.solver.max_seconds = options.max_seconds;
   TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
-  const long count = std::max(1L, std::lround(options.duration / settings.h)), frame_every = std::max(1L, count / 100);
+  const long count = std::max(1L, std::lround(options.duration / settings.h)),
+             frame_every = std::max(1L, count / 100);
   const auto begin = Clock::now();
   append_frame(start.state, start.system.grain_count, frames);
   try {
     for (long step = 1; step <= count; ++step) {
-      if (std::chrono::duration<double>(Clock::now() - begin).count() > options.trajectory_seconds) return Ended::time_limit;
+      if (std::chrono::duration<double>(Clock::now() - begin).count() > options.trajectory_seconds)
+        return Ended::time_limit;
       StepRecord record = stepper.step(start.state, start.memory);
       if (start.control_volume && (step % frame_every == 0 || step == count))
         record.solid_fraction = start.control_volume->solid_fraction(start.system, start.state);
       else
         record.solid_fraction = std::nan("");
       append_step(record, rows);
-      if (step % frame_every == 0 || step == count) append_frame(start.state, start.system.grain_count, frames);
+      if (step % frame_every == 0 || step == count)
+        append_frame(start.state, start.system.grain_count, frames);
     }
   } catch (const UnsupportedProblem& error) {
     why = error.what();
@@ -119,29 +133,34 @@ Ended step_on(const LiveOptions& options, const Scene& scene, Start start, const
   return Ended::complete;
 }
 
-std::vector<double> in_child(const LiveOptions& options, const Scene& scene, const Start& start, const BenchSolver& solver,
-                             double tolerance) {
+std::vector<double> in_child(const LiveOptions& options, const Scene& scene, const Start& start,
+                             const BenchSolver& solver, double tolerance) {
   const double most = options.trajectory_seconds + 1.25 * options.max_seconds + 5.0;
   const ChildResult child = run_in_child(most, [&](std::vector<double>& record) {
     std::vector<double> rows, frames;
     std::string why;
     const Ended ended = step_on(options, scene, start, solver, tolerance, rows, frames, why);
     const double grains = start.system.grain_count;
-    record = {static_cast<double>(rows.size() / step_columns().size()), static_cast<double>(frames.size()) / (3.0 * grains + 1.0),
-              grains, static_cast<double>(ended), static_cast<double>(why.size())};
+    record = {static_cast<double>(rows.size() / step_columns().size()),
+              static_cast<double>(frames.size()) / (3.0 * grains + 1.0), grains,
+              static_cast<double>(ended), static_cast<double>(why.size())};
     record.insert(record.end(), rows.begin(), rows.end());
     record.insert(record.end(), frames.begin(), frames.end());
     record.insert(record.end(), why.begin(), why.end());
   });
   if (child.end == ChildEnd::complete) return child.record;
-  return {0.0, 0.0, 0.0, static_cast<double>(child.end == ChildEnd::out_of_time ? Ended::time_limit : Ended::failed), 0.0};
+  return {
+      0.0, 0.0, 0.0,
+      static_cast<double>(child.end == ChildEnd::out_of_time ? Ended::time_limit : Ended::failed),
+      0.0};
 }
 
 void unpack(const std::vector<double>& record, const fs::path& file, Trajectory& trajectory) {
   const auto bad = [&] { throw Error(file.string() + ": is no trajectory: remove it"); };
   constexpr size_t head = 5;
   if (record.size() < head) bad();
-  const size_t steps = static_cast<size_t>(record[0]), frames = static_cast<size_t>(record[1]), grains = static_cast<size_t>(record[2]);
+  const size_t steps = static_cast<size_t>(record[0]), frames = static_cast<size_t>(record[1]),
+               grains = static_cast<size_t>(record[2]);
   const size_t letters = static_cast<size_t>(record[4]);
   const size_t columns = step_columns().size();
   if (record.size() != head + steps * columns + frames * (1 + 3 * grains) + letters) bad();
@@ -154,7 +173,8 @@ void unpack(const std::vector<double>& record, const fs::path& file, Trajectory&
   }
   for (size_t k = 0; k < frames; ++k) {
     trajectory.frame_times.push_back(*next++);
-    trajectory.positions.emplace_back(Eigen::Map<const Eigen::VectorXd>(next, static_cast<Eigen::Index>(3 * grains)));
+    trajectory.positions.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(next, static_cast<Eigen::Index>(3 * grains)));
     next += 3 * grains;
   }
   if (letters > 0) trajectory.ended += ": ";
@@ -168,18 +188,22 @@ std::vector<double> read_doubles(const fs::path& file) {
   return values;
 }
 
-Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start, const std::string& binary,
-                         const BenchSolver& solver, double tolerance) {
+Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start,
+                         const std::string& binary, const BenchSolver& solver, double tolerance) {
   char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "|%.17g %.17g %.17g %.17g %d", tolerance, options.duration, options.max_seconds,
-                options.trajectory_seconds, options.max_iterations);
-  const fs::path file = options.folder / "trajectories" /
-                        (content_key("trajectory 2|" + binary + '|' + start.key + '|' + solver.name + numbers) + ".bin");
-  Trajectory trajectory{solver.name, name_of(solver.law), tolerance, options.max_iterations, "", {}, {}, {}};
+  std::snprintf(numbers, sizeof numbers, "|%.17g %.17g %.17g %.17g %d", tolerance, options.duration,
+                options.max_seconds, options.trajectory_seconds, options.max_iterations);
+  const fs::path file =
+      options.folder / "trajectories" /
+      (content_key("trajectory 2|" + binary + '|' + start.key + '|' + solver.name + numbers) +
+       ".bin");
+  Trajectory trajectory{
+      solver.name, name_of(solver.law), tolerance, options.max_iterations, "", {}, {}, {}};
   if (!fs::exists(file)) {
     const std::vector<double> record = in_child(options, scene, start, solver, tolerance);
     if (InterruptGuard::requested()) return trajectory;
-    write_whole_file(file, {reinterpret_cast<const char*>(record.data()), record.size() * sizeof(double)});
+    write_whole_file(
+        file, {reinterpret_cast<const char*>(record.data()), record.size() * sizeof(double)});
   }
   unpack(read_doubles(file), file, trajectory);
   return trajectory;
@@ -190,7 +214,8 @@ int reference_of(const std::vector<Trajectory>& trajectories) {
   for (size_t k = 0; k < trajectories.size(); ++k) {
     const Trajectory& t = trajectories[k];
     if (!t.is_complete() || t.law != name_of(ContactLaw::coulomb)) continue;
-    if (best < 0 || t.tolerance < trajectories[static_cast<size_t>(best)].tolerance) best = static_cast<int>(k);
+    if (best < 0 || t.tolerance < trajectories[static_cast<size_t>(best)].tolerance)
+      best = static_cast<int>(k);
   }
   return best;
 }
@@ -211,12 +236,14 @@ std::vector<double> distances(const Trajectory& trajectory, const Trajectory& re
   for (size_t k = 0; k < std::min(trajectory.positions.size(), reference.positions.size()); ++k) {
     const Eigen::VectorXd& p = trajectory.positions[k];
     const double grains = static_cast<double>(p.size()) / 3.0;
-    result.push_back(grains > 0.0 ? std::sqrt((p - reference.positions[k]).squaredNorm() / grains) : 0.0);
+    result.push_back(grains > 0.0 ? std::sqrt((p - reference.positions[k]).squaredNorm() / grains)
+                                  : 0.0);
   }
   return result;
 }
 
-LiveComparison run_live(const LiveOptions& options, const std::function<bool(const Trajectory&)>& said) {
+LiveComparison run_live(const LiveOptions& options,
+                        const std::function<bool(const Trajectory&)>& said) {
   LiveComparison comparison;
   comparison.scene = read_scene(find_scene(options.scene), options.overrides);
   comparison.velocity_scale = step_settings(comparison.scene).velocity_scale();
@@ -230,7 +257,8 @@ LiveComparison run_live(const LiveOptions& options, const std::function<bool(con
   for (const double tolerance : options.tolerances)
     for (const BenchSolver& solver : options.solvers) {
       if (!goes_on || InterruptGuard::requested()) break;
-      comparison.trajectories.push_back(trajectory_of(options, comparison.scene, start, binary, solver, tolerance));
+      comparison.trajectories.push_back(
+          trajectory_of(options, comparison.scene, start, binary, solver, tolerance));
       goes_on = said(comparison.trajectories.back());
     }
   comparison.reference = reference_of(comparison.trajectories);

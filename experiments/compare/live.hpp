@@ -1,5 +1,6 @@
 #pragma once
-// The closed loop: one scene from one start under several backends and tolerances, and what that does to the physics.
+// The closed loop: one scene from one start under several backends and tolerances, and what that
+// does to the physics.
 
 #include <filesystem>
 #include <functional>
@@ -19,14 +20,16 @@ struct LiveOptions {
   std::string scene;                   ///< name or path
   std::vector<std::string> overrides;  ///< "dotted.key=value"
   std::vector<BenchSolver> solvers;
-  std::vector<double> tolerances{1e-2, 1e-3, 1e-4};  ///< natural map rms, in g h (in m/s without gravity)
-  double start = 0.0;      ///< simulated time up to which the scene's own solver goes, once for all [s]; at least one step
-  double duration = 0.1;   ///< simulated from there under each backend [s]
-  double max_seconds = 60.0;         ///< wall clock of one solve
-  int max_iterations = 0;            ///< of one solve; 0: as many as the tolerance needs
-  double trajectory_seconds = 600.0; ///< wall clock of one trajectory
+  std::vector<double> tolerances{1e-2, 1e-3,
+                                 1e-4};  ///< natural map rms, in g h (in m/s without gravity)
+  double start = 0.0;     ///< simulated time up to which the scene's own solver goes, once for all
+                          ///< [s]; at least one step
+  double duration = 0.1;  ///< simulated from there under each backend [s]
+  double max_seconds = 60.0;            ///< wall clock of one solve
+  int max_iterations = 0;               ///< of one solve; 0: as many as the tolerance needs
+  double trajectory_seconds = 600.0;    ///< wall clock of one trajectory
   std::filesystem::path packing_cache;  ///< empty: <folder>/packings
-  std::filesystem::path folder;         ///< start/ (a run), trajectories/<key>.bin, live.csv, live.html
+  std::filesystem::path folder;  ///< start/ (a run), trajectories/<key>.bin, live.csv, live.html
 };
 
 /// What one backend made of the start.
@@ -34,10 +37,11 @@ struct Trajectory {
   std::string solver, law;
   double tolerance = 0.0;  ///< relative
   int max_iterations = 0;  ///< the limit; 0: none
-  std::string ended;       ///< "complete", or why not: "time limit", "the child process died", a backend's own words
+  std::string ended;       ///< "complete", or why not: "time limit", "the child process died", a
+                           ///< backend's own words
   std::vector<StepRecord> steps;
-  std::vector<double> frame_times;            ///< [s]
-  std::vector<Eigen::VectorXd> positions;     ///< of all grains, 3 each [m]; one per frame
+  std::vector<double> frame_times;         ///< [s]
+  std::vector<Eigen::VectorXd> positions;  ///< of all grains, 3 each [m]; one per frame
   bool is_complete() const { return ended == "complete"; }
   std::string label() const;  ///< "pgs 1e-4"
 };
@@ -46,18 +50,22 @@ struct LiveComparison {
   Scene scene;
   double velocity_scale = 1.0;  ///< [m/s]: tolerances are relative to it
   bool has_driven_wall = false;
-  int reference = -1;  ///< index of the reference solution: exact law, tightest tolerance, complete, first listed; -1: none
+  int reference = -1;  ///< index of the reference solution: exact law, tightest tolerance,
+                       ///< complete, first listed; -1: none
   std::vector<Trajectory> trajectories;
 };
 
 /// rms over grains of the distance from the reference at each frame that both have [m].
 std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference);
 
-/// Steps every backend to every tolerance in a child process of its own; trajectories that are there are not made again. `said` hears of
-/// each; returning false stops. Throws SceneFileError, Error.
-LiveComparison run_live(const LiveOptions& options, const std::function<bool(const Trajectory&)>& said);
+/// Steps every backend to every tolerance in a child process of its own; trajectories that are
+/// there are not made again. `said` hears of each; returning false stops. Throws SceneFileError,
+/// Error.
+LiveComparison run_live(const LiveOptions& options,
+                        const std::function<bool(const Trajectory&)>& said);
 
-/// live.csv (one row per trajectory), trajectories as steps-<solver>-<tolerance>.csv, figures/*.svg, *.pdf and live.html.
+/// live.csv (one row per trajectory), trajectories as steps-<solver>-<tolerance>.csv,
+/// figures/*.svg, *.pdf and live.html.
 void write_live_report(const std::filesystem::path& folder, const LiveComparison& comparison);
 
 }  // namespace ballast

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/compare/bench_figures.hpp"
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/page_drawing.hpp"
-#include "experiments/step/record_column.hpp"
 #include "experiments/run_page/report_origin.hpp"
+#include "experiments/step/record_column.hpp"
+#include "platform/atomic_file.hpp"
 
 namespace ballast {
 namespace {
@@ -19,8 +19,9 @@ using Values = std::vector<double>;
 /// One row of the table and of live.csv.
 struct LiveRow {
   const Trajectory* trajectory;
-  double error_mean = not_known, error_max = not_known;  ///< rms over contacts, over the velocity scale: over steps
-  double missed = not_known;                             ///< share of the steps above the tolerance
+  double error_mean = not_known,
+         error_max = not_known;  ///< rms over contacts, over the velocity scale: over steps
+  double missed = not_known;     ///< share of the steps above the tolerance
   double wall_x = not_known, force_mean = not_known, penetration_max = not_known;
   double kinetic_energy = not_known, energy_residual = not_known, solid_fraction = not_known;
   double iterations = not_known, ms_per_step = not_known, solve_ms_per_step = not_known;
@@ -30,12 +31,16 @@ struct LiveRow {
 LiveRow row_of(const Trajectory& t, const LiveComparison& comparison) {
   LiveRow row{&t};
   if (t.steps.empty()) return row;
-  const auto column = [&](double StepRecord::*value) { return statistics(record_column(t.steps, value)); };
+  const auto column = [&](double StepRecord::*value) {
+    return statistics(record_column(t.steps, value));
+  };
   const Statistics error = column(&StepRecord::error_rms);
   row.error_mean = error.mean / comparison.velocity_scale;
   row.error_max = error.max / comparison.velocity_scale;
   const double bound = t.tolerance * comparison.velocity_scale;
-  row.missed = static_cast<double>(std::count_if(t.steps.begin(), t.steps.end(), [&](const StepRecord& s) { return !(s.error_rms <= bound); })) /
+  row.missed = static_cast<double>(
+                   std::count_if(t.steps.begin(), t.steps.end(),
+                                 [&](const StepRecord& s) { return !(s.error_rms <= bound); })) /
                static_cast<double>(t.steps.size());
   if (comparison.has_driven_wall) {
     row.wall_x = t.steps.back().wall_x;
@@ -55,7 +60,8 @@ LiveRow row_of(const Trajectory& t, const LiveComparison& comparison) {
   row.solve_ms_per_step = 1e3 * solve / static_cast<double>(t.steps.size());
   row.ms_per_step = 1e3 * all / static_cast<double>(t.steps.size());
   if (comparison.reference >= 0) {
-    const Values d = distances(t, comparison.trajectories[static_cast<size_t>(comparison.reference)]);
+    const Values d =
+        distances(t, comparison.trajectories[static_cast<size_t>(comparison.reference)]);
     if (!d.empty()) row.distance = d.back();
   }
   return row;
@@ -63,14 +69,19 @@ LiveRow row_of(const Trajectory& t, const LiveComparison& comparison) {
 
 std::string csv_of(const std::vector<LiveRow>& rows) {
   std::string text =
-      "solver,law,tolerance,ended,steps,error_mean,error_max,missed,wall_x_end,wall_force_mean,penetration_max,kinetic_energy_end,"
-      "energy_residual,solid_fraction_end,iterations_mean,ms_per_step,solve_ms_per_step,distance_end\n";
+      "solver,law,tolerance,ended,steps,error_mean,error_max,missed,wall_x_end,wall_force_mean,"
+      "penetration_max,kinetic_energy_end,"
+      "energy_residual,solid_fraction_end,iterations_mean,ms_per_step,solve_ms_per_step,distance_"
+      "end\n";
   for (const LiveRow& r : rows) {
     char line[600];
-    std::snprintf(line, sizeof line, "%s,%s,%g,%s,%zu,%.6g,%.6g,%.6g,%.9g,%.9g,%.6g,%.9g,%.6g,%.9g,%.6g,%.6g,%.6g,%.6g\n", r.trajectory->solver.c_str(),
-                  r.trajectory->law.c_str(), r.trajectory->tolerance, r.trajectory->ended.c_str(), r.trajectory->steps.size(), r.error_mean, r.error_max,
-                  r.missed, r.wall_x, r.force_mean, r.penetration_max, r.kinetic_energy, r.energy_residual, r.solid_fraction, r.iterations,
-                  r.ms_per_step, r.solve_ms_per_step, r.distance);
+    std::snprintf(
+        line, sizeof line,
+        "%s,%s,%g,%s,%zu,%.6g,%.6g,%.6g,%.9g,%.9g,%.6g,%.9g,%.6g,%.9g,%.6g,%.6g,%.6g,%.6g\n",
+        r.trajectory->solver.c_str(), r.trajectory->law.c_str(), r.trajectory->tolerance,
+        r.trajectory->ended.c_str(), r.trajectory->steps.size(), r.error_mean, r.error_max,
+        r.missed, r.wall_x, r.force_mean, r.penetration_max, r.kinetic_energy, r.energy_residual,
+        r.solid_fraction, r.iterations, r.ms_per_step, r.solve_ms_per_step, r.distance);
     text += line;
   }
   return text;
@@ -93,17 +104,33 @@ std::string steps_csv_of(const Trajectory& t) {
 
 Html table_of(const std::vector<LiveRow>& rows, const LiveComparison& comparison) {
   HtmlTable table;
-  table.head = {{"backend, tolerance"}, {"law"}, {"ended"}, {"error, mean"}, {"worst"}, {"above tolerance"}, {"wall <i>x</i>"}, {"mean <i>f</i><sub>g</sub>"},
-                {"overlap"}, {"kinetic energy"}, {"solid fraction"}, {"iterations"}, {"solve per step"}, {"distance"}};
+  table.head = {{"backend, tolerance"},
+                {"law"},
+                {"ended"},
+                {"error, mean"},
+                {"worst"},
+                {"above tolerance"},
+                {"wall <i>x</i>"},
+                {"mean <i>f</i><sub>g</sub>"},
+                {"overlap"},
+                {"kinetic energy"},
+                {"solid fraction"},
+                {"iterations"},
+                {"solve per step"},
+                {"distance"}};
   table.is_number.assign(table.head.size(), true);
   table.is_number[0] = table.is_number[1] = table.is_number[2] = false;
   for (const LiveRow& r : rows) {
-    const bool is_reference = comparison.reference >= 0 && r.trajectory == &comparison.trajectories[static_cast<size_t>(comparison.reference)];
-    table.rows.push_back({escaped(r.trajectory->label()) + Html{is_reference ? " <b>(reference)</b>" : ""}, escaped(r.trajectory->law),
-                          escaped(r.trajectory->ended), number(r.error_mean), number(r.error_max), quantity(100.0 * r.missed, "%"),
-                          quantity(1e3 * r.wall_x, "mm", 4), quantity(r.force_mean, "N", 4), quantity(1e6 * r.penetration_max, "µm"),
-                          quantity(r.kinetic_energy, "J"), number(r.solid_fraction, 4), number(r.iterations), quantity(r.solve_ms_per_step, "ms"),
-                          quantity(1e6 * r.distance, "µm")});
+    const bool is_reference =
+        comparison.reference >= 0 &&
+        r.trajectory == &comparison.trajectories[static_cast<size_t>(comparison.reference)];
+    table.rows.push_back(
+        {escaped(r.trajectory->label()) + Html{is_reference ? " <b>(reference)</b>" : ""},
+         escaped(r.trajectory->law), escaped(r.trajectory->ended), number(r.error_mean),
+         number(r.error_max), quantity(100.0 * r.missed, "%"), quantity(1e3 * r.wall_x, "mm", 4),
+         quantity(r.force_mean, "N", 4), quantity(1e6 * r.penetration_max, "µm"),
+         quantity(r.kinetic_energy, "J"), number(r.solid_fraction, 4), number(r.iterations),
+         quantity(r.solve_ms_per_step, "ms"), quantity(1e6 * r.distance, "µm")});
   }
   return to_html(table);
 }
@@ -113,13 +140,20 @@ Curve line_of(const LiveComparison& comparison, const Trajectory& trajectory) {
   std::vector<std::string> solvers;
   std::vector<double> tolerances;
   for (const Trajectory& t : comparison.trajectories) {
-    if (std::find(solvers.begin(), solvers.end(), t.solver) == solvers.end()) solvers.push_back(t.solver);
-    if (std::find(tolerances.begin(), tolerances.end(), t.tolerance) == tolerances.end()) tolerances.push_back(t.tolerance);
+    if (std::find(solvers.begin(), solvers.end(), t.solver) == solvers.end())
+      solvers.push_back(t.solver);
+    if (std::find(tolerances.begin(), tolerances.end(), t.tolerance) == tolerances.end())
+      tolerances.push_back(t.tolerance);
   }
   std::sort(tolerances.rbegin(), tolerances.rend());
-  const auto place = [](const auto& values, const auto& value) { return std::find(values.begin(), values.end(), value) - values.begin(); };
+  const auto place = [](const auto& values, const auto& value) {
+    return std::find(values.begin(), values.end(), value) - values.begin();
+  };
   Curve curve = styled(static_cast<size_t>(place(solvers, trajectory.solver)), trajectory.label());
-  const double tightness = tolerances.size() < 2 ? 1.0 : static_cast<double>(place(tolerances, trajectory.tolerance)) / static_cast<double>(tolerances.size() - 1);
+  const double tightness = tolerances.size() < 2
+                               ? 1.0
+                               : static_cast<double>(place(tolerances, trajectory.tolerance)) /
+                                     static_cast<double>(tolerances.size() - 1);
   curve.width = 0.7 + 1.3 * tightness;
   curve.opacity = 0.5 + 0.5 * tightness;
   return curve;
@@ -133,7 +167,8 @@ struct LiveFigure {
 };
 
 template <typename ValuesOf>
-ReportFigure figure_of(const LiveComparison& comparison, const LiveFigure& what, ValuesOf&& values_of) {
+ReportFigure figure_of(const LiveComparison& comparison, const LiveFigure& what,
+                       ValuesOf&& values_of) {
   Panel panel;
   panel.x_label = "{/:Italic t}  (s)";
   panel.y_label = what.y_label;
@@ -141,7 +176,9 @@ ReportFigure figure_of(const LiveComparison& comparison, const LiveFigure& what,
   for (const Trajectory& t : comparison.trajectories) {
     Values x, y;
     values_of(t, x, y);
-    if (std::none_of(y.begin(), y.end(), [&](double v) { return std::isfinite(v) && (!what.log_y || v > 0.0); })) continue;
+    if (std::none_of(y.begin(), y.end(),
+                     [&](double v) { return std::isfinite(v) && (!what.log_y || v > 0.0); }))
+      continue;
     thin_out(x, y, 1500);
     Curve curve = line_of(comparison, t);
     curve.x = std::move(x);
@@ -156,7 +193,8 @@ ReportFigure figure_of(const LiveComparison& comparison, const LiveFigure& what,
   return {figure, Html{what.caption}};
 }
 
-ReportFigure column_figure(const LiveComparison& comparison, const LiveFigure& what, double StepRecord::*value, double factor) {
+ReportFigure column_figure(const LiveComparison& comparison, const LiveFigure& what,
+                           double StepRecord::*value, double factor) {
   return figure_of(comparison, what, [&](const Trajectory& t, Values& x, Values& y) {
     for (const StepRecord& s : t.steps) {
       if (!std::isfinite(s.*value)) continue;
@@ -167,7 +205,9 @@ ReportFigure column_figure(const LiveComparison& comparison, const LiveFigure& w
 }
 
 ReportFigure cost_figure(const LiveComparison& comparison) {
-  return figure_of(comparison, {"live_cost", "Cost", "wall clock of the solver  (s)", false, "<b>Cost</b>: wall clock spent in the solver up to then."},
+  return figure_of(comparison,
+                   {"live_cost", "Cost", "wall clock of the solver  (s)", false,
+                    "<b>Cost</b>: wall clock spent in the solver up to then."},
                    [](const Trajectory& t, Values& x, Values& y) {
                      double sum = 0.0;
                      for (const StepRecord& s : t.steps) {
@@ -177,55 +217,77 @@ ReportFigure cost_figure(const LiveComparison& comparison) {
                    });
 }
 
-/// The wall's distance from where it is in the reference solution: the trajectories themselves coincide to the eye.
+/// The wall's distance from where it is in the reference solution: the trajectories themselves
+/// coincide to the eye.
 ReportFigure wall_deviation_figure(const LiveComparison& comparison) {
   if (comparison.reference < 0) return {};
   const Trajectory& reference = comparison.trajectories[static_cast<size_t>(comparison.reference)];
-  return figure_of(comparison, {"live_wall_deviation", "Deviation of the wall", "|{/:Italic x} − {/:Italic x}_{ref}|  (µm)", true,
-                                "<b>Deviation of the driven wall</b> from the reference solution’s."},
-                   [&](const Trajectory& t, Values& x, Values& y) {
-                     for (size_t k = 0; &t != &reference && k < std::min(t.steps.size(), reference.steps.size()); ++k) {
-                       x.push_back(t.steps[k].time);
-                       y.push_back(1e6 * std::abs(t.steps[k].wall_x - reference.steps[k].wall_x));
-                     }
-                   });
+  return figure_of(
+      comparison,
+      {"live_wall_deviation", "Deviation of the wall", "|{/:Italic x} − {/:Italic x}_{ref}|  (µm)",
+       true, "<b>Deviation of the driven wall</b> from the reference solution’s."},
+      [&](const Trajectory& t, Values& x, Values& y) {
+        for (size_t k = 0; &t != &reference && k < std::min(t.steps.size(), reference.steps.size());
+             ++k) {
+          x.push_back(t.steps[k].time);
+          y.push_back(1e6 * std::abs(t.steps[k].wall_x - reference.steps[k].wall_x));
+        }
+      });
 }
 
 ReportFigure distance_figure(const LiveComparison& comparison) {
   if (comparison.reference < 0) return {};
   const Trajectory& reference = comparison.trajectories[static_cast<size_t>(comparison.reference)];
-  ReportFigure figure = figure_of(comparison, {"live_distance", "Distance from the reference", "rms distance  (µm)", true, ""},
-                                  [&](const Trajectory& t, Values& x, Values& y) {
-                                    if (&t == &reference) return;
-                                    y = distances(t, reference);
-                                    for (double& d : y) d *= 1e6;
-                                    x.assign(t.frame_times.begin(), t.frame_times.begin() + static_cast<std::ptrdiff_t>(y.size()));
-                                  });
-  figure.caption = Html{"<b>Distance</b> of the grains’ centres from the reference solution ("} + escaped(reference.label()) +
-                   Html{"), rms over grains. <span class=\"look\">Packings are chaotic: that all curves grow says little, that the exact law’s fall with "
-                        "the tolerance and another law’s do not says much.</span>"};
+  ReportFigure figure = figure_of(
+      comparison, {"live_distance", "Distance from the reference", "rms distance  (µm)", true, ""},
+      [&](const Trajectory& t, Values& x, Values& y) {
+        if (&t == &reference) return;
+        y = distances(t, reference);
+        for (double& d : y) d *= 1e6;
+        x.assign(t.frame_times.begin(),
+                 t.frame_times.begin() + static_cast<std::ptrdiff_t>(y.size()));
+      });
+  figure.caption = Html{"<b>Distance</b> of the grains’ centres from the reference solution ("} +
+                   escaped(reference.label()) +
+                   Html{
+                       "), rms over grains. <span class=\"look\">Packings are chaotic: that all "
+                       "curves grow says little, that the exact law’s fall with "
+                       "the tolerance and another law’s do not says much.</span>"};
   return figure;
 }
 
 std::vector<ReportFigure> live_figures(const LiveComparison& comparison) {
   std::vector<ReportFigure> figures;
   if (comparison.has_driven_wall) {
-    figures.push_back(column_figure(comparison, {"live_wall", "Wall trajectory", "wall {/:Italic x}  (mm)", false, "<b>Trajectory of the driven wall.</b>"},
+    figures.push_back(column_figure(comparison,
+                                    {"live_wall", "Wall trajectory", "wall {/:Italic x}  (mm)",
+                                     false, "<b>Trajectory of the driven wall.</b>"},
                                     &StepRecord::wall_x, 1e3));
     figures.push_back(wall_deviation_figure(comparison));
-    figures.push_back(column_figure(comparison, {"live_force", "Force on the wall", "{/:Italic f_g}  (N)", false,
-                                                 "<b>Force of the grains on the driven wall</b>, mean over each step, not smoothed."},
-                                    &StepRecord::wall_force, 1.0));
+    figures.push_back(column_figure(
+        comparison,
+        {"live_force", "Force on the wall", "{/:Italic f_g}  (N)", false,
+         "<b>Force of the grains on the driven wall</b>, mean over each step, not smoothed."},
+        &StepRecord::wall_force, 1.0));
   }
   figures.push_back(distance_figure(comparison));
-  figures.push_back(column_figure(comparison, {"live_error", "Error of the contact law", "error, relative", true,
-                                               "<b>Error</b> of the exact law per step, by the judge: scaled natural map, rms over contacts, over <i>gh</i>."},
-                                  &StepRecord::error_rms, 1.0 / comparison.velocity_scale));
-  figures.push_back(column_figure(comparison, {"live_penetration", "Deepest overlap", "deepest overlap  (µm)", true, "<b>Deepest overlap</b> at detection."},
+  figures.push_back(
+      column_figure(comparison,
+                    {"live_error", "Error of the contact law", "error, relative", true,
+                     "<b>Error</b> of the exact law per step, by the judge: scaled natural map, "
+                     "rms over contacts, over <i>gh</i>."},
+                    &StepRecord::error_rms, 1.0 / comparison.velocity_scale));
+  figures.push_back(column_figure(comparison,
+                                  {"live_penetration", "Deepest overlap", "deepest overlap  (µm)",
+                                   true, "<b>Deepest overlap</b> at detection."},
                                   &StepRecord::penetration_max, 1e6));
-  figures.push_back(column_figure(comparison, {"live_energy", "Kinetic energy", "kinetic energy  (J)", true, "<b>Kinetic energy</b> of grains and driven walls."},
+  figures.push_back(column_figure(comparison,
+                                  {"live_energy", "Kinetic energy", "kinetic energy  (J)", true,
+                                   "<b>Kinetic energy</b> of grains and driven walls."},
                                   &StepRecord::kinetic_energy, 1.0));
-  figures.push_back(column_figure(comparison, {"live_solid_fraction", "Solid fraction", "solid fraction", false, "<b>Solid fraction</b> in the control volume."},
+  figures.push_back(column_figure(comparison,
+                                  {"live_solid_fraction", "Solid fraction", "solid fraction", false,
+                                   "<b>Solid fraction</b> in the control volume."},
                                   &StepRecord::solid_fraction, 1.0));
   figures.push_back(cost_figure(comparison));
   return figures;
@@ -244,11 +306,15 @@ void write_live_report(const std::filesystem::path& folder, const LiveComparison
   PageDrawing drawing(folder / "figures");
   const Html figures = drawing.draw(live_figures(comparison));
   const std::string title = "One start, several solvers: " + comparison.scene.name;
-  Html body = Html{"<header>\n<h1>"} + escaped(title) + Html{"</h1>\n<p class=\"lede\">"} + escaped(made_by(data)) + Html{"</p>\n</header>\n"} + drawing.notices_html();
-  body += section("table", "Side by side", Html{"<p>Every backend goes on from the same state, with the same contacts and warm start. Errors are over "} +
-                                               quantity(comparison.velocity_scale, "m/s") +
-                                               Html{"; distances are rms over grains, at the last common frame, from the exact law’s solution at the tightest tolerance.</p>\n"} +
-                                               table_of(rows, comparison));
+  Html body = Html{"<header>\n<h1>"} + escaped(title) + Html{"</h1>\n<p class=\"lede\">"} +
+              escaped(made_by(data)) + Html{"</p>\n</header>\n"} + drawing.notices_html();
+  body += section("table", "Side by side",
+                  Html{"<p>Every backend goes on from the same state, with the same contacts and "
+                       "warm start. Errors are over "} +
+                      quantity(comparison.velocity_scale, "m/s") +
+                      Html{"; distances are rms over grains, at the last common frame, from the "
+                           "exact law’s solution at the tightest tolerance.</p>\n"} +
+                      table_of(rows, comparison));
   body += section("figures", "Figures", figures);
   body += section("provenance", "Program and machine", provenance_table(data));
   write_whole_file(folder / "live.html", html_page(title, body));

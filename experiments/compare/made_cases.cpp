@@ -1,4 +1,5 @@
-// Problems of a bench that are made on the spot: manufactured ones with known solutions, and those that break solvers.
+// Problems of a bench that are made on the spot: manufactured ones with known solutions, and those
+// that break solvers.
 
 #include <algorithm>
 #include <charconv>
@@ -42,18 +43,24 @@ class MadeWord {
     values_.erase(found);
     return value;
   }
-  int take_count(const char* name, int otherwise, int least) { return static_cast<int>(std::lround(take(name, otherwise, least))); }
+  int take_count(const char* name, int otherwise, int least) {
+    return static_cast<int>(std::lround(take(name, otherwise, least)));
+  }
 
   void finish() const {
-    if (!values_.empty()) fail(values_.begin()->first + ": no such setting; see ballast compare --help");
+    if (!values_.empty())
+      fail(values_.begin()->first + ": no such setting; see ballast compare --help");
   }
-  [[noreturn]] void fail(const std::string& what) const { throw BenchCaseError(word_ + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw BenchCaseError(word_ + ": " + what);
+  }
 
  private:
   double number_of(const std::string& item, const std::string& text) const {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0) || !(value <= 1e9))
+    if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0) ||
+        !(value <= 1e9))
       fail(item + ": expected a number from 0 to 1e9");
     return value;
   }
@@ -79,15 +86,18 @@ void add_known_cases(MadeWord& word, std::vector<BenchCase>& cases) {
   word.finish();
   for (int k = 0; k < count; ++k, ++settings.seed) {
     char name[96];
-    std::snprintf(name, sizeof name, "known-b%d-c%dx%d-R%g-s%llu", settings.bodies, settings.contacts, settings.copies, settings.mass_ratio,
+    std::snprintf(name, sizeof name, "known-b%d-c%dx%d-R%g-s%llu", settings.bodies,
+                  settings.contacts, settings.copies, settings.mass_ratio,
                   static_cast<unsigned long long>(settings.seed));
-    cases.push_back({name, "known", [settings] { return load_case(make_known_solution(settings).problem); }});
+    cases.push_back(
+        {name, "known", [settings] { return load_case(make_known_solution(settings).problem); }});
   }
 }
 
-void add_stress_case(const std::string& name, const std::string& family, const std::function<StressProblem()>& make,
-                     std::vector<BenchCase>& cases) {
-  cases.push_back({name, family, [make] { return load_case(make().problem, stress_gravity_step); }});
+void add_stress_case(const std::string& name, const std::string& family,
+                     const std::function<StressProblem()>& make, std::vector<BenchCase>& cases) {
+  cases.push_back(
+      {name, family, [make] { return load_case(make().problem, stress_gravity_step); }});
 }
 
 /// Every small problem that is valid; broken ones are for tests.
@@ -101,7 +111,8 @@ void add_all_stress_cases(std::vector<BenchCase>& cases) {
   }
 }
 
-/// stack: n boxes of 1 kg, the uppermost of `ratio` kg. chain: grains between walls. table: four legs.
+/// stack: n boxes of 1 kg, the uppermost of `ratio` kg. chain: grains between walls. table: four
+/// legs.
 void add_stress_cases(MadeWord& word, std::vector<BenchCase>& cases) {
   char name[80];
   if (word.what() == "all") {
@@ -115,34 +126,43 @@ void add_stress_cases(MadeWord& word, std::vector<BenchCase>& cases) {
     std::vector<double> masses(static_cast<size_t>(n), 1.0);
     masses.back() = ratio;
     std::snprintf(name, sizeof name, "stack-n%d-R%g-rows%d", n, ratio, rows);
-    add_stress_case(name, "stack", [masses, rows] { return mass_stack(masses, rows); }, cases);
+    add_stress_case(
+        name, "stack", [masses, rows] { return mass_stack(masses, rows); }, cases);
   } else if (word.what() == "chain") {
     const int grains = word.take_count("grains", 20, 1);
     const double force = word.take("force", 1e3);
     word.finish();
     std::snprintf(name, sizeof name, "chain-n%d-F%g", grains, force);
-    add_stress_case(name, "chain", [grains, force] { return jammed_chain(grains, force); }, cases);
+    add_stress_case(
+        name, "chain", [grains, force] { return jammed_chain(grains, force); }, cases);
   } else if (word.what() == "table") {
     const int copies = word.take_count("copies", 1, 1);
     const double mu = word.take("mu", 0.5), speed = word.take("speed", 0.0);
     word.finish();
     std::snprintf(name, sizeof name, "table-x%d-mu%g-v%g", copies, mu, speed);
-    add_stress_case(name, "table", [mu, speed, copies] { return four_legged_table(mu, speed, copies); }, cases);
+    add_stress_case(
+        name, "table", [mu, speed, copies] { return four_legged_table(mu, speed, copies); }, cases);
   } else {
     word.fail("expected stress:all, stress:stack, stress:chain or stress:table");
   }
 }
 
-bool begins_with(const std::string& text, const char* beginning) { return text.rfind(beginning, 0) == 0; }
+bool begins_with(const std::string& text, const char* beginning) {
+  return text.rfind(beginning, 0) == 0;
+}
 
 }  // namespace
 
-bool is_made_case(const std::string& word) { return begins_with(word, "known:") || begins_with(word, "stress:"); }
+bool is_made_case(const std::string& word) {
+  return begins_with(word, "known:") || begins_with(word, "stress:");
+}
 
 void add_made_cases(const std::string& word, std::vector<BenchCase>& cases) {
   MadeWord made(word);
-  if (begins_with(word, "known:")) add_known_cases(made, cases);
-  else add_stress_cases(made, cases);
+  if (begins_with(word, "known:"))
+    add_known_cases(made, cases);
+  else
+    add_stress_cases(made, cases);
 }
 
 }  // namespace ballast

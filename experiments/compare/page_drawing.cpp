@@ -17,7 +17,8 @@ Html PageDrawing::draw(const ReportFigure& figure) {
   try {
     const std::string svg = render_svg(figure.plot, folder_);
     render_pdf(figure.plot, folder_);
-    return html_figure(figure.plot.name, inline_svg(svg, figure.plot.name, figure.plot.title), figure.caption);
+    return html_figure(figure.plot.name, inline_svg(svg, figure.plot.name, figure.plot.title),
+                       figure.caption);
   } catch (const Error& error) {
     notices.push_back(std::string(error.what()) + ". The figure is left out.");
     return {};
@@ -33,7 +34,8 @@ Html PageDrawing::draw(const std::vector<ReportFigure>& figures) {
 Html PageDrawing::notices_html() const {
   if (notices.empty()) return {};
   Html html{"<div class=\"notices\" role=\"note\"><ul>\n"};
-  for (const std::string& notice : notices) html += Html{"<li>"} + escaped(notice) + Html{"</li>\n"};
+  for (const std::string& notice : notices)
+    html += Html{"<li>"} + escaped(notice) + Html{"</li>\n"};
   return html + Html{"</ul></div>\n"};
 }
 
@@ -46,7 +48,8 @@ RunData read_provenance(const std::filesystem::path& folder) {
   data.folder = folder;
   data.manifest_text = read_whole_file(folder / "manifest.json");
   data.manifest = nlohmann::ordered_json::parse(data.manifest_text, nullptr, false);
-  if (!data.manifest.is_object()) throw Error((folder / "manifest.json").string() + ": is no JSON object");
+  if (!data.manifest.is_object())
+    throw Error((folder / "manifest.json").string() + ": is no JSON object");
   return data;
 }
 

@@ -1,12 +1,13 @@
 #pragma once
-// What the pages of `ballast compare` share: figures drawn twice, what could not be drawn said, who made it.
+// What the pages of `ballast compare` share: figures drawn twice, what could not be drawn said, who
+// made it.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "experiments/run_page/figures.hpp"
 #include "experiments/measure/run_data.hpp"
+#include "experiments/run_page/figures.hpp"
 
 namespace ballast {
 

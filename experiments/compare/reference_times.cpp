@@ -25,13 +25,15 @@ std::vector<std::string> cells_of(std::string line) {
 
 bool parse_number(const std::string& text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value >= 0.0;
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value) &&
+         value >= 0.0;
 }
 
 }  // namespace
 
 std::string problem_stem(std::string name) {
-  for (const std::string& suffix : {std::string(".dat"), std::string(".hdf5"), std::string(".h5"), std::string("-condensed")})
+  for (const std::string& suffix :
+       {std::string(".dat"), std::string(".hdf5"), std::string(".h5"), std::string("-condensed")})
     if (name.ends_with(suffix)) name.erase(name.size() - suffix.size());
   return name;
 }
@@ -56,14 +58,16 @@ std::vector<ReferenceTimes> read_reference_times(const std::filesystem::path& fi
   for (int number = 2; std::getline(lines, line); ++number) {
     if (line.empty() || line == "\r") continue;
     const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != head.size()) fail(number, "expected " + std::to_string(head.size()) + " cells");
+    if (cells.size() != head.size())
+      fail(number, "expected " + std::to_string(head.size()) + " cells");
     for (size_t k = 1; k < cells.size(); k += 2) {
       double ms = 0.0;
       if (cells[k].empty()) {
         times[k / 2].unsolved.insert(problem_stem(cells[0]));
         continue;
       }
-      if (!parse_number(cells[k], ms)) fail(number, "'" + cells[k] + "': expected milliseconds >= 0");
+      if (!parse_number(cells[k], ms))
+        fail(number, "'" + cells[k] + "': expected milliseconds >= 0");
       times[k / 2].entries[problem_stem(cells[0])] = {1e-3 * ms, cells[k + 1]};
     }
   }
@@ -78,7 +82,8 @@ double ReferenceComparison::ratio(double shift, double limit, bool of_auto) cons
     a.push_back(std::min(value, limit));
     b.push_back(line.theirs);
   }
-  return a.empty() ? std::numeric_limits<double>::quiet_NaN() : shifted_geometric_ratio(a, b, shift);
+  return a.empty() ? std::numeric_limits<double>::quiet_NaN()
+                   : shifted_geometric_ratio(a, b, shift);
 }
 
 namespace {
@@ -101,7 +106,9 @@ std::vector<ReferenceComparison> compare_with_reference(std::span<const BenchTab
                                                         std::span<const ReferenceTimes> reference) {
   std::vector<ReferenceComparison> comparisons;
   for (const BenchTable& table : tables) {
-    const auto times = std::find_if(reference.begin(), reference.end(), [&](const ReferenceTimes& r) { return r.tolerance == table.tolerance; });
+    const auto times =
+        std::find_if(reference.begin(), reference.end(),
+                     [&](const ReferenceTimes& r) { return r.tolerance == table.tolerance; });
     if (table.start != StartKind::cold || times == reference.end()) continue;
     const auto automatic = std::find(table.solvers.begin(), table.solvers.end(), "auto");
     ReferenceComparison comparison;
@@ -113,7 +120,8 @@ std::vector<ReferenceComparison> compare_with_reference(std::span<const BenchTab
       const std::string stem = problem_stem(table.cases[c]);
       const auto theirs = times->entries.find(stem);
       if (theirs == times->entries.end()) {
-        if (std::isfinite(line.ours) && times->unsolved.contains(stem)) comparison.only_ours.push_back(table.cases[c]);
+        if (std::isfinite(line.ours) && times->unsolved.contains(stem))
+          comparison.only_ours.push_back(table.cases[c]);
         continue;
       }
       if (std::isinf(line.ours)) comparison.missing.push_back(table.cases[c]);
@@ -121,7 +129,8 @@ std::vector<ReferenceComparison> compare_with_reference(std::span<const BenchTab
       line.theirs = theirs->second.seconds;
       line.automatic = std::numeric_limits<double>::quiet_NaN();
       if (automatic != table.solvers.end())
-        line.automatic = table.cells[c][static_cast<size_t>(automatic - table.solvers.begin())].median;
+        line.automatic =
+            table.cells[c][static_cast<size_t>(automatic - table.solvers.begin())].median;
       comparison.lines.push_back(std::move(line));
     }
     comparisons.push_back(std::move(comparison));

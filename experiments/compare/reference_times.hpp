@@ -19,15 +19,17 @@ struct ReferenceTimes {
     double seconds;
     std::string solver;
   };
-  std::map<std::string, Entry> entries;  ///< by problem_stem(); problems that nobody solved are not in it
-  std::set<std::string> unsolved;        ///< those
+  std::map<std::string, Entry>
+      entries;                     ///< by problem_stem(); problems that nobody solved are not in it
+  std::set<std::string> unsolved;  ///< those
 };
 
-/// A file's name without what formats and conversions append: "CubeH8-condensed.dat", "CubeH8.hdf5" -> "CubeH8".
+/// A file's name without what formats and conversions append: "CubeH8-condensed.dat", "CubeH8.hdf5"
+/// -> "CubeH8".
 std::string problem_stem(std::string name);
 
-/// CSV with the header problem,ms_<tolerance>,solver_<tolerance>[,...]: milliseconds, empty where nobody got there. Throws Error naming file and
-/// line.
+/// CSV with the header problem,ms_<tolerance>,solver_<tolerance>[,...]: milliseconds, empty where
+/// nobody got there. Throws Error naming file and line.
 std::vector<ReferenceTimes> read_reference_times(const std::filesystem::path& file);
 
 /// Ours beside theirs at one tolerance, cold starts.
@@ -42,8 +44,8 @@ struct ReferenceComparison {
   std::vector<std::string> only_ours;  ///< solved here, by nobody there
   std::vector<std::string> missing;    ///< not solved here
 
-  /// Shifted geometric mean of (our fastest / theirs), or of (auto / theirs). Unsolved problems count with `limit` seconds: nobody gains by
-  /// failing. NaN without lines, or without auto.
+  /// Shifted geometric mean of (our fastest / theirs), or of (auto / theirs). Unsolved problems
+  /// count with `limit` seconds: nobody gains by failing. NaN without lines, or without auto.
   double ratio(double shift, double limit, bool of_auto) const;
 };
 

@@ -7,8 +7,8 @@
 #include <new>
 #include <utility>
 
-#include "problems/algebra/contact_error.hpp"
 #include "platform/child_process.hpp"
+#include "problems/algebra/contact_error.hpp"
 
 namespace ballast {
 namespace {
@@ -16,14 +16,16 @@ namespace {
 /// How the child says it ended, apart from being solved or not.
 enum class ChildOutcome { driven, unsupported, out_of_memory, failed };
 
-/// What a child sends, as the row of doubles that child_process carries: written and read by the same list of members.
+/// What a child sends, as the row of doubles that child_process carries: written and read by the
+/// same list of members.
 struct ChildMessage {
   ChildOutcome outcome = ChildOutcome::failed;
   std::string note;
   StopReason reason = StopReason::numerical_failure;
   bool claimed = false;
   int iterations = 0, rounds = 0, runs = 0;
-  double own_residual = 0.0, prepare_seconds = 0.0, solve_seconds = 0.0, first_seconds = 0.0, peak_memory_MB = 0.0;
+  double own_residual = 0.0, prepare_seconds = 0.0, solve_seconds = 0.0, first_seconds = 0.0,
+         peak_memory_MB = 0.0;
   std::vector<HistoryRow> history;
   Impulses impulses;
 
@@ -56,9 +58,13 @@ struct ChildMessage {
 struct Writer {
   std::vector<double>& record;
   template <typename Value>
-  void number(Value value) { record.push_back(static_cast<double>(value)); }
+  void number(Value value) {
+    record.push_back(static_cast<double>(value));
+  }
   template <typename Values>
-  void size(const Values& values) { number(values.size()); }
+  void size(const Values& values) {
+    number(values.size());
+  }
   void text(const std::string& text) {
     size(text);
     for (const char c : text) number(static_cast<unsigned char>(c));
@@ -70,9 +76,13 @@ struct Reader {
   size_t next = 0;
   double take() { return record.at(next++); }
   template <typename Value>
-  void number(Value& value) { value = static_cast<Value>(take()); }
+  void number(Value& value) {
+    value = static_cast<Value>(take());
+  }
   template <typename Values>
-  void size(Values& values) { values.resize(static_cast<decltype(values.size())>(take())); }
+  void size(Values& values) {
+    values.resize(static_cast<decltype(values.size())>(take()));
+  }
   void text(std::string& text) {
     size(text);
     for (char& c : text) c = static_cast<char>(static_cast<unsigned char>(take()));
@@ -81,7 +91,8 @@ struct Reader {
 
 void limit_memory(double memory_MB) {
   if (!(memory_MB > 0.0)) return;
-  const rlimit limit{static_cast<rlim_t>(memory_MB * 1048576.0), static_cast<rlim_t>(memory_MB * 1048576.0)};
+  const rlimit limit{static_cast<rlim_t>(memory_MB * 1048576.0),
+                     static_cast<rlim_t>(memory_MB * 1048576.0)};
   setrlimit(RLIMIT_AS, &limit);
 }
 
@@ -99,7 +110,9 @@ double peak_memory() {
 void take_result(DrivenSolve&& driven, ChildMessage& message) {
   const std::string& failure = driven.last.failure;
   const bool no_memory = failure == std::bad_alloc().what();
-  message.outcome = no_memory ? ChildOutcome::out_of_memory : failure.empty() ? ChildOutcome::driven : ChildOutcome::failed;
+  message.outcome = no_memory         ? ChildOutcome::out_of_memory
+                    : failure.empty() ? ChildOutcome::driven
+                                      : ChildOutcome::failed;
   message.note = failure;
   message.reason = driven.last.solved.reason;
   message.claimed = driven.claimed;
@@ -113,8 +126,8 @@ void take_result(DrivenSolve&& driven, ChildMessage& message) {
 }
 
 /// The whole of what the child does. A new solver for each run: nothing is carried over but caches.
-void drive_repeatedly(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive, const ChildLimits& limits,
-                      StartKind start, ChildMessage& message) {
+void drive_repeatedly(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive,
+                      const ChildLimits& limits, StartKind start, ChildMessage& message) {
   const Impulses from = start == StartKind::warm ? loaded.warm_start : Impulses();
   double spent = 0.0, fastest = 0.0;
   do {
@@ -127,7 +140,8 @@ void drive_repeatedly(SolverMaker make, const LoadedCase& loaded, const DriveSet
     }
     ++message.runs;
     spent += seconds;
-  } while (message.claimed && message.runs < limits.most_runs && spent + fastest < limits.warm_seconds);
+  } while (message.claimed && message.runs < limits.most_runs &&
+           spent + fastest < limits.warm_seconds);
 }
 
 ChildMessage work_of_child(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive,
@@ -159,16 +173,21 @@ void judge(const LoadedCase& loaded, const Impulses& impulses, BenchRow& row) {
   row.min_normal_velocity = error.min_normal_velocity;
   row.worst_contact = error.worst_contact;
   row.worst = loaded.describe_contact(error.worst_contact);
-  row.error = row.measure == Measure::fclib ? error.fclib : error.natural_map_rms / loaded.facts.velocity_scale;
+  row.error = row.measure == Measure::fclib ? error.fclib
+                                            : error.natural_map_rms / loaded.facts.velocity_scale;
   row.judged = error.finite && row.error <= row.tolerance;
 }
 
 Outcome outcome_of(const ChildMessage& message, const BenchRow& row, double max_seconds) {
   switch (message.outcome) {
-    case ChildOutcome::unsupported: return Outcome::unsupported;
-    case ChildOutcome::out_of_memory: return Outcome::out_of_memory;
-    case ChildOutcome::failed: return Outcome::stopped;
-    case ChildOutcome::driven: break;
+    case ChildOutcome::unsupported:
+      return Outcome::unsupported;
+    case ChildOutcome::out_of_memory:
+      return Outcome::out_of_memory;
+    case ChildOutcome::failed:
+      return Outcome::stopped;
+    case ChildOutcome::driven:
+      break;
   }
   if (row.seconds() > max_seconds) return Outcome::timeout;
   if (row.claimed && row.judged) return Outcome::solved;
@@ -183,7 +202,8 @@ void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSetti
   drive.measure = row.measure;
   drive.tolerance = row.tolerance;
   drive.velocity_scale = loaded.facts.velocity_scale;
-  // Backends look at the clock between iterations, prepare() never does: some grace before the child is killed.
+  // Backends look at the clock between iterations, prepare() never does: some grace before the
+  // child is killed.
   const double most_seconds = 1.25 * drive.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
   const ChildResult child = run_in_child(most_seconds, [&](std::vector<double>& record) {
     ChildMessage message = work_of_child(make, loaded, drive, limits, row.start);
@@ -193,7 +213,8 @@ void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSetti
   row.error = row.natural_map_rms = row.natural_map_max = row.fclib = std::nan("");
   if (child.end != ChildEnd::complete) {
     row.outcome = child.end == ChildEnd::out_of_time ? Outcome::timeout : Outcome::crashed;
-    row.note = child.end == ChildEnd::out_of_time ? "killed: did not stop at the time limit" : "the child process died";
+    row.note = child.end == ChildEnd::out_of_time ? "killed: did not stop at the time limit"
+                                                  : "the child process died";
     row.solve_seconds = child.end == ChildEnd::out_of_time ? most_seconds : 0.0;
     return;
   }

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <string>
 
+#include "experiments/export/vtp_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "experiments/export/vtp_file.hpp"
 
 namespace ballast {
 
@@ -18,7 +18,9 @@ namespace {
 /// Step of "<name>_<digits>.vtp", or -1.
 long step_of_frame(const std::string& file, const std::string& name) {
   const std::string prefix = name + "_", suffix = ".vtp";
-  if (file.size() <= prefix.size() + suffix.size() || file.rfind(prefix, 0) != 0 || !file.ends_with(suffix)) return -1;
+  if (file.size() <= prefix.size() + suffix.size() || file.rfind(prefix, 0) != 0 ||
+      !file.ends_with(suffix))
+    return -1;
   const char *begin = file.data() + prefix.size(), *end = file.data() + file.size() - suffix.size();
   long step = -1;
   const auto [stop, error] = std::from_chars(begin, end, step);
@@ -27,14 +29,16 @@ long step_of_frame(const std::string& file, const std::string& name) {
 
 }  // namespace
 
-ParaviewSeries::ParaviewSeries(const fs::path& folder, const MechanicalSystem& system, long last_step)
+ParaviewSeries::ParaviewSeries(const fs::path& folder, const MechanicalSystem& system,
+                               long last_step)
     : folder_(folder / "paraview"), system_(system) {
   create_folder(folder_);
   recover(grains_, last_step);
   recover(contacts_, last_step);
 }
 
-/// What the folder holds decides, not an old .pvd: a run may have died between a frame and its entry.
+/// What the folder holds decides, not an old .pvd: a run may have died between a frame and its
+/// entry.
 void ParaviewSeries::recover(Series& series, long last_step) {
   std::vector<fs::path> obsolete;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
@@ -45,7 +49,8 @@ void ParaviewSeries::recover(Series& series, long last_step) {
     else
       obsolete.push_back(entry.path());
   }
-  std::sort(series.frames.begin(), series.frames.end(), [](const Frame& a, const Frame& b) { return a.step < b.step; });
+  std::sort(series.frames.begin(), series.frames.end(),
+            [](const Frame& a, const Frame& b) { return a.step < b.step; });
   write_collection(series);  // first: it must not name what is gone
   for (const fs::path& file : obsolete) {
     std::error_code error;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/export/vtp_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "experiments/export/vtp_file.hpp"
 
 namespace ballast {
 
@@ -13,10 +13,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::pair<const char*, ExportFormat> format_names[] = {{"obj", ExportFormat::obj},
-                                                                 {"text", ExportFormat::text},
-                                                                 {"vtp", ExportFormat::vtp},
-                                                                 {"engines", ExportFormat::engines}};
+constexpr std::pair<const char*, ExportFormat> format_names[] = {
+    {"obj", ExportFormat::obj},
+    {"text", ExportFormat::text},
+    {"vtp", ExportFormat::vtp},
+    {"engines", ExportFormat::engines}};
 
 /// Blanks would split a name into columns.
 std::string one_word(std::string name) {
@@ -25,7 +26,9 @@ std::string one_word(std::string name) {
   return name.empty() ? "_" : name;
 }
 
-Vec3 world_spin(const MotionState& state, size_t body) { return state.pose[body].rotation * state.spin[body]; }
+Vec3 world_spin(const MotionState& state, size_t body) {
+  return state.pose[body].rotation * state.spin[body];
+}
 
 void print_vector(AtomicFile& file, const Vec3& value) {
   file.print(" %.17g %.17g %.17g", value.x(), value.y(), value.z());
@@ -37,8 +40,8 @@ void print_rotation(AtomicFile& file, const Quat& q) {
 
 void export_obj(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
   AtomicFile file(path);
-  file.print("# ballast: %d grains at t = %.17g s, step %ld; world coordinates in m\n", system.grain_count, state.time,
-             state.step);
+  file.print("# ballast: %d grains at t = %.17g s, step %ld; world coordinates in m\n",
+             system.grain_count, state.time, state.step);
   int first = 1;  // OBJ counts vertices from 1, through the whole file
   for (int b = 0; b < system.grain_count; ++b) {
     const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
@@ -61,11 +64,13 @@ void export_obj(const MechanicalSystem& system, const MotionState& state, const 
 void export_text(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
   AtomicFile file(path);
   file.print(
-      "# ballast: %zu bodies at t = %.17g s, step %ld; SI units, world frame; q: body frame (principal axes) to "
+      "# ballast: %zu bodies at t = %.17g s, step %ld; SI units, world frame; q: body frame "
+      "(principal axes) to "
       "world\n",
       system.bodies.size(), state.time, state.step);
   file.print("%-16s", "name");
-  for (const char* column : {"mass", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"})
+  for (const char* column :
+       {"mass", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"})
     file.print(" %24s", column);
   file.write("\n");
   for (size_t b = 0; b < system.bodies.size(); ++b) {
@@ -74,8 +79,9 @@ void export_text(const MechanicalSystem& system, const MotionState& state, const
     const Vec3 &v = state.velocity[b], w = world_spin(state, b);
     const Quat& q = pose.rotation;
     file.print("%-16s", one_word(body.name).c_str());
-    for (const double value : {body.mass, pose.position.x(), pose.position.y(), pose.position.z(), q.w(), q.x(), q.y(),
-                               q.z(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()})
+    for (const double value :
+         {body.mass, pose.position.x(), pose.position.y(), pose.position.z(), q.w(), q.x(), q.y(),
+          q.z(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()})
       file.print(" %24.17g", value);
     file.write("\n");
   }
@@ -88,7 +94,8 @@ struct EngineBox {
   Vec3 centre = Vec3::Zero();
 };
 
-EngineBox engine_box(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
+EngineBox engine_box(const MechanicalSystem& system, const MotionState& state,
+                     const fs::path& path) {
   const double unset = std::nan("");
   double lo[3] = {unset, unset, unset}, hi[3] = {unset, unset, unset};
   for (size_t b = 0; b < system.bodies.size(); ++b) {
@@ -101,19 +108,23 @@ EngineBox engine_box(const MechanicalSystem& system, const MotionState& state, c
   }
   const double width_x = hi[0] - lo[0], width_y = hi[1] - lo[1];
   if (!(width_x > 0.0 && width_y > 0.0) || std::isnan(lo[2]))
-    throw Error(path.string() + ": cannot write as 'engines': the system has no floor and four upright walls");
+    throw Error(path.string() +
+                ": cannot write as 'engines': the system has no floor and four upright walls");
   const double side = std::max(width_x, width_y);
   if (std::abs(width_x - width_y) > 0.01 * side)
-    throw Error(path.string() + ": cannot write as 'engines': the box is " + std::to_string(width_x) + " m by " +
-                   std::to_string(width_y) + " m, that format has square ones only");
+    throw Error(path.string() + ": cannot write as 'engines': the box is " +
+                std::to_string(width_x) + " m by " + std::to_string(width_y) +
+                " m, that format has square ones only");
   return {side, Vec3(0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]), lo[2])};
 }
 
-void write_engine_grain(AtomicFile& file, const RigidBody& body, const Pose& pose, const Vec3& centre) {
+void write_engine_grain(AtomicFile& file, const RigidBody& body, const Pose& pose,
+                        const Vec3& centre) {
   const Polyhedron& shape = *body.shape.polyhedron;
   size_t triangles = 0;
   for (int f = 0; f < shape.face_count(); ++f) triangles += shape.face(f).size() - 2;
-  file.print("%d %zu %.17g %.17g", shape.vertex_count(), triangles, shape.circumradius(), body.mass);
+  file.print("%d %zu %.17g %.17g", shape.vertex_count(), triangles, shape.circumradius(),
+             body.mass);
   print_vector(file, body.inertia);
   print_vector(file, pose.position - centre);
   print_rotation(file, pose.rotation);
@@ -121,11 +132,13 @@ void write_engine_grain(AtomicFile& file, const RigidBody& body, const Pose& pos
   for (const Vec3& v : shape.vertices()) file.print("%.17g %.17g %.17g\n", v.x(), v.y(), v.z());
   for (int f = 0; f < shape.face_count(); ++f) {
     const auto loop = shape.face(f);
-    for (size_t k = 2; k < loop.size(); ++k) file.print("%d %d %d\n", loop[0], loop[k - 1], loop[k]);
+    for (size_t k = 2; k < loop.size(); ++k)
+      file.print("%d %d %d\n", loop[0], loop[k - 1], loop[k]);
   }
 }
 
-void export_engines(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
+void export_engines(const MechanicalSystem& system, const MotionState& state,
+                    const fs::path& path) {
   const EngineBox box = engine_box(system, state, path);
   double volume = 0.0;
   for (int b = 0; b < system.grain_count; ++b) volume += system.bodies[b].volume;
@@ -156,7 +169,8 @@ ExportFormat export_format(const std::string& name) {
   throw Error("no export format '" + name + "': there are " + names);
 }
 
-void export_state(const MechanicalSystem& system, const MotionState& state, ExportFormat format, const fs::path& file) {
+void export_state(const MechanicalSystem& system, const MotionState& state, ExportFormat format,
+                  const fs::path& file) {
   switch (format) {
     case ExportFormat::obj:
       return export_obj(system, state, file);

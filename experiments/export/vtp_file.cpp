@@ -13,7 +13,8 @@ namespace ballast {
 
 namespace {
 
-constexpr std::string_view time_opening = "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
+constexpr std::string_view time_opening =
+    "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
 
 std::string base64(std::string_view bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -22,7 +23,8 @@ std::string base64(std::string_view bytes) {
   for (size_t at = 0; at < bytes.size(); at += 3) {
     const size_t left = bytes.size() - at;
     std::uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < left ? static_cast<unsigned char>(bytes[at + k]) : 0u);
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < left ? static_cast<unsigned char>(bytes[at + k]) : 0u);
     for (size_t k = 0; k < 4; ++k) text += k <= left ? digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
@@ -38,13 +40,14 @@ constexpr const char* type_name() {
 
 /// Inline binary: the count of bytes (UInt64) and the bytes, as one base64 stream.
 template <class Number>
-void write_array(AtomicFile& file, const char* name, const std::vector<Number>& values, int components = 1) {
+void write_array(AtomicFile& file, const char* name, const std::vector<Number>& values,
+                 int components = 1) {
   const std::uint64_t length = values.size() * sizeof(Number);
   std::string bytes(sizeof length + length, '\0');
   std::memcpy(bytes.data(), &length, sizeof length);
   if (length > 0) std::memcpy(bytes.data() + sizeof length, values.data(), length);
-  file.print("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">", type_name<Number>(),
-             name, components);
+  file.print("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">",
+             type_name<Number>(), name, components);
   file.write(base64(bytes));
   file.write("</DataArray>\n");
 }
@@ -56,17 +59,20 @@ void append(std::vector<float>& values, const Vec3& vector) {
 void open_piece(AtomicFile& file, double time, size_t points, size_t vertices, size_t polygons) {
   file.write(
       "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n");
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n");
   file.write("<FieldData><DataArray type=\"Float64\" ");
   file.write(time_opening);
   file.print("%.17g</DataArray></FieldData>\n", time);
   file.print(
-      "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"0\" "
+      "NumberOfStrips=\"0\" "
       "NumberOfPolys=\"%zu\">\n",
       points, vertices, polygons);
 }
 
-void write_cells(AtomicFile& file, const char* element, const std::vector<std::int32_t>& connectivity,
+void write_cells(AtomicFile& file, const char* element,
+                 const std::vector<std::int32_t>& connectivity,
                  const std::vector<std::int32_t>& offsets) {
   file.print("<%s>\n", element);
   write_array(file, "connectivity", connectivity);
@@ -81,7 +87,8 @@ void close_piece(AtomicFile& file) {
 
 }  // namespace
 
-void write_grains_vtp(const std::filesystem::path& path, const MechanicalSystem& system, const MotionState& state) {
+void write_grains_vtp(const std::filesystem::path& path, const MechanicalSystem& system,
+                      const MotionState& state) {
   std::vector<float> points, mass, speed, velocity;
   std::vector<std::int32_t> connectivity, offsets, grain;
   for (int b = 0; b < system.grain_count; ++b) {
@@ -111,8 +118,9 @@ void write_grains_vtp(const std::filesystem::path& path, const MechanicalSystem&
   close_piece(file);
 }
 
-void write_contacts_vtp(const std::filesystem::path& path, double time, std::span<const ContactPoint> contacts,
-                        std::span<const Vec3> impulses, double h) {
+void write_contacts_vtp(const std::filesystem::path& path, double time,
+                        std::span<const ContactPoint> contacts, std::span<const Vec3> impulses,
+                        double h) {
   std::vector<float> points, gap, normal_force, force;
   std::vector<std::int32_t> connectivity, offsets;
   for (size_t c = 0; c < contacts.size(); ++c) {
@@ -139,7 +147,8 @@ void write_contacts_vtp(const std::filesystem::path& path, double time, std::spa
 double read_vtp_time(const std::filesystem::path& path) {
   const std::string text = read_whole_file(path);
   const size_t at = text.find(time_opening);
-  if (at == std::string::npos) throw Error(path.string() + ": is no frame of a ballast run: it has no TimeValue");
+  if (at == std::string::npos)
+    throw Error(path.string() + ": is no frame of a ballast run: it has no TimeValue");
   return std::strtod(text.c_str() + at + time_opening.size(), nullptr);
 }
 

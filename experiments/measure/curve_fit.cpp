@@ -96,12 +96,15 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
   if (fit.samples < 2) return fit;
   const auto [low, high] = std::minmax_element(samples.x.begin(), samples.x.end());
   if (!(*high > *low)) return fit;
-  // x counts from its least in units of its range, so that rates are pure numbers and nothing overflows
+  // x counts from its least in units of its range, so that rates are pure numbers and nothing
+  // overflows
   const double origin = *low, range = *high - *low;
   const auto projected = [&](double rate) {
-    return project(samples.x, samples.y, [&](double at) { return std::exp(rate * (at - origin) / range); });
+    return project(samples.x, samples.y,
+                   [&](double at) { return std::exp(rate * (at - origin) / range); });
   };
-  // Coarse scan over factors e^-20 ... e^20 across the range of x, then golden section around the best one.
+  // Coarse scan over factors e^-20 ... e^20 across the range of x, then golden section around the
+  // best one.
   constexpr double scan_step = 0.25;
   constexpr int scan_half = 80;
   int best = -scan_half;
@@ -110,8 +113,8 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
     const double residual = projected(scan_step * k).residual;
     if (residual < least) least = residual, best = k;
   }
-  const double rate = golden_section([&](double r) { return projected(r).residual; }, scan_step * (best - 1),
-                                     scan_step * (best + 1));
+  const double rate = golden_section([&](double r) { return projected(r).residual; },
+                                     scan_step * (best - 1), scan_step * (best + 1));
   const Projection found = projected(rate);
   fit.rate = rate / range;
   fit.amplitude = found.amplitude * std::exp(-fit.rate * origin);
@@ -124,7 +127,8 @@ std::vector<double> low_pass(std::span<const double> y, int width) {
   const int half = width / 2;
   if (half < 1) return smooth;
   std::vector<double> weight(half + 1);
-  for (int k = 0; k <= half; ++k) weight[k] = 0.5 * (1.0 + std::cos(std::numbers::pi * k / (half + 1)));
+  for (int k = 0; k <= half; ++k)
+    weight[k] = 0.5 * (1.0 + std::cos(std::numbers::pi * k / (half + 1)));
   const int count = static_cast<int>(y.size());
   for (int k = 0; k < count; ++k) {
     if (!std::isfinite(y[k])) continue;
@@ -160,7 +164,8 @@ double quantile(std::span<const double> values, double p) {
   if (sorted.empty()) return not_known;
   std::sort(sorted.begin(), sorted.end());
   const double place = std::ceil(p * static_cast<double>(sorted.size())) - 1.0;
-  return sorted[static_cast<size_t>(std::clamp(place, 0.0, static_cast<double>(sorted.size() - 1)))];
+  return sorted[static_cast<size_t>(
+      std::clamp(place, 0.0, static_cast<double>(sorted.size() - 1)))];
 }
 
 }  // namespace ballast

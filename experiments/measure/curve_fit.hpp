@@ -12,14 +12,15 @@ inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// y = offset + slope x, ordinary least squares in y.
 struct LineFit {
   double offset = not_known, slope = not_known;
-  double slope_error = not_known;  ///< standard error of the slope, from the residuals (needs 3 samples)
-  double r2 = not_known;           ///< 1 - SS_residual / SS_total; NaN when y is constant
+  double slope_error =
+      not_known;          ///< standard error of the slope, from the residuals (needs 3 samples)
+  double r2 = not_known;  ///< 1 - SS_residual / SS_total; NaN when y is constant
   int samples = 0;
   double at(double x) const { return offset + slope * x; }
 };
 
-/// y = amplitude exp(rate x), least squares in y itself (not in log y, which would weight the small values and cannot take
-/// zeros). R^2 is in y as well, so it compares with a LineFit's.
+/// y = amplitude exp(rate x), least squares in y itself (not in log y, which would weight the small
+/// values and cannot take zeros). R^2 is in y as well, so it compares with a LineFit's.
 struct ExponentialFit {
   double amplitude = not_known, rate = not_known;
   double r2 = not_known;
@@ -31,8 +32,9 @@ struct ExponentialFit {
 LineFit fit_line(std::span<const double> x, std::span<const double> y);
 ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y);
 
-/// y = amplitude shape(x) for a shape that has no parameter left: its best amplitude, and the squared residuals about it.
-/// What a shape with one more parameter is fitted by: the least residual over that parameter. Everything must be finite.
+/// y = amplitude shape(x) for a shape that has no parameter left: its best amplitude, and the
+/// squared residuals about it. What a shape with one more parameter is fitted by: the least
+/// residual over that parameter. Everything must be finite.
 struct Projection {
   double amplitude = not_known, residual = not_known;
 };
@@ -52,8 +54,9 @@ Projection project(std::span<const double> x, std::span<const double> y, const S
   return result;
 }
 
-/// Centred low-pass without phase shift: Hann-weighted mean over `width` samples to both sides together (an odd number is made
-/// of it), weights cut and renormalised at the ends and where samples are not finite. NaN stays NaN. width <= 1: a copy.
+/// Centred low-pass without phase shift: Hann-weighted mean over `width` samples to both sides
+/// together (an odd number is made of it), weights cut and renormalised at the ends and where
+/// samples are not finite. NaN stays NaN. width <= 1: a copy.
 std::vector<double> low_pass(std::span<const double> y, int width);
 
 /// Mean, least and largest of the finite samples.
@@ -63,7 +66,8 @@ struct Statistics {
 };
 Statistics statistics(std::span<const double> values);
 
-/// Smallest value that the share `p` of the finite samples does not exceed (0 <= p <= 1); NaN without samples.
+/// Smallest value that the share `p` of the finite samples does not exceed (0 <= p <= 1); NaN
+/// without samples.
 double quantile(std::span<const double> values, double p);
 
 }  // namespace ballast

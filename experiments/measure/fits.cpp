@@ -17,7 +17,8 @@ Spread spread_of(std::span<const double> values) {
   for (const double value : values) spread.mean += value / static_cast<double>(values.size());
   double squares = 0.0;
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
-  if (values.size() > 1) spread.deviation = std::sqrt(squares / static_cast<double>(values.size() - 1));
+  if (values.size() > 1)
+    spread.deviation = std::sqrt(squares / static_cast<double>(values.size() - 1));
   return spread;
 }
 
@@ -33,7 +34,8 @@ double student_t95(int degrees_of_freedom) {
                              2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
                              2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
   if (degrees_of_freedom < 1) return std::numeric_limits<double>::infinity();
-  if (degrees_of_freedom <= static_cast<int>(table.size())) return table[static_cast<size_t>(degrees_of_freedom - 1)];
+  if (degrees_of_freedom <= static_cast<int>(table.size()))
+    return table[static_cast<size_t>(degrees_of_freedom - 1)];
   return 1.960 + 2.4 / degrees_of_freedom;  // right to 3e-3 from here on
 }
 
@@ -87,12 +89,14 @@ double reduced_chi2(const PowerFit& fit, std::span<const double> x, std::span<co
 Proportion fit_proportion(std::span<const double> x, std::span<const double> y) {
   std::vector<double> logs;
   for (size_t k = 0; k < std::min(x.size(), y.size()); ++k)
-    if (x[k] > 0.0 && y[k] > 0.0 && std::isfinite(x[k]) && std::isfinite(y[k])) logs.push_back(std::log(y[k] / x[k]));
+    if (x[k] > 0.0 && y[k] > 0.0 && std::isfinite(x[k]) && std::isfinite(y[k]))
+      logs.push_back(std::log(y[k] / x[k]));
   Proportion fit;
   fit.samples = static_cast<int>(logs.size());
   if (logs.empty()) return fit;
   const Spread spread = spread_of(logs);
-  const double half = student_t95(fit.samples - 1) * spread.deviation / std::sqrt(static_cast<double>(fit.samples));
+  const double half =
+      student_t95(fit.samples - 1) * spread.deviation / std::sqrt(static_cast<double>(fit.samples));
   fit.factor = std::exp(spread.mean);
   fit.low = std::exp(spread.mean - half);
   fit.high = std::exp(spread.mean + half);
@@ -119,7 +123,9 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   const double low = *least, ratio = *most / *least;
   constexpr int parts = 4000;  // 0.1 % of nu_c over two decades: finer than any interval it gives
   std::vector<double> residual(parts + 1);
-  const auto critical = [&](int k) { return low * std::pow(ratio, static_cast<double>(k) / parts); };
+  const auto critical = [&](int k) {
+    return low * std::pow(ratio, static_cast<double>(k) / parts);
+  };
   int best = 0;
   for (int k = 0; k <= parts; ++k) {
     residual[static_cast<size_t>(k)] = projected(critical(k)).residual;
@@ -137,7 +143,8 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   const double bound = least_residual * (1.0 + t * t / (fit.samples - 2)) + 1e-300;
   int first = best, last = best;
   for (int k = 0; k <= parts; ++k)
-    if (residual[static_cast<size_t>(k)] <= bound) first = std::min(first, k), last = std::max(last, k);
+    if (residual[static_cast<size_t>(k)] <= bound)
+      first = std::min(first, k), last = std::max(last, k);
   fit.low = critical(first);
   fit.high = critical(last);
   return fit;

@@ -10,8 +10,8 @@ namespace {
 
 /// Last sample at or before t (a quarter of a step for rounding); -1 when t is before the first.
 long sample_at(std::span<const StepRecord> steps, double t, double h) {
-  const auto later =
-      std::find_if(steps.begin(), steps.end(), [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
+  const auto later = std::find_if(steps.begin(), steps.end(),
+                                  [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
   return static_cast<long>(later - steps.begin()) - 1;
 }
 
@@ -40,7 +40,8 @@ double dissipated_in(std::span<const StepRecord> steps, const WallPeriod& period
   return sum;
 }
 
-void measure_periods(std::span<const StepRecord> steps, std::span<const WallPeriod> periods, Observation& seen) {
+void measure_periods(std::span<const StepRecord> steps, std::span<const WallPeriod> periods,
+                     Observation& seen) {
   seen.periods = static_cast<int>(periods.size());
   seen.rise = mean_over(periods, &WallPeriod::rise);
   seen.speed_in = mean_over(periods, &WallPeriod::speed_in);
@@ -57,30 +58,35 @@ void measure_periods(std::span<const StepRecord> steps, std::span<const WallPeri
 
 }  // namespace
 
-double transient_of(double frequency, const TimeWindow& window) { return std::max(window.begin, 1.0 / frequency); }
-
-double Observation::eq3() const {
-  return grain_mass / (grain_mass + wall_mass) * grain_mass * gravity / f_max * gravity / (frequency * frequency);
+double transient_of(double frequency, const TimeWindow& window) {
+  return std::max(window.begin, 1.0 / frequency);
 }
 
-double Observation::eq3_one_grain() const {
-  return mean_grain_mass / (mean_grain_mass + wall_mass) * mean_grain_mass * gravity / f_max * gravity /
+double Observation::eq3() const {
+  return grain_mass / (grain_mass + wall_mass) * grain_mass * gravity / f_max * gravity /
          (frequency * frequency);
 }
 
-double compaction_rate(std::span<const StepRecord> steps, double frequency, double step, double reference,
-                       const TimeWindow& window) {
+double Observation::eq3_one_grain() const {
+  return mean_grain_mass / (mean_grain_mass + wall_mass) * mean_grain_mass * gravity / f_max *
+         gravity / (frequency * frequency);
+}
+
+double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
+                       double reference, const TimeWindow& window) {
   if (steps.empty()) return not_known;
   const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
   const double a = std::ceil((window.begin - slack) * frequency) / frequency,
                b = std::floor((end + slack) * frequency) / frequency;
   const long first = sample_at(steps, a, step), last = sample_at(steps, b, step);
   if (!(b > a + slack) || first < 0 || last <= first) return not_known;
-  return (steps[static_cast<size_t>(last)].solid_fraction - steps[static_cast<size_t>(first)].solid_fraction) /
+  return (steps[static_cast<size_t>(last)].solid_fraction -
+          steps[static_cast<size_t>(first)].solid_fraction) /
          (reference * (b - a));
 }
 
-Observation observe(std::span<const StepRecord> steps, const RunFacts& given, double grains, const TimeWindow& window) {
+Observation observe(std::span<const StepRecord> steps, const RunFacts& given, double grains,
+                    const TimeWindow& window) {
   const RunFacts facts = complete_facts(given, steps);
   Observation seen;
   seen.frequency = facts.frequency;
@@ -103,8 +109,10 @@ Observation observe(std::span<const StepRecord> steps, const RunFacts& given, do
 
   seen.solid_initial = summary.compaction.initial;
   seen.solid_reference = summary.compaction.reference;
-  seen.rate = compaction_rate(steps, facts.frequency, facts.step, seen.solid_reference, paper_window);
-  seen.rate_common = compaction_rate(steps, facts.frequency, facts.step, seen.solid_reference, common_window);
+  seen.rate =
+      compaction_rate(steps, facts.frequency, facts.step, seen.solid_reference, paper_window);
+  seen.rate_common =
+      compaction_rate(steps, facts.frequency, facts.step, seen.solid_reference, common_window);
   seen.first_contraction = summary.contraction.size;
   seen.first_time90 = summary.contraction.time90;
   std::vector<double> errors;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/record/recorder.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
 
@@ -43,12 +43,14 @@ double number(const fs::path& file, long line, const char* column, std::string_v
   double value = not_known;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size())
-    fail(file, line, std::string(column) + " is not a number: \"" + std::string(field.substr(0, 40)) + '"');
+    fail(file, line,
+         std::string(column) + " is not a number: \"" + std::string(field.substr(0, 40)) + '"');
   return value;
 }
 
 /// For each field of the header the column it fills, nullptr where none.
-std::vector<const StepColumn*> match_header(const fs::path& file, std::string_view header, std::vector<std::string>& notices) {
+std::vector<const StepColumn*> match_header(const fs::path& file, std::string_view header,
+                                            std::vector<std::string>& notices) {
   std::vector<const StepColumn*> columns;
   for (std::string_view name : split(header)) {
     columns.push_back(nullptr);
@@ -63,7 +65,8 @@ std::vector<const StepColumn*> match_header(const fs::path& file, std::string_vi
     if (std::string_view(column.name) == "time") fail(file, 1, "the column \"time\" is missing");
     missing += (missing.empty() ? "" : ", ") + std::string(column.name);
   }
-  if (!missing.empty()) notices.push_back("steps.csv has no column " + missing + ": what needs it is left out.");
+  if (!missing.empty())
+    notices.push_back("steps.csv has no column " + missing + ": what needs it is left out.");
   return columns;
 }
 
@@ -73,24 +76,27 @@ void note_non_finite(const std::vector<StepRecord>& steps, std::vector<std::stri
     size_t count = 0, first = 0;
     for (size_t k = steps.size(); k-- > 0;)
       if (!std::isfinite(steps[k].*column.value)) ++count, first = k;
-    if (count == 0 || count == steps.size()) continue;  // all: the column is missing, which has been said
-    notices.push_back(std::string(column.name) + " is not finite in " + std::to_string(count) + " of " +
-                      std::to_string(steps.size()) + " steps, first in row " + std::to_string(first + 1) +
-                      ": these are left out.");
+    if (count == 0 || count == steps.size())
+      continue;  // all: the column is missing, which has been said
+    notices.push_back(std::string(column.name) + " is not finite in " + std::to_string(count) +
+                      " of " + std::to_string(steps.size()) + " steps, first in row " +
+                      std::to_string(first + 1) + ": these are left out.");
   }
 }
 
 void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
   for (size_t k = 0; k < steps.size(); ++k)
     if (!std::isfinite(steps[k].time) || (k > 0 && steps[k].time <= steps[k - 1].time))
-      throw Error(folder.string() + ": the record's time is not finite and growing in row " + std::to_string(k + 1));
+      throw Error(folder.string() + ": the record's time is not finite and growing in row " +
+                  std::to_string(k + 1));
 }
 
 void read_manifest(RunData& data) {
   const fs::path file = data.folder / "manifest.json";
   data.manifest = nlohmann::ordered_json::object();
   if (!fs::exists(file)) {
-    data.notices.push_back("manifest.json is missing: machine, commit and the run's summary are not known.");
+    data.notices.push_back(
+        "manifest.json is missing: machine, commit and the run's summary are not known.");
     return;
   }
   try {
@@ -135,14 +141,16 @@ RunFacts facts_of(const RunData& data) {
   facts.gravity = scene.gravity.norm();
   facts.has_packing = scene.grains.has_value();
   bool has_driven = scene.grains.has_value();
-  for (const WallSpec& wall : scene.walls) has_driven = has_driven || wall.motion == WallMotion::driven;
+  for (const WallSpec& wall : scene.walls)
+    has_driven = has_driven || wall.motion == WallMotion::driven;
   facts.has_wall = has_driven;
   if (!scene.grains) return facts;
   const double weight = facts.grain_mass * facts.gravity;
   if (!std::isfinite(facts.frequency)) facts.frequency = scene.drive.frequency;
   if (!std::isfinite(facts.f_max)) facts.f_max = scene.drive.f_max_over_weight * weight;
   if (!std::isfinite(facts.f_min)) facts.f_min = scene.drive.f_min_over_weight * weight;
-  if (!std::isfinite(facts.wall_mass)) facts.wall_mass = scene.drive.wall_mass_over_grains * facts.grain_mass;
+  if (!std::isfinite(facts.wall_mass))
+    facts.wall_mass = scene.drive.wall_mass_over_grains * facts.grain_mass;
   return facts;
 }
 
@@ -168,10 +176,12 @@ std::vector<StepRecord> read_steps_csv(const fs::path& file, std::vector<std::st
     if (row.empty()) continue;
     const auto fields = split(row);
     if (fields.size() != columns.size())
-      fail(file, line, std::to_string(fields.size()) + " fields, expected " + std::to_string(columns.size()));
+      fail(file, line,
+           std::to_string(fields.size()) + " fields, expected " + std::to_string(columns.size()));
     steps.push_back(unknown);
     for (size_t c = 0; c < columns.size(); ++c)
-      if (columns[c]) steps.back().*columns[c]->value = number(file, line, columns[c]->name, fields[c]);
+      if (columns[c])
+        steps.back().*columns[c]->value = number(file, line, columns[c]->name, fields[c]);
   }
   if (steps.empty()) throw Error(file.string() + ": holds no step");
   return steps;

@@ -1,5 +1,6 @@
 #pragma once
-// What a run's folder says about itself, read for the report: rows, manifest, scene. Only the rows must be there.
+// What a run's folder says about itself, read for the report: rows, manifest, scene. Only the rows
+// must be there.
 
 #include <filesystem>
 #include <optional>
@@ -17,21 +18,24 @@ namespace ballast {
 struct RunData {
   std::filesystem::path folder;
   std::vector<StepRecord> steps;
-  nlohmann::ordered_json manifest;  ///< an object; empty when there is none
+  nlohmann::ordered_json manifest;        ///< an object; empty when there is none
   std::string manifest_text, scene_text;  ///< as in the files; empty when missing
-  std::optional<Scene> scene;       ///< when scene.toml is there and valid
-  RunFacts facts;                   ///< from the manifest's summary, else from the scene
-  std::vector<std::string> notices; ///< what was missing, broken or not finite: one line each, for the reader of the report
+  std::optional<Scene> scene;             ///< when scene.toml is there and valid
+  RunFacts facts;                         ///< from the manifest's summary, else from the scene
+  std::vector<std::string> notices;  ///< what was missing, broken or not finite: one line each, for
+                                     ///< the reader of the report
 
   /// A number of manifest.summary; NaN when it isn't there or no number.
   double summary_number(const std::string& name) const;
 };
 
-/// steps.csv, else record.h5 or the logs of a run still going. Throws Error naming the file when there is no record, no row, no time,
-/// or a row that cannot be read.
+/// steps.csv, else record.h5 or the logs of a run still going. Throws Error naming the file when
+/// there is no record, no row, no time, or a row that cannot be read.
 RunData read_run_data(const std::filesystem::path& folder);
 
-/// steps.csv alone. Columns that are missing are NaN in every row and named in `notices`; columns not in step_columns() are skipped.
-std::vector<StepRecord> read_steps_csv(const std::filesystem::path& file, std::vector<std::string>& notices);
+/// steps.csv alone. Columns that are missing are NaN in every row and named in `notices`; columns
+/// not in step_columns() are skipped.
+std::vector<StepRecord> read_steps_csv(const std::filesystem::path& file,
+                                       std::vector<std::string>& notices);
 
 }  // namespace ballast

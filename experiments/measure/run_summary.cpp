@@ -9,7 +9,9 @@ namespace ballast {
 namespace {
 
 bool is_any_nonzero(std::span<const StepRecord> steps, double StepRecord::*value) {
-  return std::any_of(steps.begin(), steps.end(), [&](const StepRecord& s) { return std::isfinite(s.*value) && s.*value != 0.0; });
+  return std::any_of(steps.begin(), steps.end(), [&](const StepRecord& s) {
+    return std::isfinite(s.*value) && s.*value != 0.0;
+  });
 }
 
 /// From the crossings of the middle between the load's extremes, two in a period.
@@ -62,8 +64,10 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
   summary.error_max_relative = summary.error_rms.max / scale;
   summary.error_worst_contact = summary.error_max.max / scale;
   if (summary.error_rms.samples && std::isfinite(scale)) {
-    const auto above = std::count_if(rms.begin(), rms.end(), [&](double e) { return e > target::error_mean * scale; });
-    summary.above_target = static_cast<double>(above) / static_cast<double>(summary.error_rms.samples);
+    const auto above = std::count_if(rms.begin(), rms.end(),
+                                     [&](double e) { return e > target::error_mean * scale; });
+    summary.above_target =
+        static_cast<double>(above) / static_cast<double>(summary.error_rms.samples);
   }
   summary.penetration_mean = statistics(record_column(steps, &StepRecord::penetration_mean)).mean;
   for (const StepRecord& step : steps)
@@ -118,7 +122,8 @@ Statistics over_periods(const std::vector<WallPeriod>& periods, double WallPerio
   return statistics(values);
 }
 
-void summarise_wall(std::span<const StepRecord> steps, const WallSettings& settings, RunSummary& summary) {
+void summarise_wall(std::span<const StepRecord> steps, const WallSettings& settings,
+                    RunSummary& summary) {
   const RunFacts& facts = summary.facts;
   summary.wall = wall_cycles(steps, facts.frequency, facts.step, settings);
   summary.loop = fit_loop(steps, summary.wall, settings);
@@ -128,8 +133,9 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
   summary.net = over_periods(summary.wall.periods, &WallPeriod::net);
   summary.speed_in = over_periods(summary.wall.periods, &WallPeriod::speed_in);
   summary.speed_out = over_periods(summary.wall.periods, &WallPeriod::speed_out);
-  const double eq3 = facts.grain_mass / (facts.grain_mass + facts.wall_mass) * facts.grain_mass * facts.gravity / facts.f_max *
-                     facts.gravity / (facts.frequency * facts.frequency);
+  const double eq3 = facts.grain_mass / (facts.grain_mass + facts.wall_mass) * facts.grain_mass *
+                     facts.gravity / facts.f_max * facts.gravity /
+                     (facts.frequency * facts.frequency);
   summary.prefactor = summary.rise.mean / eq3;
 }
 
@@ -160,8 +166,11 @@ RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
     if (!std::isfinite(value)) value = found;
   };
   if (steps.size() > 1)
-    fill(facts.step, (steps.back().time - steps.front().time) / static_cast<double>(steps.size() - 1));
-  fill(facts.velocity_scale, facts.gravity > 0.0 ? facts.gravity * facts.step : facts.gravity == 0.0 ? 1.0 : not_known);
+    fill(facts.step,
+         (steps.back().time - steps.front().time) / static_cast<double>(steps.size() - 1));
+  fill(facts.velocity_scale, facts.gravity > 0.0    ? facts.gravity * facts.step
+                             : facts.gravity == 0.0 ? 1.0
+                                                    : not_known);
   if (!facts.has_wall) facts.has_wall = is_any_nonzero(steps, &StepRecord::load);
   if (!facts.has_packing) facts.has_packing = is_any_nonzero(steps, &StepRecord::solid_fraction);
   if (*facts.has_wall) {
@@ -170,11 +179,13 @@ RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
     fill(facts.f_min, load.min);
     fill(facts.frequency, frequency_of(steps, 0.5 * (load.min + load.max)));
   }
-  if (*facts.has_packing && !steps.empty()) fill(facts.solid_fraction_initial, steps.front().solid_fraction);
+  if (*facts.has_packing && !steps.empty())
+    fill(facts.solid_fraction_initial, steps.front().solid_fraction);
   return facts;
 }
 
-RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given, const WallSettings& settings) {
+RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
+                     const WallSettings& settings) {
   RunSummary summary;
   summary.facts = complete_facts(given, steps);
   summary.steps = static_cast<long>(steps.size());

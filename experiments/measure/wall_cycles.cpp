@@ -11,11 +11,13 @@ namespace {
 
 /// First sample later than t, with a quarter of a step for the rounding of multiples of h.
 size_t first_after(std::span<const StepRecord> steps, double t, double h) {
-  const auto later = std::find_if(steps.begin(), steps.end(), [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
+  const auto later = std::find_if(steps.begin(), steps.end(),
+                                  [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
   return static_cast<size_t>(later - steps.begin());
 }
 
-/// Largest rise above the running minimum, and where the wall comes back to. NaN samples are passed over.
+/// Largest rise above the running minimum, and where the wall comes back to. NaN samples are passed
+/// over.
 void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
   double running = not_known;
   for (size_t k = period.first; k < period.last; ++k) {
@@ -55,11 +57,13 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
   return period;
 }
 
-/// Marks the longest stretch of |v| <= limit, `least` samples or more, that holds a load above the period's mean, from sample `first` on; false when there is none.
-bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit, size_t least, size_t first,
-                 WallCycles& cycles) {
+/// Marks the longest stretch of |v| <= limit, `least` samples or more, that holds a load above the
+/// period's mean, from sample `first` on; false when there is none.
+bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit,
+                 size_t least, size_t first, WallCycles& cycles) {
   double mean = 0.0;
-  for (size_t k = period.first; k < period.last; ++k) mean += steps[k].load / static_cast<double>(period.last - period.first);
+  for (size_t k = period.first; k < period.last; ++k)
+    mean += steps[k].load / static_cast<double>(period.last - period.first);
   const auto is_slow = [&](size_t k) { return std::abs(cycles.velocity[k]) <= limit; };
   size_t longest_begin = 0, longest_end = 0;
   for (size_t k = period.first; k < period.last; ++k) {
@@ -73,40 +77,51 @@ bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, do
     }
     k = end;
   }
-  for (size_t k = std::max(longest_begin, first); k < longest_end; ++k) cycles.phase[k] = WallPhase::jammed;
+  for (size_t k = std::max(longest_begin, first); k < longest_end; ++k)
+    cycles.phase[k] = WallPhase::jammed;
   return longest_end > longest_begin;
 }
 
-void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h, const WallSettings& settings, WallCycles& cycles) {
+void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h,
+                 const WallSettings& settings, WallCycles& cycles) {
   const size_t first = first_after(steps, settings.first_transient, h);
   std::vector<double> speed;
   for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
   cycles.v_peak = statistics(speed).max;
   const double limit = settings.jammed_speed * cycles.v_peak;
   const size_t least = static_cast<size_t>(settings.jammed_least * duration_of_period / h);
-  bool has_moved = false;  // a wall that rests at the end of the transient has no phase yet, unless it is jammed since
+  bool has_moved = false;  // a wall that rests at the end of the transient has no phase yet, unless
+                           // it is jammed since
   for (size_t k = first; k < steps.size(); ++k) {
     const double v = cycles.velocity[k];
     has_moved = has_moved || std::abs(v) > limit;
-    if (has_moved) cycles.phase[k] = v > 0.0 ? WallPhase::active : v < 0.0 ? WallPhase::passive : WallPhase::none;
+    if (has_moved)
+      cycles.phase[k] = v > 0.0   ? WallPhase::active
+                        : v < 0.0 ? WallPhase::passive
+                                  : WallPhase::none;
   }
   // the jam before the first whole period reaches into it
   const double begin = cycles.periods.empty() ? 0.0 : cycles.periods.front().begin;
   if (begin >= duration_of_period - 0.25 * h)
-    mark_jammed(steps, make_period(steps, begin - duration_of_period, begin, h), limit, least, first, cycles);
+    mark_jammed(steps, make_period(steps, begin - duration_of_period, begin, h), limit, least,
+                first, cycles);
   for (const WallPeriod& period : cycles.periods)
     if (mark_jammed(steps, period, limit, least, first, cycles)) ++cycles.jammed_periods;
   for (WallPeriod& period : cycles.periods) {
-    const auto jammed = std::count(cycles.phase.begin() + static_cast<long>(period.first),
-                                   cycles.phase.begin() + static_cast<long>(period.last), WallPhase::jammed);
-    period.jammed_share = static_cast<double>(jammed) / static_cast<double>(period.last - period.first);
+    const auto jammed =
+        std::count(cycles.phase.begin() + static_cast<long>(period.first),
+                   cycles.phase.begin() + static_cast<long>(period.last), WallPhase::jammed);
+    period.jammed_share =
+        static_cast<double>(jammed) / static_cast<double>(period.last - period.first);
   }
 }
 
 }  // namespace
 
-WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double h, const WallSettings& settings) {
-  if (!(frequency > 0.0) || !(h > 0.0)) throw std::invalid_argument("wall cycles need a positive frequency and step");
+WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double h,
+                       const WallSettings& settings) {
+  if (!(frequency > 0.0) || !(h > 0.0))
+    throw std::invalid_argument("wall cycles need a positive frequency and step");
   const double duration_of_period = 1.0 / frequency;
   WallCycles cycles;
   cycles.smoothing = std::min(settings.smoothing, duration_of_period / 20.0);
@@ -131,7 +146,8 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   return cycles;
 }
 
-LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles, const WallSettings& settings) {
+LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles,
+                  const WallSettings& settings) {
   std::vector<double> active_x, active_force, passive_x, passive_force;
   for (size_t p = cycles.loop_first; p < cycles.loop_last; ++p) {
     const WallPeriod& period = cycles.periods[p];
@@ -144,19 +160,23 @@ LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles, c
       const double xi = steps[k].wall_x - (rises ? period.x_before : period.x_after);
       const double stroke = period.x_peak - (rises ? period.x_before : period.x_after);
       if (!is_fitted(xi, stroke)) continue;
-      if (rises && cycles.phase[k] == WallPhase::active && cycles.phase[k - width] == WallPhase::active) {
+      if (rises && cycles.phase[k] == WallPhase::active &&
+          cycles.phase[k - width] == WallPhase::active) {
         active_x.push_back(xi);
         active_force.push_back(cycles.force[k]);
-      } else if (!rises && cycles.phase[k] == WallPhase::passive && cycles.phase[k + width] == WallPhase::passive) {
+      } else if (!rises && cycles.phase[k] == WallPhase::passive &&
+                 cycles.phase[k + width] == WallPhase::passive) {
         passive_x.push_back(xi);
         passive_force.push_back(cycles.force[k]);
       }
     }
   }
-  return {fit_exponential(active_x, active_force), fit_line(active_x, active_force), fit_line(passive_x, passive_force)};
+  return {fit_exponential(active_x, active_force), fit_line(active_x, active_force),
+          fit_line(passive_x, passive_force)};
 }
 
-JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min, double f_max) {
+JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min,
+                         double f_max) {
   JammedState state;
   std::vector<double> miss, smooth_miss, speed;
   long jammed = 0, all = 0;

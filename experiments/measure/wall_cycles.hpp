@@ -1,11 +1,14 @@
 #pragma once
 // The driven wall's periods and phases (paper, sec. 3), found in a record of steps.
 //
-// Phases. Outward velocity v is taken from the record and smoothed; v_peak is its largest magnitude after the first transient.
-//   jammed   the longest unbroken stretch of |v| <= 2 % of v_peak in a period that holds a load above its mean (at the load's maximum
+// Phases. Outward velocity v is taken from the record and smoothed; v_peak is its largest magnitude
+// after the first transient.
+//   jammed   the longest unbroken stretch of |v| <= 2 % of v_peak in a period that holds a load
+//   above its mean (at the load's maximum
 //            itself a loose packing may still creep). The bound is loose on purpose:
-//            the residual velocity and f_g - f = m_w dv/dt inside are results of the solver, so they must not be what selects the samples.
-//            A turning point (v = 0 at the largest x) is not jammed: its load is low.
+//            the residual velocity and f_g - f = m_w dv/dt inside are results of the solver, so
+//            they must not be what selects the samples. A turning point (v = 0 at the largest x) is
+//            not jammed: its load is low.
 //   active   v > 0 elsewhere: the packing unloads and pushes the wall out.
 //   passive  v < 0 elsewhere: the wall is pressed in.
 
@@ -20,24 +23,27 @@ namespace ballast {
 enum class WallPhase : unsigned char { none, active, passive, jammed };
 
 struct WallSettings {
-  double first_transient = 0.2;   ///< cut off at the start [s]: the paper's time lag of the first contraction
-  double smoothing = 4e-3;        ///< width of the low-pass on f_g and v [s], but at most 1/20 period
-  double jammed_speed = 0.02;     ///< of v_peak
-  double jammed_least = 0.04;     ///< of a period: what is slow for a shorter time only turns
-  double fit_from = 0.1, fit_to = 0.9;  ///< part of each stroke that is fitted: without the transients at both ends
-  int loop_periods = 4;           ///< the paper's Fig. 4
+  double first_transient =
+      0.2;  ///< cut off at the start [s]: the paper's time lag of the first contraction
+  double smoothing = 4e-3;     ///< width of the low-pass on f_g and v [s], but at most 1/20 period
+  double jammed_speed = 0.02;  ///< of v_peak
+  double jammed_least = 0.04;  ///< of a period: what is slow for a shorter time only turns
+  double fit_from = 0.1,
+         fit_to = 0.9;  ///< part of each stroke that is fitted: without the transients at both ends
+  int loop_periods = 4;  ///< the paper's Fig. 4
 };
 
 /// One whole period of the load, (begin, end], from the load's falling mean to the next.
 struct WallPeriod {
-  double begin = 0, end = 0;     ///< [s]
-  size_t first = 0, last = 0;    ///< samples [first, last)
-  double x_before = not_known;   ///< jamming position the rise starts from: running minimum [m]
-  double x_peak = not_known;     ///< [m]
-  double x_after = not_known;    ///< jamming position after the peak: least x until the period's end [m]
-  size_t peak = 0;               ///< sample of x_peak
-  double rise = not_known;       ///< Delta x_max: largest rise above the running minimum [m]
-  double net = not_known;        ///< change of x over the period [m]; negative: contraction
+  double begin = 0, end = 0;    ///< [s]
+  size_t first = 0, last = 0;   ///< samples [first, last)
+  double x_before = not_known;  ///< jamming position the rise starts from: running minimum [m]
+  double x_peak = not_known;    ///< [m]
+  double x_after =
+      not_known;            ///< jamming position after the peak: least x until the period's end [m]
+  size_t peak = 0;          ///< sample of x_peak
+  double rise = not_known;  ///< Delta x_max: largest rise above the running minimum [m]
+  double net = not_known;   ///< change of x over the period [m]; negative: contraction
   double speed_out = not_known;  ///< largest outward velocity [m/s]
   double speed_in = not_known;   ///< largest inward velocity, positive: the paper's v_max [m/s]
   double solid_fraction = not_known;  ///< mean over the period
@@ -49,33 +55,42 @@ struct WallCycles {
   double smoothing = not_known;         ///< width used [s]
   size_t smoothing_samples = 0;         ///< the same in steps
   double v_peak = not_known;            ///< [m/s]
-  std::vector<WallPhase> phase;         ///< one per step; none before the end of the first transient
-  std::vector<WallPeriod> periods;      ///< whole ones after the first transient
-  size_t loop_first = 0, loop_last = 0; ///< index range in `periods` of the last settings.loop_periods
-  int jammed_periods = 0;               ///< periods in which a jammed stretch was found
+  std::vector<WallPhase> phase;     ///< one per step; none before the end of the first transient
+  std::vector<WallPeriod> periods;  ///< whole ones after the first transient
+  size_t loop_first = 0,
+         loop_last = 0;    ///< index range in `periods` of the last settings.loop_periods
+  int jammed_periods = 0;  ///< periods in which a jammed stretch was found
 };
 
-/// `frequency` of the load [Hz], `step` h [s]; both must be positive. Without a whole period after the transient `periods` is empty.
-WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double step, const WallSettings& settings = {});
+/// `frequency` of the load [Hz], `step` h [s]; both must be positive. Without a whole period after
+/// the transient `periods` is empty.
+WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double step,
+                       const WallSettings& settings = {});
 
-/// f_g against the displacement from the jamming position, xi = x - x_before (active) or x - x_after (passive), all loop periods
-/// together, smoothed f_g, between fit_from and fit_to of each stroke, and so far from the jam that the smoothing mixes nothing of
-/// it in. The paper: exponential when active, linear when passive.
+/// f_g against the displacement from the jamming position, xi = x - x_before (active) or x -
+/// x_after (passive), all loop periods together, smoothed f_g, between fit_from and fit_to of each
+/// stroke, and so far from the jam that the smoothing mixes nothing of it in. The paper:
+/// exponential when active, linear when passive.
 struct LoopFits {
   ExponentialFit active;  ///< [N], rate [1/m]
-  LineFit active_line;    ///< the same samples with a straight line, to see whether "exponential" says more
+  LineFit active_line;    ///< the same samples with a straight line, to see whether "exponential"
+                          ///< says more
   LineFit passive;        ///< [N], slope [N/m]: negative, f_g grows as x decreases
 };
-LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles, const WallSettings& settings = {});
+LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles,
+                  const WallSettings& settings = {});
 
-/// The jammed state where the load is above its mean (with the load below, the wall is about to leave).
+/// The jammed state where the load is above its mean (with the load below, the wall is about to
+/// leave).
 struct JammedState {
   long samples = 0;
-  double share = not_known;       ///< jammed samples of all phases' samples, whatever the load
-  double force_mean = not_known, force_p95 = not_known, force_max = not_known;  ///< |f_g - f|/f_max per step, not smoothed
-  double force_smooth = not_known;            ///< mean |f_g - f|/f_max with f_g smoothed
+  double share = not_known;  ///< jammed samples of all phases' samples, whatever the load
+  double force_mean = not_known, force_p95 = not_known,
+         force_max = not_known;                          ///< |f_g - f|/f_max per step, not smoothed
+  double force_smooth = not_known;                       ///< mean |f_g - f|/f_max with f_g smoothed
   double speed_mean = not_known, speed_max = not_known;  ///< |v| [m/s], not smoothed
 };
-JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min, double f_max);
+JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min,
+                         double f_max);
 
 }  // namespace ballast

@@ -13,12 +13,16 @@
 namespace ballast {
 namespace {
 
-/// Length of the UTF-8 sequence at the start of `text`; 0 when it is none (overlong, surrogate, cut).
+/// Length of the UTF-8 sequence at the start of `text`; 0 when it is none (overlong, surrogate,
+/// cut).
 size_t utf8_length(std::string_view text) {
   const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char first = byte(0);
   if (first < 0x80) return 1;
-  const size_t length = first >= 0xf0 && first < 0xf5 ? 4 : first >= 0xe0 ? 3 : first >= 0xc2 ? 2 : 0;
+  const size_t length = first >= 0xf0 && first < 0xf5 ? 4
+                        : first >= 0xe0               ? 3
+                        : first >= 0xc2               ? 2
+                                                      : 0;
   if (length == 0 || first >= 0xf5 || text.size() < length) return 0;
   for (size_t k = 1; k < length; ++k)
     if ((byte(k) & 0xc0) != 0x80) return 0;
@@ -28,7 +32,8 @@ size_t utf8_length(std::string_view text) {
 }
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
 }
 
 /// Cuts every stretch from `begin` to `end`, both included.
@@ -44,7 +49,8 @@ void tighten_colours(std::string& text) {
   for (size_t at = 0; (at = text.find("rgb(", at)) != std::string::npos; ++at) {
     const size_t close = text.find(')', at);
     if (close == std::string::npos) return;
-    const auto begin = text.begin() + static_cast<long>(at), end = text.begin() + static_cast<long>(close);
+    const auto begin = text.begin() + static_cast<long>(at),
+               end = text.begin() + static_cast<long>(close);
     text.erase(std::remove(begin, end, ' '), end);
   }
 }
@@ -67,7 +73,8 @@ std::string number_text(double value, int digits, bool is_exact) {
   const bool has_power = exponent < -3 || exponent >= 6;
   std::string result(text, static_cast<size_t>(mark - text)), power;
   if (has_power) {
-    power = "×10<sup>" + std::string(exponent < 0 ? "−" : "") + std::to_string(std::abs(exponent)) + "</sup>";
+    power = "×10<sup>" + std::string(exponent < 0 ? "−" : "") + std::to_string(std::abs(exponent)) +
+            "</sup>";
   } else {
     std::snprintf(text, sizeof text, "%.*f", std::max(0, digits - 1 - exponent), value);
     result = text;
@@ -81,23 +88,28 @@ std::string number_text(double value, int digits, bool is_exact) {
 std::string colour_rules(const std::string& rgb, const std::string& variable) {
   std::string rules;
   for (const char* property : {"stroke", "fill", "color"})
-    rules += std::string("svg [") + property + "=\"" + rgb + "\"]{" + property + ":var(" + variable + ")}\n";
+    rules += std::string("svg [") + property + "=\"" + rgb + "\"]{" + property + ":var(" +
+             variable + ")}\n";
   return rules;
 }
 
 std::string attribute_form(const char* hex) {
   const long value = std::strtol(hex + 1, nullptr, 16);
   char text[32];
-  std::snprintf(text, sizeof text, "rgb(%ld,%ld,%ld)", value >> 16, (value >> 8) & 255, value & 255);
+  std::snprintf(text, sizeof text, "rgb(%ld,%ld,%ld)", value >> 16, (value >> 8) & 255,
+                value & 255);
   return text;
 }
 
 std::string palette_rules() {
   std::string rules = colour_rules("black", "--ink") + colour_rules("rgb(224,224,224)", "--grid");
   constexpr std::pair<Ink, const char*> inks[] = {
-      {Ink::black, "--ink"},   {Ink::blue, "--blue"}, {Ink::vermilion, "--vermilion"}, {Ink::green, "--green"}, {Ink::orange, "--orange"},
-      {Ink::sky, "--sky"},     {Ink::purple, "--purple"}, {Ink::yellow, "--yellow"},   {Ink::grey, "--grey"},   {Ink::light, "--light"}};
-  for (const auto& [ink, variable] : inks) rules += colour_rules(attribute_form(rgb_of(ink)), variable);
+      {Ink::black, "--ink"},     {Ink::blue, "--blue"},     {Ink::vermilion, "--vermilion"},
+      {Ink::green, "--green"},   {Ink::orange, "--orange"}, {Ink::sky, "--sky"},
+      {Ink::purple, "--purple"}, {Ink::yellow, "--yellow"}, {Ink::grey, "--grey"},
+      {Ink::light, "--light"}};
+  for (const auto& [ink, variable] : inks)
+    rules += colour_rules(attribute_form(rgb_of(ink)), variable);
   return rules;
 }
 
@@ -139,7 +151,8 @@ Html quantity(double value, const char* unit, int digits) {
 
 Html verdict(double value, double bound) {
   if (std::isnan(value) || std::isnan(bound)) return {};
-  return value <= bound ? Html{"<span class=\"met\">✓ met</span>"} : Html{"<span class=\"missed\">✗ missed</span>"};
+  return value <= bound ? Html{"<span class=\"met\">✓ met</span>"}
+                        : Html{"<span class=\"missed\">✗ missed</span>"};
 }
 
 Html to_html(const HtmlTable& table) {
@@ -147,11 +160,13 @@ Html to_html(const HtmlTable& table) {
     std::string markup = "<tr>";
     for (size_t c = 0; c < cells.size(); ++c) {
       const bool is_number = c < table.is_number.size() && table.is_number[c];
-      markup += std::string("<") + tag + (is_number ? " class=\"n\">" : ">") + cells[c].markup + "</" + tag + '>';
+      markup += std::string("<") + tag + (is_number ? " class=\"n\">" : ">") + cells[c].markup +
+                "</" + tag + '>';
     }
     return markup + "</tr>\n";
   };
-  std::string markup = "<div class=\"scroll\"><table" + (table.css_class.empty() ? "" : " class=\"" + table.css_class + '"') + ">\n";
+  std::string markup = "<div class=\"scroll\"><table" +
+                       (table.css_class.empty() ? "" : " class=\"" + table.css_class + '"') + ">\n";
   if (!table.head.empty()) markup += "<thead>" + row(table.head, "th") + "</thead>\n";
   markup += "<tbody>\n";
   for (const auto& cells : table.rows) markup += row(cells, "td");
@@ -167,7 +182,8 @@ Html inline_svg(std::string_view svg, const std::string& name, const std::string
   // gnuplot numbers its marks alike in every file
   for (const char quote : {'\'', '"'}) {
     replace_all(text, std::string("id=") + quote, std::string("id=") + quote + name + '-');
-    replace_all(text, std::string("href=") + quote + '#', std::string("href=") + quote + '#' + name + '-');
+    replace_all(text, std::string("href=") + quote + '#',
+                std::string("href=") + quote + '#' + name + '-');
   }
   replace_all(text, "url(#", "url(#" + name + '-');
   tighten_colours(text);
@@ -180,20 +196,21 @@ Html inline_svg(std::string_view svg, const std::string& name, const std::string
 }
 
 Html html_figure(const std::string& name, const Html& picture, const Html& caption) {
-  return {"<figure id=\"" + escaped(name).markup + "\">\n" + picture.markup + "<figcaption>" + caption.markup +
-          "</figcaption>\n</figure>\n"};
+  return {"<figure id=\"" + escaped(name).markup + "\">\n" + picture.markup + "<figcaption>" +
+          caption.markup + "</figcaption>\n</figure>\n"};
 }
 
 Html html_section(const std::string& id, const Html& heading, const Html& body) {
-  return {"<section id=\"" + id + "\">\n<h2>" + heading.markup + "</h2>\n" + body.markup + "</section>\n"};
+  return {"<section id=\"" + id + "\">\n<h2>" + heading.markup + "</h2>\n" + body.markup +
+          "</section>\n"};
 }
 
 std::string html_page(const std::string& title, const Html& body) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
-         escaped(title).markup + "</title>\n<style>\n" + page_style + palette_rules() + "</style>\n</head>\n<body>\n<main>\n" +
-         body.markup + "</main>\n</body>\n</html>\n";
+         escaped(title).markup + "</title>\n<style>\n" + page_style + palette_rules() +
+         "</style>\n</head>\n<body>\n<main>\n" + body.markup + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace ballast

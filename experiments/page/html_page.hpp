@@ -1,5 +1,6 @@
 #pragma once
-// One HTML page that opens offline: escaping, numbers, tables, inlined figures, style. No script, nothing loaded from elsewhere.
+// One HTML page that opens offline: escaping, numbers, tables, inlined figures, style. No script,
+// nothing loaded from elsewhere.
 
 #include <string>
 #include <string_view>
@@ -7,8 +8,8 @@
 
 namespace ballast {
 
-/// Text that is HTML already. It is made from literals of this program or by escaped(): what comes from files and users
-/// cannot get into a page unescaped without saying Html{...}.
+/// Text that is HTML already. It is made from literals of this program or by escaped(): what comes
+/// from files and users cannot get into a page unescaped without saying Html{...}.
 struct Html {
   std::string markup;
   Html& operator+=(const Html& other) {
@@ -18,16 +19,19 @@ struct Html {
 };
 inline Html operator+(Html a, const Html& b) { return a += b; }
 
-/// & < > " ' become entities; control characters that HTML forbids and bytes that are no UTF-8 become U+FFFD.
+/// & < > " ' become entities; control characters that HTML forbids and bytes that are no UTF-8
+/// become U+FFFD.
 Html escaped(std::string_view text);
 
-/// `digits` significant digits; powers of ten below 1e-3 and from 1e6 on; a dash for NaN and infinities.
+/// `digits` significant digits; powers of ten below 1e-3 and from 1e6 on; a dash for NaN and
+/// infinities.
 Html number(double value, int digits = 3);
 /// The same without trailing zeros: settings and counts, which are exact.
 Html exact(double value, int digits = 7);
 /// number, narrow space, unit (HTML).
 Html quantity(double value, const char* unit, int digits = 3);
-/// Value against its bound: "met" or "missed" with a sign that doesn't need colour; nothing when either is NaN.
+/// Value against its bound: "met" or "missed" with a sign that doesn't need colour; nothing when
+/// either is NaN.
 Html verdict(double value, double bound);
 
 struct HtmlTable {
@@ -38,8 +42,9 @@ struct HtmlTable {
 };
 Html to_html(const HtmlTable& table);
 
-/// A figure's SVG for inlining: without XML declaration, doctype and comments, with ids of its own, colours in the form that the page's style
-/// maps to its light and dark palette, and `title` for screen readers.
+/// A figure's SVG for inlining: without XML declaration, doctype and comments, with ids of its own,
+/// colours in the form that the page's style maps to its light and dark palette, and `title` for
+/// screen readers.
 Html inline_svg(std::string_view svg, const std::string& name, const std::string& title);
 
 Html html_figure(const std::string& name, const Html& picture, const Html& caption);

@@ -1,5 +1,6 @@
 #pragma once
-// The page's style sheet. Colours of figures are variables: palette_rules() of html_page.cpp points the SVG's colours at them.
+// The page's style sheet. Colours of figures are variables: palette_rules() of html_page.cpp points
+// the SVG's colours at them.
 
 namespace ballast {
 

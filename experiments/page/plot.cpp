@@ -5,15 +5,16 @@
 #include <stdexcept>
 
 #include "platform/atomic_file.hpp"
-#include "platform/program.hpp"
 #include "platform/error.hpp"
+#include "platform/program.hpp"
 
 namespace ballast {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// gnuplot points at its complaint with a line of "^": the sentence is the last line that says something.
+/// gnuplot points at its complaint with a line of "^": the sentence is the last line that says
+/// something.
 std::string last_line(const std::string& errors) {
   std::string line, last;
   for (const char c : errors + '\n') {
@@ -29,12 +30,14 @@ std::string last_line(const std::string& errors) {
 
 std::string why(const ProgramResult& child, double seconds) {
   if (!child.was_found) return "gnuplot cannot be started: " + child.errors;
-  if (child.timed_out) return "gnuplot was ended after " + std::to_string(std::lround(seconds)) + " s";
+  if (child.timed_out)
+    return "gnuplot was ended after " + std::to_string(std::lround(seconds)) + " s";
   return "gnuplot failed (" + std::to_string(child.status) + "): " + last_line(child.errors);
 }
 
 /// Writes the script and returns what gnuplot made of it.
-std::string run_gnuplot(const Figure& figure, PlotFormat format, const fs::path& commands, double seconds) {
+std::string run_gnuplot(const Figure& figure, PlotFormat format, const fs::path& commands,
+                        double seconds) {
   std::string script;
   try {
     script = gnuplot_script(figure, format);
@@ -56,12 +59,14 @@ std::string gnuplot_version() {
 }
 
 void render_pdf(const Figure& figure, const fs::path& folder, double seconds) {
-  const fs::path pdf = folder / (figure.name + ".pdf"), commands = fs::absolute(folder / (figure.name + ".pdf.gnuplot"));
+  const fs::path pdf = folder / (figure.name + ".pdf"),
+                 commands = fs::absolute(folder / (figure.name + ".pdf.gnuplot"));
   std::error_code ignored;
   fs::remove(pdf, ignored);
   const std::string output = run_gnuplot(figure, PlotFormat::pdf, commands, seconds);
   fs::remove(commands, ignored);
-  if (output.find("%%EOF") == std::string::npos) throw Error("figure " + figure.name + ": gnuplot's PDF is incomplete");
+  if (output.find("%%EOF") == std::string::npos)
+    throw Error("figure " + figure.name + ": gnuplot's PDF is incomplete");
   write_whole_file(pdf, output);
 }
 
@@ -72,7 +77,8 @@ std::string render_svg(const Figure& figure, const fs::path& folder, double seco
   // absolute: a name beginning with "-" or "<" would mean something to gnuplot
   const fs::path commands = fs::absolute(folder / (figure.name + ".gnuplot"));
   std::string output = run_gnuplot(figure, PlotFormat::svg, commands, seconds);
-  if (output.find("</svg>") == std::string::npos) throw Error("figure " + figure.name + ": gnuplot's SVG is incomplete");
+  if (output.find("</svg>") == std::string::npos)
+    throw Error("figure " + figure.name + ": gnuplot's SVG is incomplete");
   write_whole_file(svg, output);
   return output;
 }

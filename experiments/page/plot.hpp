@@ -1,8 +1,9 @@
 #pragma once
-// Plots by gnuplot: the one place that knows it. A figure is plain data; its script holds the data too, so that
-// `gnuplot figures/x.gnuplot > x.svg` makes the same picture again.
+// Plots by gnuplot: the one place that knows it. A figure is plain data; its script holds the data
+// too, so that `gnuplot figures/x.gnuplot > x.svg` makes the same picture again.
 //
-// Labels are gnuplot's enhanced text: x_{max} and {/:Italic f} work; text from outside goes through plain_text().
+// Labels are gnuplot's enhanced text: x_{max} and {/:Italic f} work; text from outside goes through
+// plain_text().
 
 #include <filesystem>
 #include <optional>
@@ -12,7 +13,8 @@
 
 namespace ballast {
 
-/// Okabe and Ito's colour-blind-safe colours, and two greys. The page maps them to lighter ones on a dark ground.
+/// Okabe and Ito's colour-blind-safe colours, and two greys. The page maps them to lighter ones on
+/// a dark ground.
 enum class Ink { black, blue, vermilion, green, orange, sky, purple, yellow, grey, light };
 const char* rgb_of(Ink ink);  ///< "#rrggbb"
 
@@ -24,10 +26,10 @@ enum class Mark {
 
 struct Curve {
   std::vector<double> x, y;
-  std::string title;     ///< empty: not in the key
+  std::string title;  ///< empty: not in the key
   Ink ink = Ink::blue;
   Mark mark = Mark::line;
-  double width = 1.6;    ///< of the line, or size of the points
+  double width = 1.6;  ///< of the line, or size of the points
   bool dashed = false;
   double opacity = 1.0;
   std::vector<double> y_error;  ///< points: half length of the bars
@@ -54,7 +56,8 @@ struct Figure {
   std::string name;   ///< stem of its files: letters, digits, _ and -
   std::string title;  ///< for screen readers and the SVG's <title>; plain text
   int width = 900, height = 420;
-  std::vector<Panel> panels;  ///< one above the other, x axes aligned; only the last shows its x label if all share it
+  std::vector<Panel> panels;  ///< one above the other, x axes aligned; only the last shows its x
+                              ///< label if all share it
 };
 
 /// Escapes what enhanced text would interpret; control characters become spaces.
@@ -62,20 +65,25 @@ std::string plain_text(const std::string& text);
 
 enum class PlotFormat { svg, pdf };
 
-/// The script, data included; output goes to standard output. Throws std::invalid_argument when the figure is inconsistent.
+/// The script, data included; output goes to standard output. Throws std::invalid_argument when the
+/// figure is inconsistent.
 std::string gnuplot_script(const Figure& figure, PlotFormat format = PlotFormat::svg);
 
-/// Version line of the gnuplot found on PATH ("gnuplot 5.4 patchlevel 4"); empty when there is none.
+/// Version line of the gnuplot found on PATH ("gnuplot 5.4 patchlevel 4"); empty when there is
+/// none.
 std::string gnuplot_version();
 
-/// Writes folder/<name>.gnuplot and folder/<name>.svg, each beside and renamed, and returns the SVG's text. The child gets no shell and
-/// reads no configuration; it is ended after `seconds`. Throws Error naming the figure; an older SVG of that name is gone then.
-std::string render_svg(const Figure& figure, const std::filesystem::path& folder, double seconds = 60.0);
+/// Writes folder/<name>.gnuplot and folder/<name>.svg, each beside and renamed, and returns the
+/// SVG's text. The child gets no shell and reads no configuration; it is ended after `seconds`.
+/// Throws Error naming the figure; an older SVG of that name is gone then.
+std::string render_svg(const Figure& figure, const std::filesystem::path& folder,
+                       double seconds = 60.0);
 
 /// Writes folder/<name>.pdf in the same way: for papers. Nothing else is left behind.
 void render_pdf(const Figure& figure, const std::filesystem::path& folder, double seconds = 60.0);
 
-/// At most `limit` samples that look the same: the least and the largest of each stretch, in their order; NaN once per stretch.
+/// At most `limit` samples that look the same: the least and the largest of each stretch, in their
+/// order; NaN once per stretch.
 void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit);
 
 }  // namespace ballast

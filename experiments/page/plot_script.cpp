@@ -47,8 +47,8 @@ struct Extent {
     high = std::max(high, value);
   }
   bool is_empty() const { return low > high; }
-  /// `margin` of the span to both sides; a logarithmic axis on which fewer than two decades would then be marked gets
-  /// whole ones.
+  /// `margin` of the span to both sides; a logarithmic axis on which fewer than two decades would
+  /// then be marked gets whole ones.
   void pad(double margin) {
     if (is_log) {
       const double first = std::log10(low), last = std::log10(high), more = margin * (last - first);
@@ -106,7 +106,8 @@ std::string data_block(const std::string& name, const Curve& curve) {
 }
 
 std::string colour(Ink ink, double opacity) {
-  const int transparency = static_cast<int>(std::lround(255.0 * (1.0 - std::clamp(opacity, 0.0, 1.0))));
+  const int transparency =
+      static_cast<int>(std::lround(255.0 * (1.0 - std::clamp(opacity, 0.0, 1.0))));
   if (transparency == 0) return std::string("'") + rgb_of(ink) + "'";
   return print("'#%02x%s'", transparency, rgb_of(ink) + 1);
 }
@@ -116,12 +117,14 @@ std::string plot_command(const std::string& block, const Curve& curve) {
   const std::string ink = colour(curve.ink, curve.opacity);
   switch (curve.mark) {
     case Mark::line:
-      text += print(" using 1:2 with lines lc rgb %s lw %.3g%s", ink.c_str(), curve.width, curve.dashed ? " dt (8,5)" : "");
+      text += print(" using 1:2 with lines lc rgb %s lw %.3g%s", ink.c_str(), curve.width,
+                    curve.dashed ? " dt (8,5)" : "");
       break;
     case Mark::points:
-      text += curve.y_error.empty()
-                  ? print(" using 1:2 with points pt 7 ps %.3g lc rgb %s", 0.35 * curve.width, ink.c_str())
-                  : print(" using 1:2:3 with yerrorbars pt 7 ps %.3g lc rgb %s", 0.35 * curve.width, ink.c_str());
+      text += curve.y_error.empty() ? print(" using 1:2 with points pt 7 ps %.3g lc rgb %s",
+                                            0.35 * curve.width, ink.c_str())
+                                    : print(" using 1:2:3 with yerrorbars pt 7 ps %.3g lc rgb %s",
+                                            0.35 * curve.width, ink.c_str());
       break;
     case Mark::area:
       text += print(" using 1:2:3 with filledcurves fs solid noborder fc rgb %s", ink.c_str());
@@ -132,12 +135,14 @@ std::string plot_command(const std::string& block, const Curve& curve) {
 
 std::string reference(const ReferenceLine& line) {
   const std::string v = number(line.value), ink = rgb_of(line.ink);
-  std::string text = line.vertical ? "set arrow from first " + v + ", graph 0 to first " + v + ", graph 1"
-                                   : "set arrow from graph 0, first " + v + " to graph 1, first " + v;
+  std::string text = line.vertical
+                         ? "set arrow from first " + v + ", graph 0 to first " + v + ", graph 1"
+                         : "set arrow from graph 0, first " + v + " to graph 1, first " + v;
   text += " nohead front lw 1.2 dt (3,4) lc rgb '" + ink + "'\n";
   if (line.label.empty()) return text;
-  text += "set label " + quoted(line.label) + (line.vertical ? " at first " + v + ", graph 0.95 left offset character 0.5, 0"
-                                                              : " at graph 0.995, first " + v + " right offset character 0, 0.5");
+  text += "set label " + quoted(line.label) +
+          (line.vertical ? " at first " + v + ", graph 0.95 left offset character 0.5, 0"
+                         : " at graph 0.995, first " + v + " right offset character 0, 0.5");
   return text + " front font ',13' tc rgb '" + rgb_of(Ink::black) + "'\n";
 }
 
@@ -145,21 +150,26 @@ void check(const Figure& figure) {
   const auto require = [&](bool is_good, const char* what) {
     if (!is_good) throw std::invalid_argument("figure " + figure.name + ": " + what);
   };
-  const bool is_plain = !figure.name.empty() && std::all_of(figure.name.begin(), figure.name.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '_' || c == '-';
-  });
+  const bool is_plain = !figure.name.empty() &&
+                        std::all_of(figure.name.begin(), figure.name.end(), [](unsigned char c) {
+                          return std::isalnum(c) || c == '_' || c == '-';
+                        });
   require(is_plain, "its name must be of letters, digits, _ and -");
   require(!figure.panels.empty(), "no panel");
   for (const Panel& panel : figure.panels)
     for (const Curve& curve : panel.curves) {
       require(curve.x.size() == curve.y.size(), "as many x as y");
-      require(curve.y_error.empty() || curve.y_error.size() == curve.y.size(), "as many error bars as points");
-      require((curve.mark == Mark::area) == !curve.y_low.empty(), "an area, and only it, has lower bounds");
-      require(curve.y_low.empty() || curve.y_low.size() == curve.y.size(), "as many lower bounds as y");
+      require(curve.y_error.empty() || curve.y_error.size() == curve.y.size(),
+              "as many error bars as points");
+      require((curve.mark == Mark::area) == !curve.y_low.empty(),
+              "an area, and only it, has lower bounds");
+      require(curve.y_low.empty() || curve.y_low.size() == curve.y.size(),
+              "as many lower bounds as y");
     }
 }
 
-/// Columns and rows of a panel's key: all columns are as wide as the longest title (gnuplot's rule), letters taken as wide as it takes them.
+/// Columns and rows of a panel's key: all columns are as wide as the longest title (gnuplot's
+/// rule), letters taken as wide as it takes them.
 struct KeySize {
   int columns = 1, rows = 0;
 };
@@ -171,12 +181,14 @@ KeySize key_size(const Figure& figure, const Panel& panel) {
   for (const Curve& curve : panel.curves) {
     if (curve.title.empty()) continue;
     ++entries;
-    const auto letters = std::count_if(curve.title.begin(), curve.title.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; });
+    const auto letters = std::count_if(curve.title.begin(), curve.title.end(),
+                                       [](unsigned char c) { return (c & 0xc0) != 0x80; });
     widest = std::max(widest, sample + letter * static_cast<double>(letters));
   }
   if (entries == 0) return {};
   KeySize size;
-  size.columns = std::clamp(static_cast<int>((figure.width - left_margin - right_margin) / widest), 1, entries);
+  size.columns = std::clamp(static_cast<int>((figure.width - left_margin - right_margin) / widest),
+                            1, entries);
   size.rows = (entries + size.columns - 1) / size.columns;
   return size;
 }
@@ -187,24 +199,33 @@ struct PanelPlace {
   KeySize key;
 };
 
-std::string panel_commands(const Figure& figure, const Panel& panel, const PanelPlace& place, const std::string& blocks) {
+std::string panel_commands(const Figure& figure, const Panel& panel, const PanelPlace& place,
+                           const std::string& blocks) {
   const Extent x = x_extent(panel), y = y_extent(panel);
-  std::string text = "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n";
+  std::string text =
+      "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n";
   const double right = 1.0 - right_margin / figure.width;
-  text += print("set lmargin at screen %.5f\nset rmargin at screen %.5f\n", left_margin / figure.width, right);
-  text += print("set tmargin at screen %.5f\nset bmargin at screen %.5f\n", place.top / figure.height, place.bottom / figure.height);
-  text += "set xrange [" + number(x.low) + ':' + number(x.high) + "]\nset yrange [" + number(y.low) + ':' + number(y.high) + "]\n";
+  text += print("set lmargin at screen %.5f\nset rmargin at screen %.5f\n",
+                left_margin / figure.width, right);
+  text += print("set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
+                place.top / figure.height, place.bottom / figure.height);
+  text += "set xrange [" + number(x.low) + ':' + number(x.high) + "]\nset yrange [" +
+          number(y.low) + ':' + number(y.high) + "]\n";
   if (panel.log_x) text += "set logscale x\nset format x '10^{%L}'\n";
   if (panel.log_y) text += "set logscale y\nset format y '10^{%L}'\n";
-  text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n" : "set xlabel ''\nset format x ''\n";
+  text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n"
+                        : "set xlabel ''\nset format x ''\n";
   text += "set ylabel " + quoted(panel.y_label) + '\n';
   // above the box, to the right
-  text += print("set key at screen %.5f, screen %.5f right center horizontal maxcols %d samplen 1.6 spacing 1.0\n", right,
-                (place.top + 5.0 + 0.5 * key_row * place.key.rows) / figure.height, place.key.columns);
+  text += print(
+      "set key at screen %.5f, screen %.5f right center horizontal maxcols %d samplen 1.6 spacing "
+      "1.0\n",
+      right, (place.top + 5.0 + 0.5 * key_row * place.key.rows) / figure.height, place.key.columns);
   for (const ReferenceLine& line : panel.lines) text += reference(line);
   std::string curves;
   for (size_t c = 0; c < panel.curves.size(); ++c)
-    curves += (curves.empty() ? "" : ", \\\n     ") + plot_command(blocks + std::to_string(c), panel.curves[c]);
+    curves += (curves.empty() ? "" : ", \\\n     ") +
+              plot_command(blocks + std::to_string(c), panel.curves[c]);
   return text + "plot " + curves + '\n';
 }
 
@@ -212,16 +233,26 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
 
 const char* rgb_of(Ink ink) {
   switch (ink) {
-    case Ink::black: return "#1a1a1a";
-    case Ink::blue: return "#0072b2";
-    case Ink::vermilion: return "#d55e00";
-    case Ink::green: return "#009e73";
-    case Ink::orange: return "#e69f00";
-    case Ink::sky: return "#56b4e9";
-    case Ink::purple: return "#cc79a7";
-    case Ink::yellow: return "#f0e442";
-    case Ink::grey: return "#767676";
-    case Ink::light: return "#b8b8b8";
+    case Ink::black:
+      return "#1a1a1a";
+    case Ink::blue:
+      return "#0072b2";
+    case Ink::vermilion:
+      return "#d55e00";
+    case Ink::green:
+      return "#009e73";
+    case Ink::orange:
+      return "#e69f00";
+    case Ink::sky:
+      return "#56b4e9";
+    case Ink::purple:
+      return "#cc79a7";
+    case Ink::yellow:
+      return "#f0e442";
+    case Ink::grey:
+      return "#767676";
+    case Ink::light:
+      return "#b8b8b8";
   }
   return "#000000";
 }
@@ -229,7 +260,9 @@ const char* rgb_of(Ink ink) {
 std::string plain_text(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '^' || c == '_' || c == '@' || c == '&' || c == '~' || c == '{' || c == '}' || c == '\\') result += '\\';
+    if (c == '^' || c == '_' || c == '@' || c == '&' || c == '~' || c == '{' || c == '}' ||
+        c == '\\')
+      result += '\\';
     result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return result;
@@ -237,31 +270,38 @@ std::string plain_text(const std::string& text) {
 
 std::string gnuplot_script(const Figure& figure, PlotFormat format) {
   check(figure);
-  std::string text = "# " + figure.name + ": gnuplot " + figure.name + ".gnuplot > " + figure.name + ".svg\n";
+  std::string text =
+      "# " + figure.name + ": gnuplot " + figure.name + ".gnuplot > " + figure.name + ".svg\n";
   for (size_t p = 0; p < figure.panels.size(); ++p)
     for (size_t c = 0; c < figure.panels[p].curves.size(); ++c)
-      text += data_block("$p" + std::to_string(p) + "c" + std::to_string(c), figure.panels[p].curves[c]);
+      text += data_block("$p" + std::to_string(p) + "c" + std::to_string(c),
+                         figure.panels[p].curves[c]);
   text += "set encoding utf8\nset minussign\n";
   std::string id = figure.name;  // gnuplot takes no hyphen here
   std::replace(id.begin(), id.end(), '-', '_');
   if (format == PlotFormat::svg)
-    text += print("set terminal svg size %d,%d dynamic enhanced rounded font 'sans-serif,15' name '%s'\n", figure.width,
-                  figure.height, id.c_str());
+    text += print(
+        "set terminal svg size %d,%d dynamic enhanced rounded font 'sans-serif,15' name '%s'\n",
+        figure.width, figure.height, id.c_str());
   else  // a pixel is 1/96 inch, 3/4 point
-    text += print("set terminal pdfcairo size %.4fin,%.4fin enhanced rounded font 'sans-serif,11.25'\n", figure.width / 96.0,
-                  figure.height / 96.0);
+    text +=
+        print("set terminal pdfcairo size %.4fin,%.4fin enhanced rounded font 'sans-serif,11.25'\n",
+              figure.width / 96.0, figure.height / 96.0);
   text += "set border 3 lw 1 lc rgb '#767676'\nset tics nomirror out scale 0.6 tc rgb '#1a1a1a'\n";
   text += "set grid lw 0.6 lt 1 lc rgb '#e0e0e0'\n";
   text += print("set multiplot\n");
   const size_t count = figure.panels.size();
-  // the key above each box; tick labels and x label below the last, or below each when the axes differ
-  const bool is_shared = std::all_of(figure.panels.begin(), figure.panels.end(),
-                                     [&](const Panel& panel) { return panel.x_label == figure.panels[0].x_label; });
+  // the key above each box; tick labels and x label below the last, or below each when the axes
+  // differ
+  const bool is_shared =
+      std::all_of(figure.panels.begin(), figure.panels.end(),
+                  [&](const Panel& panel) { return panel.x_label == figure.panels[0].x_label; });
   constexpr double above = 12.0, below_last = 66.0;
   const double below = is_shared ? 12.0 : below_last;
   double keys = 0.0;
   for (const Panel& panel : figure.panels) keys += key_row * key_size(figure, panel).rows;
-  const double box = (figure.height - keys - static_cast<double>(count) * above - below_last - static_cast<double>(count - 1) * below) /
+  const double box = (figure.height - keys - static_cast<double>(count) * above - below_last -
+                      static_cast<double>(count - 1) * below) /
                      static_cast<double>(count);
   double y = figure.height;
   for (size_t p = 0; p < count; ++p) {

@@ -1,7 +1,8 @@
 #pragma once
-// The runs from which the paper is reproduced: the one place that says which. Points (a value on an axis of a figure,
-// for one seed) refer to runs; a run that serves several figures is made once. Runs are listed in the order of their
-// importance, in stages: a campaign that is stopped by time has whole figures first.
+// The runs from which the paper is reproduced: the one place that says which. Points (a value on an
+// axis of a figure, for one seed) refer to runs; a run that serves several figures is made once.
+// Runs are listed in the order of their importance, in stages: a campaign that is stopped by time
+// has whole figures first.
 
 #include <string>
 #include <vector>
@@ -34,8 +35,8 @@ enum class Sweep {
 struct CampaignSettings {
   std::string scene = "vibrated_box";  ///< name or path
   std::vector<std::string> overrides;  ///< of every run, before the campaign's own
-  int seeds = 3;                       ///< samples of every scaling point: grains.seed = 1 ... seeds
-  int iterations = 80;                 ///< of the solver per step, where it is not what is varied
+  int seeds = 3;        ///< samples of every scaling point: grains.seed = 1 ... seeds
+  int iterations = 80;  ///< of the solver per step, where it is not what is varied
 };
 
 struct CampaignRun {
@@ -48,8 +49,8 @@ struct CampaignRun {
 /// One place on an axis, for one seed.
 struct CampaignPoint {
   Sweep sweep;
-  double value = 0.0;  ///< nu [Hz], f_max/(m g0), g [m/s^2], m_w/m, iterations, h [s], mu; size, backend, deposit:
-                       ///< number of the case
+  double value = 0.0;  ///< nu [Hz], f_max/(m g0), g [m/s^2], m_w/m, iterations, h [s], mu; size,
+                       ///< backend, deposit: number of the case
   std::string label;   ///< "10 Hz", "pgs", ...
   int seed = 1;
   size_t run = 0;     ///< index into Campaign::runs
@@ -60,14 +61,16 @@ struct Campaign {
   CampaignSettings settings;
   std::vector<CampaignRun> runs;
   std::vector<CampaignPoint> points;
-  std::vector<size_t> motion;  ///< runs of Figs. 3-7 and 12: the paper's 5 Hz, one for each seed, with stored states
+  std::vector<size_t> motion;  ///< runs of Figs. 3-7 and 12: the paper's 5 Hz, one for each seed,
+                               ///< with stored states
   int packings = 0;            ///< different deposits
 
   long steps() const;
   double seconds() const;  ///< estimate, core-seconds, packings included
 };
 
-/// f_max, g, m_w, solver and the rest are varied at this frequency: many periods in a short run [Hz].
+/// f_max, g, m_w, solver and the rest are varied at this frequency: many periods in a short run
+/// [Hz].
 inline constexpr double sweep_frequency = 10.0;
 inline constexpr double sweep_duration = 0.7;    ///< [s]
 inline constexpr double motion_frequency = 5.0;  ///< the paper's Figs. 3-7, 12 [Hz]
@@ -82,7 +85,8 @@ inline constexpr double base_friction = 0.4;
 inline constexpr double fine_step = 5e-5;  ///< the finest h [s]
 /// The frequencies at which another deposit, friction and load are driven too [Hz].
 inline constexpr double compared_frequencies[] = {5.0, 10.0, 20.0, 60.0};
-inline constexpr double half_scale_case = 1.0;  ///< of Sweep::size: everything at half scale but the lid's gap
+inline constexpr double half_scale_case =
+    1.0;  ///< of Sweep::size: everything at half scale but the lid's gap
 inline constexpr double similar_case = 2.0;     ///< of Sweep::size: the gap too
 inline constexpr double base_lid_raise = 0.01;  ///< the paper's gap under the lid [m]
 

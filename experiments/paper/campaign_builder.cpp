@@ -30,8 +30,8 @@ std::string name_of(const RunSettings& s, int base_iterations) {
   return name + "_seed=" + std::to_string(s.seed);
 }
 
-/// Core-seconds of a drive of the 1200-grain box, from the first measurements (docs/results.md, docs/comparison.md): a
-/// step's fixed part, and an iteration of each backend.
+/// Core-seconds of a drive of the 1200-grain box, from the first measurements (docs/results.md,
+/// docs/comparison.md): a step's fixed part, and an iteration of each backend.
 double estimate(const RunSettings& s, long steps) {
   constexpr double fixed = 8e-3, sweep = 0.18e-3;  // [s]
   const double factor = s.solver == "nncg" ? 1.0 : s.solver == "anderson_pgs" ? 1.3 : 0.8;
@@ -50,7 +50,8 @@ double duration_at(double frequency) { return std::max(1.0, 3.0 / frequency); }
 
 CampaignBuilder::CampaignBuilder(const CampaignSettings& settings)
     : scene_(read_scene(find_scene(settings.scene), settings.overrides)) {
-  if (!scene_.grains) throw SceneFileError(settings.scene + ": has no [grains], expected a vibrated box");
+  if (!scene_.grains)
+    throw SceneFileError(settings.scene + ": has no [grains], expected a vibrated box");
   campaign.settings = settings;
 }
 
@@ -65,14 +66,15 @@ size_t CampaignBuilder::run(RunSettings s) {
   run.seconds = estimate(s, run.steps);
   run.stage = stage;
   campaign.runs.push_back(run);
-  packings_.insert(s.size + (s.pressed ? " pressed " : " placed ") + campaign_number(s.deposit_friction) + ' ' +
-                   campaign_number(s.lid_raise) + ' ' + std::to_string(s.seed));
+  packings_.insert(s.size + (s.pressed ? " pressed " : " placed ") +
+                   campaign_number(s.deposit_friction) + ' ' + campaign_number(s.lid_raise) + ' ' +
+                   std::to_string(s.seed));
   campaign.packings = static_cast<int>(packings_.size());
   return campaign.runs.size() - 1;
 }
 
-void CampaignBuilder::point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds,
-                            TimeWindow window) {
+void CampaignBuilder::point(Sweep sweep, double value, const std::string& label,
+                            RunSettings settings, int seeds, TimeWindow window) {
   for (int seed = 1; seed <= seeds; ++seed) {
     settings.seed = seed;
     campaign.points.push_back({sweep, value, label, seed, run(settings), window});
@@ -81,7 +83,9 @@ void CampaignBuilder::point(Sweep sweep, double value, const std::string& label,
 
 std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) const {
   std::vector<std::string> set = campaign.settings.overrides;
-  const auto add = [&](const char* key, const std::string& value) { set.push_back(std::string(key) + '=' + value); };
+  const auto add = [&](const char* key, const std::string& value) {
+    set.push_back(std::string(key) + '=' + value);
+  };
   add("grains.seed", std::to_string(s.seed));
   add("drive.frequency", campaign_number(s.frequency));
   add("scene.duration", campaign_number(s.duration));
@@ -102,7 +106,8 @@ std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) con
   }
   if (s.lid_raise != base_lid_raise) add("drive.lid_raise", campaign_number(s.lid_raise));
   if (!s.pressed) add("deposit.lid_pressure_weight", "0");
-  if (s.deposit_friction != base_friction) add("deposit.friction", campaign_number(s.deposit_friction));
+  if (s.deposit_friction != base_friction)
+    add("deposit.friction", campaign_number(s.deposit_friction));
   add("record.pose_rate", s.states ? "100" : "1");
   if (s.states) add("record.state_rate", "100");
   return set;

@@ -1,6 +1,6 @@
 #pragma once
-// How the campaign's runs are put together: what may differ between them, their names, their scenes' overrides, what
-// they cost.
+// How the campaign's runs are put together: what may differ between them, their names, their
+// scenes' overrides, what they cost.
 
 #include <set>
 #include <string>
@@ -14,8 +14,9 @@ namespace ballast {
 /// Everything in which runs of the campaign differ.
 struct RunSettings {
   double frequency = sweep_frequency, duration = sweep_duration;  ///< [Hz], [s]
-  double force = base_force;                                      ///< f_max/(m g) at the run's own g
-  double gravity = base_gravity, wall_mass = base_wall_mass, step = base_step, friction = base_friction;
+  double force = base_force;  ///< f_max/(m g) at the run's own g
+  double gravity = base_gravity, wall_mass = base_wall_mass, step = base_step,
+         friction = base_friction;
   std::string solver = "nncg", size = "radius";
   bool pressed = true;                      ///< the lid presses the deposit before it is raised
   double deposit_friction = base_friction;  ///< while the grains are deposited

@@ -1,5 +1,5 @@
-// Fig. 10: Delta x_max against the force amplitude, exponent -1; beside it gravity (+2) and the wall's mass, which Eq.
-// 3 holds too.
+// Fig. 10: Delta x_max against the force amplitude, exponent -1; beside it gravity (+2) and the
+// wall's mass, which Eq. 3 holds too.
 
 #include <cmath>
 
@@ -25,7 +25,8 @@ double abscissa_of(const SweepValue& value, Sweep sweep) {
   return value.value;  // f_max over the weight under 9.81 m/s^2: the same for all seeds
 }
 
-void add_figure(PaperData& data, const Abscissa& axis, const std::string& name, PaperSection& section) {
+void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
+                PaperSection& section) {
   const std::vector<SweepValue> values = data.sweep(axis.sweep);
   if (const std::string missing = data.missing(axis.sweep, axis.what); !missing.empty())
     section.notes.push_back(missing);
@@ -37,15 +38,16 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name, 
   panel.x_label = axis.label;
   panel.y_label = "Δ{/:Italic x}_{max}  (mm)";
   panel.log_x = panel.log_y = true;
-  panel.curves = {points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
+  panel.curves = {
+      points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
   if (std::isfinite(fit.exponent)) {
     const auto [low, high] = std::minmax_element(curve.x.begin(), curve.x.end());
     panel.curves.push_back(curve_of([&](double x) { return fit.at(x); }, *low, *high, true,
                                     "fit, exponent " + digits(fit.exponent), Ink::black));
     const double middle = std::sqrt(*low * *high);
-    panel.curves.push_back(curve_of([&](double x) { return fit.at(middle) * std::pow(x / middle, axis.exponent); },
-                                    *low, *high, true, "the paper’s exponent " + digits(axis.exponent, 1),
-                                    Ink::vermilion, false));
+    panel.curves.push_back(curve_of(
+        [&](double x) { return fit.at(middle) * std::pow(x / middle, axis.exponent); }, *low, *high,
+        true, "the paper’s exponent " + digits(axis.exponent, 1), Ink::vermilion, false));
   }
   PaperFigure figure;
   figure.plot.name = name;
@@ -53,28 +55,32 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name, 
   figure.plot.height = 440;
   figure.plot.panels = {panel};
   figure.paper = std::string(axis.relation) + " (" + axis.place + ").";
-  figure.found = "Exponent " + words_of(fit) + ", " + misfit_words(fit, curve) + ", at " + digits(sweep_frequency) +
-                 " Hz, periods from 0.3 to " + digits(sweep_duration) + " s.";
+  figure.found = "Exponent " + words_of(fit) + ", " + misfit_words(fit, curve) + ", at " +
+                 digits(sweep_frequency) + " Hz, periods from 0.3 to " + digits(sweep_duration) +
+                 " s.";
   section.figures.push_back(figure);
-  section.rows.push_back(
-      {axis.place, axis.relation, words_of(fit) + ", " + misfit_words(fit, curve), judge_exponent(fit, axis.exponent)});
+  section.rows.push_back({axis.place, axis.relation,
+                          words_of(fit) + ", " + misfit_words(fit, curve),
+                          judge_exponent(fit, axis.exponent)});
 }
 
 }  // namespace
 
 PaperSection fig10_section(PaperData& data) {
-  PaperSection section =
-      new_section("fig10", "Figure 10: displacement against the force amplitude, gravity and the wall’s mass");
+  PaperSection section = new_section(
+      "fig10", "Figure 10: displacement against the force amplitude, gravity and the wall’s mass");
   section.text = {
-      "f_max is quoted in weights of all grains under 9.81 m/s². Gravity is varied at constant f_max in newtons, from "
+      "f_max is quoted in weights of all grains under 9.81 m/s². Gravity is varied at constant "
+      "f_max in newtons, from "
       "packings deposited "
       "under 9.81 m/s², so that Eq. 3 expects g². The base is f_max = 3 m g, m_w = m/2, 10 Hz.",
       misfit_meaning};
-  add_figure(
-      data,
-      {Sweep::force, "values of f_max", "{/:Italic f}_{max} / {/:Italic m g}", "Δx_max ~ f_max^−1", "Fig. 10", -1.0},
-      "fig10", section);
-  add_figure(data, {Sweep::gravity, "values of g", "{/:Italic g}  (m/s^2)", "Δx_max ~ g^2", "Eq. 3", 2.0},
+  add_figure(data,
+             {Sweep::force, "values of f_max", "{/:Italic f}_{max} / {/:Italic m g}",
+              "Δx_max ~ f_max^−1", "Fig. 10", -1.0},
+             "fig10", section);
+  add_figure(data,
+             {Sweep::gravity, "values of g", "{/:Italic g}  (m/s^2)", "Δx_max ~ g^2", "Eq. 3", 2.0},
              "fig10_gravity", section);
   add_figure(data,
              {Sweep::wall_mass, "values of m_w", "{/:Italic m} / ({/:Italic m} + {/:Italic m}_w)",

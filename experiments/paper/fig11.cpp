@@ -41,34 +41,37 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 Panel eq3_panel(const std::vector<SweepCurve>& all, const Proportion& line, bool is_log) {
   Panel panel;
-  panel.x_label = is_log ? "right side of Eq. 3 without {/:Italic C}  (mm)" : "the same, linear  (mm)";
+  panel.x_label =
+      is_log ? "right side of Eq. 3 without {/:Italic C}  (mm)" : "the same, linear  (mm)";
   panel.y_label = "Δ{/:Italic x}_{max}  (mm)";
   panel.log_x = panel.log_y = is_log;
   double low = 1e300, high = 0.0;
   for (size_t b = 0; b < all.size(); ++b) {
     if (all[b].x.empty()) continue;
-    panel.curves.push_back(points_of(scaled(all[b].x, 1e3), scaled(all[b].y, 1e3), scaled(all[b].error, 1e3),
-                                     branches[b].title, branches[b].ink));
+    panel.curves.push_back(points_of(scaled(all[b].x, 1e3), scaled(all[b].y, 1e3),
+                                     scaled(all[b].error, 1e3), branches[b].title,
+                                     branches[b].ink));
     low = std::min(low, 1e3 * *std::min_element(all[b].x.begin(), all[b].x.end()));
     high = std::max(high, 1e3 * *std::max_element(all[b].x.begin(), all[b].x.end()));
   }
   if (!is_log) low = 0.0;
-  panel.curves.push_back(
-      curve_of([&](double x) { return line.factor * x; }, low, high, is_log, "C = " + digits(line.factor), Ink::black));
-  panel.curves.push_back(
-      curve_of([](double x) { return 0.01 * x; }, low, high, is_log, "the paper’s C = 0.01", Ink::grey));
+  panel.curves.push_back(curve_of([&](double x) { return line.factor * x; }, low, high, is_log,
+                                  "C = " + digits(line.factor), Ink::black));
+  panel.curves.push_back(curve_of([](double x) { return 0.01 * x; }, low, high, is_log,
+                                  "the paper’s C = 0.01", Ink::grey));
   return panel;
 }
 
 double prefactor_by_grain(const std::vector<SweepValue>& values) {
   std::vector<double> x, y;
   for (const SweepValue& value : values)
-    for (const Observation& sample : value.samples) x.push_back(sample.eq3_one_grain()), y.push_back(sample.rise);
+    for (const Observation& sample : value.samples)
+      x.push_back(sample.eq3_one_grain()), y.push_back(sample.rise);
   return fit_proportion(x, y).factor;
 }
 
-/// Slope of the line through the origin on linear axes, as one draws it through the paper's Fig. 11: its largest points
-/// decide.
+/// Slope of the line through the origin on linear axes, as one draws it through the paper's Fig.
+/// 11: its largest points decide.
 double linear_prefactor(const SweepCurve& points) {
   return project(points.x, points.y, [](double x) { return x; }).amplitude;
 }
@@ -84,7 +87,8 @@ SweepCurve without_largest(SweepCurve points) {
 Agreement judge_prefactor(double factor, double low, double high, int points) {
   if (points < 5) return Agreement::reported;
   const double ratio = factor / paper::prefactor;
-  if ((ratio > 0.7 && ratio < 1.3) || (low <= paper::prefactor && paper::prefactor <= high)) return Agreement::agrees;
+  if ((ratio > 0.7 && ratio < 1.3) || (low <= paper::prefactor && paper::prefactor <= high))
+    return Agreement::agrees;
   return ratio > 0.4 && ratio < 2.5 ? Agreement::partly : Agreement::differs;
 }
 
@@ -93,18 +97,20 @@ Agreement judge_prefactor(double factor, double low, double high, int points) {
 PaperSection fig11_section(PaperData& data) {
   PaperSection section = new_section("fig11", "Figure 11 and Equation 3: one line for all sweeps");
   section.text = {
-      "Eq. 3: Δx_max = C · m/(m + m_w) · m g/f_max · g/ν², with m the mass of all grains in both places (and beside it "
+      "Eq. 3: Δx_max = C · m/(m + m_w) · m g/f_max · g/ν², with m the mass of all grains in both "
+      "places (and beside it "
       "with m the mean mass "
-      "of one grain, which the paper does not exclude). C is the geometric mean of the ratio, with its 95 % interval "
+      "of one grain, which the paper does not exclude). C is the geometric mean of the ratio, with "
+      "its 95 % interval "
       "over the points; the "
       "spread is the factor by which a point typically misses the line."};
   const char* names[] = {"frequencies", "values of f_max", "values of g", "values of m_w"};
   std::vector<SweepCurve> all;
   SweepCurve pooled;
-  TextTable table{
-      "C of each sweep by itself",
-      {"sweep", "points", "C", "95 % interval", "spread (factor)", "exponent (1: proportional)", "of that fit"},
-      {}};
+  TextTable table{"C of each sweep by itself",
+                  {"sweep", "points", "C", "95 % interval", "spread (factor)",
+                   "exponent (1: proportional)", "of that fit"},
+                  {}};
   double by_grain = not_known;
   for (size_t b = 0; b < 4; ++b) {
     if (const std::string missing = data.missing(branches[b].sweep, names[b]); !missing.empty())
@@ -130,24 +136,26 @@ PaperSection fig11_section(PaperData& data) {
   figure.plot.title = "Maximum displacement against the right side of Equation 3";
   figure.plot.height = 820;
   figure.plot.panels = {eq3_panel(all, line, true), eq3_panel(all, line, false)};
-  figure.paper = "All data on one line through the origin, “in excellent agreement with Eq. 3”, C ~ 0.01.";
+  figure.paper =
+      "All data on one line through the origin, “in excellent agreement with Eq. 3”, C ~ 0.01.";
   figure.found = "C = " + digits(line.factor) + " " + interval(line.low, line.high) +
-                 ", points lie off the line by a factor of " + digits(line.spread) + "; a free exponent gives " +
-                 words_of(power) + ", " + misfit_words(power, pooled) + ". " + misfit_meaning +
-                 " With m one grain’s mean mass C would be " + digits(by_grain) + ".";
+                 ", points lie off the line by a factor of " + digits(line.spread) +
+                 "; a free exponent gives " + words_of(power) + ", " + misfit_words(power, pooled) +
+                 ". " + misfit_meaning + " With m one grain’s mean mass C would be " +
+                 digits(by_grain) + ".";
   section.figures = {figure};
   section.tables = {table};
   const bool is_line = line.samples > 4 && line.spread < 1.25;
   section.rows = {{"Fig. 11, Eq. 3", "one line through all sweeps",
-                   "spread about the line: factor " + digits(line.spread) + "; exponent " + words_of(power) + ", " +
-                       misfit_words(power, pooled),
+                   "spread about the line: factor " + digits(line.spread) + "; exponent " +
+                       words_of(power) + ", " + misfit_words(power, pooled),
                    line.samples < 5    ? Agreement::reported
                    : is_line           ? Agreement::agrees
                    : line.spread < 1.6 ? Agreement::partly
                                        : Agreement::differs},
                   {"Eq. 3", "C ~ 0.01",
-                   "C = " + digits(line.factor) + " " + interval(line.low, line.high) + " (m all grains); " +
-                       digits(by_grain) + " (m one grain)",
+                   "C = " + digits(line.factor) + " " + interval(line.low, line.high) +
+                       " (m all grains); " + digits(by_grain) + " (m one grain)",
                    judge_prefactor(line.factor, line.low, line.high, line.samples)}};
   if (line.samples < 5) return section;
   const double linear = linear_prefactor(pooled);

@@ -9,26 +9,27 @@ namespace {
 
 Panel rate_panel(const SweepCurve& curve, const PeakedRate& fit, const std::string& y_label) {
   Panel panel = frequency_panel(y_label);
-  panel.curves = {points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
+  panel.curves = {
+      points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
   const double low = curve.x.front(), high = curve.x.back();
   if (std::isfinite(fit.critical))
-    panel.curves.push_back(
-        curve_of([&](double nu) { return fit.at(nu); }, low, high, true, "Eq. 5 fitted", Ink::black));
+    panel.curves.push_back(curve_of([&](double nu) { return fit.at(nu); }, low, high, true,
+                                    "Eq. 5 fitted", Ink::black));
   const PeakedRate paper{0.0025, 10.0, not_known, not_known, not_known, 0};
-  panel.curves.push_back(
-      curve_of([&](double nu) { return paper.at(nu); }, low, high, true, "the paper’s Eq. 5", Ink::grey));
+  panel.curves.push_back(curve_of([&](double nu) { return paper.at(nu); }, low, high, true,
+                                  "the paper’s Eq. 5", Ink::grey));
   return panel;
 }
 
 std::string words_of(const PeakedRate& fit) {
-  return "ν_c = " + digits(fit.critical) + " Hz " + interval(fit.low, fit.high) + ", Δρ_max/ρ₀ = " + digits(fit.gain) +
-         ", R² = " + digits(fit.r2);
+  return "ν_c = " + digits(fit.critical) + " Hz " + interval(fit.low, fit.high) +
+         ", Δρ_max/ρ₀ = " + digits(fit.gain) + ", R² = " + digits(fit.r2);
 }
 
 /// A corner at the end of the data is none.
 bool has_peak(const SweepCurve& curve, const PeakedRate& fit) {
-  return std::isfinite(fit.critical) && fit.critical > 1.05 * curve.x.front() && fit.critical < 0.95 * curve.x.back() &&
-         fit.high < 0.95 * curve.x.back();
+  return std::isfinite(fit.critical) && fit.critical > 1.05 * curve.x.front() &&
+         fit.critical < 0.95 * curve.x.back() && fit.high < 0.95 * curve.x.back();
 }
 
 void drop_unknown(SweepCurve& curve) {
@@ -47,9 +48,11 @@ void drop_unknown(SweepCurve& curve) {
 PaperSection fig13_section(PaperData& data) {
   PaperSection section = new_section("fig13", "Figure 13 and Equations 4, 5: the compaction rate");
   section.text = {
-      "Eq. 4 over whole periods, so that both ends are at the same phase of the load. The paper takes each run’s whole "
+      "Eq. 4 over whole periods, so that both ends are at the same phase of the load. The paper "
+      "takes each run’s whole "
       "time after 0.2 s. "
-      "Since the packing ages, a rate over another number of periods is a rate at another age; the second panel "
+      "Since the packing ages, a rate over another number of periods is a rate at another age; the "
+      "second panel "
       "therefore takes the same "
       "absolute time, 0.4 to 1 s, for all frequencies (1 Hz has no whole period in it)."};
   const std::vector<SweepValue> values = data.sweep(Sweep::frequency);
@@ -60,7 +63,8 @@ PaperSection fig13_section(PaperData& data) {
   drop_unknown(whole);
   drop_unknown(common);
   if (whole.x.size() < 2 || common.x.size() < 2) return section;
-  const PeakedRate fit = fit_peaked_rate(whole.x, whole.y), common_fit = fit_peaked_rate(common.x, common.y);
+  const PeakedRate fit = fit_peaked_rate(whole.x, whole.y),
+                   common_fit = fit_peaked_rate(common.x, common.y);
   PaperFigure figure;
   figure.plot.name = "fig13";
   figure.plot.title = "Compaction rate against frequency";
@@ -68,20 +72,26 @@ PaperSection fig13_section(PaperData& data) {
   figure.plot.panels = {rate_panel(whole, fit, "rate, paper’s window  (1/s)"),
                         rate_panel(common, common_fit, "rate, 0.4–1 s  (1/s)")};
   figure.paper =
-      "The rate grows linearly up to ν_c ~ 10 Hz and falls as ν⁻¹ beyond; Δρ_max/ρ₀ ~ 0.0025; Eq. 5 with ν_c “the only "
+      "The rate grows linearly up to ν_c ~ 10 Hz and falls as ν⁻¹ beyond; Δρ_max/ρ₀ ~ 0.0025; Eq. "
+      "5 with ν_c “the only "
       "fitting parameter”.";
-  figure.found = "Eq. 5 fitted by least squares (both parameters free), paper’s window: " + words_of(fit) +
-                 "; common window: " + words_of(common_fit) +
-                 ". The intervals of ν_c are profiles at 95 %; one that reaches the end of the data means that there "
-                 "is no maximum inside it.";
+  figure.found =
+      "Eq. 5 fitted by least squares (both parameters free), paper’s window: " + words_of(fit) +
+      "; common window: " + words_of(common_fit) +
+      ". The intervals of ν_c are profiles at 95 %; one that reaches the end of the data means "
+      "that there "
+      "is no maximum inside it.";
   section.figures = {figure};
   TextTable table{"Compaction rate, means over samples ± standard error",
-                  {"ν (Hz)", "samples", "rate, paper’s window (1/s)", "rate, 0.4–1 s (1/s)", "Δρ₁ (10⁻³)", "ρ₀"},
+                  {"ν (Hz)", "samples", "rate, paper’s window (1/s)", "rate, 0.4–1 s (1/s)",
+                   "Δρ₁ (10⁻³)", "ρ₀"},
                   {}};
   for (const SweepValue& value : values) {
-    const SampleMean rate = value.mean(&Observation::rate), rate_common = value.mean(&Observation::rate_common),
+    const SampleMean rate = value.mean(&Observation::rate),
+                     rate_common = value.mean(&Observation::rate_common),
                      gain = value.mean(&Observation::gain);
-    table.rows.push_back({digits(value.value), std::to_string(value.samples.size()), with_error(rate.mean, rate.error),
+    table.rows.push_back({digits(value.value), std::to_string(value.samples.size()),
+                          with_error(rate.mean, rate.error),
                           with_error(rate_common.mean, rate_common.error),
                           with_error(1e3 * gain.mean, 1e3 * gain.error),
                           digits(value.mean(&Observation::solid_reference).mean, 4)});
@@ -89,16 +99,18 @@ PaperSection fig13_section(PaperData& data) {
   section.tables = {table};
   const auto judge = [&](const SweepCurve& curve, const PeakedRate& peak) {
     if (peak.samples < 5) return Agreement::reported;
-    if (!has_peak(curve, peak) || !(peak.r2 > 0.5)) return Agreement::differs;  // Eq. 5 must say more than the mean does
+    if (!has_peak(curve, peak) || !(peak.r2 > 0.5))
+      return Agreement::differs;  // Eq. 5 must say more than the mean does
     return peak.critical > 7.0 && peak.critical < 14.0 ? Agreement::agrees : Agreement::partly;
   };
-  section.rows = {{"Fig. 13", "maximum at ν_c ~ 10 Hz", words_of(fit), judge(whole, fit)},
-                  {"Fig. 13", "the same, 0.4–1 s for all", words_of(common_fit), judge(common, common_fit)},
-                  {"Eq. 5", "Δρ_max/ρ₀ ~ 0.0025", digits(fit.gain),
-                   !(fit.r2 > 0.5) ? Agreement::differs
-                   : fit.gain > 0.00167 && fit.gain < 0.00375 ? Agreement::agrees
-                   : fit.gain > 0.0008 && fit.gain < 0.0075 ? Agreement::partly
-                                                            : Agreement::differs}};
+  section.rows = {
+      {"Fig. 13", "maximum at ν_c ~ 10 Hz", words_of(fit), judge(whole, fit)},
+      {"Fig. 13", "the same, 0.4–1 s for all", words_of(common_fit), judge(common, common_fit)},
+      {"Eq. 5", "Δρ_max/ρ₀ ~ 0.0025", digits(fit.gain),
+       !(fit.r2 > 0.5)                            ? Agreement::differs
+       : fit.gain > 0.00167 && fit.gain < 0.00375 ? Agreement::agrees
+       : fit.gain > 0.0008 && fit.gain < 0.0075   ? Agreement::partly
+                                                  : Agreement::differs}};
   return section;
 }
 

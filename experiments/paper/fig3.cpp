@@ -1,9 +1,10 @@
-// Fig. 3 and Eq. 1: displacement of the wall under the harmonic load, and the first contraction at all frequencies.
+// Fig. 3 and Eq. 1: displacement of the wall under the harmonic load, and the first contraction at
+// all frequencies.
 
 #include <cmath>
 
-#include "experiments/run_page/figures.hpp"
 #include "experiments/paper/motion.hpp"
+#include "experiments/run_page/figures.hpp"
 
 namespace ballast {
 namespace {
@@ -13,9 +14,11 @@ TextTable contraction_table(const std::vector<SweepValue>& values) {
                   {"ν (Hz)", "samples", "size (mm)", "90 % of it by (s)"},
                   {}};
   for (const SweepValue& value : values) {
-    const SampleMean size = value.mean(&Observation::first_contraction), time = value.mean(&Observation::first_time90);
+    const SampleMean size = value.mean(&Observation::first_contraction),
+                     time = value.mean(&Observation::first_time90);
     table.rows.push_back({digits(value.value), std::to_string(value.samples.size()),
-                          with_error(1e3 * size.mean, 1e3 * size.error), with_error(time.mean, time.error)});
+                          with_error(1e3 * size.mean, 1e3 * size.error),
+                          with_error(time.mean, time.error)});
   }
   return table;
 }
@@ -24,7 +27,8 @@ TextTable contraction_table(const std::vector<SweepValue>& values) {
 double spread_over(const std::vector<SweepValue>& values, double low, double high) {
   std::vector<double> sizes;
   for (const SweepValue& value : values)
-    if (value.value >= low && value.value <= high) sizes.push_back(value.mean(&Observation::first_contraction).mean);
+    if (value.value >= low && value.value <= high)
+      sizes.push_back(value.mean(&Observation::first_contraction).mean);
   const Statistics all = statistics(sizes);
   return std::max(all.max / all.mean - 1.0, 1.0 - all.min / all.mean);
 }
@@ -32,28 +36,34 @@ double spread_over(const std::vector<SweepValue>& values, double low, double hig
 }  // namespace
 
 PaperSection fig3_section(PaperData& data) {
-  PaperSection section = new_section("fig3", "Figure 3 and Equation 1: the wall under the harmonic load");
+  PaperSection section =
+      new_section("fig3", "Figure 3 and Equation 1: the wall under the harmonic load");
   const std::vector<MotionRun> runs = read_motion(data, section);
   if (!runs.empty()) {
     PaperFigure figure;
     figure.plot = figure_3(runs.front().data, runs.front().summary).plot;
-    const SampleMean size = mean_over(runs, [](const RunSummary& s) { return 1e3 * s.contraction.size; });
-    const SampleMean time = mean_over(runs, [](const RunSummary& s) { return s.contraction.time90; });
+    const SampleMean size =
+        mean_over(runs, [](const RunSummary& s) { return 1e3 * s.contraction.size; });
+    const SampleMean time =
+        mean_over(runs, [](const RunSummary& s) { return s.contraction.time90; });
     const SampleMean rise = mean_over(runs, [](const RunSummary& s) { return 1e3 * s.rise.mean; });
     const SampleMean net = mean_over(runs, [](const RunSummary& s) { return -1e3 * s.net.mean; });
     figure.paper =
-        "A fast first contraction (within about 0.2 s: sec. 5), then a periodic motion with a slow contraction.";
-    figure.found = "Sample 1 is drawn. Over " + std::to_string(size.samples) + " samples: first contraction " +
-                   with_error(size.mean, size.error) + " mm, 90 % of it by " + with_error(time.mean, time.error) +
-                   " s; then the wall moves out by " + with_error(rise.mean, rise.error) + " mm a period and loses " +
-                   with_error(net.mean, net.error) + " mm a period.";
+        "A fast first contraction (within about 0.2 s: sec. 5), then a periodic motion with a slow "
+        "contraction.";
+    figure.found = "Sample 1 is drawn. Over " + std::to_string(size.samples) +
+                   " samples: first contraction " + with_error(size.mean, size.error) +
+                   " mm, 90 % of it by " + with_error(time.mean, time.error) +
+                   " s; then the wall moves out by " + with_error(rise.mean, rise.error) +
+                   " mm a period and loses " + with_error(net.mean, net.error) + " mm a period.";
     section.figures = {figure};
     section.rows.push_back({"Fig. 3", "first contraction over within ~0.2 s",
                             "90 % of it by " + with_error(time.mean, time.error) + " s",
                             time.mean < 0.25 ? Agreement::agrees : Agreement::differs});
-    section.rows.push_back({"Fig. 3", "slow contraction from period to period",
-                            with_error(net.mean, net.error) + " mm a period (rise " + digits(rise.mean) + " mm)",
-                            net.mean > 0.0 ? Agreement::agrees : Agreement::differs});
+    section.rows.push_back(
+        {"Fig. 3", "slow contraction from period to period",
+         with_error(net.mean, net.error) + " mm a period (rise " + digits(rise.mean) + " mm)",
+         net.mean > 0.0 ? Agreement::agrees : Agreement::differs});
   }
   const std::vector<SweepValue> values = data.sweep(Sweep::frequency);
   if (const std::string missing = data.missing(Sweep::frequency, "frequencies"); !missing.empty())
@@ -62,7 +72,8 @@ PaperSection fig3_section(PaperData& data) {
   section.tables.push_back(contraction_table(values));
   const double all = spread_over(values, 0.0, 1e9), middle = spread_over(values, 2.0, 20.0);
   section.rows.push_back({"Fig. 3", "first contraction almost independent of frequency",
-                          "within " + digits(100.0 * all, 2) + " % of the mean over " + std::to_string(values.size()) +
+                          "within " + digits(100.0 * all, 2) + " % of the mean over " +
+                              std::to_string(values.size()) +
                               " frequencies (2–20 Hz: " + digits(100.0 * middle, 2) + " %)",
                           all < 0.15      ? Agreement::agrees
                           : middle < 0.15 ? Agreement::partly

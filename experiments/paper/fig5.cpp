@@ -1,11 +1,12 @@
-// Fig. 5: the phenomenological model. f_g(x) as fitted in Fig. 4 is put into Eq. 2 and integrated over one period.
+// Fig. 5: the phenomenological model. f_g(x) as fitted in Fig. 4 is put into Eq. 2 and integrated
+// over one period.
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/run_page/figures.hpp"
 #include "experiments/paper/motion.hpp"
 #include "experiments/paper/wall_model.hpp"
+#include "experiments/run_page/figures.hpp"
 
 namespace ballast {
 namespace {
@@ -20,18 +21,20 @@ WallModel model_of(const RunSummary& s) {
   return model;
 }
 
-/// Where a period's wall leaves the unjamming transient: the fits begin at this part of the rise too.
+/// Where a period's wall leaves the unjamming transient: the fits begin at this part of the rise
+/// too.
 std::optional<ModelStart> after_unjamming(const MotionRun& run, const WallPeriod& period) {
   const double begin = WallSettings{}.fit_from * period.rise;
   for (size_t k = period.peak; k-- > period.first;) {
     const double x = run.data.steps[k].wall_x - period.x_before;
-    if (x <= begin) return ModelStart{run.data.steps[k].time - period.begin, x, run.summary.wall.velocity[k]};
+    if (x <= begin)
+      return ModelStart{run.data.steps[k].time - period.begin, x, run.summary.wall.velocity[k]};
   }
   return {};
 }
 
-/// The model beside one run: from the jam, and taken up after the unjamming transient of each period (means over
-/// periods).
+/// The model beside one run: from the jam, and taken up after the unjamming transient of each
+/// period (means over periods).
 struct Modelled {
   double rise_from_jam = not_known, rise = not_known, speed_in = not_known;
   ModelMotion last;  ///< of the last period
@@ -55,8 +58,8 @@ Modelled modelled(const MotionRun& run) {
 }
 
 bool can_be_modelled(const RunSummary& s) {
-  return !s.wall.periods.empty() && std::isfinite(s.loop.active.rate) && std::isfinite(s.loop.passive.slope) &&
-         std::isfinite(s.facts.wall_mass);
+  return !s.wall.periods.empty() && std::isfinite(s.loop.active.rate) &&
+         std::isfinite(s.loop.passive.slope) && std::isfinite(s.facts.wall_mass);
 }
 
 Curve line(std::vector<double> x, std::vector<double> y, const char* title, Ink ink, bool dashed) {
@@ -124,19 +127,24 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
 PaperSection fig5_section(PaperData& data) {
   PaperSection section = new_section("fig5", "Figure 5 and Equation 2: the phenomenological model");
   section.text = {
-      "The wall’s equation m_w dv/dt = f_g − f(t), x outward, with f_g the fitted exponential while the wall moves out "
+      "The wall’s equation m_w dv/dt = f_g − f(t), x outward, with f_g the fitted exponential "
+      "while the wall moves out "
       "and the fitted line while it "
-      "moves in; it jams where it comes back to, by the mean net contraction further in. The paper excludes the "
+      "moves in; it jams where it comes back to, by the mean net contraction further in. The paper "
+      "excludes the "
       "jamming and unjamming transients, in which f_g is "
-      "neither branch: the model is therefore taken up where the fits begin, at 10 % of each period’s rise, with the "
+      "neither branch: the model is therefore taken up where the fits begin, at 10 % of each "
+      "period’s rise, with the "
       "simulation’s velocity there. Beside it: the same "
-      "model from rest at the jam, released when f falls below the exponential at ξ = 0, which leaves out what f_g "
+      "model from rest at the jam, released when f falls below the exponential at ξ = 0, which "
+      "leaves out what f_g "
       "gives during unjamming."};
   const std::vector<MotionRun> runs = read_motion(data, section);
-  TextTable table{"Model beside simulation (means over periods), sample by sample",
-                  {"sample", "Δx_max simulated (mm)", "model (mm)", "deviation", "model from the jam (mm)",
-                   "v_max simulated (mm/s)", "model (mm/s)", "deviation"},
-                  {}};
+  TextTable table{
+      "Model beside simulation (means over periods), sample by sample",
+      {"sample", "Δx_max simulated (mm)", "model (mm)", "deviation", "model from the jam (mm)",
+       "v_max simulated (mm/s)", "model (mm/s)", "deviation"},
+      {}};
   std::vector<double> rises, from_jam, speeds;
   for (size_t k = 0; k < runs.size(); ++k) {
     const RunSummary& s = runs[k].summary;
@@ -145,31 +153,36 @@ PaperSection fig5_section(PaperData& data) {
     rises.push_back(model.rise / s.rise.mean - 1.0);
     from_jam.push_back(model.rise_from_jam / s.rise.mean - 1.0);
     speeds.push_back(model.speed_in / s.speed_in.mean - 1.0);
-    table.rows.push_back({std::to_string(k + 1), digits(1e3 * s.rise.mean), digits(1e3 * model.rise),
-                          percent(rises.back()), digits(1e3 * model.rise_from_jam), digits(1e3 * s.speed_in.mean),
+    table.rows.push_back({std::to_string(k + 1), digits(1e3 * s.rise.mean),
+                          digits(1e3 * model.rise), percent(rises.back()),
+                          digits(1e3 * model.rise_from_jam), digits(1e3 * s.speed_in.mean),
                           digits(1e3 * model.speed_in), percent(speeds.back())});
     if (!section.figures.empty() || model.last.time.empty()) continue;
     PaperFigure figure;
     figure.plot = draw(runs[k], model.last);
     figure.paper =
-        "The model gives “a fairly good approximation” outside the jamming and unjamming transients; the largest "
+        "The model gives “a fairly good approximation” outside the jamming and unjamming "
+        "transients; the largest "
         "contraction velocity is under-estimated.";
     section.figures.push_back(figure);
   }
-  const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds), jam = sample_mean(from_jam);
+  const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds),
+                   jam = sample_mean(from_jam);
   if (rise.samples == 0 || section.figures.empty()) return section;
   section.figures.front().found = "Last period of sample " + table.rows.front().front() +
-                                  ". Over samples the model’s Δx_max deviates by " + percent(rise.mean) +
-                                  ", its v_max by " + percent(speed.mean) +
-                                  "; started from the jam its Δx_max deviates by " + percent(jam.mean) + ".";
+                                  ". Over samples the model’s Δx_max deviates by " +
+                                  percent(rise.mean) + ", its v_max by " + percent(speed.mean) +
+                                  "; started from the jam its Δx_max deviates by " +
+                                  percent(jam.mean) + ".";
   section.tables = {table};
-  section.rows = {{"Fig. 5", "model’s Δx_max close to the simulation’s, transients excluded (asked for: 15 %)",
-                   percent(rise.mean) + " (from the jam: " + percent(jam.mean) + ")",
-                   std::abs(rise.mean) <= 0.15  ? Agreement::agrees
-                   : std::abs(rise.mean) <= 0.3 ? Agreement::partly
-                                                : Agreement::differs},
-                  {"Fig. 5", "model under-estimates the largest contraction velocity", percent(speed.mean),
-                   speed.mean < 0.0 ? Agreement::agrees : Agreement::differs}};
+  section.rows = {
+      {"Fig. 5", "model’s Δx_max close to the simulation’s, transients excluded (asked for: 15 %)",
+       percent(rise.mean) + " (from the jam: " + percent(jam.mean) + ")",
+       std::abs(rise.mean) <= 0.15  ? Agreement::agrees
+       : std::abs(rise.mean) <= 0.3 ? Agreement::partly
+                                    : Agreement::differs},
+      {"Fig. 5", "model under-estimates the largest contraction velocity", percent(speed.mean),
+       speed.mean < 0.0 ? Agreement::agrees : Agreement::differs}};
   return section;
 }
 

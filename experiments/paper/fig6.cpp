@@ -1,4 +1,5 @@
-// Fig. 6: velocities of the grains in the passive state, in a section along the middle; mean vorticity of the xz plane.
+// Fig. 6: velocities of the grains in the passive state, in a section along the middle; mean
+// vorticity of the xz plane.
 
 #include <cmath>
 
@@ -7,9 +8,11 @@
 namespace ballast {
 namespace {
 
-constexpr double half_section_of_grains = 0.05;  // grains whose centres are this near the middle plane are drawn [m]: two layers
+constexpr double half_section_of_grains =
+    0.05;  // grains whose centres are this near the middle plane are drawn [m]: two layers
 
-/// Arrows as lines: shaft and two barbs, NaN between them. Lengths in the plot's units (axes of equal scale).
+/// Arrows as lines: shaft and two barbs, NaN between them. Lengths in the plot's units (axes of
+/// equal scale).
 void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
   const auto add = [&](double a, double b) {
     curve.x.push_back(a);
@@ -23,7 +26,8 @@ void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
   for (const double side : {-s, s}) {
     add(not_known, not_known);
     add(x + dx, z + dz);
-    add(x + dx + barb * (c * dx - side * dz) / length, z + dz + barb * (side * dx + c * dz) / length);
+    add(x + dx + barb * (c * dx - side * dz) / length,
+        z + dz + barb * (side * dx + c * dz) / length);
   }
   add(not_known, not_known);
 }
@@ -47,10 +51,11 @@ Field draw(const StoredState& state) {
   Field field;
   field.speed = std::sqrt(squares / std::max<double>(1.0, static_cast<double>(section.size())));
   Curve arrows, box;
-  const double scale = field.speed > 0.0 ? 0.025 / field.speed : 0.0;  // an rms arrow is 2.5 cm long
+  const double scale =
+      field.speed > 0.0 ? 0.025 / field.speed : 0.0;  // an rms arrow is 2.5 cm long
   for (const size_t k : section)
-    add_arrow(arrows, motion.pose[k].position.x(), motion.pose[k].position.z(), scale * motion.velocity[k].x(),
-              scale * motion.velocity[k].z());
+    add_arrow(arrows, motion.pose[k].position.x(), motion.pose[k].position.z(),
+              scale * motion.velocity[k].x(), scale * motion.velocity[k].z());
   arrows.width = 1.2;
   const double left = wall(wall_x_min).x(), right = wall(wall_x_max).x(), top = wall(wall_lid).z();
   box.x = {left, right, right, left, left};
@@ -67,7 +72,8 @@ Field draw(const StoredState& state) {
   field.figure.title = "Velocities of the grains while the wall moves in";
   field.figure.width = 800;
   field.figure.height = static_cast<int>(
-      78.0 + 680.0 * (top + 2.0 * margin) / (right - left + 2.0 * margin));  // equal scales: margins of plot_script
+      78.0 + 680.0 * (top + 2.0 * margin) /
+                 (right - left + 2.0 * margin));  // equal scales: margins of plot_script
   field.figure.panels = {panel};
   return field;
 }
@@ -75,11 +81,14 @@ Field draw(const StoredState& state) {
 }  // namespace
 
 PaperSection fig6_section(PaperData& data) {
-  PaperSection section = new_section("fig6", "Figure 6: velocities of the grains in the passive state");
+  PaperSection section =
+      new_section("fig6", "Figure 6: velocities of the grains in the passive state");
   section.text = {
-      "Mean vorticity of the xz plane: v = v₀ + L (x − x₀) is fitted to all grains’ velocities by least squares "
+      "Mean vorticity of the xz plane: v = v₀ + L (x − x₀) is fitted to all grains’ velocities by "
+      "least squares "
       "weighted by mass; the vorticity is "
-      "∂v_x/∂z − ∂v_z/∂x = L_xz − L_zx, positive when clockwise with x to the right (where the driven wall is) and z "
+      "∂v_x/∂z − ∂v_z/∂x = L_xz − L_zx, positive when clockwise with x to the right (where the "
+      "driven wall is) and z "
       "up. States of moving wall are "
       "those above 20 % of its largest speed."};
   const std::vector<MotionRun> runs = read_motion(data, section);
@@ -102,31 +111,37 @@ PaperSection fig6_section(PaperData& data) {
     active.push_back(statistics(out).mean);
     relative.push_back(passive.back() / (run.summary.speed_in.mean / run.data.scene->box.length));
   }
-  const SampleMean seen = sample_mean(passive), back = sample_mean(active), share = sample_mean(relative);
+  const SampleMean seen = sample_mean(passive), back = sample_mean(active),
+                   share = sample_mean(relative);
   if (seen.samples == 0 || field.figure.panels.empty()) {
     section.notes.push_back("PARTIAL: no stored state in the passive phase.");
     return section;
   }
   PaperFigure figure;
   figure.plot = field.figure;
-  figure.paper = "During the inward motion of the wall the grains undergo “a clockwise convective motion in the cell”.";
-  figure.found = "Sample 1, the stored state with the fastest inward wall (" + digits(1e3 * fastest) +
-                 " mm/s); grains within 5 cm of the middle plane, an arrow of "
-                 "2.5 cm is " +
-                 digits(1e3 * field.speed) +
-                 " mm/s (their rms). Mean vorticity, passive: " + with_error(seen.mean, seen.error) + " 1/s, that is " +
-                 digits(share.mean, 2) +
-                 " of v_max over the box’s length; active: " + with_error(back.mean, back.error) + " 1/s.";
+  figure.paper =
+      "During the inward motion of the wall the grains undergo “a clockwise convective motion in "
+      "the cell”.";
+  figure.found =
+      "Sample 1, the stored state with the fastest inward wall (" + digits(1e3 * fastest) +
+      " mm/s); grains within 5 cm of the middle plane, an arrow of "
+      "2.5 cm is " +
+      digits(1e3 * field.speed) +
+      " mm/s (their rms). Mean vorticity, passive: " + with_error(seen.mean, seen.error) +
+      " 1/s, that is " + digits(share.mean, 2) +
+      " of v_max over the box’s length; active: " + with_error(back.mean, back.error) + " 1/s.";
   section.figures = {figure};
   const bool is_sure = seen.samples > 1 && std::abs(seen.mean) > 2.0 * seen.error;
   const std::string sense = seen.mean > 0.0 ? "clockwise" : "counter-clockwise";
-  // the text doesn't say on which side the paper's wall is: seen from the other side every roll turns round
-  section.rows = {{"Fig. 6", "a convection roll in the passive state, clockwise (its view is not said)",
-                   "vorticity " + with_error(seen.mean, seen.error) + " 1/s: " + sense +
-                       " with the driven wall on the right" + (is_sure ? "" : "; not beyond its error"),
-                   is_sure            ? Agreement::agrees
-                   : seen.samples > 1 ? Agreement::differs
-                                      : Agreement::reported}};
+  // the text doesn't say on which side the paper's wall is: seen from the other side every roll
+  // turns round
+  section.rows = {
+      {"Fig. 6", "a convection roll in the passive state, clockwise (its view is not said)",
+       "vorticity " + with_error(seen.mean, seen.error) + " 1/s: " + sense +
+           " with the driven wall on the right" + (is_sure ? "" : "; not beyond its error"),
+       is_sure            ? Agreement::agrees
+       : seen.samples > 1 ? Agreement::differs
+                          : Agreement::reported}};
   return section;
 }
 

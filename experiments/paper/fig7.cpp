@@ -8,25 +8,31 @@
 namespace ballast {
 namespace {
 
-constexpr double half_section_of_contacts = 0.08;  // contacts this near the middle plane are drawn [m]
-constexpr int classes = 8;             // of thickness
+constexpr double half_section_of_contacts =
+    0.08;                   // contacts this near the middle plane are drawn [m]
+constexpr int classes = 8;  // of thickness
 
-/// Segments between the centres of touching grains (to the contact at walls), thicker for larger normal forces.
+/// Segments between the centres of touching grains (to the contact at walls), thicker for larger
+/// normal forces.
 Panel chains(const StoredState& state, const char* title) {
   const MotionState& motion = state.at.state;
   const auto wall = [&](BoxWall which) { return wall_place(state.system, motion, which); };
   const double middle = 0.5 * (wall(wall_y_min).y() + wall(wall_y_max).y());
-  const std::vector<PairForce> pairs = pair_forces(state.at.contacts, state.at.impulses, state.step);
+  const std::vector<PairForce> pairs =
+      pair_forces(state.at.contacts, state.at.impulses, state.step);
   double mean = 0.0;
-  for (const PairForce& pair : pairs) mean += pair.normal_force() / static_cast<double>(pairs.size());
+  for (const PairForce& pair : pairs)
+    mean += pair.normal_force() / static_cast<double>(pairs.size());
   std::array<Curve, classes> curves;
   const auto centre = [&](int body, const PairForce& pair) -> Vec3 {
-    return body < state.system.grain_count ? motion.pose[static_cast<size_t>(body)].position : pair.position;
+    return body < state.system.grain_count ? motion.pose[static_cast<size_t>(body)].position
+                                           : pair.position;
   };
   for (const PairForce& pair : pairs) {
     if (std::abs(pair.position.y() - middle) > half_section_of_contacts) continue;
     const Vec3 a = centre(pair.body_a, pair), b = centre(pair.body_b, pair);
-    const double relative = pair.normal_force() / mean;  // up to 4 means the thickness grows with the force
+    const double relative =
+        pair.normal_force() / mean;  // up to 4 means the thickness grows with the force
     const auto k = static_cast<size_t>(std::min(classes - 1.0, std::floor(2.0 * relative)));
     for (const Vec3& end : {a, b}) {
       curves[k].x.push_back(end.x());
@@ -55,9 +61,11 @@ struct PhaseStress {
   std::array<int, 4> count{};
 
   void add(const StoredState& state) {
-    const std::vector<PairForce> pairs = pair_forces(state.at.contacts, state.at.impulses, state.step);
+    const std::vector<PairForce> pairs =
+        pair_forces(state.at.contacts, state.at.impulses, state.step);
     const size_t phase = static_cast<size_t>(state.phase);
-    sum[phase] += stress_tensor(state.system, state.at.state, pairs, box_volume(state.system, state.at.state));
+    sum[phase] += stress_tensor(state.system, state.at.state, pairs,
+                                box_volume(state.system, state.at.state));
     ++count[phase];
   }
   double inclination(WallPhase phase) const {
@@ -76,11 +84,14 @@ constexpr std::pair<WallPhase, const char*> stress_phases[] = {
 }  // namespace
 
 PaperSection fig7_section(PaperData& data) {
-  PaperSection section = new_section("fig7", "Figure 7: force chains, and the principal directions of the stress");
+  PaperSection section =
+      new_section("fig7", "Figure 7: force chains, and the principal directions of the stress");
   section.text = {
-      "Stress σ = (1/V) Σ f ⊗ ℓ over all contacts, f the force on grain b by grain a (sum over the pair’s contact "
+      "Stress σ = (1/V) Σ f ⊗ ℓ over all contacts, f the force on grain b by grain a (sum over the "
+      "pair’s contact "
       "points), ℓ from a’s centre to b’s (from "
-      "the contact point at walls); compression positive. The angle is that of the major principal direction in the xz "
+      "the contact point at walls); compression positive. The angle is that of the major principal "
+      "direction in the xz "
       "plane to the horizontal, of the "
       "stress averaged over the stored states of a phase."};
   const std::vector<MotionRun> runs = read_motion(data, section);
@@ -93,7 +104,9 @@ PaperSection fig7_section(PaperData& data) {
     PhaseStress stress;
     states += for_each_state(run, [&](const StoredState& state) {
       stress.add(state);
-      if (&run != &runs.front() || (state.phase != WallPhase::passive && state.phase != WallPhase::active)) return;
+      if (&run != &runs.front() ||
+          (state.phase != WallPhase::passive && state.phase != WallPhase::active))
+        return;
       const size_t k = state.phase == WallPhase::active;
       if (std::abs(state.wall_speed) <= fastest[k]) return;
       fastest[k] = std::abs(state.wall_speed);
@@ -112,8 +125,8 @@ PaperSection fig7_section(PaperData& data) {
   for (size_t k = 0; k < 3; ++k) {
     mean[k] = sample_mean(angles[k]);
     const SampleMean ratio = sample_mean(ratios[k]);
-    table.rows.push_back(
-        {stress_phases[k].second, with_error(mean[k].mean, mean[k].error), with_error(ratio.mean, ratio.error)});
+    table.rows.push_back({stress_phases[k].second, with_error(mean[k].mean, mean[k].error),
+                          with_error(ratio.mean, ratio.error)});
   }
   if (states == 0) {
     section.notes.push_back("PARTIAL: no stored states.");
@@ -128,10 +141,12 @@ PaperSection fig7_section(PaperData& data) {
     figure.plot.height = static_cast<int>(2.0 * (78.0 + 640.0 * aspect));
     figure.plot.panels = {panels[0], panels[1]};
     figure.paper =
-        "Nearly horizontal force chains in the passive and jammed states, nearly vertical gravity-induced chains in "
+        "Nearly horizontal force chains in the passive and jammed states, nearly vertical "
+        "gravity-induced chains in "
         "the active state.";
     figure.found =
-        "Sample 1, the stored states with the fastest wall in either direction, contacts within 8 cm of the middle "
+        "Sample 1, the stored states with the fastest wall in either direction, contacts within 8 "
+        "cm of the middle "
         "plane; thickness grows with the normal force "
         "over the state’s mean (to 4 means). Major principal direction: " +
         with_error(mean[0].mean, mean[0].error) + "° to the horizontal in the passive, " +
@@ -143,10 +158,11 @@ PaperSection fig7_section(PaperData& data) {
     const double off = is_horizontal ? angle.mean : 90.0 - angle.mean;
     return off < 20.0 ? Agreement::agrees : off < 45.0 ? Agreement::partly : Agreement::differs;
   };
-  section.rows = {{"Fig. 7a", "major stress horizontal in the passive state",
-                   with_error(mean[0].mean, mean[0].error) + "° to the horizontal", judge(mean[0], true)},
-                  {"Fig. 7b", "major stress vertical in the active state",
-                   with_error(mean[2].mean, mean[2].error) + "° to the horizontal", judge(mean[2], false)}};
+  section.rows = {
+      {"Fig. 7a", "major stress horizontal in the passive state",
+       with_error(mean[0].mean, mean[0].error) + "° to the horizontal", judge(mean[0], true)},
+      {"Fig. 7b", "major stress vertical in the active state",
+       with_error(mean[2].mean, mean[2].error) + "° to the horizontal", judge(mean[2], false)}};
   return section;
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int orbit_phases = 200;  // of a period, at which orbits are compared
 
-/// The mean orbit over the periods that count: displacement from the period's first jamming position [m], velocity
-/// [m/s].
+/// The mean orbit over the periods that count: displacement from the period's first jamming
+/// position [m], velocity [m/s].
 struct Orbit {
   std::vector<double> x, v;
   int periods = 0;
@@ -28,8 +28,10 @@ Orbit mean_orbit(const RunData& data) {
   orbit.periods = static_cast<int>(cycles.periods.size());
   for (const WallPeriod& period : cycles.periods)
     for (int k = 0; k < orbit_phases; ++k) {
-      const size_t sample = period.first + static_cast<size_t>(k) * (period.last - period.first) / orbit_phases;
-      orbit.x[static_cast<size_t>(k)] += (data.steps[sample].wall_x - period.x_before) / orbit.periods;
+      const size_t sample =
+          period.first + static_cast<size_t>(k) * (period.last - period.first) / orbit_phases;
+      orbit.x[static_cast<size_t>(k)] +=
+          (data.steps[sample].wall_x - period.x_before) / orbit.periods;
       orbit.v[static_cast<size_t>(k)] += cycles.velocity[sample] / orbit.periods;
     }
   return orbit;
@@ -49,10 +51,12 @@ Orbit scaled(const Orbit& orbit, double x_factor, double v_factor) {
 
 /// rms over orbit_phases of the distance, each axis in units of the mean range of the two.
 double distance(const Orbit& a, const Orbit& b) {
-  const double x_range = 0.5 * (range_of(a.x) + range_of(b.x)), v_range = 0.5 * (range_of(a.v) + range_of(b.v));
+  const double x_range = 0.5 * (range_of(a.x) + range_of(b.x)),
+               v_range = 0.5 * (range_of(a.v) + range_of(b.v));
   double sum = 0.0;
   for (size_t k = 0; k < orbit_phases; ++k)
-    sum += (std::pow((a.x[k] - b.x[k]) / x_range, 2) + std::pow((a.v[k] - b.v[k]) / v_range, 2)) / orbit_phases;
+    sum += (std::pow((a.x[k] - b.x[k]) / x_range, 2) + std::pow((a.v[k] - b.v[k]) / v_range, 2)) /
+           orbit_phases;
   return std::sqrt(sum);
 }
 
@@ -81,7 +85,8 @@ Panel portrait(const std::vector<std::pair<Orbit, double>>& orbits, const std::s
 
 PaperSection fig8_section(PaperData& data) {
   PaperSection section = new_section("fig8", "Figure 8: phase portraits at 5 and 10 Hz");
-  const auto slow = data.at_frequency(motion_frequency), fast = data.at_frequency(2.0 * motion_frequency);
+  const auto slow = data.at_frequency(motion_frequency),
+             fast = data.at_frequency(2.0 * motion_frequency);
   if (!slow || !fast) {
     section.notes = {"PARTIAL: the runs at 5 and 10 Hz are not both there yet."};
     return section;
@@ -94,27 +99,33 @@ PaperSection fig8_section(PaperData& data) {
     return section;
   }
   std::vector<std::pair<Orbit, double>> collapsed;
-  for (size_t k = 0; k < 2; ++k) collapsed.emplace_back(scaled(raw[k].first, nu[k] * nu[k], nu[k]), nu[k]);
-  const double before = distance(raw[0].first, raw[1].first), after = distance(collapsed[0].first, collapsed[1].first);
+  for (size_t k = 0; k < 2; ++k)
+    collapsed.emplace_back(scaled(raw[k].first, nu[k] * nu[k], nu[k]), nu[k]);
+  const double before = distance(raw[0].first, raw[1].first),
+               after = distance(collapsed[0].first, collapsed[1].first);
   PaperFigure figure;
   figure.plot.name = "fig08";
   figure.plot.title = "Phase portraits of the wall at 5 and 10 Hz, raw and scaled";
   figure.plot.height = 860;
-  figure.plot.panels = {portrait(raw, "{/:Italic x} − {/:Italic x}_{jam}  (mm)", "{/:Italic v}  (mm/s)", 1e3, 1e3),
-                        portrait(collapsed, "({/:Italic x} − {/:Italic x}_{jam}) {/:Italic ν}^2  (mm/s^2)",
-                                 "{/:Italic v ν}  (mm/s^2)", 1e3, 1e3)};
-  figure.paper = "Displacements scaled by ν⁻² and velocities by ν⁻¹ “collapse nicely on the same trajectory”.";
+  figure.plot.panels = {
+      portrait(raw, "{/:Italic x} − {/:Italic x}_{jam}  (mm)", "{/:Italic v}  (mm/s)", 1e3, 1e3),
+      portrait(collapsed, "({/:Italic x} − {/:Italic x}_{jam}) {/:Italic ν}^2  (mm/s^2)",
+               "{/:Italic v ν}  (mm/s^2)", 1e3, 1e3)};
+  figure.paper =
+      "Displacements scaled by ν⁻² and velocities by ν⁻¹ “collapse nicely on the same trajectory”.";
   figure.found = "Orbits are means over " + std::to_string(raw[0].first.periods) + " (5 Hz) and " +
                  std::to_string(raw[1].first.periods) +
-                 " (10 Hz) periods of one sample. Their distance (rms over the phase, each axis in units of the "
+                 " (10 Hz) periods of one sample. Their distance (rms over the phase, each axis in "
+                 "units of the "
                  "orbits’ mean range) is " +
                  digits(before) + " raw and " + digits(after) + " scaled.";
   section.figures = {figure};
-  section.rows = {{"Fig. 8", "orbits at 5 and 10 Hz collapse",
-                   "distance raw " + digits(before) + ", scaled " + digits(after) + " of the orbit’s size",
-                   after < 0.1            ? Agreement::agrees
-                   : after < 0.5 * before ? Agreement::partly
-                                          : Agreement::differs}};
+  section.rows = {
+      {"Fig. 8", "orbits at 5 and 10 Hz collapse",
+       "distance raw " + digits(before) + ", scaled " + digits(after) + " of the orbit’s size",
+       after < 0.1            ? Agreement::agrees
+       : after < 0.5 * before ? Agreement::partly
+                              : Agreement::differs}};
   return section;
 }
 

@@ -7,10 +7,12 @@
 namespace ballast {
 namespace {
 
-Panel scaling_panel(const SweepCurve& curve, const PowerFit& fit, double expected, const std::string& y_label) {
+Panel scaling_panel(const SweepCurve& curve, const PowerFit& fit, double expected,
+                    const std::string& y_label) {
   Panel panel = frequency_panel(y_label);
   panel.log_y = true;
-  panel.curves = {points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
+  panel.curves = {
+      points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
   if (!std::isfinite(fit.exponent)) return panel;
   const double low = curve.x.front(), high = curve.x.back();
   panel.curves.push_back(curve_of([&](double nu) { return fit.at(nu); }, low, high, true,
@@ -18,9 +20,11 @@ Panel scaling_panel(const SweepCurve& curve, const PowerFit& fit, double expecte
   // through the data's geometric middle
   double logs = 0.0;
   for (size_t k = 0; k < curve.x.size(); ++k)
-    logs += std::log(curve.y[k] / std::pow(curve.x[k], expected)) / static_cast<double>(curve.x.size());
-  panel.curves.push_back(curve_of([&](double nu) { return std::exp(logs) * std::pow(nu, expected); }, low, high, true,
-                                  "the paper’s exponent " + digits(expected, 1), Ink::vermilion, false));
+    logs +=
+        std::log(curve.y[k] / std::pow(curve.x[k], expected)) / static_cast<double>(curve.x.size());
+  panel.curves.push_back(
+      curve_of([&](double nu) { return std::exp(logs) * std::pow(nu, expected); }, low, high, true,
+               "the paper’s exponent " + digits(expected, 1), Ink::vermilion, false));
   return panel;
 }
 
@@ -38,12 +42,15 @@ TextTable values_table(const std::vector<SweepValue>& values) {
   table.head = {"ν (Hz)",       "samples",           "periods each",    "Δx_max (mm)",
                 "v_max (mm/s)", "Δx_max ν² (mm/s²)", "v_max ν (mm/s²)", "error (g·h)"};
   for (const SweepValue& value : values) {
-    const SampleMean rise = value.mean(&Observation::rise), speed = value.mean(&Observation::speed_in);
+    const SampleMean rise = value.mean(&Observation::rise),
+                     speed = value.mean(&Observation::speed_in);
     const double nu = value.value;
-    table.rows.push_back({digits(nu), std::to_string(value.samples.size()) + " of " + std::to_string(value.planned),
-                          std::to_string(value.samples.front().periods), with_error(1e3 * rise.mean, 1e3 * rise.error),
-                          with_error(1e3 * speed.mean, 1e3 * speed.error), digits(1e3 * rise.mean * nu * nu),
-                          digits(1e3 * speed.mean * nu), digits(value.mean(&Observation::error_mean).mean, 2)});
+    table.rows.push_back(
+        {digits(nu), std::to_string(value.samples.size()) + " of " + std::to_string(value.planned),
+         std::to_string(value.samples.front().periods),
+         with_error(1e3 * rise.mean, 1e3 * rise.error),
+         with_error(1e3 * speed.mean, 1e3 * speed.error), digits(1e3 * rise.mean * nu * nu),
+         digits(1e3 * speed.mean * nu), digits(value.mean(&Observation::error_mean).mean, 2)});
   }
   return table;
 }
@@ -51,7 +58,8 @@ TextTable values_table(const std::vector<SweepValue>& values) {
 }  // namespace
 
 PaperSection fig9_section(PaperData& data) {
-  PaperSection section = new_section("fig9", "Figure 9: displacement and velocity against frequency");
+  PaperSection section =
+      new_section("fig9", "Figure 9: displacement and velocity against frequency");
   const std::vector<SweepValue> values = data.sweep(Sweep::frequency);
   if (const std::string missing = data.missing(Sweep::frequency, "frequencies"); !missing.empty())
     section.notes.push_back(missing);
@@ -65,19 +73,25 @@ PaperSection fig9_section(PaperData& data) {
   figure.plot.height = 760;
   figure.plot.panels = {scaling_panel(rise, rise_fit, -2.0, "Δ{/:Italic x}_{max}  (mm)"),
                         scaling_panel(speed, speed_fit, -1.0, "{/:Italic v}_{max}  (mm/s)")};
-  figure.paper = "Δx_max falls as ν⁻² and v_max as ν⁻¹ from 1 to 60 Hz; “the corresponding fits are excellent”.";
+  figure.paper =
+      "Δx_max falls as ν⁻² and v_max as ν⁻¹ from 1 to 60 Hz; “the corresponding fits are "
+      "excellent”.";
   figure.found = "Exponent of Δx_max: " + words_of(rise_fit) + ", " + misfit_words(rise_fit, rise) +
                  "; of v_max: " + words_of(speed_fit) + ", " + misfit_words(speed_fit, speed) +
-                 ". Unweighted least squares on logarithms of the sample means, 95 % intervals from Student’s t. " +
-                 misfit_meaning + " By part: Δx_max up to 10 Hz " + words_of(fit_part(rise, 0.0, 10.0)) +
-                 ", from 10 Hz " + words_of(fit_part(rise, 10.0, 1e9)) + "; v_max up to 10 Hz " +
-                 words_of(fit_part(speed, 0.0, 10.0)) + ", from 10 Hz " + words_of(fit_part(speed, 10.0, 1e9)) + ".";
+                 ". Unweighted least squares on logarithms of the sample means, 95 % intervals "
+                 "from Student’s t. " +
+                 misfit_meaning + " By part: Δx_max up to 10 Hz " +
+                 words_of(fit_part(rise, 0.0, 10.0)) + ", from 10 Hz " +
+                 words_of(fit_part(rise, 10.0, 1e9)) + "; v_max up to 10 Hz " +
+                 words_of(fit_part(speed, 0.0, 10.0)) + ", from 10 Hz " +
+                 words_of(fit_part(speed, 10.0, 1e9)) + ".";
   section.figures = {figure};
   section.tables = {values_table(values)};
-  section.rows = {{"Fig. 9", "Δx_max ~ ν^−2", words_of(rise_fit) + ", " + misfit_words(rise_fit, rise),
-                   judge_exponent(rise_fit, -2.0)},
-                  {"Fig. 9", "v_max ~ ν^−1", words_of(speed_fit) + ", " + misfit_words(speed_fit, speed),
-                   judge_exponent(speed_fit, -1.0)}};
+  section.rows = {
+      {"Fig. 9", "Δx_max ~ ν^−2", words_of(rise_fit) + ", " + misfit_words(rise_fit, rise),
+       judge_exponent(rise_fit, -2.0)},
+      {"Fig. 9", "v_max ~ ν^−1", words_of(speed_fit) + ", " + misfit_words(speed_fit, speed),
+       judge_exponent(speed_fit, -1.0)}};
   return section;
 }
 

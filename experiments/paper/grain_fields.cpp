@@ -27,7 +27,8 @@ std::vector<int> contact_counts(const MechanicalSystem& system, std::span<const 
   return counts;
 }
 
-void count_contacts(const MechanicalSystem& system, std::span<const PairForce> pairs, PackingStatistics& result) {
+void count_contacts(const MechanicalSystem& system, std::span<const PairForce> pairs,
+                    PackingStatistics& result) {
   const auto total = [](const std::vector<int>& counts) {
     double sum = 0.0;
     for (const int count : counts) sum += count;
@@ -74,11 +75,14 @@ Fabric fabric_of(const MechanicalSystem& system, std::span<const PairForce> pair
   return sum;
 }
 
-void find_anisotropy(const MechanicalSystem& system, const MotionState& state, std::span<const PairForce> pairs,
-                     PackingStatistics& result) {
-  const Principal stress = principal_of(stress_tensor(system, state, pairs, box_volume(system, state)));
+void find_anisotropy(const MechanicalSystem& system, const MotionState& state,
+                     std::span<const PairForce> pairs, PackingStatistics& result) {
+  const Principal stress =
+      principal_of(stress_tensor(system, state, pairs, box_volume(system, state)));
   const Vec3 e1 = stress.direction.col(0), e3 = stress.direction.col(2);
-  const auto contrast = [&](const Mat3& tensor) { return 2.5 * (e1.dot(tensor * e1) - e3.dot(tensor * e3)); };
+  const auto contrast = [&](const Mat3& tensor) {
+    return 2.5 * (e1.dot(tensor * e1) - e3.dot(tensor * e3));
+  };
   const Fabric fabric = fabric_of(system, pairs);
   result.fabric = contrast(fabric.contact);
   result.normal = contrast(fabric.normal) - result.fabric;
@@ -89,14 +93,18 @@ void find_anisotropy(const MechanicalSystem& system, const MotionState& state, s
 
 }  // namespace
 
-std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts, std::span<const Vec3> impulses, double h) {
-  if (contacts.size() != impulses.size()) throw std::invalid_argument("pair forces need as many impulses as contacts");
+std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
+                                   std::span<const Vec3> impulses, double h) {
+  if (contacts.size() != impulses.size())
+    throw std::invalid_argument("pair forces need as many impulses as contacts");
   std::vector<PairForce> pairs;
   for (size_t k = 0; k < contacts.size();) {
     const ContactPoint& first = contacts[k];
     PairForce pair{first.body_a, first.body_b, first.normal, Vec3::Zero(), Vec3::Zero()};
     double weight = 0.0;
-    for (; k < contacts.size() && contacts[k].body_a == first.body_a && contacts[k].body_b == first.body_b; ++k) {
+    for (; k < contacts.size() && contacts[k].body_a == first.body_a &&
+           contacts[k].body_b == first.body_b;
+         ++k) {
       const Vec3 force = impulses[k] / h;
       const double normal = std::max(0.0, force.dot(contacts[k].normal));
       pair.force += force;
@@ -110,14 +118,15 @@ std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts, std::
   return pairs;
 }
 
-Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state, std::span<const PairForce> pairs,
-                   double volume) {
+Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state,
+                   std::span<const PairForce> pairs, double volume) {
   Mat3 sum = Mat3::Zero();
   const auto place = [&](int body, const Vec3& contact) -> Vec3 {
     return body < system.grain_count ? state.pose[static_cast<size_t>(body)].position : contact;
   };
   for (const PairForce& pair : pairs)
-    sum += pair.force * (place(pair.body_b, pair.position) - place(pair.body_a, pair.position)).transpose();
+    sum += pair.force *
+           (place(pair.body_b, pair.position) - place(pair.body_a, pair.position)).transpose();
   return 0.5 * (sum + sum.transpose()) / volume;
 }
 
@@ -132,8 +141,8 @@ Principal principal_of(const Mat3& symmetric) {
 }
 
 double major_inclination(const Mat3& tensor) {
-  const double angle =
-      0.5 * std::atan2(tensor(0, 2) + tensor(2, 0), tensor(0, 0) - tensor(2, 2));  // in (-90, 90] degrees
+  const double angle = 0.5 * std::atan2(tensor(0, 2) + tensor(2, 0),
+                                        tensor(0, 0) - tensor(2, 2));  // in (-90, 90] degrees
   return std::abs(angle) * 180.0 / std::numbers::pi;
 }
 
@@ -164,18 +173,21 @@ Vec3 wall_place(const MechanicalSystem& system, const MotionState& state, BoxWal
 
 double box_volume(const MechanicalSystem& system, const MotionState& state) {
   const auto wall = [&](BoxWall which) { return wall_place(system, state, which); };
-  return (wall(wall_x_max).x() - wall(wall_x_min).x()) * (wall(wall_y_max).y() - wall(wall_y_min).y()) *
+  return (wall(wall_x_max).x() - wall(wall_x_min).x()) *
+         (wall(wall_y_max).y() - wall(wall_y_min).y()) *
          (wall(wall_lid).z() - wall(wall_floor).z());
 }
 
 PackingStatistics packing_statistics(const MechanicalSystem& system, const MotionState& state,
-                                     std::span<const ContactPoint> contacts, std::span<const Vec3> impulses, double h) {
+                                     std::span<const ContactPoint> contacts,
+                                     std::span<const Vec3> impulses, double h) {
   PackingStatistics result;
   const std::vector<PairForce> pairs = pair_forces(contacts, impulses, h);
   count_contacts(system, pairs, result);
   double between = 0.0, points = 0.0, sliding = 0.0, force = 0.0, weak = 0.0;
   for (size_t k = 0; k < contacts.size(); ++k) {
-    const bool grains = contacts[k].body_a < system.grain_count && contacts[k].body_b < system.grain_count;
+    const bool grains =
+        contacts[k].body_a < system.grain_count && contacts[k].body_b < system.grain_count;
     if (grains && impulses[k].dot(contacts[k].normal) > 0.0) points += 1.0;
   }
   for (const PairForce& pair : pairs) {
@@ -187,7 +199,8 @@ PackingStatistics packing_statistics(const MechanicalSystem& system, const Motio
   }
   if (between > 0.0) {
     result.mean_force = force / between;
-    for (const double relative : relative_normal_forces(system, pairs)) weak += relative < 1.0 ? 1.0 : 0.0;
+    for (const double relative : relative_normal_forces(system, pairs))
+      weak += relative < 1.0 ? 1.0 : 0.0;
     result.weak_share = weak / between;
     result.sliding_share = sliding / between;
     result.points_per_contact = points / between;
@@ -196,7 +209,8 @@ PackingStatistics packing_statistics(const MechanicalSystem& system, const Motio
   return result;
 }
 
-std::vector<double> relative_normal_forces(const MechanicalSystem& system, std::span<const PairForce> pairs) {
+std::vector<double> relative_normal_forces(const MechanicalSystem& system,
+                                           std::span<const PairForce> pairs) {
   std::vector<double> forces;
   double sum = 0.0;
   for (const PairForce& pair : pairs)

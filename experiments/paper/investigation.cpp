@@ -1,5 +1,5 @@
-// Where the paper and Ballast differ: exponents, C and compaction under each cause that was varied, beside what the
-// samples scatter.
+// Where the paper and Ballast differ: exponents, C and compaction under each cause that was varied,
+// beside what the samples scatter.
 
 #include "experiments/paper/investigation.hpp"
 
@@ -20,16 +20,19 @@ SampleMean overall(const Variant& variant, double Observation::*quantity) {
 }
 
 /// Standard deviation of one sample: what another set of grains changes.
-double deviation_of(const SampleMean& mean) { return mean.error * std::sqrt(static_cast<double>(mean.samples)); }
+double deviation_of(const SampleMean& mean) {
+  return mean.error * std::sqrt(static_cast<double>(mean.samples));
+}
 
 std::string error_words(const SampleMean& mean) { return with_error(mean.mean, mean.error); }
 
 TextTable exponents_table(const std::vector<Variant>& variants) {
   TextTable table{
-      "Exponents in ν under each cause: between 10 and 60 Hz (mean over samples ± standard error), and "
+      "Exponents in ν under each cause: between 10 and 60 Hz (mean over samples ± standard error), "
+      "and "
       "fitted over 5, 10, 20 and 60 Hz with 95 % intervals; C of Eq. 3; solid fractions at 10 Hz",
-      {"varied", "samples", "Δx_max, 10–60 Hz", "Δx_max, fit", "v_max, 10–60 Hz", "v_max, fit", "C at 10 Hz",
-       "C at 60 Hz", "ρ before", "ρ₀"},
+      {"varied", "samples", "Δx_max, 10–60 Hz", "Δx_max, fit", "v_max, 10–60 Hz", "v_max, fit",
+       "C at 10 Hz", "C at 60 Hz", "ρ before", "ρ₀"},
       {}};
   for (const Variant& variant : variants) {
     const SweepCurve rise = curve_of_sweep(variant.values, &Observation::rise),
@@ -41,11 +44,12 @@ TextTable exponents_table(const std::vector<Variant>& variants) {
     const auto of = [](const SweepValue* value, double Observation::*quantity) {
       return value ? digits(value->mean(quantity).mean, 4) : std::string("–");
     };
-    table.rows.push_back({variant.name, std::to_string(variant.values.front().samples.size()),
-                          error_words(overall(variant, &Observation::rise)), fit(rise),
-                          error_words(overall(variant, &Observation::speed_in)), fit(speed),
-                          a ? error_words(prefactor_of(*a)) : "–", b ? error_words(prefactor_of(*b)) : "–",
-                          of(a, &Observation::solid_initial), of(a, &Observation::solid_reference)});
+    table.rows.push_back(
+        {variant.name, std::to_string(variant.values.front().samples.size()),
+         error_words(overall(variant, &Observation::rise)), fit(rise),
+         error_words(overall(variant, &Observation::speed_in)), fit(speed),
+         a ? error_words(prefactor_of(*a)) : "–", b ? error_words(prefactor_of(*b)) : "–",
+         of(a, &Observation::solid_initial), of(a, &Observation::solid_reference)});
   }
   return table;
 }
@@ -65,16 +69,18 @@ double peak_of(const Variant& variant, double Observation::*rate) {
 
 TextTable rates_table(const std::vector<Variant>& variants) {
   TextTable table{
-      "Compaction rate (1/s) under each cause, in the paper’s window and in the same absolute time for all "
+      "Compaction rate (1/s) under each cause, in the paper’s window and in the same absolute time "
+      "for all "
       "frequencies (mean over samples ± standard error)",
       {"varied", "window"},
       {}};
-  for (const double frequency : compared_frequencies) table.head.push_back(digits(frequency, 1) + " Hz");
+  for (const double frequency : compared_frequencies)
+    table.head.push_back(digits(frequency, 1) + " Hz");
   table.head.push_back("largest at");
   for (const Variant& variant : variants) {
     if (variant.values.size() < 3) continue;  // shorter runs: another window
-    for (const auto& [name, rate] :
-         {std::pair{"paper’s", &Observation::rate}, std::pair{"0.4–1 s", &Observation::rate_common}}) {
+    for (const auto& [name, rate] : {std::pair{"paper’s", &Observation::rate},
+                                     std::pair{"0.4–1 s", &Observation::rate_common}}) {
       table.rows.push_back({variant.name, name});
       for (const double frequency : compared_frequencies) {
         const SweepValue* value = variant.at(frequency);
@@ -104,18 +110,22 @@ void add_effects(const std::vector<Variant>& variants, PaperSection& section) {
     const Variant& reference = variants[static_cast<size_t>(variant.reference)];
     const SampleMean seen = overall(variant, &Observation::rise);
     if (!std::isfinite(seen.mean)) continue;
-    section.rows.push_back(
-        {"beyond", "exponents of ν, 10–60 Hz",
-         variant.name + ": Δx_max " + effect(seen, overall(reference, &Observation::rise), rise) + "; v_max " +
-             effect(overall(variant, &Observation::speed_in), overall(reference, &Observation::speed_in), speed),
-         Agreement::reported});
+    section.rows.push_back({"beyond", "exponents of ν, 10–60 Hz",
+                            variant.name + ": Δx_max " +
+                                effect(seen, overall(reference, &Observation::rise), rise) +
+                                "; v_max " +
+                                effect(overall(variant, &Observation::speed_in),
+                                       overall(reference, &Observation::speed_in), speed),
+                            Agreement::reported});
   }
   for (const Variant& variant : variants) {
-    const double whole = peak_of(variant, &Observation::rate), common = peak_of(variant, &Observation::rate_common);
+    const double whole = peak_of(variant, &Observation::rate),
+                 common = peak_of(variant, &Observation::rate_common);
     if (!std::isfinite(whole)) continue;
     section.rows.push_back({"beyond", "compaction fastest near 10 Hz",
                             variant.name + ": of 5, 10, 20, 60 Hz at " + digits(whole, 1) +
-                                " Hz in the paper’s window, " + digits(common, 1) + " Hz within 0.4–1 s",
+                                " Hz in the paper’s window, " + digits(common, 1) +
+                                " Hz within 0.4–1 s",
                             Agreement::reported});
   }
 }
@@ -138,8 +148,8 @@ Variant part_of(std::string name, const std::vector<SweepValue>& values, bool fi
 }
 
 /// The same case of two sweeps, one at 10 and one at 60 Hz.
-Variant pair_of(std::string name, const std::vector<SweepValue>& at_slow, const std::vector<SweepValue>& at_fast,
-                double which, int reference) {
+Variant pair_of(std::string name, const std::vector<SweepValue>& at_slow,
+                const std::vector<SweepValue>& at_fast, double which, int reference) {
   Variant variant{std::move(name), {}, reference};
   for (const auto& [values, frequency] : {std::pair{&at_slow, slow}, std::pair{&at_fast, fast}})
     for (SweepValue value : *values)
@@ -155,15 +165,17 @@ struct Cause {
   const char *name, *missing;
 };
 constexpr Cause causes[] = {
-    {Sweep::loose_frequency, "looser deposit (lid placed, μ 0.8 while depositing)", "frequencies, looser deposit"},
+    {Sweep::loose_frequency, "looser deposit (lid placed, μ 0.8 while depositing)",
+     "frequencies, looser deposit"},
     {Sweep::rough_frequency, "friction 0.8", "frequencies, friction 0.8"},
     {Sweep::strong_frequency, "f_max = 8 m g", "frequencies, f_max = 8 m g"}};
 
 }  // namespace
 
 const SweepValue* Variant::at(double frequency) const {
-  const auto found =
-      std::find_if(values.begin(), values.end(), [&](const SweepValue& value) { return value.value == frequency; });
+  const auto found = std::find_if(values.begin(), values.end(), [&](const SweepValue& value) {
+    return value.value == frequency;
+  });
   return found == values.end() ? nullptr : &*found;
 }
 
@@ -181,37 +193,45 @@ std::vector<Variant> variants_of(PaperData& data) {
                                 iterations_fast = data.sweep(Sweep::iterations_fast);
   const double base = data.campaign().settings.iterations;
   const int cut = static_cast<int>(variants.size());
-  variants.push_back(pair_of("nothing (sample 1, periods to 0.7 and 0.6 s)", iterations, iterations_fast, base, -1));
+  variants.push_back(pair_of("nothing (sample 1, periods to 0.7 and 0.6 s)", iterations,
+                             iterations_fast, base, -1));
   if (variants.back().values.size() < 2) {
     variants.pop_back();
     return variants;
   }
   for (const SweepValue& value : iterations)
     if (value.value != base)
-      variants.push_back(pair_of(value.label + " iterations a step", iterations, iterations_fast, value.value, cut));
-  variants.push_back(
-      pair_of("h = 5e-5 s", data.sweep(Sweep::time_step), data.sweep(Sweep::time_step_fast), fine_step, cut));
+      variants.push_back(pair_of(value.label + " iterations a step", iterations, iterations_fast,
+                                 value.value, cut));
+  variants.push_back(pair_of("h = 5e-5 s", data.sweep(Sweep::time_step),
+                             data.sweep(Sweep::time_step_fast), fine_step, cut));
   std::erase_if(variants, [](const Variant& variant) { return variant.values.empty(); });
   return variants;
 }
 
 PaperSection investigation_section(PaperData& data) {
-  PaperSection section = new_section("investigation", "Where Ballast and the paper differ, and what we varied");
+  PaperSection section =
+      new_section("investigation", "Where Ballast and the paper differ, and what we varied");
   section.text = {
-      "Each cause is varied alone, at 10 and 60 Hz at least, on sample 1, and compared with sample 1 without it; a "
+      "Each cause is varied alone, at 10 and 60 Hz at least, on sample 1, and compared with sample "
+      "1 without it; a "
       "change "
-      "counts when it exceeds what another sample of grains changes. Solver and step have shorter runs and are "
+      "counts when it exceeds what another sample of grains changes. Solver and step have shorter "
+      "runs and are "
       "compared "
-      "over the same periods. Gravity and the wall’s mass were varied at 10 Hz alone: no exponent of ν under them."};
+      "over the same periods. Gravity and the wall’s mass were varied at 10 Hz alone: no exponent "
+      "of ν under them."};
   for (const Cause& cause : causes)
     if (const std::string missing = data.missing(cause.sweep, cause.missing); !missing.empty())
       section.notes.push_back(missing);
-  if (const std::string missing = data.missing(Sweep::time_step_fast, "steps at 60 Hz"); !missing.empty())
+  if (const std::string missing = data.missing(Sweep::time_step_fast, "steps at 60 Hz");
+      !missing.empty())
     section.notes.push_back(missing);
   const std::vector<Variant> variants = variants_of(data);
   if (!variants.empty()) {
     section.tables = {exponents_table(variants)};
-    if (const TextTable rates = rates_table(variants); !rates.rows.empty()) section.tables.push_back(rates);
+    if (const TextTable rates = rates_table(variants); !rates.rows.empty())
+      section.tables.push_back(rates);
     add_effects(variants, section);
   }
   add_local_exponents(data, variants, section);

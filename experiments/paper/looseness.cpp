@@ -1,5 +1,5 @@
-// How loose may the solver be? The same start under more and fewer iterations and other backends: which observables
-// move, by how much beyond the spread between samples, and at what cost.
+// How loose may the solver be? The same start under more and fewer iterations and other backends:
+// which observables move, by how much beyond the spread between samples, and at what cost.
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +21,16 @@ double relative_spread(const std::vector<SweepValue>& base, double Observation::
 
 /// The run that the others are compared with: the smallest error.
 const SweepValue* tightest(const std::vector<SweepValue>& values) {
-  const auto least = std::min_element(values.begin(), values.end(), [](const SweepValue& a, const SweepValue& b) {
-    return a.samples.front().error_mean < b.samples.front().error_mean;
-  });
+  const auto least =
+      std::min_element(values.begin(), values.end(), [](const SweepValue& a, const SweepValue& b) {
+        return a.samples.front().error_mean < b.samples.front().error_mean;
+      });
   return least == values.end() ? nullptr : &*least;
 }
 
-std::string change(double value, double reference) { return reference == 0.0 ? "–" : percent(value / reference - 1.0); }
+std::string change(double value, double reference) {
+  return reference == 0.0 ? "–" : percent(value / reference - 1.0);
+}
 
 TextTable table_of(const std::vector<SweepValue>& values, const std::string& caption) {
   TextTable table{caption, {"solver", "error (g·h)", "ms a step (median)"}, {}};
@@ -36,7 +39,8 @@ TextTable table_of(const std::vector<SweepValue>& values, const std::string& cap
   const SweepValue* reference = tightest(values);
   for (const SweepValue& value : values) {
     const Observation& seen = value.samples.front();
-    table.rows.push_back({value.label, digits(seen.error_mean, 2), digits(1e3 * seen.seconds_per_step)});
+    table.rows.push_back(
+        {value.label, digits(seen.error_mean, 2), digits(1e3 * seen.seconds_per_step)});
     for (const ObservableColumn& column : observable_columns()) {
       std::string cell = digits(column.factor * seen.*column.value);
       if (&value != reference)
@@ -48,15 +52,16 @@ TextTable table_of(const std::vector<SweepValue>& values, const std::string& cap
 }
 
 /// Relative deviation of an observable from the tightest run's.
-Curve deviation_curve(const std::vector<SweepValue>& values, double Observation::*quantity, const char* title, Ink ink,
-                      bool against_time) {
+Curve deviation_curve(const std::vector<SweepValue>& values, double Observation::*quantity,
+                      const char* title, Ink ink, bool against_time) {
   const SweepValue* reference = tightest(values);
   std::vector<double> x, y;
   for (const SweepValue& value : values) {
     if (&value == reference) continue;
     const Observation& seen = value.samples.front();
     x.push_back(against_time ? 1e3 * seen.seconds_per_step : seen.error_mean);
-    y.push_back(std::max(1e-4, std::abs(seen.*quantity / (reference->samples.front().*quantity) - 1.0)));
+    y.push_back(
+        std::max(1e-4, std::abs(seen.*quantity / (reference->samples.front().*quantity) - 1.0)));
   }
   return points_of(x, y, std::vector<double>(x.size(), 0.0), title, ink);
 }
@@ -69,37 +74,45 @@ PaperFigure figure_of(const std::vector<SweepValue>& values, const std::vector<S
   figure.plot.height = 800;
   for (const bool against_time : {false, true}) {
     Panel panel;
-    panel.x_label = against_time ? "wall clock of a step, median  (ms)" : "rms error over  {/:Italic g h}";
+    panel.x_label =
+        against_time ? "wall clock of a step, median  (ms)" : "rms error over  {/:Italic g h}";
     panel.y_label = "|deviation of Δ{/:Italic x}_{max}|";
     panel.log_x = panel.log_y = true;
     if (values.size() > 1)
-      panel.curves.push_back(deviation_curve(values, &Observation::rise, "nncg, 10 Hz", Ink::blue, against_time));
-    if (fast.size() > 1)
-      panel.curves.push_back(deviation_curve(fast, &Observation::rise, "nncg, 60 Hz", Ink::vermilion, against_time));
-    if (backends.size() > 1)
       panel.curves.push_back(
-          deviation_curve(backends, &Observation::rise, "other backends, 10 Hz", Ink::green, against_time));
-    if (std::isfinite(spread) && spread > 0.0) panel.lines = {{spread, "spread between samples", false, Ink::grey}};
+          deviation_curve(values, &Observation::rise, "nncg, 10 Hz", Ink::blue, against_time));
+    if (fast.size() > 1)
+      panel.curves.push_back(
+          deviation_curve(fast, &Observation::rise, "nncg, 60 Hz", Ink::vermilion, against_time));
+    if (backends.size() > 1)
+      panel.curves.push_back(deviation_curve(backends, &Observation::rise, "other backends, 10 Hz",
+                                             Ink::green, against_time));
+    if (std::isfinite(spread) && spread > 0.0)
+      panel.lines = {{spread, "spread between samples", false, Ink::grey}};
     figure.plot.panels.push_back(panel);
   }
   figure.paper = "The paper could not ask this: one code, one tolerance.";
   figure.found =
-      "Deviation of Δx_max from the run with the smallest error (same packing, sample 1); below 1e-4 it is drawn at "
+      "Deviation of Δx_max from the run with the smallest error (same packing, sample 1); below "
+      "1e-4 it is drawn at "
       "1e-4. Under the grey line solving more "
       "tightly changes less than another sample of grains does.";
   return figure;
 }
 
-/// Loosest run whose Delta x_max lies within the samples' spread of the tightest one's, and so do all tighter ones.
+/// Loosest run whose Delta x_max lies within the samples' spread of the tightest one's, and so do
+/// all tighter ones.
 std::string loosest_good(std::vector<SweepValue> values, double spread) {
   std::sort(values.begin(), values.end(), [](const SweepValue& a, const SweepValue& b) {
     return a.samples.front().error_mean < b.samples.front().error_mean;
   });
   std::string good;
   for (const SweepValue& value : values) {
-    const double miss = std::abs(value.samples.front().rise / values.front().samples.front().rise - 1.0);
+    const double miss =
+        std::abs(value.samples.front().rise / values.front().samples.front().rise - 1.0);
     if (!(miss <= spread)) break;
-    good = value.label + " iterations, error " + digits(value.samples.front().error_mean, 2) + " g·h";
+    good =
+        value.label + " iterations, error " + digits(value.samples.front().error_mean, 2) + " g·h";
   }
   return good;
 }
@@ -109,30 +122,39 @@ std::string loosest_good(std::vector<SweepValue> values, double spread) {
 PaperSection looseness_section(PaperData& data) {
   PaperSection section = new_section("looseness", "How loose may the solver be?");
   section.text = {
-      "The same packing (sample 1) driven at 10 Hz, and at 60 Hz, with the solver stopped after different numbers of "
+      "The same packing (sample 1) driven at 10 Hz, and at 60 Hz, with the solver stopped after "
+      "different numbers of "
       "iterations in every step, and with other "
-      "backends at the campaign’s number. The error is the judge’s scaled natural map, rms over contacts, mean over "
+      "backends at the campaign’s number. The error is the judge’s scaled natural map, rms over "
+      "contacts, mean over "
       "the steps of the periods that count, in units of "
-      "g·h; every backend here solves the exact law. Percentages: deviation from the run with the smallest error."};
+      "g·h; every backend here solves the exact law. Percentages: deviation from the run with the "
+      "smallest error."};
   for (const auto& [sweep, what] :
        {std::pair{Sweep::iterations, "numbers of iterations at 10 Hz"},
-        std::pair{Sweep::iterations_fast, "numbers of iterations at 60 Hz"}, std::pair{Sweep::backend, "backends"}})
-    if (const std::string missing = data.missing(sweep, what); !missing.empty()) section.notes.push_back(missing);
-  const std::vector<SweepValue> values = data.sweep(Sweep::iterations), fast = data.sweep(Sweep::iterations_fast);
+        std::pair{Sweep::iterations_fast, "numbers of iterations at 60 Hz"},
+        std::pair{Sweep::backend, "backends"}})
+    if (const std::string missing = data.missing(sweep, what); !missing.empty())
+      section.notes.push_back(missing);
+  const std::vector<SweepValue> values = data.sweep(Sweep::iterations),
+                                fast = data.sweep(Sweep::iterations_fast);
   std::vector<SweepValue> backends = data.sweep(Sweep::backend);
   const double spread = relative_spread(data.sweep(Sweep::force), &Observation::rise);
-  if (values.size() > 1) section.tables.push_back(table_of(values, "nncg at 10 Hz, by iterations a step"));
-  if (fast.size() > 1) section.tables.push_back(table_of(fast, "nncg at 60 Hz, by iterations a step"));
+  if (values.size() > 1)
+    section.tables.push_back(table_of(values, "nncg at 10 Hz, by iterations a step"));
+  if (fast.size() > 1)
+    section.tables.push_back(table_of(fast, "nncg at 60 Hz, by iterations a step"));
   if (backends.size() > 1)
-    section.tables.push_back(table_of(backends, "Backends at 10 Hz, the same number of iterations"));
+    section.tables.push_back(
+        table_of(backends, "Backends at 10 Hz, the same number of iterations"));
   if (values.size() < 2 && fast.size() < 2 && backends.size() < 2) return section;
   section.figures = {figure_of(values, fast, backends, spread)};
   if (values.size() > 2 && std::isfinite(spread)) {
     const std::string good = loosest_good(values, spread);
-    section.rows = {
-        {"beyond", "–",
-         "Δx_max at 10 Hz within the spread between samples (" + digits(100.0 * spread, 2) + " %) down to: " + good,
-         Agreement::reported}};
+    section.rows = {{"beyond", "–",
+                     "Δx_max at 10 Hz within the spread between samples (" +
+                         digits(100.0 * spread, 2) + " %) down to: " + good,
+                     Agreement::reported}};
   }
   return section;
 }

@@ -27,15 +27,18 @@ RunSettings at_frequency(double frequency) {
 
 void add_frequencies(CampaignBuilder& build) {
   RunSettings motion = at_frequency(motion_frequency);
-  for (motion.seed = 1; motion.seed <= build.seeds(); ++motion.seed) build.campaign.motion.push_back(build.run(motion));
-  // the corners of the range first; 1 Hz needs 3 s and is as dear as all others together can bear: last
+  for (motion.seed = 1; motion.seed <= build.seeds(); ++motion.seed)
+    build.campaign.motion.push_back(build.run(motion));
+  // the corners of the range first; 1 Hz needs 3 s and is as dear as all others together can bear:
+  // last
   for (const double frequency : {10.0, 5.0, 20.0, 2.0, 60.0, 30.0, 3.0, 7.0, 15.0})
-    build.point(Sweep::frequency, frequency, campaign_number(frequency) + " Hz", at_frequency(frequency),
-                build.seeds());
+    build.point(Sweep::frequency, frequency, campaign_number(frequency) + " Hz",
+                at_frequency(frequency), build.seeds());
 }
 
 void add_force(CampaignBuilder& build) {
-  build.point(Sweep::force, base_force, campaign_number(base_force), sweep_base(), build.seeds(), sweep_window);
+  build.point(Sweep::force, base_force, campaign_number(base_force), sweep_base(), build.seeds(),
+              sweep_window);
   for (const double force : {1.5, 8.0, 2.0, 5.0}) {
     RunSettings s;
     s.force = force;
@@ -44,19 +47,20 @@ void add_force(CampaignBuilder& build) {
 }
 
 void add_gravity(CampaignBuilder& build) {
-  build.point(Sweep::gravity, base_gravity, campaign_number(base_gravity) + " m/s²", sweep_base(), build.seeds(),
-              sweep_window);
+  build.point(Sweep::gravity, base_gravity, campaign_number(base_gravity) + " m/s²", sweep_base(),
+              build.seeds(), sweep_window);
   for (const double gravity : {0.25 * base_gravity, 1.5 * base_gravity, 0.5 * base_gravity}) {
     RunSettings s;
     s.gravity = gravity;
     s.force = base_force * base_gravity / gravity;  // f_max in newtons stays: Eq. 3 then says g^2
-    build.point(Sweep::gravity, gravity, campaign_number(gravity) + " m/s²", s, build.seeds(), sweep_window);
+    build.point(Sweep::gravity, gravity, campaign_number(gravity) + " m/s²", s, build.seeds(),
+                sweep_window);
   }
 }
 
 void add_wall_mass(CampaignBuilder& build) {
-  build.point(Sweep::wall_mass, base_wall_mass, campaign_number(base_wall_mass), sweep_base(), build.seeds(),
-              sweep_window);
+  build.point(Sweep::wall_mass, base_wall_mass, campaign_number(base_wall_mass), sweep_base(),
+              build.seeds(), sweep_window);
   for (const double mass : {2.0, 0.1, 1.0}) {
     RunSettings s;
     s.wall_mass = mass;
@@ -72,7 +76,8 @@ void add_looseness(CampaignBuilder& build) {
   const int base = build.campaign.settings.iterations;
   const TimeWindow fast{0.3, fast_duration};
   build.point(Sweep::iterations, base, std::to_string(base), sweep_base(), 1, sweep_window);
-  build.point(Sweep::iterations_fast, base, std::to_string(base), at_frequency(fast_frequency), 1, fast);
+  build.point(Sweep::iterations_fast, base, std::to_string(base), at_frequency(fast_frequency), 1,
+              fast);
   for (const int iterations : {20, 200, 500, 50}) {
     if (iterations == base) continue;
     RunSettings s;
@@ -95,7 +100,8 @@ void add_backends(CampaignBuilder& build) {
 }
 
 void add_sensitivity(CampaignBuilder& build) {
-  build.point(Sweep::time_step, base_step, campaign_number(base_step) + " s", sweep_base(), 1, sweep_window);
+  build.point(Sweep::time_step, base_step, campaign_number(base_step) + " s", sweep_base(), 1,
+              sweep_window);
   for (const double step : {1e-3, 5e-4, 1e-4, fine_step}) {
     RunSettings s;
     s.step = step;
@@ -105,7 +111,8 @@ void add_sensitivity(CampaignBuilder& build) {
   RunSettings diameter;
   diameter.size = "diameter";
   build.point(Sweep::size, half_scale_case, "diameter", diameter, 2, sweep_window);
-  build.point(Sweep::friction, base_friction, campaign_number(base_friction), sweep_base(), 1, sweep_window);
+  build.point(Sweep::friction, base_friction, campaign_number(base_friction), sweep_base(), 1,
+              sweep_window);
   for (const double friction : {0.2, 0.8}) {
     RunSettings s = sweep_base();
     s.friction = friction;
@@ -121,9 +128,10 @@ void add_variant(CampaignBuilder& build, Sweep sweep, RunSettings s) {
   }
 }
 
-/// Where the paper's exponents, constant and compaction differ from ours, the deposit is the first suspect (looser ones
-/// are driven), then friction, the load (Eq. 3 supposes f_max >> m g), at the shortest periods the step, and the gap
-/// under the lid: the one length that the half-scale box keeps.
+/// Where the paper's exponents, constant and compaction differ from ours, the deposit is the first
+/// suspect (looser ones are driven), then friction, the load (Eq. 3 supposes f_max >> m g), at the
+/// shortest periods the step, and the gap under the lid: the one length that the half-scale box
+/// keeps.
 void add_investigation(CampaignBuilder& build) {
   RunSettings placed = sweep_base(), loose = sweep_base();
   placed.pressed = loose.pressed = false;
@@ -138,8 +146,8 @@ void add_investigation(CampaignBuilder& build) {
   add_variant(build, Sweep::rough_frequency, rough);
   add_variant(build, Sweep::strong_frequency, strong);
   const TimeWindow fast{0.3, fast_duration};
-  build.point(Sweep::time_step_fast, base_step, campaign_number(base_step) + " s", at_frequency(fast_frequency), 1,
-              fast);
+  build.point(Sweep::time_step_fast, base_step, campaign_number(base_step) + " s",
+              at_frequency(fast_frequency), 1, fast);
   RunSettings fine;
   fine.step = fine_step;
   fine.frequency = fast_frequency;
@@ -182,12 +190,12 @@ const std::vector<Target>& targets() {
       {"looseness", {iterations, iterations_fast, backend, force}, false},
       {"sensitivity", {time_step, size, friction, deposit, lid}, false},
       {"investigation",
-       {frequency, force, gravity, size, iterations, iterations_fast, time_step, time_step_fast, loose_frequency,
-        rough_frequency, strong_frequency, lid},
+       {frequency, force, gravity, size, iterations, iterations_fast, time_step, time_step_fast,
+        loose_frequency, rough_frequency, strong_frequency, lid},
        false},
       {"all",
-       {frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size, friction, deposit,
-        loose_frequency, rough_frequency, strong_frequency, time_step_fast, lid},
+       {frequency, force, gravity, wall_mass, iterations, iterations_fast, backend, time_step, size,
+        friction, deposit, loose_frequency, rough_frequency, strong_frequency, time_step_fast, lid},
        true},
   };
   return list;
@@ -220,8 +228,8 @@ std::vector<std::string> paper_targets() {
 }
 
 std::vector<size_t> runs_for(const Campaign& campaign, const std::string& name) {
-  const auto found =
-      std::find_if(targets().begin(), targets().end(), [&](const Target& target) { return target.name == name; });
+  const auto found = std::find_if(targets().begin(), targets().end(),
+                                  [&](const Target& target) { return target.name == name; });
   if (found == targets().end()) {
     std::string all;
     for (const std::string& target : paper_targets()) all += (all.empty() ? "" : ", ") + target;
@@ -230,10 +238,13 @@ std::vector<size_t> runs_for(const Campaign& campaign, const std::string& name) 
   std::set<size_t> needed;
   if (found->motion) needed.insert(campaign.motion.begin(), campaign.motion.end());
   for (const CampaignPoint& point : campaign.points) {
-    if (name == "fig8" && point.value != motion_frequency && point.value != 2.0 * motion_frequency) continue;
-    if (std::find(found->sweeps.begin(), found->sweeps.end(), point.sweep) == found->sweeps.end()) continue;
+    if (name == "fig8" && point.value != motion_frequency && point.value != 2.0 * motion_frequency)
+      continue;
+    if (std::find(found->sweeps.begin(), found->sweeps.end(), point.sweep) == found->sweeps.end())
+      continue;
     const bool is_spread = point.sweep == Sweep::force && name == "looseness";
-    if (is_spread && point.value != base_force) continue;  // what they are compared with: the samples' spread
+    if (is_spread && point.value != base_force)
+      continue;  // what they are compared with: the samples' spread
     needed.insert(point.run);
   }
   return {needed.begin(), needed.end()};

@@ -13,8 +13,8 @@ std::vector<MotionRun> read_motion(PaperData& data, PaperSection& section) {
   }
   const size_t planned = data.campaign().motion.size();
   if (runs.size() < planned)
-    section.notes.push_back("PARTIAL: " + std::to_string(runs.size()) + " of " + std::to_string(planned) +
-                            " samples at 5 Hz.");
+    section.notes.push_back("PARTIAL: " + std::to_string(runs.size()) + " of " +
+                            std::to_string(planned) + " samples at 5 Hz.");
   return runs;
 }
 

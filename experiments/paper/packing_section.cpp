@@ -1,4 +1,5 @@
-// The packing itself: solid fraction, coordination, forces, fabric and anisotropies, by phase of the wall.
+// The packing itself: solid fraction, coordination, forces, fabric and anisotropies, by phase of
+// the wall.
 
 #include <algorithm>
 #include <array>
@@ -9,8 +10,9 @@
 namespace ballast {
 namespace {
 
-constexpr std::array force_phases{std::pair{WallPhase::jammed, "jammed"}, std::pair{WallPhase::active, "active"},
-                            std::pair{WallPhase::passive, "passive"}};
+constexpr std::array force_phases{std::pair{WallPhase::jammed, "jammed"},
+                                  std::pair{WallPhase::active, "active"},
+                                  std::pair{WallPhase::passive, "passive"}};
 
 struct Column {
   const char* name;
@@ -58,7 +60,8 @@ struct Histogram {
   LineFit tail() const {
     std::vector<double> x, y;
     for (size_t k = 4; k < 24; ++k)
-      if (counts[k] > 4.0) x.push_back((static_cast<double>(k) + 0.5) * width), y.push_back(std::log(counts[k]));
+      if (counts[k] > 4.0)
+        x.push_back((static_cast<double>(k) + 0.5) * width), y.push_back(std::log(counts[k]));
     return fit_line(x, y);
   }
 };
@@ -68,11 +71,14 @@ struct Histogram {
 PaperSection packing_section(PaperData& data) {
   PaperSection section = new_section("packing", "The packing itself");
   section.text = {
-      "A contact is a pair of bodies with a compressive force, whatever its number of points. Z = (2 N_gg + N_gw)/N; "
+      "A contact is a pair of bodies with a compressive force, whatever its number of points. Z = "
+      "(2 N_gg + N_gw)/N; "
       "rattlers are grains of fewer than two such "
-      "contacts, removed until none is left. Fabric F = ⟨n ⊗ n⟩, a_c = 5/2 (F₁ − F₃) along the major and minor "
+      "contacts, removed until none is left. Fabric F = ⟨n ⊗ n⟩, a_c = 5/2 (F₁ − F₃) along the "
+      "major and minor "
       "directions of the stress; a_n from Σ f_n n ⊗ n/Σ f_n and a_t "
-      "from Σ f ⊗ n/Σ f_n in the same way, each less what is before it; q/p = (σ₁ − σ₃)/(σ₁ + σ₂ + σ₃), which the "
+      "from Σ f ⊗ n/Σ f_n in the same way, each less what is before it; q/p = (σ₁ − σ₃)/(σ₁ + σ₂ + "
+      "σ₃), which the "
       "field expects near 2/5 (a_c + a_n + a_t)."};
   const std::vector<MotionRun> runs = read_motion(data, section);
   std::array<std::array<std::vector<double>, columns.size()>, force_phases.size()> values;
@@ -83,21 +89,24 @@ PaperSection packing_section(PaperData& data) {
     states += for_each_state(run, [&](const StoredState& state) {
       for (size_t p = 0; p < force_phases.size(); ++p) {
         if (state.phase != force_phases[p].first) continue;
-        const PackingStatistics found =
-            packing_statistics(state.system, state.at.state, state.at.contacts, state.at.impulses, state.step);
+        const PackingStatistics found = packing_statistics(
+            state.system, state.at.state, state.at.contacts, state.at.impulses, state.step);
         for (size_t c = 0; c < columns.size(); ++c) of_run[p][c].push_back(found.*columns[c].value);
-        histograms[p].add(
-            relative_normal_forces(state.system, pair_forces(state.at.contacts, state.at.impulses, state.step)));
+        histograms[p].add(relative_normal_forces(
+            state.system, pair_forces(state.at.contacts, state.at.impulses, state.step)));
       }
     });
     for (size_t p = 0; p < force_phases.size(); ++p)
-      for (size_t c = 0; c < columns.size(); ++c) values[p][c].push_back(statistics(of_run[p][c]).mean);
+      for (size_t c = 0; c < columns.size(); ++c)
+        values[p][c].push_back(statistics(of_run[p][c]).mean);
   }
   if (states == 0) {
     section.notes.push_back("PARTIAL: no stored states.");
     return section;
   }
-  TextTable table{"By phase at 5 Hz, means over samples ± standard error", {"", "jammed", "active", "passive"}, {}};
+  TextTable table{"By phase at 5 Hz, means over samples ± standard error",
+                  {"", "jammed", "active", "passive"},
+                  {}};
   for (size_t c = 0; c < columns.size(); ++c) {
     table.rows.push_back({columns[c].name});
     for (size_t p = 0; p < force_phases.size(); ++p) {
@@ -115,8 +124,8 @@ PaperSection packing_section(PaperData& data) {
   for (size_t p = 0; p < force_phases.size(); ++p) {
     if (histograms[p].total == 0.0) continue;
     panel.curves.push_back(histograms[p].curve(force_phases[p].second, inks[p]));
-    tails +=
-        (tails.empty() ? "" : ", ") + std::string(force_phases[p].second) + " β = " + digits(-histograms[p].tail().slope);
+    tails += (tails.empty() ? "" : ", ") + std::string(force_phases[p].second) +
+             " β = " + digits(-histograms[p].tail().slope);
   }
   if (panel.curves.empty()) return section;
   PaperFigure figure;
@@ -124,9 +133,12 @@ PaperSection packing_section(PaperData& data) {
   figure.plot.title = "Distribution of normal forces by phase";
   figure.plot.panels = {panel};
   figure.paper =
-      "Not shown in this paper; packings of polyhedra have an exponential tail of strong forces and many weak ones.";
+      "Not shown in this paper; packings of polyhedra have an exponential tail of strong forces "
+      "and many weak ones.";
   figure.found =
-      "Grain–grain contacts of all stored states and samples. Tail exp(−β f/⟨f⟩) from one to six means: " + tails + ".";
+      "Grain–grain contacts of all stored states and samples. Tail exp(−β f/⟨f⟩) from one to six "
+      "means: " +
+      tails + ".";
   section.figures = {figure};
   return section;
 }

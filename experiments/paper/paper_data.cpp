@@ -19,7 +19,8 @@ const Observation* SweepValue::of_seed(int seed) const {
 
 PaperData::PaperData(Campaign campaign, std::filesystem::path results)
     : campaign_(std::move(campaign)), results_(std::move(results)) {
-  for (const CampaignRun& run : campaign_.runs) finished_.push_back(is_finished(results_, run.planned));
+  for (const CampaignRun& run : campaign_.runs)
+    finished_.push_back(is_finished(results_, run.planned));
 }
 
 bool PaperData::has(size_t run) const { return finished_.at(run); }
@@ -30,7 +31,9 @@ std::filesystem::path PaperData::folder(size_t run) const {
 
 RunData PaperData::read(size_t run) const { return read_run_data(folder(run)); }
 
-int PaperData::finished() const { return static_cast<int>(std::count(finished_.begin(), finished_.end(), true)); }
+int PaperData::finished() const {
+  return static_cast<int>(std::count(finished_.begin(), finished_.end(), true));
+}
 
 std::vector<size_t> PaperData::motion() const {
   std::vector<size_t> runs;
@@ -41,7 +44,8 @@ std::vector<size_t> PaperData::motion() const {
 
 std::optional<size_t> PaperData::at_frequency(double frequency) const {
   for (const CampaignPoint& point : campaign_.points)
-    if (point.sweep == Sweep::frequency && point.value == frequency && has(point.run)) return point.run;
+    if (point.sweep == Sweep::frequency && point.value == frequency && has(point.run))
+      return point.run;
   return {};
 }
 
@@ -50,7 +54,8 @@ const Observation* PaperData::observation(const CampaignPoint& point) {
   const auto key = std::make_pair(point.run, point.window.end);
   if (const auto found = seen_.find(key); found != seen_.end()) return &found->second;
   const RunData data = read(point.run);
-  return &seen_.emplace(key, observe(data.steps, data.facts, grain_count(data), point.window)).first->second;
+  return &seen_.emplace(key, observe(data.steps, data.facts, grain_count(data), point.window))
+              .first->second;
 }
 
 std::vector<SweepValue> PaperData::sweep(Sweep which) {
@@ -84,8 +89,8 @@ std::string PaperData::missing(Sweep which, const char* what) {
     ++done;
   }
   if (done == runs) return {};
-  return "PARTIAL: " + std::to_string(there.size()) + " of " + std::to_string(planned.size()) + ' ' + what + ", " +
-         std::to_string(done) + " of " + std::to_string(runs) + " runs.";
+  return "PARTIAL: " + std::to_string(there.size()) + " of " + std::to_string(planned.size()) +
+         ' ' + what + ", " + std::to_string(done) + " of " + std::to_string(runs) + " runs.";
 }
 
 double grain_count(const RunData& data) {

@@ -1,6 +1,6 @@
 #pragma once
-// What a campaign has produced so far: finished runs, measured. Whatever is missing is counted and said, never an
-// error.
+// What a campaign has produced so far: finished runs, measured. Whatever is missing is counted and
+// said, never an error.
 
 #include <filesystem>
 #include <map>

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/page/html_page.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 std::string on_white(std::string svg) {
   const size_t root = svg.find("<svg");
   const size_t end = root == std::string::npos ? root : svg.find('>', root);
-  if (end != std::string::npos) svg.insert(end + 1, "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
+  if (end != std::string::npos)
+    svg.insert(end + 1, "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
   return svg;
 }
 
@@ -33,7 +34,8 @@ std::string draw(const Figure& figure, const fs::path& folder) {
 
 std::string text_in(const nlohmann::ordered_json& manifest, const char* part, const char* name) {
   const auto found = manifest.find(part);
-  if (found == manifest.end() || !found->is_object() || !found->contains(name) || !(*found)[name].is_string())
+  if (found == manifest.end() || !found->is_object() || !found->contains(name) ||
+      !(*found)[name].is_string())
     return "unknown";
   return (*found)[name].get<std::string>();
 }
@@ -58,21 +60,26 @@ std::vector<std::string> origin_of(const PaperData& data) {
     ++commits[text_in(manifest, "ballast", "commit")];
     ++machines[text_in(manifest, "machine", "cpu")];
     steps += static_cast<double>(data.campaign().runs[k].steps);
-    if (const auto summary = manifest.find("summary");
-        summary != manifest.end() && summary->contains("ms_per_step") && (*summary)["ms_per_step"].is_number())
-      seconds += 1e-3 * (*summary)["ms_per_step"].get<double>() * static_cast<double>(data.campaign().runs[k].steps);
+    if (const auto summary = manifest.find("summary"); summary != manifest.end() &&
+                                                       summary->contains("ms_per_step") &&
+                                                       (*summary)["ms_per_step"].is_number())
+      seconds += 1e-3 * (*summary)["ms_per_step"].get<double>() *
+                 static_cast<double>(data.campaign().runs[k].steps);
   }
   const CampaignSettings& settings = data.campaign().settings;
   std::vector<std::string> origin = {
-      std::to_string(data.finished()) + " of " + std::to_string(data.campaign().runs.size()) + " runs are finished: " +
-          digits(steps, 4) + " driven steps, about " + digits(seconds, 3) + " core-seconds without the packings.",
+      std::to_string(data.finished()) + " of " + std::to_string(data.campaign().runs.size()) +
+          " runs are finished: " + digits(steps, 4) + " driven steps, about " + digits(seconds, 3) +
+          " core-seconds without the packings.",
       "Commits: " + listed(commits) + ".", "Machines: " + listed(machines) + ".",
       "Scene " + settings.scene + ", " + std::to_string(settings.iterations) +
-          " solver iterations a step unless said, seeds 1 to " + std::to_string(settings.seeds) + "."};
+          " solver iterations a step unless said, seeds 1 to " + std::to_string(settings.seeds) +
+          "."};
   return origin;
 }
 
-void write_paper_report(PaperData& data, std::vector<PaperSection> sections, const fs::path& folder) {
+void write_paper_report(PaperData& data, std::vector<PaperSection> sections,
+                        const fs::path& folder) {
   create_folder(folder / "figures");
   create_folder(folder / "data");
   std::vector<std::string> pictures;

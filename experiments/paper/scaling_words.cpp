@@ -6,7 +6,8 @@
 
 namespace ballast {
 
-SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observation::*quantity, double factor) {
+SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observation::*quantity,
+                          double factor) {
   SweepCurve curve;
   for (const SweepValue& value : values) {
     const SampleMean mean = value.mean(quantity);
@@ -27,7 +28,8 @@ std::string words_of(const PowerFit& fit) {
   if (!std::isfinite(fit.exponent)) return "–";
   std::string text = digits(fit.exponent);
   if (std::isfinite(fit.half_width))
-    text += std::string(" ") + interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
+    text +=
+        std::string(" ") + interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
   return text + " (R² " + digits(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
 }
 

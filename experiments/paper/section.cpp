@@ -59,7 +59,8 @@ std::string digits(double value, int count) {
   if (value == 0.0) return "0";
   std::string text = print("%.*e", count - 1, value);
   const int exponent = std::atoi(std::strchr(text.c_str(), 'e') + 1);
-  if (exponent >= -3 && exponent < 6) text = print("%.*f", std::max(0, count - 1 - exponent), value);
+  if (exponent >= -3 && exponent < 6)
+    text = print("%.*f", std::max(0, count - 1 - exponent), value);
   if (text[0] == '-') text.replace(0, 1, "−");
   if (const size_t mark = text.find('e'); mark != std::string::npos)  // "5e-04" to "5e-4"
     text = text.substr(0, mark + 1) + std::to_string(exponent);
@@ -78,10 +79,13 @@ std::string with_error(double value, double error) {
 
 std::string percent(double relative) {
   if (!std::isfinite(relative)) return "–";
-  return (relative >= 0.0 ? std::string("+") : std::string("−")) + digits(100.0 * std::abs(relative), 2) + " %";
+  return (relative >= 0.0 ? std::string("+") : std::string("−")) +
+         digits(100.0 * std::abs(relative), 2) + " %";
 }
 
-std::string interval(double low, double high) { return std::string("[") + digits(low) + ", " + digits(high) + "]"; }
+std::string interval(double low, double high) {
+  return std::string("[") + digits(low) + ", " + digits(high) + "]";
+}
 
 Panel frequency_panel(const std::string& y_label) {
   Panel panel;
@@ -93,8 +97,8 @@ Panel frequency_panel(const std::string& y_label) {
   return panel;
 }
 
-Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title,
-                Ink ink) {
+Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error,
+                const std::string& title, Ink ink) {
   for (double& bar : error)
     if (!std::isfinite(bar)) bar = 0.0;  // one sample: no bar
   Curve curve;
@@ -115,8 +119,8 @@ std::string figure_csv(const Figure& figure) {
     for (size_t c = 0; c < panel.curves.size(); ++c) {
       const Curve& curve = panel.curves[c];
       const std::string lead = std::to_string(p + 1) + ',' + cell(panel.y_label) + ',' +
-                               cell(curve.title.empty() ? std::to_string(c + 1) : curve.title) + ',' +
-                               cell(panel.x_label) + ',';
+                               cell(curve.title.empty() ? std::to_string(c + 1) : curve.title) +
+                               ',' + cell(panel.x_label) + ',';
       for (size_t k = 0; k < curve.x.size(); ++k)
         text += lead + csv_number(curve.x[k]) + ',' + csv_number(curve.y[k]) + ',' +
                 (curve.y_error.empty() ? "" : csv_number(curve.y_error[k])) + ',' +

@@ -1,6 +1,6 @@
 #pragma once
-// What a part of the report is made of. All words are plain text (UTF-8): the HTML page escapes them, the Markdown page
-// takes them as they are.
+// What a part of the report is made of. All words are plain text (UTF-8): the HTML page escapes
+// them, the Markdown page takes them as they are.
 
 #include <string>
 #include <vector>
@@ -44,8 +44,8 @@ struct PaperSection {
 
 PaperSection new_section(const std::string& id, const std::string& heading);
 
-/// `count` significant digits as a person writes them; powers of ten outside 1e-3 ... 1e6; a dash for what is not
-/// known.
+/// `count` significant digits as a person writes them; powers of ten outside 1e-3 ... 1e6; a dash
+/// for what is not known.
 std::string digits(double value, int count = 3);
 /// "1.23 ± 0.04": the error to two digits of its own; no error when it is not known.
 std::string with_error(double value, double error);
@@ -58,12 +58,12 @@ std::string interval(double low, double high);
 Panel frequency_panel(const std::string& y_label);
 
 /// Points with bars.
-Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error, const std::string& title,
-                Ink ink);
+Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error,
+                const std::string& title, Ink ink);
 /// A function drawn between two x, evenly in log x where `is_log`.
 template <class Function>
-Curve curve_of(const Function& function, double low, double high, bool is_log, const std::string& title, Ink ink,
-               bool dashed = true);
+Curve curve_of(const Function& function, double low, double high, bool is_log,
+               const std::string& title, Ink ink, bool dashed = true);
 
 /// The figure's data: panel, curve, x, y, y_error, y_low as CSV.
 std::string figure_csv(const Figure& figure);
@@ -75,8 +75,8 @@ std::string figure_csv(const Figure& figure);
 namespace ballast {
 
 template <class Function>
-Curve curve_of(const Function& function, double low, double high, bool is_log, const std::string& title, Ink ink,
-               bool dashed) {
+Curve curve_of(const Function& function, double low, double high, bool is_log,
+               const std::string& title, Ink ink, bool dashed) {
   Curve curve;
   curve.title = title;
   curve.ink = ink;

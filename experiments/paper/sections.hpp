@@ -1,6 +1,6 @@
 #pragma once
-// The report's sections, one file each: what is run (campaign.hpp), what is measured (observables.hpp,
-// grain_fields.hpp), fitted and drawn.
+// The report's sections, one file each: what is run (campaign.hpp), what is measured
+// (observables.hpp, grain_fields.hpp), fitted and drawn.
 
 #include "experiments/paper/paper_data.hpp"
 #include "experiments/paper/section.hpp"
@@ -26,27 +26,32 @@ PaperSection investigation_section(PaperData& data);  ///< why exponents, C and 
 /// The sections of a target ("all": every one), in the paper's order.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 
-/// A sweep's values as the axes of a figure: x by `abscissa` of each sample's mean, y the mean of `quantity` with its
-/// standard error.
+/// A sweep's values as the axes of a figure: x by `abscissa` of each sample's mean, y the mean of
+/// `quantity` with its standard error.
 struct SweepCurve {
   std::vector<double> x, y, error;
 };
-SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observation::*quantity, double factor = 1.0);
+SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observation::*quantity,
+                          double factor = 1.0);
 
 /// C of Eq. 3, sample by sample.
 SampleMean prefactor_of(const SweepValue& value);
 
 /// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995)".
 std::string words_of(const PowerFit& fit);
-/// "χ²/dof 3.2" of a curve's points about the fit, with their errors; "χ²/dof –" when these are not known.
+/// "χ²/dof 3.2" of a curve's points about the fit, with their errors; "χ²/dof –" when these are not
+/// known.
 std::string misfit_words(const PowerFit& fit, const SweepCurve& curve);
 /// What a reader has to know about it.
 inline constexpr const char* misfit_meaning =
-    "χ²/dof compares the points’ distances from the fitted law with the standard errors between samples (pooled): "
+    "χ²/dof compares the points’ distances from the fitted law with the standard errors between "
+    "samples (pooled): "
     "about 1 "
-    "if the law holds within the scatter; above about 3 it does not, and the interval then says how well a line can be "
+    "if the law holds within the scatter; above about 3 it does not, and the interval then says "
+    "how well a line can be "
     "drawn, not that the points lie on one.";
-/// agrees: the interval holds `expected`, or the exponent is within `tolerance` of it; partly: within three times that.
+/// agrees: the interval holds `expected`, or the exponent is within `tolerance` of it; partly:
+/// within three times that.
 Agreement judge_exponent(const PowerFit& fit, double expected, double tolerance = 0.1);
 
 }  // namespace ballast

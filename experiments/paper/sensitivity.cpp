@@ -14,7 +14,8 @@ TextTable table_of(const std::vector<SweepValue>& values, const char* caption, c
     table.rows.push_back({value.label, std::to_string(value.samples.size())});
     for (const ObservableColumn& column : observable_columns()) {
       const SampleMean mean = value.mean(column.value);
-      table.rows.back().push_back(with_error(column.factor * mean.mean, column.factor * mean.error));
+      table.rows.back().push_back(
+          with_error(column.factor * mean.mean, column.factor * mean.error));
     }
     table.rows.back().push_back(digits(prefactor_of(value).mean));
     table.rows.back().push_back(digits(value.mean(&Observation::error_mean).mean, 2));
@@ -30,21 +31,27 @@ struct Question {
   const char* first;
 };
 constexpr Question questions[] = {
-    {Sweep::time_step, "steps", "Step h, sample 1 at 10 Hz (the iterations a step stay the same)", "h"},
+    {Sweep::time_step, "steps", "Step h, sample 1 at 10 Hz (the iterations a step stay the same)",
+     "h"},
     {Sweep::size, "size conventions",
-     "Size convention at 10 Hz: the paper’s “diameter” read as barycentre–vertex distance, or twice it; box and grains "
+     "Size convention at 10 Hz: the paper’s “diameter” read as barycentre–vertex distance, or "
+     "twice it; box and grains "
      "at half scale, the lid’s gap of 1 cm as it is or halved",
      "size"},
-    {Sweep::friction, "frictions", "Friction between grains, floor and lid, sample 1 at 10 Hz", "μ"},
+    {Sweep::friction, "frictions", "Friction between grains, floor and lid, sample 1 at 10 Hz",
+     "μ"},
     {Sweep::deposit, "deposits",
-     "Deposit (lid pressed or only placed, friction while depositing), sample 1 at 10 Hz; driven with μ = 0.4",
+     "Deposit (lid pressed or only placed, friction while depositing), sample 1 at 10 Hz; driven "
+     "with μ = 0.4",
      "deposit"},
-    {Sweep::lid, "gaps under the lid", "Gap by which the lid is raised (paper: 1 cm), sample 1 at 10 Hz", "gap"}};
+    {Sweep::lid, "gaps under the lid",
+     "Gap by which the lid is raised (paper: 1 cm), sample 1 at 10 Hz", "gap"}};
 
 }  // namespace
 
 PaperSection sensitivity_section(PaperData& data) {
-  PaperSection section = new_section("sensitivity", "What the open choices do: step, size, friction");
+  PaperSection section =
+      new_section("sensitivity", "What the open choices do: step, size, friction");
   for (const Question& question : questions) {
     if (const std::string missing = data.missing(question.sweep, question.what); !missing.empty())
       section.notes.push_back(missing);
@@ -54,10 +61,10 @@ PaperSection sensitivity_section(PaperData& data) {
     if (values.size() < 2) continue;
     std::string found;
     for (const SweepValue& value : values)
-      found +=
-          (found.empty() ? "" : "; ") + value.label + ": " + digits(1e3 * value.mean(&Observation::rise).mean) + " mm";
-    section.rows.push_back(
-        {"beyond", "–", std::string("Δx_max by ") + question.what + ": " + found, Agreement::reported});
+      found += (found.empty() ? "" : "; ") + value.label + ": " +
+               digits(1e3 * value.mean(&Observation::rise).mean) + " mm";
+    section.rows.push_back({"beyond", "–", std::string("Δx_max by ") + question.what + ": " + found,
+                            Agreement::reported});
   }
   return section;
 }

@@ -1,5 +1,6 @@
-// Exponents from point to point, and what must hold of them whatever the grains do: with rigid grains, one size d and
-// one load, Delta x_max/d = F(g/(d nu^2), f_max/(m g), m_w/m, mu) and v_max/sqrt(g d) is of the same arguments.
+// Exponents from point to point, and what must hold of them whatever the grains do: with rigid
+// grains, one size d and one load, Delta x_max/d = F(g/(d nu^2), f_max/(m g), m_w/m, mu) and
+// v_max/sqrt(g d) is of the same arguments.
 
 #include <cmath>
 
@@ -11,10 +12,12 @@ namespace {
 
 /// The quantity in every sample that both values have.
 template <class Function>
-SampleMean over_common(const SweepValue& a, const SweepValue& b, double Observation::*quantity, const Function& f) {
+SampleMean over_common(const SweepValue& a, const SweepValue& b, double Observation::*quantity,
+                       const Function& f) {
   std::vector<double> values;
   for (size_t k = 0; k < a.samples.size(); ++k)
-    if (const Observation* other = b.of_seed(a.seeds[k])) values.push_back(f(a.samples[k].*quantity, other->*quantity));
+    if (const Observation* other = b.of_seed(a.seeds[k]))
+      values.push_back(f(a.samples[k].*quantity, other->*quantity));
   return sample_mean(values);
 }
 
@@ -28,7 +31,8 @@ struct Quantity {
 };
 constexpr Quantity quantities[] = {
     {&Observation::rise, "Δx_max", "exponent of Δ{/:Italic x}_{max}", -2.0, -1.0, 1.0, 1e3},
-    {&Observation::speed_in, "v_max", "exponent of  {/:Italic v}_{max}", -1.0, not_known, 0.5, 1e3}};
+    {&Observation::speed_in, "v_max", "exponent of  {/:Italic v}_{max}", -1.0, not_known, 0.5,
+     1e3}};
 
 /// Exponents between neighbours, each at their geometric middle.
 SweepCurve local_curve(const std::vector<SweepValue>& values, double Observation::*quantity) {
@@ -51,7 +55,8 @@ std::string error_meaning(const std::vector<SweepValue>& values) {
          digits(student_t95(samples - 1), 2) + " standard errors to both sides.";
 }
 
-TextTable local_table(const std::vector<SweepValue>& values, const std::string& caption, const std::string& head) {
+TextTable local_table(const std::vector<SweepValue>& values, const std::string& caption,
+                      const std::string& head) {
   TextTable table{caption, {head, "Δx_max", "v_max"}, {}};
   for (size_t k = 1; k < values.size(); ++k) {
     table.rows.push_back({values[k - 1].label + " to " + values[k].label});
@@ -63,20 +68,23 @@ TextTable local_table(const std::vector<SweepValue>& values, const std::string& 
   return table;
 }
 
-void draw_local(const Quantity& quantity, const std::vector<SweepValue>& values, double expected, Panel& panel) {
+void draw_local(const Quantity& quantity, const std::vector<SweepValue>& values, double expected,
+                Panel& panel) {
   const SweepCurve curve = local_curve(values, quantity.value);
-  panel.curves = {
-      points_of(curve.x, curve.y, curve.error, "neighbours, mean over samples ± standard error", Ink::blue)};
-  if (std::isfinite(expected)) panel.lines = {{expected, "the paper’s " + digits(expected, 1), false, Ink::vermilion}};
+  panel.curves = {points_of(curve.x, curve.y, curve.error,
+                            "neighbours, mean over samples ± standard error", Ink::blue)};
+  if (std::isfinite(expected))
+    panel.lines = {{expected, "the paper’s " + digits(expected, 1), false, Ink::vermilion}};
 }
 
 /// From the first pair to the last.
 std::string trend_words(const std::vector<SweepValue>& values, const Quantity& quantity) {
   const SampleMean first = exponent_between(values[0], values[1], quantity.value),
-                   last = exponent_between(values[values.size() - 2], values.back(), quantity.value);
-  return std::string(quantity.name) + ": from " + with_error(first.mean, first.error) + " (" + values[0].label +
-         " to " + values[1].label + ") to " + with_error(last.mean, last.error) + " (" +
-         values[values.size() - 2].label + " to " + values.back().label + ")";
+                   last =
+                       exponent_between(values[values.size() - 2], values.back(), quantity.value);
+  return std::string(quantity.name) + ": from " + with_error(first.mean, first.error) + " (" +
+         values[0].label + " to " + values[1].label + ") to " + with_error(last.mean, last.error) +
+         " (" + values[values.size() - 2].label + " to " + values.back().label + ")";
 }
 
 void add_by_frequency(const std::vector<SweepValue>& values, const std::vector<Variant>& variants,
@@ -93,27 +101,35 @@ void add_by_frequency(const std::vector<SweepValue>& values, const std::vector<V
     for (const Variant& variant : variants) {
       if (variant.reference < 0 || variant.values.size() < 3 || ink == std::size(inks)) continue;
       const SweepCurve curve = local_curve(variant.values, quantity.value);
-      figure.plot.panels.back().curves.push_back(
-          points_of(curve.x, curve.y, curve.error, plain_text(variant.name) + ", sample 1", inks[ink++]));
+      figure.plot.panels.back().curves.push_back(points_of(
+          curve.x, curve.y, curve.error, plain_text(variant.name) + ", sample 1", inks[ink++]));
     }
   }
-  figure.paper = "One exponent from 1 to 60 Hz, by dimensional analysis: “the frequency sets the time scale” (sec. 4).";
+  figure.paper =
+      "One exponent from 1 to 60 Hz, by dimensional analysis: “the frequency sets the time scale” "
+      "(sec. 4).";
   figure.found =
-      "Between neighbouring frequencies, each sample compared with itself; neighbours share a point, so that one high "
+      "Between neighbouring frequencies, each sample compared with itself; neighbours share a "
+      "point, so that one high "
       "point "
       "makes one exponent low and the next high. " +
-      error_meaning(values) + " " + trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]) +
-      ". The paper’s dimensional analysis has no length in it. With the size d of the grains rigid grains "
+      error_meaning(values) + " " + trend_words(values, quantities[0]) + "; " +
+      trend_words(values, quantities[1]) +
+      ". The paper’s dimensional analysis has no length in it. With the size d of the grains rigid "
+      "grains "
       "have Δx_max = "
-      "g/ν² · G(d ν²/g): the exponent is −2 only where G is constant, and there Δx_max does not depend on "
+      "g/ν² · G(d ν²/g): the exponent is −2 only where G is constant, and there Δx_max does not "
+      "depend on "
       "the size of the "
       "grains at all.";
   section.figures.push_back(figure);
-  section.tables.push_back(
-      local_table(values, "Exponents of ν between neighbouring frequencies (mean over samples ± standard error)", "ν"));
-  section.rows.push_back({"beyond", "one exponent of ν from 1 to 60 Hz",
-                          trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]),
-                          Agreement::reported});
+  section.tables.push_back(local_table(
+      values,
+      "Exponents of ν between neighbouring frequencies (mean over samples ± standard error)", "ν"));
+  section.rows.push_back(
+      {"beyond", "one exponent of ν from 1 to 60 Hz",
+       trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]),
+       Agreement::reported});
 }
 
 void add_by_force(const std::vector<SweepValue>& values, PaperSection& section) {
@@ -127,15 +143,19 @@ void add_by_force(const std::vector<SweepValue>& values, PaperSection& section) 
     panel.y_label = quantity.axis;
     draw_local(quantity, values, quantity.in_force, panel);
   }
-  figure.paper = "Δx_max ~ f_max⁻¹ (Fig. 10); Eq. 3 supposes f_max ≫ m g. The paper has no law of v_max and f_max.";
+  figure.paper =
+      "Δx_max ~ f_max⁻¹ (Fig. 10); Eq. 3 supposes f_max ≫ m g. The paper has no law of v_max and "
+      "f_max.";
   figure.found = "At " + digits(sweep_frequency, 1) + " Hz. " + error_meaning(values) + " " +
-                 trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]) + ".";
+                 trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]) +
+                 ".";
   section.figures.push_back(figure);
-  section.tables.push_back(
-      local_table(values, "Exponents of f_max between neighbouring loads at 10 Hz (mean over samples ± standard error)",
-                  "f_max/(m g)"));
-  section.rows.push_back(
-      {"beyond", "Δx_max ~ f_max^−1 for f_max ≫ m g", trend_words(values, quantities[0]), Agreement::reported});
+  section.tables.push_back(local_table(
+      values,
+      "Exponents of f_max between neighbouring loads at 10 Hz (mean over samples ± standard error)",
+      "f_max/(m g)"));
+  section.rows.push_back({"beyond", "Δx_max ~ f_max^−1 for f_max ≫ m g",
+                          trend_words(values, quantities[0]), Agreement::reported});
 }
 
 const SweepValue* value_at(const std::vector<SweepValue>& values, double at) {
@@ -145,35 +165,43 @@ const SweepValue* value_at(const std::vector<SweepValue>& values, double at) {
 }
 
 /// Measured against predicted, a row for each quantity; in words.
-std::string compare_half_scale(const SweepValue& below, const SweepValue& above, double same, const SweepValue& half,
-                               TextTable& table) {
+std::string compare_half_scale(const SweepValue& below, const SweepValue& above, double same,
+                               const SweepValue& half, TextTable& table) {
   std::string found;
   for (const Quantity& quantity : quantities) {
-    const SampleMean full = interpolated(below, above, same, quantity.value), seen = half.mean(quantity.value);
+    const SampleMean full = interpolated(below, above, same, quantity.value),
+                     seen = half.mean(quantity.value);
     const double factor = std::pow(0.5, quantity.in_scale), unit = quantity.to_milli;
-    const double difference = seen.mean - factor * full.mean, error = std::hypot(seen.error, factor * full.error);
+    const double difference = seen.mean - factor * full.mean,
+                 error = std::hypot(seen.error, factor * full.error);
     const char* name = quantity.name;
-    table.rows.push_back({half.label, std::string(name) + (quantity.in_scale == 1.0 ? " (mm)" : " (mm/s)"),
-                          with_error(unit * full.mean, unit * full.error), digits(factor),
-                          with_error(unit * factor * full.mean, unit * factor * full.error),
-                          with_error(unit * seen.mean, unit * seen.error), percent(difference / (factor * full.mean)),
-                          digits(std::abs(difference) / error, 2)});
-    found += (found.empty() ? "" : "; ") + std::string(name) + " " + percent(difference / (factor * full.mean)) + " (" +
+    table.rows.push_back(
+        {half.label, std::string(name) + (quantity.in_scale == 1.0 ? " (mm)" : " (mm/s)"),
+         with_error(unit * full.mean, unit * full.error), digits(factor),
+         with_error(unit * factor * full.mean, unit * factor * full.error),
+         with_error(unit * seen.mean, unit * seen.error),
+         percent(difference / (factor * full.mean)), digits(std::abs(difference) / error, 2)});
+    found += (found.empty() ? "" : "; ") + std::string(name) + " " +
+             percent(difference / (factor * full.mean)) + " (" +
              digits(std::abs(difference) / error, 2) + " standard errors)";
   }
   return found;
 }
 
-/// The half-scale box at 10 Hz is the full one at 10/sqrt(2) Hz, or rigid grains are not what we simulate.
-void add_half_scale(PaperData& data, const std::vector<SweepValue>& frequencies, PaperSection& section) {
+/// The half-scale box at 10 Hz is the full one at 10/sqrt(2) Hz, or rigid grains are not what we
+/// simulate.
+void add_half_scale(PaperData& data, const std::vector<SweepValue>& frequencies,
+                    PaperSection& section) {
   const std::vector<SweepValue> sizes = data.sweep(Sweep::size);
-  const SweepValue *below = value_at(frequencies, 7.0), *above = value_at(frequencies, sweep_frequency);
+  const SweepValue *below = value_at(frequencies, 7.0),
+                   *above = value_at(frequencies, sweep_frequency);
   if (!below || !above) return;
   const double same = sweep_frequency * std::sqrt(0.5);
   TextTable table{
       "The box at half scale, 10 Hz, beside what the full box must give for it at " + digits(same) +
           " Hz (between 7 and 10 Hz on a power law; mean over samples ± standard error)",
-      {"", "", "full box", "scaled by", "predicted", "half scale, measured", "difference", "in standard errors"},
+      {"", "", "full box", "scaled by", "predicted", "half scale, measured", "difference",
+       "in standard errors"},
       {}};
   std::string words;
   for (const auto& [which, name] : {std::pair{similar_case, "with the lid’s gap at half scale too"},
@@ -182,16 +210,21 @@ void add_half_scale(PaperData& data, const std::vector<SweepValue>& frequencies,
     if (!half) continue;
     const std::string found = compare_half_scale(*below, *above, same, *half, table);
     words += std::string(words.empty() ? "" : "; ") + name + ": " + found;
-    section.rows.push_back(
-        {"beyond", std::string("half-scale box = full box at ν/√2 (similarity), ") + name, found, Agreement::reported});
+    section.rows.push_back({"beyond",
+                            std::string("half-scale box = full box at ν/√2 (similarity), ") + name,
+                            found, Agreement::reported});
   }
   if (table.rows.empty()) return;
   section.tables.push_back(table);
   section.text.push_back(
-      "Similarity. Rigid grains under gravity have no time but √(d/g): at the same f_max/(m g), m_w/m and μ a box at "
-      "half scale at 10 Hz is the full box at 7.07 Hz, with half the displacement and 1/√2 of the velocity, over the "
-      "same periods, the fourth to the seventh. Reading the paper’s sizes as widths instead of radii therefore cannot "
-      "change an exponent: it shifts ν by √2. What does not scale with the box: the step, the overlap that the "
+      "Similarity. Rigid grains under gravity have no time but √(d/g): at the same f_max/(m g), "
+      "m_w/m and μ a box at "
+      "half scale at 10 Hz is the full box at 7.07 Hz, with half the displacement and 1/√2 of the "
+      "velocity, over the "
+      "same periods, the fourth to the seventh. Reading the paper’s sizes as widths instead of "
+      "radii therefore cannot "
+      "change an exponent: it shifts ν by √2. What does not scale with the box: the step, the "
+      "overlap that the "
       "correction leaves, and the lid’s 1 cm where it is kept. Measured against predicted, " +
       words + ".");
 }
@@ -208,43 +241,54 @@ PowerFit fit_of(const std::vector<SweepValue>& values) {
   return fit_power(curve.x, curve.y);
 }
 
-/// Delta x_max = (g/nu^2) (d nu^2/g)^(1 + alpha/2) (f_max/(m g))^beta: the exponent of g at constant f_max is
-/// -alpha/2 - beta.
-void add_gravity(PaperData& data, const std::vector<SweepValue>& frequencies, const std::vector<SweepValue>& forces,
-                 PaperSection& section) {
+/// Delta x_max = (g/nu^2) (d nu^2/g)^(1 + alpha/2) (f_max/(m g))^beta: the exponent of g at
+/// constant f_max is -alpha/2 - beta.
+void add_gravity(PaperData& data, const std::vector<SweepValue>& frequencies,
+                 const std::vector<SweepValue>& forces, PaperSection& section) {
   const PowerFit alpha = fit_of(between(frequencies, 7.0, 20.0)), beta = fit_of(forces),
                  gravity = fit_of(data.sweep(Sweep::gravity));
-  if (!std::isfinite(alpha.half_width) || !std::isfinite(beta.half_width) || !std::isfinite(gravity.half_width)) return;
+  if (!std::isfinite(alpha.half_width) || !std::isfinite(beta.half_width) ||
+      !std::isfinite(gravity.half_width))
+    return;
   const double predicted = -0.5 * alpha.exponent - beta.exponent,
                half = std::hypot(0.5 * alpha.half_width, beta.half_width);
-  const std::string words = "−α/2 − β = " + digits(predicted) + " " + interval(predicted - half, predicted + half) +
-                            " from α = " + digits(alpha.exponent) + " (ν, 7–20 Hz) and β = " + digits(beta.exponent) +
-                            " (f_max); measured: " + words_of(gravity);
+  const std::string words =
+      "−α/2 − β = " + digits(predicted) + " " + interval(predicted - half, predicted + half) +
+      " from α = " + digits(alpha.exponent) + " (ν, 7–20 Hz) and β = " + digits(beta.exponent) +
+      " (f_max); measured: " + words_of(gravity);
   section.text.push_back("The exponent of g at constant f_max is not free either: " + words +
                          ". The paper’s +2 follows from its −2 and −1.");
-  section.rows.push_back({"beyond", "exponent of g = −α/2 − β (similarity)", words, Agreement::reported});
+  section.rows.push_back(
+      {"beyond", "exponent of g = −α/2 − β (similarity)", words, Agreement::reported});
 }
 
 }  // namespace
 
-SampleMean exponent_between(const SweepValue& a, const SweepValue& b, double Observation::*quantity) {
+SampleMean exponent_between(const SweepValue& a, const SweepValue& b,
+                            double Observation::*quantity) {
   const double span = std::log(b.value / a.value);
-  return over_common(a, b, quantity, [&](double qa, double qb) { return std::log(qb / qa) / span; });
+  return over_common(a, b, quantity,
+                     [&](double qa, double qb) { return std::log(qb / qa) / span; });
 }
 
-SampleMean interpolated(const SweepValue& a, const SweepValue& b, double at, double Observation::*quantity) {
+SampleMean interpolated(const SweepValue& a, const SweepValue& b, double at,
+                        double Observation::*quantity) {
   const double w = std::log(at / a.value) / std::log(b.value / a.value);
-  return over_common(a, b, quantity, [&](double qa, double qb) { return qa * std::pow(qb / qa, w); });
+  return over_common(a, b, quantity,
+                     [&](double qa, double qb) { return qa * std::pow(qb / qa, w); });
 }
 
-void add_local_exponents(PaperData& data, const std::vector<Variant>& variants, PaperSection& section) {
-  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency), forces = data.sweep(Sweep::force);
+void add_local_exponents(PaperData& data, const std::vector<Variant>& variants,
+                         PaperSection& section) {
+  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency),
+                                forces = data.sweep(Sweep::force);
   if (frequencies.size() > 2) add_by_frequency(frequencies, variants, section);
   if (forces.size() > 2) add_by_force(forces, section);
 }
 
 void add_similarity(PaperData& data, PaperSection& section) {
-  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency), forces = data.sweep(Sweep::force);
+  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency),
+                                forces = data.sweep(Sweep::force);
   add_half_scale(data, frequencies, section);
   add_gravity(data, frequencies, forces, section);
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/run/run_folder.hpp"
 #include "experiments/run/run.hpp"
+#include "experiments/run/run_folder.hpp"
 
 namespace ballast {
 
@@ -27,7 +27,8 @@ int for_each_state(const MotionRun& run, const std::function<void(const StoredSt
     state.phase = wall.phase[row];
     state.wall_speed = wall.velocity[row];
     const bool moves = state.phase == WallPhase::active || state.phase == WallPhase::passive;
-    const double largest = state.phase == WallPhase::active ? run.summary.speed_out.mean : run.summary.speed_in.mean;
+    const double largest =
+        state.phase == WallPhase::active ? run.summary.speed_out.mean : run.summary.speed_in.mean;
     if (moves && std::abs(state.wall_speed) < 0.2 * largest) continue;
     see(state);
     ++count;

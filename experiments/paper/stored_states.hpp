@@ -17,9 +17,9 @@ struct StoredState {
   double wall_speed = 0.0;  ///< outward, smoothed [m/s]
 };
 
-/// Calls `see` for every stored state after the transient, in the order of time; states whose wall is slower than 20 %
-/// of its largest speed while it moves are left out: they are neither active nor passive yet. Returns how many were
-/// seen. Throws Error.
+/// Calls `see` for every stored state after the transient, in the order of time; states whose wall
+/// is slower than 20 % of its largest speed while it moves are left out: they are neither active
+/// nor passive yet. Returns how many were seen. Throws Error.
 int for_each_state(const MotionRun& run, const std::function<void(const StoredState&)>& see);
 
 }  // namespace ballast

@@ -1,6 +1,6 @@
 #pragma once
-// The paper's phenomenological model: the wall's equation (Eq. 2) with f_g(x) from the fits of Fig. 4, integrated over
-// one period.
+// The paper's phenomenological model: the wall's equation (Eq. 2) with f_g(x) from the fits of Fig.
+// 4, integrated over one period.
 
 #include <optional>
 #include <vector>
@@ -11,9 +11,10 @@
 namespace ballast {
 
 struct WallModel {
-  ExponentialFit active;   ///< f_g [N] against the outward displacement from the jamming position before the rise [m],
-                           ///< wall moving out
-  LineFit passive;         ///< f_g [N] against the displacement from the jamming position after it [m], wall moving in
+  ExponentialFit active;  ///< f_g [N] against the outward displacement from the jamming position
+                          ///< before the rise [m], wall moving out
+  LineFit passive;  ///< f_g [N] against the displacement from the jamming position after it [m],
+                    ///< wall moving in
   double contraction = 0;  ///< how much further in the second jamming position is [m]
   double wall_mass = 1.0;  ///< m_w [kg]
   HarmonicLoad load;
@@ -24,17 +25,19 @@ struct ModelMotion {
   std::vector<double> time, x, v, force;  ///< [s], [m] outward, [m/s], f_g [N]
   double rise = 0.0;                      ///< Delta x_max [m]
   double speed_in = 0.0;                  ///< v_max [m/s]
-  bool jams = false;                      ///< the wall comes back to its jamming position within the period
+  bool jams = false;  ///< the wall comes back to its jamming position within the period
 };
 
-/// Where a motion is taken up that has left the jam already: time in the period [s], x [m], v > 0 [m/s].
+/// Where a motion is taken up that has left the jam already: time in the period [s], x [m], v > 0
+/// [m/s].
 struct ModelStart {
   double time = 0.0, x = 0.0, v = 0.0;
 };
 
-/// m_w dv/dt = f_g - f(t) by Heun's rule, `parts` steps a period: out while f_g = active(x), in while f_g = passive; at
-/// rest while f lies between the two; jammed (f_g = f) where it started or came back to. Begins jammed at the period's
-/// begin, or at `start`.
-ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& start = {}, int parts = 20000);
+/// m_w dv/dt = f_g - f(t) by Heun's rule, `parts` steps a period: out while f_g = active(x), in
+/// while f_g = passive; at rest while f lies between the two; jammed (f_g = f) where it started or
+/// came back to. Begins jammed at the period's begin, or at `start`.
+ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& start = {},
+                      int parts = 20000);
 
 }  // namespace ballast

@@ -2,9 +2,9 @@
 
 #include <set>
 
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
-#include "experiments/run/run_folder.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_text.hpp"
 
@@ -14,9 +14,11 @@ namespace {
 
 void check_name(const std::string& name, const std::string& what, const std::string& origin) {
   const bool plain = name.find_first_not_of(
-                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.=") == std::string::npos;
+                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.=") ==
+                     std::string::npos;
   if (name.empty() || name[0] == '.' || name[0] == '-' || !plain)
-    throw SceneFileError(origin + ": " + what + " = \"" + name + "\": expected letters, digits, _, -, . and =");
+    throw SceneFileError(origin + ": " + what + " = \"" + name +
+                         "\": expected letters, digits, _, -, . and =");
 }
 
 }  // namespace
@@ -27,7 +29,8 @@ void validate(const Plan& plan, const std::string& origin) {
   for (const PlannedRun& run : plan.runs) {
     check_name(run.name, "run.name", origin);
     if (!names.insert(run.name).second)
-      throw SceneFileError(origin + ": run.name = \"" + run.name + "\": stands twice, expected another name for each run");
+      throw SceneFileError(origin + ": run.name = \"" + run.name +
+                           "\": stands twice, expected another name for each run");
     try {
       run_key(run);
     } catch (const SceneFileError& error) {
@@ -43,15 +46,20 @@ void write_plan(const Plan& plan, const fs::path& file) {
     for (const std::string& text : run.overrides) set.push_back(text);
     // a path is relative to the plan's file when it is read
     const bool is_path = fs::is_regular_file(run.scene);
-    const std::string scene = is_path ? fs::absolute(run.scene).lexically_normal().string() : run.scene;
+    const std::string scene =
+        is_path ? fs::absolute(run.scene).lexically_normal().string() : run.scene;
     runs.push_back(toml::table{{"name", run.name}, {"scene", scene}, {"set", std::move(set)}});
   }
   write_whole_file(file, toml_text(toml::table{{"name", plan.name}, {"run", std::move(runs)}}));
 }
 
-std::string run_key(const PlannedRun& run) { return content_key(resolved_scene_text(find_scene(run.scene), run.overrides)); }
+std::string run_key(const PlannedRun& run) {
+  return content_key(resolved_scene_text(find_scene(run.scene), run.overrides));
+}
 
-fs::path folder_of(const fs::path& results, const PlannedRun& run) { return results / "runs" / run_key(run); }
+fs::path folder_of(const fs::path& results, const PlannedRun& run) {
+  return results / "runs" / run_key(run);
+}
 
 bool is_finished(const fs::path& results, const PlannedRun& run) {
   const std::string key = run_key(run);

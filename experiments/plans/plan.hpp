@@ -1,6 +1,7 @@
 #pragma once
-// A plan: named runs of scenes. The seam between who asks for runs (a sweep file, a figure of the paper) and who sees to it that they are there.
-// A run is known by its content: two figures that ask for the same run share it.
+// A plan: named runs of scenes. The seam between who asks for runs (a sweep file, a figure of the
+// paper) and who sees to it that they are there. A run is known by its content: two figures that
+// ask for the same run share it.
 
 #include <filesystem>
 #include <string>
@@ -19,13 +20,16 @@ struct Plan {
   std::vector<PlannedRun> runs;
 };
 
-/// Reads a plan file (docs/sweeps.md). Throws SceneFileError naming file, key and value: also for a run that is not a valid scene.
+/// Reads a plan file (docs/sweeps.md). Throws SceneFileError naming file, key and value: also for a
+/// run that is not a valid scene.
 Plan read_plan(const std::filesystem::path& file);
 
-/// The plan as a file that read_plan reads to the same plan: every run written out. Throws Error when it cannot be written.
+/// The plan as a file that read_plan reads to the same plan: every run written out. Throws Error
+/// when it cannot be written.
 void write_plan(const Plan& plan, const std::filesystem::path& file);
 
-/// Throws SceneFileError "<origin>: ..." when a name cannot be one or stands twice, or a run is no valid scene.
+/// Throws SceneFileError "<origin>: ..." when a name cannot be one or stands twice, or a run is no
+/// valid scene.
 void validate(const Plan& plan, const std::string& origin);
 
 /// Key of the resolved scene: the same for runs that compute the same. Throws SceneFileError.

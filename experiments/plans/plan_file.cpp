@@ -1,4 +1,5 @@
-// A plan's file: runs one by one, and sweeps, which are products of lists of values. See docs/sweeps.md.
+// A plan's file: runs one by one, and sweeps, which are products of lists of values. See
+// docs/sweeps.md.
 
 #include <optional>
 
@@ -84,7 +85,8 @@ bool same_value(const std::string& a, const std::string& b) {
 }
 
 bool contains(const std::vector<std::string>& values, const std::string& value) {
-  return std::any_of(values.begin(), values.end(), [&](const std::string& v) { return same_value(v, value); });
+  return std::any_of(values.begin(), values.end(),
+                     [&](const std::string& v) { return same_value(v, value); });
 }
 
 /// Overrides for those members of a sweep whose values are among these.
@@ -103,9 +105,11 @@ struct Sweep {
 Where read_where(TomlTable& table, const toml::table& raw, const std::vector<Axis>& axes) {
   Where where{read_axes(raw, "when"), table.texts("set")};
   table.section("when");  // known; its keys are those of the axes, not a table's of ours
-  if (where.when.empty()) table.fail("when", "no condition, expected when = { \"a varied key\" = its values }");
+  if (where.when.empty())
+    table.fail("when", "no condition, expected when = { \"a varied key\" = its values }");
   for (const Axis& condition : where.when) {
-    const auto axis = std::find_if(axes.begin(), axes.end(), [&](const Axis& a) { return a.key == condition.key; });
+    const auto axis = std::find_if(axes.begin(), axes.end(),
+                                   [&](const Axis& a) { return a.key == condition.key; });
     if (axis == axes.end()) table.fail("when", condition.key + " is not varied here");
     for (const std::string& value : condition.values)
       if (!contains(axis->values, value)) table.fail("when", condition.key + " never is " + value);
@@ -120,7 +124,8 @@ Sweep read_sweep(TomlTable& table, const toml::table& raw, const fs::path& file,
   sweep.base = read_base(table, file, base);
   table.section("vary");
   sweep.axes = read_axes(raw, "vary");
-  if (sweep.axes.empty()) table.fail("vary", "nothing varied, expected vary.\"dotted.key\" = [values]");
+  if (sweep.axes.empty())
+    table.fail("vary", "nothing varied, expected vary.\"dotted.key\" = [values]");
   size_t count = 1;
   for (const Axis& axis : sweep.axes) {
     if (axis.values.empty()) table.fail("vary", axis.key + " has no values");
@@ -138,7 +143,8 @@ Sweep read_sweep(TomlTable& table, const toml::table& raw, const fs::path& file,
 std::string name_part(const std::string& value) {
   std::string name;
   for (const char c : value)
-    if (c != '"') name += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' ? c : '_';
+    if (c != '"')
+      name += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' ? c : '_';
   return name;
 }
 
@@ -154,9 +160,9 @@ PlannedRun member(const Sweep& sweep, const std::vector<size_t>& chosen) {
     run.overrides.push_back(axis.key + '=' + value_of(axis.key));
   }
   for (const Where& where : sweep.where) {
-    const bool holds = std::all_of(where.when.begin(), where.when.end(), [&](const Axis& condition) {
-      return contains(condition.values, value_of(condition.key));
-    });
+    const bool holds = std::all_of(
+        where.when.begin(), where.when.end(),
+        [&](const Axis& condition) { return contains(condition.values, value_of(condition.key)); });
     if (holds) run.overrides.insert(run.overrides.end(), where.set.begin(), where.set.end());
   }
   return run;
@@ -196,7 +202,8 @@ Plan read_plan(const fs::path& file) {
     if (sweep.base.scene.empty()) sweeps[k].text("scene");
     expand(sweep, plan.runs);
   }
-  if (plan.runs.empty()) throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[sweep]]");
+  if (plan.runs.empty())
+    throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[sweep]]");
   validate(plan, file.string());
   return plan;
 }

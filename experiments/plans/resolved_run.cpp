@@ -1,10 +1,10 @@
 #include "experiments/plans/resolved_run.hpp"
 
-#include "platform/row_log.hpp"
-#include "experiments/run/run_folder.hpp"
 #include "experiments/box/vibrated_box.hpp"
-#include "problems/scene/scene_file.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/error.hpp"
+#include "platform/row_log.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -15,15 +15,16 @@ ResolvedRun resolve(const PlannedRun& run) {
   resolved.run = run;
   resolved.key = run_key(run);
   resolved.steps = scene.step_count();
-  const double bodies = scene.grains ? scene.grains->count : static_cast<double>(scene.bodies.size());
+  const double bodies =
+      scene.grains ? scene.grains->count : static_cast<double>(scene.bodies.size());
   resolved.work = bodies * static_cast<double>(resolved.steps);
   if (!scene.grains) return resolved;
   resolved.packing = packing_key(scene);
   const DepositSpec& deposit = scene.deposit;
   // the rain rests long before its time is up
   const double rain_time = deposit.max_time / 3.0;
-  resolved.packing_work =
-      bodies * ((rain_time + deposit.lid_time) / deposit.step + deposit.settle_time / deposit.settle_step);
+  resolved.packing_work = bodies * ((rain_time + deposit.lid_time) / deposit.step +
+                                    deposit.settle_time / deposit.settle_step);
   return resolved;
 }
 
@@ -33,7 +34,9 @@ std::vector<ResolvedRun> resolve(const Plan& plan) {
   return runs;
 }
 
-fs::path run_folder(const fs::path& results, const ResolvedRun& run) { return results / "runs" / run.key; }
+fs::path run_folder(const fs::path& results, const ResolvedRun& run) {
+  return results / "runs" / run.key;
+}
 fs::path packing_folder(const fs::path& results) { return results / "packings"; }
 
 namespace {
@@ -49,7 +52,8 @@ std::vector<std::string> scene_arguments(const fs::path& results, const PlannedR
 
 std::vector<std::string> run_arguments(const fs::path& results, const ResolvedRun& run) {
   std::vector<std::string> words = scene_arguments(results, run.run);
-  words.insert(words.end(), {"--output", run_folder(results, run).string(), "--continue", "--no-report"});
+  words.insert(words.end(),
+               {"--output", run_folder(results, run).string(), "--continue", "--no-report"});
   return words;
 }
 
@@ -65,7 +69,8 @@ long steps_in_log(const fs::path& run_folder) {
   try {
     const RowReader reader(log);
     const std::uintmax_t bytes = fs::file_size(log) - reader.header_bytes();
-    return static_cast<long>(bytes / (sizeof(double) * reader.header().row_size + sizeof(std::uint64_t)));
+    return static_cast<long>(bytes /
+                             (sizeof(double) * reader.header().row_size + sizeof(std::uint64_t)));
   } catch (const Error&) {  // just being made
     return 0;
   }

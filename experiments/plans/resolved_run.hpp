@@ -27,8 +27,10 @@ std::filesystem::path run_folder(const std::filesystem::path& results, const Res
 std::filesystem::path packing_folder(const std::filesystem::path& results);
 
 /// Arguments of the ballast program that begin or continue the run, or see to its packing.
-std::vector<std::string> run_arguments(const std::filesystem::path& results, const ResolvedRun& run);
-std::vector<std::string> deposit_arguments(const std::filesystem::path& results, const ResolvedRun& run);
+std::vector<std::string> run_arguments(const std::filesystem::path& results,
+                                       const ResolvedRun& run);
+std::vector<std::string> deposit_arguments(const std::filesystem::path& results,
+                                           const ResolvedRun& run);
 
 /// Steps that are in the log of a run that goes on, or has gone on; 0 when there is none.
 long steps_in_log(const std::filesystem::path& run_folder);

@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/run/manifest.hpp"
-#include "platform/error.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -52,7 +52,8 @@ Facts facts_of(const fs::path& path, const std::string& key, long steps, bool fa
 }
 
 /// The rows of one plan.
-std::string rows_of(const fs::path& results, const fs::path& file, const std::map<std::string, std::string>& failed) {
+std::string rows_of(const fs::path& results, const fs::path& file,
+                    const std::map<std::string, std::string>& failed) {
   std::string rows;
   try {
     const Json plan = Json::parse(read_whole_file(file));
@@ -60,9 +61,10 @@ std::string rows_of(const fs::path& results, const fs::path& file, const std::ma
       const std::string key = run.at("key");
       const long steps = run.at("steps");
       const Facts facts = facts_of(results / "runs" / key, key, steps, failed.contains(key));
-      rows += plan.at("plan").get<std::string>() + ',' + run.at("name").get<std::string>() + ',' + key + ',' + facts.state + ',' +
-              std::to_string(facts.steps_done) + ',' + std::to_string(steps) + ',' + facts.seconds + ',' + facts.error + ',' +
-              facts.commit + '\n';
+      rows += plan.at("plan").get<std::string>() + ',' + run.at("name").get<std::string>() + ',' +
+              key + ',' + facts.state + ',' + std::to_string(facts.steps_done) + ',' +
+              std::to_string(steps) + ',' + facts.seconds + ',' + facts.error + ',' + facts.commit +
+              '\n';
     }
   } catch (const Json::exception& error) {
     throw Error(file.string() + ": is no plan that ballast noted: " + error.what());
@@ -72,7 +74,8 @@ std::string rows_of(const fs::path& results, const fs::path& file, const std::ma
 
 }  // namespace
 
-void note_plan(const fs::path& results, const std::string& plan, const std::vector<ResolvedRun>& runs) {
+void note_plan(const fs::path& results, const std::string& plan,
+               const std::vector<ResolvedRun>& runs) {
   Json list = Json::array();
   for (const ResolvedRun& run : runs)
     list.push_back({{"name", run.run.name},
@@ -83,7 +86,8 @@ void note_plan(const fs::path& results, const std::string& plan, const std::vect
                     {"overrides", run.run.overrides}});
   create_folder(plans_folder(results));
   const Json text{{"plan", plan}, {"runs", std::move(list)}};
-  write_whole_file(plans_folder(results) / (plan + ".json"), text.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole_file(plans_folder(results) / (plan + ".json"),
+                   text.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void write_index(const fs::path& results, const std::map<std::string, std::string>& failed) {

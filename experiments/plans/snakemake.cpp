@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "experiments/plans/resolved_run.hpp"
 #include "experiments/plans/results_index.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* snakefile = R"(# Written by `ballast sweep --snakemake`: the runs of a plan as jobs. Snakemake 7.
+constexpr const char* snakefile =
+    R"(# Written by `ballast sweep --snakemake`: the runs of a plan as jobs. Snakemake 7.
 #
 #   snakemake -s Snakefile --profile slurm      on a cluster with Slurm, from this folder
 #   snakemake -s Snakefile --cores 4            on this machine
@@ -61,7 +62,8 @@ rule run:
 )";
 
 /// @ stands for this folder.
-constexpr const char* slurm_config = R"(# Options of Snakemake 7 for Slurm; see `snakemake --help`. Account, partition and the like go into `cluster`.
+constexpr const char* slurm_config =
+    R"(# Options of Snakemake 7 for Slurm; see `snakemake --help`. Account, partition and the like go into `cluster`.
 cluster: "sbatch --parsable --job-name=ballast-{rule} --ntasks=1 --cpus-per-task={threads} --mem={resources.mem_mb} --time={resources.minutes} --no-requeue --output=@/slurm/jobs/%j.log"
 cluster-status: "@/slurm/status.sh"
 cluster-cancel: "scancel"
@@ -90,43 +92,60 @@ esac
 )";
 
 std::string with_folder(std::string text, const fs::path& folder) {
-  for (size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + folder.string().size()))
+  for (size_t at = text.find('@'); at != std::string::npos;
+       at = text.find('@', at + folder.string().size()))
     text.replace(at, 1, folder.string());
   return text;
 }
 
-Json jobs_json(const std::vector<ResolvedRun>& runs, const fs::path& results, const fs::path& program, const fs::path& folder) {
+Json jobs_json(const std::vector<ResolvedRun>& runs, const fs::path& results,
+               const fs::path& program, const fs::path& folder) {
   Json packings = Json::object(), jobs = Json::object();
   for (const ResolvedRun& run : runs) {
-    if (!run.packing.empty() && !packings.contains(run.packing)) packings[run.packing] = deposit_arguments(results, run);
+    if (!run.packing.empty() && !packings.contains(run.packing))
+      packings[run.packing] = deposit_arguments(results, run);
     if (jobs.contains(run.key)) continue;
-    jobs[run.key] = {{"name", run.run.name}, {"packing", run.packing}, {"arguments", run_arguments(results, run)}};
+    jobs[run.key] = {{"name", run.run.name},
+                     {"packing", run.packing},
+                     {"arguments", run_arguments(results, run)}};
   }
   const Json sweep{"sweep", (folder / "plan.toml").string(), "--output", results.string()};
-  return {{"program", program.string()}, {"results", results.string()}, {"sweep", sweep}, {"packings", packings}, {"runs", jobs}};
+  return {{"program", program.string()},
+          {"results", results.string()},
+          {"sweep", sweep},
+          {"packings", packings},
+          {"runs", jobs}};
 }
 
 }  // namespace
 
-void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::path& program, const fs::path& folder_given) {
-  const fs::path results = fs::absolute(results_given).lexically_normal(), folder = fs::absolute(folder_given).lexically_normal();
+void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::path& program,
+                     const fs::path& folder_given) {
+  const fs::path results = fs::absolute(results_given).lexically_normal(),
+                 folder = fs::absolute(folder_given).lexically_normal();
   Plan absolute = plan;  // jobs begin elsewhere
-  for (PlannedRun& run : absolute.runs) run.scene = fs::absolute(find_scene(run.scene)).lexically_normal();
+  for (PlannedRun& run : absolute.runs)
+    run.scene = fs::absolute(find_scene(run.scene)).lexically_normal();
   const std::vector<ResolvedRun> runs = resolve(absolute);
-  const bool is_plain = folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") == std::string::npos;
+  const bool is_plain =
+      folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") == std::string::npos;
   if (!is_plain)
-    throw Error(folder.string() + ": stands in commands for a shell and Snakemake: expected a path without blanks, quotes and brackets");
+    throw Error(folder.string() +
+                ": stands in commands for a shell and Snakemake: expected a path without blanks, "
+                "quotes and brackets");
   for (const char* name : {"runs", "packings", "logs", "snakemake"}) create_folder(results / name);
   create_folder(folder / "slurm" / "jobs");
   note_plan(results, plan.name, runs);
   write_plan(absolute, folder / "plan.toml");
   const Json jobs = jobs_json(runs, results, program, folder);
-  write_whole_file(folder / "runs.json", jobs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole_file(folder / "runs.json",
+                   jobs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_whole_file(folder / "Snakefile", snakefile);
   write_whole_file(folder / "slurm" / "config.yaml", with_folder(slurm_config, folder));
   const fs::path status = folder / "slurm" / "status.sh";
   write_whole_file(status, status_script);
-  fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
+  fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                  fs::perm_options::add);
 }
 
 }  // namespace ballast

@@ -9,15 +9,15 @@
 #include <map>
 #include <memory>
 
-#include "platform/atomic_file.hpp"
-#include "platform/file_lock.hpp"
-#include "platform/interrupt.hpp"
 #include "experiments/plans/results_index.hpp"
 #include "experiments/plans/sweep_progress.hpp"
 #include "experiments/plans/tasks.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
+#include "platform/file_lock.hpp"
+#include "platform/interrupt.hpp"
 #include "platform/worker.hpp"
 #include "problems/scene/scene_file.hpp"
-#include "platform/error.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -38,7 +38,8 @@ class Engine {
     ExitCode stopped = ExitCode::ok;
     while (start_what_can(stopped == ExitCode::ok) || !workers_.empty()) {
       collect();
-      if (stopped == ExitCode::ok && (InterruptGuard::requested() || seconds() > options_.max_seconds)) {
+      if (stopped == ExitCode::ok &&
+          (InterruptGuard::requested() || seconds() > options_.max_seconds)) {
         stopped = InterruptGuard::requested() ? ExitCode::failure : ExitCode::time_limit;
         for (const auto& [task, worker] : workers_) worker->stop();
       }
@@ -127,7 +128,8 @@ class Engine {
 };
 
 /// What came out, and how to go on.
-ExitCode conclude(const std::vector<Task>& tasks, size_t before, ExitCode stopped, const fs::path& results) {
+ExitCode conclude(const std::vector<Task>& tasks, size_t before, ExitCode stopped,
+                  const fs::path& results) {
   size_t runs = 0, finished = 0, failed = 0;
   for (const Task& task : tasks) {
     if (!task.is_run()) continue;
@@ -164,11 +166,15 @@ ExitCode run_sweep(const Plan& plan, const SweepOptions& options) {
   const InterruptGuard guard;
   for (const char* name : {"runs", "packings", "logs"}) create_folder(options.results / name);
   const FileLock lock(options.results / "sweep.lock", briefly);
-  if (!lock.is_held()) throw Error(options.results.string() + ": " + lock.holder() + " is sweeping there");
+  if (!lock.is_held())
+    throw Error(options.results.string() + ": " + lock.holder() + " is sweeping there");
   note_plan(options.results, plan.name, all);
   Engine engine(options, make_tasks(options.results, chosen));
-  const auto finished = [](const Task& task) { return task.is_run() && task.state == TaskState::finished; };
-  const size_t before = static_cast<size_t>(std::count_if(engine.tasks().begin(), engine.tasks().end(), finished));
+  const auto finished = [](const Task& task) {
+    return task.is_run() && task.state == TaskState::finished;
+  };
+  const size_t before =
+      static_cast<size_t>(std::count_if(engine.tasks().begin(), engine.tasks().end(), finished));
   const ExitCode stopped = engine.execute();
   return conclude(engine.tasks(), before, stopped, options.results);
 }

@@ -16,9 +16,11 @@ SweepProgress::SweepProgress(StatusLine::Style style, const std::vector<Task>& t
 double SweepProgress::work_done() const {
   double done = 0.0;
   for (const Task& task : tasks_) {
-    if (task.state == TaskState::finished) done += task.work;
+    if (task.state == TaskState::finished)
+      done += task.work;
     else if (task.is_run() && task.steps > 0)
-      done += task.work * std::min(1.0, static_cast<double>(steps_in_log(task.folder)) / static_cast<double>(task.steps));
+      done += task.work * std::min(1.0, static_cast<double>(steps_in_log(task.folder)) /
+                                            static_cast<double>(task.steps));
   }
   return done;
 }
@@ -35,7 +37,8 @@ std::string SweepProgress::text(double now) const {
   const double done = work_done(), gained = done - work_before_;
   const double fraction = all_work_ > 0.0 ? done / all_work_ : 1.0;
   char numbers[120];
-  std::snprintf(numbers, sizeof numbers, "%3.0f %%  %zu of %zu runs, %zu running", std::floor(100.0 * fraction), finished, runs, running);
+  std::snprintf(numbers, sizeof numbers, "%3.0f %%  %zu of %zu runs, %zu running",
+                std::floor(100.0 * fraction), finished, runs, running);
   std::string text = (line_.style() == StatusLine::Style::bar ? bar_text(fraction) : "") + numbers;
   if (deposits > 0) text += ", " + std::to_string(deposits) + " depositing";
   if (failed > 0) text += ", " + std::to_string(failed) + " FAILED";
@@ -44,7 +47,8 @@ std::string SweepProgress::text(double now) const {
 }
 
 void SweepProgress::show(double now) {
-  const double interval = 3.0 * line_.interval();  // hours rather than minutes: half a minute between lines
+  const double interval =
+      3.0 * line_.interval();  // hours rather than minutes: half a minute between lines
   if (line_.style() == StatusLine::Style::quiet || now < written_ + interval) return;
   written_ = now;
   line_.write(text(now));

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "platform/status_line.hpp"
 #include "experiments/plans/tasks.hpp"
+#include "platform/status_line.hpp"
 
 namespace ballast {
 

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "experiments/box/packing_cache.hpp"
-#include "platform/error.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -45,16 +45,17 @@ Task deposit_task(const fs::path& results, const ResolvedRun& run) {
 }
 
 void sort_by_work(std::vector<Task>& tasks) {
-  std::stable_sort(tasks.begin(), tasks.end(), [](const Task& a, const Task& b) { return a.work > b.work; });
+  std::stable_sort(tasks.begin(), tasks.end(),
+                   [](const Task& a, const Task& b) { return a.work > b.work; });
 }
 
 }  // namespace
 
 std::vector<Task> make_tasks(const fs::path& results, const std::vector<ResolvedRun>& runs) {
   std::vector<Task> drives, tasks;
-  std::map<std::string, Task> deposits;             // by packing
-  std::map<std::string, std::string> packing_of;    // run -> packing
-  std::set<std::string> seen;                       // two names may be one run
+  std::map<std::string, Task> deposits;           // by packing
+  std::map<std::string, std::string> packing_of;  // run -> packing
+  std::set<std::string> seen;                     // two names may be one run
   for (const ResolvedRun& run : runs) {
     if (!seen.insert(run.key).second) continue;
     drives.push_back(run_task(results, run));
@@ -70,7 +71,8 @@ std::vector<Task> make_tasks(const fs::path& results, const std::vector<Resolved
   for (size_t k = 0; k < tasks.size(); ++k) place[tasks[k].key] = static_cast<int>(k);
   sort_by_work(drives);
   for (Task& task : drives) {
-    if (const auto found = packing_of.find(task.key); found != packing_of.end()) task.deposit = place.at(found->second);
+    if (const auto found = packing_of.find(task.key); found != packing_of.end())
+      task.deposit = place.at(found->second);
     tasks.push_back(std::move(task));
   }
   return tasks;

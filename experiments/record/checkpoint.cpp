@@ -8,9 +8,9 @@
 #include "platform/content_key.hpp"
 #include "platform/error.hpp"
 
-// magic "BALLCKPT", u32 version, u32 byte order, u64 bytes of the body, body, u64 checksum of all before it.
-// Body: key, phase; time, step, body count, poses (position, w x y z), velocities, spins; contacts; impulses; numbers;
-// each list and text led by its u64 length.
+// magic "BALLCKPT", u32 version, u32 byte order, u64 bytes of the body, body, u64 checksum of all
+// before it. Body: key, phase; time, step, body count, poses (position, w x y z), velocities,
+// spins; contacts; impulses; numbers; each list and text led by its u64 length.
 
 namespace ballast {
 
@@ -44,10 +44,12 @@ class Packer {
   std::string bytes;
 };
 
-/// Its ends are checked as well as the checksum, so that a file made wrong is an error and not a crash.
+/// Its ends are checked as well as the checksum, so that a file made wrong is an error and not a
+/// crash.
 class Unpacker {
  public:
-  Unpacker(std::string_view bytes, const std::filesystem::path& file) : bytes_(bytes), file_(file) {}
+  Unpacker(std::string_view bytes, const std::filesystem::path& file)
+      : bytes_(bytes), file_(file) {}
 
   template <class Number>
   Number number() {
@@ -105,7 +107,8 @@ std::string pack_body(const Checkpoint& checkpoint) {
   pack.number(std::int64_t{state.step});
   pack.list(state.pose, [&](const Pose& pose) {
     pack.vector(pose.position);
-    for (double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()}) pack.number(part);
+    for (double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
+      pack.number(part);
   });
   const auto vector = [&](const Vec3& value) { pack.vector(value); };
   pack.list(state.velocity, vector);
@@ -184,18 +187,22 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     return value;
   };
   if (bytes.empty()) refuse("checkpoint is empty");
-  if (std::string_view(bytes).substr(0, magic.size()) != magic.substr(0, bytes.size())) refuse("is not a checkpoint");
+  if (std::string_view(bytes).substr(0, magic.size()) != magic.substr(0, bytes.size()))
+    refuse("is not a checkpoint");
   if (bytes.size() < head_bytes)
     refuse("checkpoint is truncated in its first " + std::to_string(head_bytes) + " bytes");
-  if (head(12, std::uint32_t{}) != byte_order) refuse("checkpoint was written on a machine of another byte order");
+  if (head(12, std::uint32_t{}) != byte_order)
+    refuse("checkpoint was written on a machine of another byte order");
   if (const auto found = head(8, std::uint32_t{}); found != version)
-    refuse("checkpoint has format " + std::to_string(found) + ", this program reads format " + std::to_string(version));
+    refuse("checkpoint has format " + std::to_string(found) + ", this program reads format " +
+           std::to_string(version));
   const std::uint64_t body = head(16, std::uint64_t{}), rest = bytes.size() - head_bytes;
   if (rest < checksum_bytes || body > rest - checksum_bytes)
     refuse("checkpoint is truncated: " + std::to_string(bytes.size()) + " bytes are there");
   if (body < rest - checksum_bytes) refuse("checkpoint is damaged: bytes follow its end");
   const std::string_view summed(bytes.data(), bytes.size() - checksum_bytes);
-  if (head(summed.size(), std::uint64_t{}) != fnv1a(summed)) refuse("checkpoint is damaged: its checksum is wrong");
+  if (head(summed.size(), std::uint64_t{}) != fnv1a(summed))
+    refuse("checkpoint is damaged: its checksum is wrong");
   return unpack_body(summed.substr(head_bytes), file);
 }
 

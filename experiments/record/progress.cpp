@@ -29,7 +29,8 @@ Progress::Progress(bool quiet)
 Progress::Progress(Style style, std::ostream& out, std::function<double()> clock)
     : line_(style, out), clock_(std::move(clock)) {}
 
-void Progress::show(std::string_view label, double time, double total, const StepRecord& record, double rms_velocity) {
+void Progress::show(std::string_view label, double time, double total, const StepRecord& record,
+                    double rms_velocity) {
   if (line_.style() == Style::quiet) return;
   const double now = clock_();
   const bool first = !started_;
@@ -65,7 +66,8 @@ void Progress::restart() {
 }
 
 std::string Progress::line(double now) const {
-  const double elapsed = now - first_clock_, fraction = total_ > 0.0 ? std::clamp(time_ / total_, 0.0, 1.0) : 0.0;
+  const double elapsed = now - first_clock_,
+               fraction = total_ > 0.0 ? std::clamp(time_ / total_, 0.0, 1.0) : 0.0;
   std::string text = label_ + " ";
   if (line_.style() == Style::bar) text += bar_text(fraction);
   text += formatted("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time_, total_);

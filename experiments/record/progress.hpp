@@ -1,6 +1,6 @@
 #pragma once
-// How far a run is: one line that rewrites itself on a terminal, a line every ten seconds elsewhere, nothing when
-// quiet.
+// How far a run is: one line that rewrites itself on a terminal, a line every ten seconds
+// elsewhere, nothing when quiet.
 
 #include <functional>
 #include <iosfwd>
@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "platform/status_line.hpp"
 #include "experiments/step/step_record.hpp"
+#include "platform/status_line.hpp"
 
 namespace ballast {
 
@@ -22,13 +22,14 @@ class Progress {
   /// `clock`: seconds from anywhere, increasing.
   Progress(Style style, std::ostream& out, std::function<double()> clock);
 
-  /// After each step: `time` of `total` [s] in the phase `label`. Steps are counted by the calls; rate and time left
-  /// are those since the first call. `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is
-  /// time to write.
+  /// After each step: `time` of `total` [s] in the phase `label`. Steps are counted by the calls;
+  /// rate and time left are those since the first call. `rms_velocity` [m/s] is shown unless it is
+  /// NaN. Costs a clock reading unless it is time to write.
   void show(std::string_view label, double time, double total, const StepRecord& record,
             double rms_velocity = std::numeric_limits<double>::quiet_NaN());
 
-  /// Ends the line, if one is being rewritten, with what was shown last. To be called before anything else is printed.
+  /// Ends the line, if one is being rewritten, with what was shown last. To be called before
+  /// anything else is printed.
   void finish();
   /// finish(), then counts and clock from anew: for the next phase.
   void restart();

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "platform/hdf5_file.hpp"
 #include "platform/error.hpp"
+#include "platform/hdf5_file.hpp"
 
 namespace ballast {
 
@@ -18,19 +18,21 @@ struct PoseBlock {
 };
 constexpr PoseBlock pose_blocks[] = {
     {"position", 3, "m", "centre of mass, world frame"},
-    {"rotation", 4, "1", "unit quaternion w x y z: from the body frame (principal axes) to the world frame"},
+    {"rotation", 4, "1",
+     "unit quaternion w x y z: from the body frame (principal axes) to the world frame"},
     {"velocity", 3, "m/s", "of the centre of mass, world frame"},
     {"spin", 3, "rad/s", "angular velocity, body frame"},
 };
 constexpr size_t parts_per_body = 13, leading = 2;  // step and time lead a pose row
 
-void describe(Hdf5Writer& file, const std::string& dataset, const char* unit, const char* description) {
+void describe(Hdf5Writer& file, const std::string& dataset, const char* unit,
+              const char* description) {
   file.add_text(dataset, "unit", unit);
   file.add_text(dataset, "description", description);
 }
 
-void add(Hdf5Writer& file, const std::string& name, const std::vector<double>& values, const Hdf5Shape& shape,
-         const char* unit, const char* description) {
+void add(Hdf5Writer& file, const std::string& name, const std::vector<double>& values,
+         const Hdf5Shape& shape, const char* unit, const char* description) {
   file.add(name, values, shape);
   describe(file, name, unit, description);
 }
@@ -43,8 +45,8 @@ void add_steps(Hdf5Writer& file, RowReader& rows) {
     for (size_t c = 0; c < columns.size(); ++c) values[c].push_back(row[c]);
   file.add_group("steps");
   for (size_t c = 0; c < columns.size(); ++c)
-    add(file, std::string("steps/") + columns[c].name, values[c], {values[c].size()}, columns[c].unit,
-        columns[c].description);
+    add(file, std::string("steps/") + columns[c].name, values[c], {values[c].size()},
+        columns[c].unit, columns[c].description);
 }
 
 void add_poses(Hdf5Writer& file, RowReader& rows, size_t bodies) {
@@ -96,7 +98,8 @@ void add_bodies(Hdf5Writer& file, const MechanicalSystem& system) {
   add(file, "bodies/mass", mass, {count}, "kg", "mass; of a driven wall: the wall's");
   add(file, "bodies/volume", volume, {count}, "m^3", "volume; 0 for walls");
   add(file, "bodies/inertia", inertia, {count, 3}, "kg m^2", "principal moments of inertia");
-  add(file, "bodies/wall_normal", normal, {count, 3}, "1", "body frame, into the free side; 0 for grains");
+  add(file, "bodies/wall_normal", normal, {count, 3}, "1",
+      "body frame, into the free side; 0 for grains");
   file.add("bodies/shape", shape, {count});
   describe(file, "bodies/shape", "1", "number of the shape in /shapes; -1 for walls");
 }
@@ -107,22 +110,28 @@ void add_shapes(Hdf5Writer& file, const MechanicalSystem& system) {
   std::vector<std::int32_t> triangles, vertex_begin{0}, triangle_begin{0};
   for (const auto& pointer : system.shapes) {
     const Polyhedron& shape = *pointer;
-    for (const Vec3& vertex : shape.vertices()) vertices.insert(vertices.end(), vertex.begin(), vertex.end());
+    for (const Vec3& vertex : shape.vertices())
+      vertices.insert(vertices.end(), vertex.begin(), vertex.end());
     for (int f = 0; f < shape.face_count(); ++f) {
       const auto loop = shape.face(f);
-      for (size_t i = 2; i < loop.size(); ++i) triangles.insert(triangles.end(), {loop[0], loop[i - 1], loop[i]});
+      for (size_t i = 2; i < loop.size(); ++i)
+        triangles.insert(triangles.end(), {loop[0], loop[i - 1], loop[i]});
     }
     vertex_begin.push_back(static_cast<std::int32_t>(vertices.size() / 3));
     triangle_begin.push_back(static_cast<std::int32_t>(triangles.size() / 3));
   }
   file.add_group("shapes");
-  add(file, "shapes/vertices", vertices, {vertices.size() / 3, 3}, "m", "body frame; shape after shape");
+  add(file, "shapes/vertices", vertices, {vertices.size() / 3, 3}, "m",
+      "body frame; shape after shape");
   file.add("shapes/triangles", triangles, {triangles.size() / 3, 3});
-  describe(file, "shapes/triangles", "1", "numbers of vertices within the shape, counter-clockwise from outside");
+  describe(file, "shapes/triangles", "1",
+           "numbers of vertices within the shape, counter-clockwise from outside");
   file.add("shapes/vertex_begin", vertex_begin, {vertex_begin.size()});
-  describe(file, "shapes/vertex_begin", "1", "shape k has the vertices vertex_begin[k] to vertex_begin[k + 1]");
+  describe(file, "shapes/vertex_begin", "1",
+           "shape k has the vertices vertex_begin[k] to vertex_begin[k + 1]");
   file.add("shapes/triangle_begin", triangle_begin, {triangle_begin.size()});
-  describe(file, "shapes/triangle_begin", "1", "shape k has the triangles triangle_begin[k] to triangle_begin[k + 1]");
+  describe(file, "shapes/triangle_begin", "1",
+           "shape k has the triangles triangle_begin[k] to triangle_begin[k + 1]");
 }
 
 }  // namespace
@@ -133,12 +142,14 @@ void pack_pose_row(const MotionState& state, std::vector<double>& row) {
   row.clear();
   row.push_back(static_cast<double>(state.step));
   row.push_back(state.time);
-  for (const Pose& pose : state.pose) row.insert(row.end(), pose.position.begin(), pose.position.end());
+  for (const Pose& pose : state.pose)
+    row.insert(row.end(), pose.position.begin(), pose.position.end());
   for (const Pose& pose : state.pose) {
     const Quat& q = pose.rotation;
     row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
   }
-  for (const Vec3& velocity : state.velocity) row.insert(row.end(), velocity.begin(), velocity.end());
+  for (const Vec3& velocity : state.velocity)
+    row.insert(row.end(), velocity.begin(), velocity.end());
   for (const Vec3& spin : state.spin) row.insert(row.end(), spin.begin(), spin.end());
 }
 
@@ -150,19 +161,21 @@ PoseFrame unpack_pose_row(std::span<const double> row) {
   frame.pose.resize(bodies);
   frame.velocity.resize(bodies);
   frame.spin.resize(bodies);
-  const double *position = row.data() + leading, *rotation = position + 3 * bodies, *velocity = rotation + 4 * bodies,
-               *spin = velocity + 3 * bodies;
+  const double *position = row.data() + leading, *rotation = position + 3 * bodies,
+               *velocity = rotation + 4 * bodies, *spin = velocity + 3 * bodies;
   for (size_t b = 0; b < bodies; ++b) {
     frame.pose[b].position = Vec3(position + 3 * b);
-    frame.pose[b].rotation = Quat(rotation[4 * b], rotation[4 * b + 1], rotation[4 * b + 2], rotation[4 * b + 3]);
+    frame.pose[b].rotation =
+        Quat(rotation[4 * b], rotation[4 * b + 1], rotation[4 * b + 2], rotation[4 * b + 3]);
     frame.velocity[b] = Vec3(velocity + 3 * b);
     frame.spin[b] = Vec3(spin + 3 * b);
   }
   return frame;
 }
 
-void write_record_file(const std::filesystem::path& path, const MechanicalSystem& system, RowReader& steps,
-                       RowReader& poses, const std::string& scene_text, const std::string& manifest_text) {
+void write_record_file(const std::filesystem::path& path, const MechanicalSystem& system,
+                       RowReader& steps, RowReader& poses, const std::string& scene_text,
+                       const std::string& manifest_text) {
   Hdf5Writer file(path);
   file.add_text("/", "format", "ballast record 2");
   file.add_text("/", "scene", scene_text);

@@ -6,9 +6,10 @@
 //   /poses/time, step                 (frames)
 //   /poses/position, velocity, spin   (frames, bodies, 3): world frame; spin in the body frame
 //   /poses/rotation                   (frames, bodies, 4): body to world, w x y z
-//   /bodies/name, mass, volume, inertia (3), shape (-1: a wall), wall_normal (3, into the free side; 0 for grains)
-//   /shapes/vertices (all shapes' n, 3) in the body frame, triangles (m, 3): numbers within the shape, counter-clockwise from outside
-//   /shapes/vertex_begin, triangle_begin (shapes + 1): where shape k begins and ends
+//   /bodies/name, mass, volume, inertia (3), shape (-1: a wall), wall_normal (3, into the free
+//   side; 0 for grains) /shapes/vertices (all shapes' n, 3) in the body frame, triangles (m, 3):
+//   numbers within the shape, counter-clockwise from outside /shapes/vertex_begin, triangle_begin
+//   (shapes + 1): where shape k begins and ends
 //
 // Every dataset of numbers has the attributes unit and description.
 
@@ -19,19 +20,21 @@
 
 #include "experiments/record/pose_frame.hpp"
 #include "experiments/step/step_record.hpp"
-#include "problems/mechanics/mechanical_system.hpp"
 #include "platform/row_log.hpp"
+#include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 
-/// One frame as a row of a log: step, time, then positions, rotations (w x y z), velocities and spins of all bodies.
+/// One frame as a row of a log: step, time, then positions, rotations (w x y z), velocities and
+/// spins of all bodies.
 size_t pose_row_size(size_t bodies);
 void pack_pose_row(const MotionState& state, std::vector<double>& row);
 PoseFrame unpack_pose_row(std::span<const double> row);
 
 /// Both logs are read from their first row; all their rows must be safe. Throws Error.
-void write_record_file(const std::filesystem::path& file, const MechanicalSystem& system, RowReader& steps,
-                       RowReader& poses, const std::string& scene_text, const std::string& manifest_text);
+void write_record_file(const std::filesystem::path& file, const MechanicalSystem& system,
+                       RowReader& steps, RowReader& poses, const std::string& scene_text,
+                       const std::string& manifest_text);
 
 std::vector<StepRecord> read_record_steps(const std::filesystem::path& file);
 std::vector<PoseFrame> read_record_poses(const std::filesystem::path& file);

@@ -2,11 +2,11 @@
 
 #include <optional>
 
+#include "experiments/record/record_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
-#include "experiments/record/record_file.hpp"
-#include "platform/row_log.hpp"
 #include "platform/error.hpp"
+#include "platform/row_log.hpp"
 
 namespace ballast {
 
@@ -46,8 +46,8 @@ RowLogHeader steps_header(const MechanicalSystem& system) {
 
 RowLogHeader poses_header(const MechanicalSystem& system) {
   const size_t bodies = system.bodies.size();
-  return {"poses " + std::to_string(bodies) + " bodies: step time position rotation velocity spin", system_key(system),
-          pose_row_size(bodies)};
+  return {"poses " + std::to_string(bodies) + " bodies: step time position rotation velocity spin",
+          system_key(system), pose_row_size(bodies)};
 }
 
 /// Opens a log that is to be continued: of this system, with these columns.
@@ -55,7 +55,8 @@ RowReader open_log(const fs::path& file, const RowLogHeader& expected) {
   RowReader reader(file);
   if (reader.header().text != expected.text || reader.header().row_size != expected.row_size)
     throw Error(file.string() + ": has other columns than this program writes");
-  if (reader.header().owner != expected.owner) throw Error(file.string() + ": belongs to another system of bodies");
+  if (reader.header().owner != expected.owner)
+    throw Error(file.string() + ": belongs to another system of bodies");
   return reader;
 }
 
@@ -64,15 +65,17 @@ RowWriter continue_steps(const fs::path& file, const RowLogHeader& header, long 
   RowReader reader = open_log(file, header);
   for (long k = 0; k < last_step; ++k)
     if (reader.next().empty())
-      throw Error(file.string() + ": has " + std::to_string(k) + " steps, the checkpoint is at step " +
-                     std::to_string(last_step));
+      throw Error(file.string() + ": has " + std::to_string(k) +
+                  " steps, the checkpoint is at step " + std::to_string(last_step));
   return RowWriter(file, reader, last_step);
 }
 
 RowWriter continue_poses(const fs::path& file, const RowLogHeader& header, long last_step) {
   RowReader reader = open_log(file, header);
   long kept = 0;
-  for (auto row = reader.next(); !row.empty() && row[0] <= static_cast<double>(last_step); row = reader.next()) ++kept;
+  for (auto row = reader.next(); !row.empty() && row[0] <= static_cast<double>(last_step);
+       row = reader.next())
+    ++kept;
   return RowWriter(file, reader, kept);
 }
 
@@ -166,7 +169,8 @@ std::vector<PoseFrame> read_poses(const fs::path& folder) {
   if (fs::exists(record_file(folder))) return read_record_poses(record_file(folder));
   RowReader rows(poses_log(folder));
   std::vector<PoseFrame> frames;
-  for (auto row = rows.next(); !row.empty(); row = rows.next()) frames.push_back(unpack_pose_row(row));
+  for (auto row = rows.next(); !row.empty(); row = rows.next())
+    frames.push_back(unpack_pose_row(row));
   return frames;
 }
 

@@ -12,25 +12,28 @@
 
 namespace ballast {
 
-/// Rows are appended to log/steps.bin (fixed size, one per step) and log/poses.bin (fixed size, one per stored frame),
-/// so that a killed run loses at most what came after its last checkpoint, and a resumed one cuts both back to it.
+/// Rows are appended to log/steps.bin (fixed size, one per step) and log/poses.bin (fixed size, one
+/// per stored frame), so that a killed run loses at most what came after its last checkpoint, and a
+/// resumed one cuts both back to it.
 class Recorder {
  public:
-  /// Opens or creates the logs in `folder`. Rows with step > `last_step` are cut off (0: start afresh, without any row,
-  /// so that the frame of step 0 is added again). A steps.csv and record.h5 of before are removed: they would not be
-  /// this run's. `system` must outlive the recorder. Throws Error (experiments/run.hpp) naming the file: unwritable,
-  /// shorter than last_step says, damaged, of another system or other columns.
+  /// Opens or creates the logs in `folder`. Rows with step > `last_step` are cut off (0: start
+  /// afresh, without any row, so that the frame of step 0 is added again). A steps.csv and
+  /// record.h5 of before are removed: they would not be this run's. `system` must outlive the
+  /// recorder. Throws Error (experiments/run.hpp) naming the file: unwritable, shorter than
+  /// last_step says, damaged, of another system or other columns.
   Recorder(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step);
   ~Recorder();
 
   /// One call per step: row k is step k + 1.
   void add_step(const StepRecord& row);
   void add_poses(const MotionState& state);
-  /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws Error (disk full
+  /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws
+  /// Error (disk full
   /// ...).
   void flush();
-  /// steps.csv and record.h5 from the logs, each written beside and renamed. `attributes`: manifest text stored in the
-  /// file.
+  /// steps.csv and record.h5 from the logs, each written beside and renamed. `attributes`: manifest
+  /// text stored in the file.
   void finish(const std::string& scene_text, const std::string& manifest_text);
 
  private:
@@ -38,8 +41,8 @@ class Recorder {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads back what a recorder wrote: record.h5, or where there is none the raw logs of a run still going. Throws
-/// Error.
+/// Reads back what a recorder wrote: record.h5, or where there is none the raw logs of a run still
+/// going. Throws Error.
 std::vector<StepRecord> read_steps(const std::filesystem::path& folder);
 std::vector<PoseFrame> read_poses(const std::filesystem::path& folder);
 

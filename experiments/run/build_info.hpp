@@ -1,5 +1,6 @@
 #pragma once
-// Which program this is: version, commit, compiler, libraries. Filled in by the build (build_info.cmake).
+// Which program this is: version, commit, compiler, libraries. Filled in by the build
+// (build_info.cmake).
 
 #include <string>
 #include <utility>

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/measure/wall_cycles.hpp"
+#include "platform/atomic_file.hpp"
 
 namespace ballast {
 namespace {
@@ -17,7 +17,8 @@ long positive_number(std::string_view name, std::string_view text) {
   long value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value < 1)
-    throw std::invalid_argument(std::string(name) + "=" + std::string(text) + ": expected a whole number >= 1");
+    throw std::invalid_argument(std::string(name) + "=" + std::string(text) +
+                                ": expected a whole number >= 1");
   return value;
 }
 
@@ -31,15 +32,24 @@ CaptureSettings CaptureSettings::parse(std::string_view text) {
     text.remove_prefix(std::min(item.size() + 1, text.size()));
     const size_t equals = item.find('=');
     const std::string_view name = item.substr(0, equals);
-    const std::string_view value = equals == std::string_view::npos ? std::string_view() : item.substr(equals + 1);
-    if (name == "every") settings.every = positive_number(name, value);
-    else if (name == "steps") settings.steps = positive_number(name, value);
-    else if (name == "from") settings.from = positive_number(name, value), has_range = true;
-    else if (name == "to") settings.to = positive_number(name, value), has_range = true;
-    else throw std::invalid_argument("'" + std::string(item) + "': expected every=, steps=, from= or to=");
+    const std::string_view value =
+        equals == std::string_view::npos ? std::string_view() : item.substr(equals + 1);
+    if (name == "every")
+      settings.every = positive_number(name, value);
+    else if (name == "steps")
+      settings.steps = positive_number(name, value);
+    else if (name == "from")
+      settings.from = positive_number(name, value), has_range = true;
+    else if (name == "to")
+      settings.to = positive_number(name, value), has_range = true;
+    else
+      throw std::invalid_argument("'" + std::string(item) +
+                                  "': expected every=, steps=, from= or to=");
   }
-  if (settings.every == 0 && !has_range) throw std::invalid_argument("expected every=, or from= and to=");
-  if (settings.every > 0 && settings.steps > settings.every) throw std::invalid_argument("steps= is larger than every=");
+  if (settings.every == 0 && !has_range)
+    throw std::invalid_argument("expected every=, or from= and to=");
+  if (settings.every > 0 && settings.steps > settings.every)
+    throw std::invalid_argument("steps= is larger than every=");
   if (settings.to < settings.from) throw std::invalid_argument("to= is before from=");
   return settings;
 }
@@ -49,10 +59,12 @@ bool CaptureSettings::takes(long step) const {
   return every == 0 || (step >= every && step % every < steps);
 }
 
-StepCapture::StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g)
+StepCapture::StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h,
+                         double g)
     : settings_(settings), folder_(std::move(folder)), h_(h), g_(g) {}
 
-/// As wall_cycles has it, but from what is known at the step: at rest is what is slow beside the fastest so far.
+/// As wall_cycles has it, but from what is known at the step: at rest is what is slow beside the
+/// fastest so far.
 std::string StepCapture::phase_of(const StepRecord& record) {
   fastest_wall_ = std::max(fastest_wall_, std::abs(record.wall_v));
   if (fastest_wall_ == 0.0) return "none";
@@ -60,7 +72,8 @@ std::string StepCapture::phase_of(const StepRecord& record) {
   return record.wall_v > 0.0 ? "active" : "passive";
 }
 
-void StepCapture::observe(const TimeStepper& stepper, const MotionState& state, const StepRecord& record) {
+void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
+                          const StepRecord& record) {
   const std::string phase = phase_of(record);
   if (!settings_.takes(state.step)) return;
   CapturedProblem captured;
@@ -78,7 +91,8 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state, 
   for (const int c : stepper.assembler().detected()) {
     const ContactPoint& contact = stepper.contacts()[static_cast<size_t>(c)];
     captured.gap.push_back(contact.gap);
-    captured.position.insert(captured.position.end(), contact.position.data(), contact.position.data() + 3);
+    captured.position.insert(captured.position.end(), contact.position.data(),
+                             contact.position.data() + 3);
     captured.key.push_back(contact.feature);
     captured.id_a.push_back(contact.body_a);
     captured.id_b.push_back(contact.body_b);

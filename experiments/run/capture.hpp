@@ -1,5 +1,6 @@
 #pragma once
-// Friction problems taken out of a run, as files that FCLIB's tools and `ballast compare` read (problems/captured_problem).
+// Friction problems taken out of a run, as files that FCLIB's tools and `ballast compare` read
+// (problems/captured_problem).
 //
 // Consecutive steps are taken together: only so is a warm start what a run would have had.
 
@@ -18,7 +19,8 @@ struct CaptureSettings {
   long steps = 2;  ///< of each group
   long from = 1, to = 1L << 60;
 
-  /// "every=50", "from=1000,to=1020", "every=100,steps=3,from=2000". Throws std::invalid_argument saying what is wrong.
+  /// "every=50", "from=1000,to=1020", "every=100,steps=3,from=2000". Throws std::invalid_argument
+  /// saying what is wrong.
   static CaptureSettings parse(std::string_view text);
   bool takes(long step) const;
 };

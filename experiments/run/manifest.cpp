@@ -11,8 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/run/build_info.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
@@ -42,8 +42,9 @@ std::string cpu_model() {
 
 Json build_json() {
   const BuildInfo& info = build_info();
-  Json json = {{"version", info.version},    {"commit", info.commit},         {"modified", info.modified},
-               {"compiler", info.compiler},  {"build_type", info.build_type}, {"flags", info.flags},
+  Json json = {{"version", info.version},       {"commit", info.commit},
+               {"modified", info.modified},     {"compiler", info.compiler},
+               {"build_type", info.build_type}, {"flags", info.flags},
                {"libraries", Json::object()}};
   for (const auto& [name, version] : info.libraries) json["libraries"][name] = version;
   return json;
@@ -51,7 +52,8 @@ Json build_json() {
 
 Json machine_json() {
   Json json = {{"cpu", cpu_model()}, {"cores", std::thread::hardware_concurrency()}};
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   json["memory_GB"] = std::round(memory / 1e8) / 10.0;
   double load[3];
   json["load_average"] = getloadavg(load, 3) == 3 ? Json(load) : Json(nullptr);
@@ -64,7 +66,8 @@ Json machine_json() {
 
 }  // namespace
 
-Manifest::Manifest(const std::string& scene, const std::vector<std::string>& overrides, const std::string& key)
+Manifest::Manifest(const std::string& scene, const std::vector<std::string>& overrides,
+                   const std::string& key)
     : Manifest(Json{{"ballast", build_json()},
                     {"machine", machine_json()},
                     {"scene", scene},
@@ -89,7 +92,8 @@ Manifest Manifest::read(const std::filesystem::path& file) {
   }
   const auto has = [&](const char* name, Json::value_t type) {
     if (!json.is_object() || !json.contains(name) || json[name].type() != type)
-      throw Error(file.string() + ": is no manifest of a run: '" + name + "' is missing or of the wrong type");
+      throw Error(file.string() + ": is no manifest of a run: '" + name +
+                  "' is missing or of the wrong type");
   };
   for (const char* name : {"ballast", "machine", "summary"}) has(name, Json::value_t::object);
   for (const char* name : {"scene", "key", "started"}) has(name, Json::value_t::string);
@@ -99,15 +103,20 @@ Manifest Manifest::read(const std::filesystem::path& file) {
 
 void Manifest::resumed(long step) {
   const BuildInfo& info = build_info();
-  (*json_)["resumed"].push_back(Json{
-      {"step", step}, {"at", utc_now()}, {"commit", info.commit}, {"modified", info.modified}, {"cpu", cpu_model()}});
+  (*json_)["resumed"].push_back(Json{{"step", step},
+                                     {"at", utc_now()},
+                                     {"commit", info.commit},
+                                     {"modified", info.modified},
+                                     {"cpu", cpu_model()}});
 }
 
 void Manifest::summary(const std::string& name, double value) {
   (*json_)["summary"][name] = std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-void Manifest::summary(const std::string& name, const std::string& value) { (*json_)["summary"][name] = value; }
+void Manifest::summary(const std::string& name, const std::string& value) {
+  (*json_)["summary"][name] = value;
+}
 
 std::string Manifest::scene() const { return json_->at("scene").get<std::string>(); }
 std::string Manifest::key() const { return json_->at("key").get<std::string>(); }
@@ -120,12 +129,15 @@ std::string Manifest::commit() const {
 double Manifest::summary_number(const std::string& name) const {
   const Json& summary = json_->at("summary");
   const auto found = summary.find(name);
-  if (found == summary.end() || !found->is_number()) return std::numeric_limits<double>::quiet_NaN();
+  if (found == summary.end() || !found->is_number())
+    return std::numeric_limits<double>::quiet_NaN();
   return found->get<double>();
 }
 
 /// Names from a command line may be no UTF-8: such bytes are replaced, not refused.
-std::string Manifest::text() const { return json_->dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string Manifest::text() const {
+  return json_->dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 void Manifest::write(const std::filesystem::path& file) const { write_whole_file(file, text()); }
 

@@ -1,10 +1,11 @@
 #pragma once
 // manifest.json: what a run was made by and from, and what came out, as JSON.
 //
-//   {"ballast":  {"version", "commit", "modified", "compiler", "build_type", "flags", "libraries": {name: version}},
-//    "machine":  {"cpu", "cores", "memory_GB", "load_average": [1, 5, 15 min], "environment": {name: value}},
-//    "scene": name, "overrides": ["dotted.key=value"], "key": hash of the resolved scene, "started": UTC,
-//    "resumed":  [{"step", "at": UTC, "commit", "modified", "cpu"}],
+//   {"ballast":  {"version", "commit", "modified", "compiler", "build_type", "flags", "libraries":
+//   {name: version}},
+//    "machine":  {"cpu", "cores", "memory_GB", "load_average": [1, 5, 15 min], "environment":
+//    {name: value}}, "scene": name, "overrides": ["dotted.key=value"], "key": hash of the resolved
+//    scene, "started": UTC, "resumed":  [{"step", "at": UTC, "commit", "modified", "cpu"}],
 //    "summary":  {name: number or text}}
 //
 // Times of day and the machine are here and nowhere else, so that records of equal runs are equal.
@@ -21,7 +22,8 @@ namespace ballast {
 class Manifest {
  public:
   /// Of a run that starts now, on this machine, with this program.
-  Manifest(const std::string& scene, const std::vector<std::string>& overrides, const std::string& key);
+  Manifest(const std::string& scene, const std::vector<std::string>& overrides,
+           const std::string& key);
   /// Of a run's folder. Throws Error naming the file: missing, no JSON, no manifest.
   static Manifest read(const std::filesystem::path& file);
 
@@ -32,7 +34,8 @@ class Manifest {
   /// Notes that the run goes on from `step`, now, here, with this program.
   void resumed(long step);
 
-  /// Sets one entry of the summary; a name set before is overwritten in its place. NaN and infinity become null.
+  /// Sets one entry of the summary; a name set before is overwritten in its place. NaN and infinity
+  /// become null.
   void summary(const std::string& name, double value);
   void summary(const std::string& name, const std::string& value);
 

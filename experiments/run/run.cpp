@@ -7,22 +7,22 @@
 #include <iostream>
 #include <limits>
 
-#include "platform/atomic_file.hpp"
-#include "experiments/run/capture.hpp"
+#include "experiments/box/packing_cache.hpp"
+#include "experiments/export/paraview.hpp"
 #include "experiments/record/checkpoint.hpp"
+#include "experiments/record/progress.hpp"
+#include "experiments/record/recorder.hpp"
+#include "experiments/run/capture.hpp"
+#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
+#include "experiments/run/simulation.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
 #include "platform/error.hpp"
 #include "platform/file_lock.hpp"
 #include "platform/interrupt.hpp"
-#include "experiments/run/manifest.hpp"
-#include "experiments/box/packing_cache.hpp"
-#include "experiments/export/paraview.hpp"
-#include "experiments/record/progress.hpp"
-#include "experiments/record/recorder.hpp"
-#include "experiments/run/run_folder.hpp"
-#include "experiments/run/simulation.hpp"
-#include "problems/scene/scene_file.hpp"
 #include "problems/mechanics/solid_fraction.hpp"
+#include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -30,7 +30,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
 
 /// The run as its loop needs it.
 struct Prepared {
@@ -52,7 +54,9 @@ class Run {
         manifest_(scene_.name, options.overrides, key_) {
     scene_.solver.threads = options.threads;
     make_solver(scene_.solver.name);
-    if (scene_.grains) make_solver(scene_.deposit.solver);  // a backend that is missing is said before anything is written
+    if (scene_.grains)
+      make_solver(
+          scene_.deposit.solver);  // a backend that is missing is said before anything is written
   }
 
   RunEnd execute() {
@@ -77,14 +81,17 @@ class Run {
  private:
   double seconds_left() const { return options_.max_seconds - seconds_since(begin_); }
 
-  LoopEnd why_stopped() const { return InterruptGuard::requested() ? LoopEnd::interrupted : LoopEnd::time_limit; }
+  LoopEnd why_stopped() const {
+    return InterruptGuard::requested() ? LoopEnd::interrupted : LoopEnd::time_limit;
+  }
 
   /// Nobody else works in the folder from here on. False: there is nothing to do in it.
   bool open_folder() {
     if (options_.resume) folder_.reopen(text_);
     create_folder(folder_.path());
     lock_.emplace(folder_.path() / "run.lock", briefly);
-    if (!lock_->is_held()) throw Error(folder_.path().string() + ": " + lock_->holder() + " is working there");
+    if (!lock_->is_held())
+      throw Error(folder_.path().string() + ": " + lock_->holder() + " is working there");
     if (options_.begin_or_resume && folder_.is_finished(key_)) {
       std::cout << folder_.path().string() << ": finished already" << std::endl;
       return false;
@@ -93,19 +100,23 @@ class Run {
       folder_.reopen(text_);
       options_.resume = true;
     }
-    if (!options_.resume) folder_.begin(text_, options_.overwrite);
-    else if (std::filesystem::exists(folder_.manifest())) manifest_ = Manifest::read(folder_.manifest());
+    if (!options_.resume)
+      folder_.begin(text_, options_.overwrite);
+    else if (std::filesystem::exists(folder_.manifest()))
+      manifest_ = Manifest::read(folder_.manifest());
     manifest_.write(folder_.manifest());
     return true;
   }
 
   ExitCode deposit_only() {
-    if (!scene_.grains) throw Error(options_.scene + ": --deposit-only: has no [grains] to deposit");
+    if (!scene_.grains)
+      throw Error(options_.scene + ": --deposit-only: has no [grains] to deposit");
     Packing packing;
     return take_packing(make_rain(scene_), packing) ? ExitCode::ok : stopped(why_stopped());
   }
 
-  /// System, state and warm start: from the scene, the packing, or the checkpoint. False: stopped while depositing.
+  /// System, state and warm start: from the scene, the packing, or the checkpoint. False: stopped
+  /// while depositing.
   bool prepare() {
     if (scene_.grains) {
       const Rain rain = make_rain(scene_);
@@ -121,7 +132,8 @@ class Run {
     run_.driven_wall = run_.system.first_driven_wall();
     if (options_.resume && std::filesystem::exists(folder_.checkpoint())) {
       Checkpoint found = read_checkpoint(folder_.checkpoint());
-      if (found.key != key_) throw Error(folder_.checkpoint().string() + ": belongs to another scene");
+      if (found.key != key_)
+        throw Error(folder_.checkpoint().string() + ": belongs to another scene");
       run_.memory = memory_of(found, folder_.checkpoint());
       run_.state = std::move(found.state);
       manifest_.resumed(run_.state.step);
@@ -132,7 +144,8 @@ class Run {
 
   bool take_packing(const Rain& rain, Packing& packing) {
     PackingOrder order;
-    order.cache = options_.packing_cache.empty() ? folder_.path() / ".." / "packings" : options_.packing_cache;
+    order.cache = options_.packing_cache.empty() ? folder_.path() / ".." / "packings"
+                                                 : options_.packing_cache;
     order.anew = options_.new_packing && !options_.resume;
     order.goes_on = [this] { return !InterruptGuard::requested() && seconds_left() > 0.0; };
     double deposit_seconds = std::numeric_limits<double>::quiet_NaN();
@@ -153,9 +166,11 @@ class Run {
     manifest_.summary("packing_top_m", packing.top);
     manifest_.summary("lid_m", packing.lid);
     manifest_.summary("rest_velocity_m_s", packing.rest_velocity);
-    manifest_.summary("solid_fraction_initial", run_.control_volume->solid_fraction(run_.system, run_.state));
+    manifest_.summary("solid_fraction_initial",
+                      run_.control_volume->solid_fraction(run_.system, run_.state));
     double smallest = 1e300;
-    for (const SizeClass& size : scene_.grains->distribution) smallest = std::min(smallest, size.size);
+    for (const SizeClass& size : scene_.grains->distribution)
+      smallest = std::min(smallest, size.size);
     manifest_.summary("d_min_m", smallest);
   }
 
@@ -169,15 +184,18 @@ class Run {
     if (scene_.record.paraview) paraview.emplace(folder_.path(), run_.system, run_.state.step);
     std::optional<StepCapture> capture;
     if (!options_.capture.empty())
-      capture.emplace(CaptureSettings::parse(options_.capture), folder_.capture(), settings.h, scene_.gravity.norm());
+      capture.emplace(CaptureSettings::parse(options_.capture), folder_.capture(), settings.h,
+                      scene_.gravity.norm());
     const long pose_every = std::max(1L, std::lround(1.0 / (scene_.record.pose_rate * settings.h)));
     const auto store_pose = [&] {
       recorder.add_poses(run_.state);
-      if (paraview) paraview->add(run_.state, run_.memory.contacts, run_.memory.impulses, settings.h);
+      if (paraview)
+        paraview->add(run_.state, run_.memory.contacts, run_.memory.impulses, settings.h);
     };
     if (run_.state.step == 0) store_pose();
     const double state_rate = scene_.record.state_rate;
-    const long state_every = state_rate > 0.0 ? std::max(1L, std::lround(1.0 / (state_rate * settings.h))) : 0;
+    const long state_every =
+        state_rate > 0.0 ? std::max(1L, std::lround(1.0 / (state_rate * settings.h))) : 0;
     if (state_every > 0) create_folder(folder_.states());
 
     Progress progress;
@@ -203,7 +221,8 @@ class Run {
       recorder.add_step(record);
       if (state.step % pose_every == 0) store_pose();
       if (state_every > 0 && state.step % state_every == 0)
-        write_checkpoint(folder_.state_at(state.step), drive_checkpoint(key_, loop.phase, state, run_.memory));
+        write_checkpoint(folder_.state_at(state.step),
+                         drive_checkpoint(key_, loop.phase, state, run_.memory));
       progress.show(scene_.name, state.time, scene_.duration, record);
     };
     const auto begin = Clock::now();
@@ -211,7 +230,8 @@ class Run {
     const LoopEnd end = run_loop(loop, stepper, run_.state, run_.memory);
     progress.finish();
     if (run_.state.step > first)
-      manifest_.summary("ms_per_step", 1e3 * seconds_since(begin) / static_cast<double>(run_.state.step - first));
+      manifest_.summary("ms_per_step",
+                        1e3 * seconds_since(begin) / static_cast<double>(run_.state.step - first));
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     manifest_.summary("peak_memory_MB", usage.ru_maxrss / 1024.0);
@@ -240,10 +260,12 @@ class Run {
     for (const std::string& set : options_.overrides) command += " --set '" + set + "'";
     if (!options_.capture.empty()) command += " --capture " + options_.capture;
     if (!options_.output.empty()) command += " --output " + options_.output.string();
-    if (!options_.packing_cache.empty()) command += " --packing-cache " + options_.packing_cache.string();
+    if (!options_.packing_cache.empty())
+      command += " --packing-cache " + options_.packing_cache.string();
     command += options_.deposit_only ? " --deposit-only" : " --resume";
     const std::string why = end == LoopEnd::time_limit ? "time limit reached" : "interrupted";
-    std::cout << why << " at t = " << run_.state.time << " s; nothing is lost. Continue with:\n  " << command << std::endl;
+    std::cout << why << " at t = " << run_.state.time << " s; nothing is lost. Continue with:\n  "
+              << command << std::endl;
     return end == LoopEnd::time_limit ? ExitCode::time_limit : ExitCode::failure;
   }
 
@@ -277,7 +299,8 @@ MechanicalSystem system_of_run(const std::filesystem::path& path, MotionState& s
   if (!started) throw Error(folder.checkpoint().string() + ": missing: the run has no state yet");
   state = read_checkpoint(folder.checkpoint()).state;
   const Rain rain = make_rain(scene);
-  return box_system(scene, rain, BoxStage::drive, state.pose[rain.grains.size() + wall_lid].position.z());
+  return box_system(scene, rain, BoxStage::drive,
+                    state.pose[rain.grains.size() + wall_lid].position.z());
 }
 
 }  // namespace ballast

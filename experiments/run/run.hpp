@@ -14,15 +14,20 @@ struct RunOptions {
   std::string scene;                   ///< name or path
   std::vector<std::string> overrides;  ///< "dotted.key=value"
   std::filesystem::path output;        ///< the run's folder; empty: results/<scene name>
-  std::filesystem::path packing_cache; ///< where deposited packings are kept; empty: <output>/../packings
-  bool resume = false;                 ///< continue the run found in the folder; without it an existing run is an error
-  bool begin_or_resume = false;        ///< continue the run found in the folder, or begin one; a finished one is left as it is
-  bool deposit_only = false;           ///< only see to it that the packing is in the cache; the folder is not touched
-  bool overwrite = false;              ///< replace a run found in the folder
-  bool new_packing = false;            ///< deposit again even if the cache has the packing
-  std::string capture;                 ///< which steps to keep as problem files (CaptureSettings::parse); empty: none
-  int threads = 1;                     ///< of the solver; the results are the same whatever their number
-  double max_seconds = 1e30;           ///< wall clock: checkpoint and exit code 3 after this
+  std::filesystem::path
+      packing_cache;  ///< where deposited packings are kept; empty: <output>/../packings
+  bool resume =
+      false;  ///< continue the run found in the folder; without it an existing run is an error
+  bool begin_or_resume = false;  ///< continue the run found in the folder, or begin one; a finished
+                                 ///< one is left as it is
+  bool deposit_only =
+      false;  ///< only see to it that the packing is in the cache; the folder is not touched
+  bool overwrite = false;    ///< replace a run found in the folder
+  bool new_packing = false;  ///< deposit again even if the cache has the packing
+  std::string
+      capture;      ///< which steps to keep as problem files (CaptureSettings::parse); empty: none
+  int threads = 1;  ///< of the solver; the results are the same whatever their number
+  double max_seconds = 1e30;  ///< wall clock: checkpoint and exit code 3 after this
 };
 
 /// How a run ended.
@@ -34,15 +39,18 @@ struct RunEnd {
   bool has_grains = false;       ///< a vibrated box, not only single bodies
 };
 
-/// Runs to the end, to the time limit, or to SIGINT/SIGTERM (checkpoint, then ExitCode::failure with the line that resumes).
-/// A folder is one process's at a time: another one that runs there throws, and a packing that another run deposits is waited for.
-/// Throws SceneFileError, InvalidProblem, MissingSolver, UnknownSolver, Error: each with a one-line what().
+/// Runs to the end, to the time limit, or to SIGINT/SIGTERM (checkpoint, then ExitCode::failure
+/// with the line that resumes). A folder is one process's at a time: another one that runs there
+/// throws, and a packing that another run deposits is waited for. Throws SceneFileError,
+/// InvalidProblem, MissingSolver, UnknownSolver, Error: each with a one-line what().
 ///
-/// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5, checkpoint.bin, capture/ (if asked for), log/ (append-only raw
-/// rows from which the two records are made). Its page is write_report()'s (experiments/run_page).
+/// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5,
+/// checkpoint.bin, capture/ (if asked for), log/ (append-only raw rows from which the two records
+/// are made). Its page is write_report()'s (experiments/run_page).
 RunEnd run(const RunOptions& options);
 
-/// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest checkpointed state. Throws Error.
+/// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest
+/// checkpointed state. Throws Error.
 MechanicalSystem system_of_run(const std::filesystem::path& folder, MotionState& state);
 
 }  // namespace ballast

@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/run/manifest.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
@@ -22,11 +22,13 @@ bool RunFolder::is_finished(const std::string& key) const {
 
 void RunFolder::begin(const std::string& scene_text, bool overwrite) const {
   if (has_run() && !overwrite)
-    throw Error(path_.string() + ": holds a run already: --resume continues it, --overwrite replaces it");
+    throw Error(path_.string() +
+                ": holds a run already: --resume continues it, --overwrite replaces it");
   create_folder(path_);
   if (overwrite)  // only what a run writes: never a folder as a whole
-    for (const char* name : {"scene.toml", "manifest.json", "checkpoint.bin", "steps.csv", "record.h5", "report.html", "log",
-                             "figures", "paraview", "capture", "states"}) {
+    for (const char* name :
+         {"scene.toml", "manifest.json", "checkpoint.bin", "steps.csv", "record.h5", "report.html",
+          "log", "figures", "paraview", "capture", "states"}) {
       std::error_code error;
       fs::remove_all(path_ / name, error);
       if (error) throw Error((path_ / name).string() + ": cannot remove: " + error.message());
@@ -42,9 +44,11 @@ fs::path RunFolder::state_at(long step) const {
 
 void RunFolder::reopen(const std::string& scene_text) const {
   if (!has_run())
-    throw Error(path_.string() + ": no run to resume: " + scene().filename().string() + " is missing");
+    throw Error(path_.string() + ": no run to resume: " + scene().filename().string() +
+                " is missing");
   if (read_whole_file(scene()) != scene_text)
-    throw Error(path_.string() + ": holds a run of other settings: give the same scene and --set, or --overwrite");
+    throw Error(path_.string() +
+                ": holds a run of other settings: give the same scene and --set, or --overwrite");
 }
 
 }  // namespace ballast

@@ -25,7 +25,8 @@ class RunFolder {
   /// It holds all of the run of this key: every step, and records that have been closed.
   bool is_finished(const std::string& key) const;
 
-  /// A fresh run: refuses a folder that holds one (unless `overwrite`, which clears what a run writes), writes scene.toml.
+  /// A fresh run: refuses a folder that holds one (unless `overwrite`, which clears what a run
+  /// writes), writes scene.toml.
   void begin(const std::string& scene_text, bool overwrite) const;
   /// A run to continue: refuses a folder without one, or with another scene than `scene_text`.
   void reopen(const std::string& scene_text) const;

@@ -1,14 +1,15 @@
 #pragma once
-// What each figure of a run shows. The data are in the plot; the caption says what is drawn, what the paper shows, what to look for.
+// What each figure of a run shows. The data are in the plot; the caption says what is drawn, what
+// the paper shows, what to look for.
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "experiments/page/html_page.hpp"
-#include "experiments/page/plot.hpp"
 #include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_summary.hpp"
+#include "experiments/page/html_page.hpp"
+#include "experiments/page/plot.hpp"
 
 namespace ballast {
 
@@ -20,9 +21,11 @@ struct ReportFigure {
   Html caption;
 };
 
-/// Paper's figures that a single run shows: Fig. 3, Fig. 4, Fig. 12. Empty without a driven wall or a packing.
+/// Paper's figures that a single run shows: Fig. 3, Fig. 4, Fig. 12. Empty without a driven wall or
+/// a packing.
 std::vector<ReportFigure> paper_figures(const RunData& data, const RunSummary& summary);
-/// Whether the run can be trusted: jammed state, error, penetration, iterations and contacts, cost, energy.
+/// Whether the run can be trusted: jammed state, error, penetration, iterations and contacts, cost,
+/// energy.
 std::vector<ReportFigure> diagnostic_figures(const RunData& data, const RunSummary& summary);
 
 ReportFigure figure_3(const RunData& data, const RunSummary& summary);
@@ -31,7 +34,8 @@ ReportFigure figure_12(const RunData& data, const RunSummary& summary);
 ReportFigure jammed_figure(const RunData& data, const RunSummary& summary);
 
 /// A line of at most 3000 samples that look like all.
-Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink, double width = 1.6);
+Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink,
+              double width = 1.6);
 
 /// Unit in which forces up to f_max are readable.
 struct ForceUnit {

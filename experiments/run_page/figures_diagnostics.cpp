@@ -9,7 +9,6 @@
 namespace ballast {
 namespace {
 
-
 Panel time_panel(const RunData& data, const std::string& y_label, bool log_y) {
   Panel panel;
   panel.x_label = time_axis;
@@ -20,21 +19,27 @@ Panel time_panel(const RunData& data, const std::string& y_label, bool log_y) {
   return panel;
 }
 
-Curve column_line(const RunData& data, double StepRecord::*value, double factor, const char* title, Ink ink, double width) {
-  return line_of(record_column(data.steps, &StepRecord::time), record_column(data.steps, value, factor), title, ink, width);
+Curve column_line(const RunData& data, double StepRecord::*value, double factor, const char* title,
+                  Ink ink, double width) {
+  return line_of(record_column(data.steps, &StepRecord::time),
+                 record_column(data.steps, value, factor), title, ink, width);
 }
 
 bool is_zero(const RunData& data, double StepRecord::*value) {
-  return std::all_of(data.steps.begin(), data.steps.end(), [&](const StepRecord& s) { return !(s.*value != 0.0) || std::isnan(s.*value); });
+  return std::all_of(data.steps.begin(), data.steps.end(), [&](const StepRecord& s) {
+    return !(s.*value != 0.0) || std::isnan(s.*value);
+  });
 }
 
 ReportFigure error_figure(const RunData& data, const RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
   const bool is_relative = std::isfinite(scale);
-  Panel panel = time_panel(data, is_relative ? "error\u00a0/\u00a0{/:Italic gh}" : "error  (m/s)", true);
+  Panel panel =
+      time_panel(data, is_relative ? "error\u00a0/\u00a0{/:Italic gh}" : "error  (m/s)", true);
   const double factor = is_relative ? 1.0 / scale : 1.0;
-  panel.curves = {column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
-                  column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
+  panel.curves = {
+      column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
+      column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
   if (is_relative)
     panel.lines = {{target::error_mean, "10^{−3}: bound on the mean", false, Ink::grey},
                    {target::error_max, "10^{−2}: bound on every step", false, Ink::grey}};
@@ -42,12 +47,16 @@ ReportFigure error_figure(const RunData& data, const RunSummary& summary) {
   figure.name = "error";
   figure.title = "Error of the contact law per step";
   figure.panels = {panel};
-  Html caption{"<b>Error of the contact law</b>, per step, by the judge: the scaled natural map of the exact Coulomb–Signorini law, "
-               "recomputed from the returned impulses. "};
+  Html caption{
+      "<b>Error of the contact law</b>, per step, by the judge: the scaled natural map of the "
+      "exact Coulomb–Signorini law, "
+      "recomputed from the returned impulses. "};
   if (is_relative)
-    caption += Html{"Relative to <i>gh</i> = "} + quantity(scale, "m/s") +
-               Html{", the velocity that gravity gives in one step. Blue: rms over contacts, mean "} + number(summary.error_mean_relative) +
-               Html{", worst step "} + number(summary.error_max_relative) + Html{"."};
+    caption +=
+        Html{"Relative to <i>gh</i> = "} + quantity(scale, "m/s") +
+        Html{", the velocity that gravity gives in one step. Blue: rms over contacts, mean "} +
+        number(summary.error_mean_relative) + Html{", worst step "} +
+        number(summary.error_max_relative) + Html{"."};
   else
     caption += Html{"Gravity is not known, so that the error is in m/s."};
   return {figure, caption};
@@ -55,32 +64,41 @@ ReportFigure error_figure(const RunData& data, const RunSummary& summary) {
 
 ReportFigure penetration_figure(const RunData& data, const RunSummary& summary) {
   Panel panel = time_panel(data, "overlap  (µm)", true);
-  panel.curves = {column_line(data, &StepRecord::penetration_max, 1e6, "deepest", Ink::vermilion, 1.4),
-                  column_line(data, &StepRecord::penetration_mean, 1e6, "mean over active contact points", Ink::blue, 1.4)};
+  panel.curves = {
+      column_line(data, &StepRecord::penetration_max, 1e6, "deepest", Ink::vermilion, 1.4),
+      column_line(data, &StepRecord::penetration_mean, 1e6, "mean over active contact points",
+                  Ink::blue, 1.4)};
   panel.lines = {{1e6 * target::penetration_max, "250 µm: bound on the deepest", false, Ink::grey},
                  {1e6 * target::penetration_mean, "5 µm: bound on the mean", false, Ink::grey}};
   std::vector<double> means;
   for (double value : panel.curves[1].y)
     if (value > 0.0) means.push_back(value);
   const double least = quantile(means, 0.02);
-  if (std::isfinite(least)) panel.y_min = std::pow(10.0, std::floor(std::log10(std::min(least, 1.0))));
+  if (std::isfinite(least))
+    panel.y_min = std::pow(10.0, std::floor(std::log10(std::min(least, 1.0))));
   Figure figure;
   figure.name = "penetration";
   figure.title = "Overlap of contacts per step";
   figure.panels = {panel};
   Html caption{"<b>Overlap</b> at detection. Deepest in the whole run: "};
-  caption += quantity(1e6 * summary.penetration_max, "µm") + Html{" at "} + quantity(summary.penetration_max_time, "s") +
-             Html{"; mean over steps and active points: "} + quantity(1e6 * summary.penetration_mean, "µm") +
-             Html{". <span class=\"look\">Jumps belong to the first contraction, when many contacts close at once; a steady growth would mean "
-                  "drift.</span>"};
+  caption += quantity(1e6 * summary.penetration_max, "µm") + Html{" at "} +
+             quantity(summary.penetration_max_time, "s") +
+             Html{"; mean over steps and active points: "} +
+             quantity(1e6 * summary.penetration_mean, "µm") +
+             Html{
+                 ". <span class=\"look\">Jumps belong to the first contraction, when many contacts "
+                 "close at once; a steady growth would mean "
+                 "drift.</span>"};
   return {figure, caption};
 }
 
 ReportFigure effort_figure(const RunData& data, const RunSummary& summary) {
-  Panel above = time_panel(data, "iterations", false), below = time_panel(data, "contact points", false);
+  Panel above = time_panel(data, "iterations", false),
+        below = time_panel(data, "contact points", false);
   above.curves = {column_line(data, &StepRecord::iterations, 1.0, "", Ink::blue, 1.0)};
-  below.curves = {column_line(data, &StepRecord::contacts, 1.0, "given to the solver", Ink::grey, 1.3),
-                  column_line(data, &StepRecord::active_contacts, 1.0, "with an impulse", Ink::green, 1.3)};
+  below.curves = {
+      column_line(data, &StepRecord::contacts, 1.0, "given to the solver", Ink::grey, 1.3),
+      column_line(data, &StepRecord::active_contacts, 1.0, "with an impulse", Ink::green, 1.3)};
   above.y_min = below.y_min = 0.0;
   Figure figure;
   figure.name = "effort";
@@ -88,10 +106,13 @@ ReportFigure effort_figure(const RunData& data, const RunSummary& summary) {
   figure.height = 540;
   figure.panels = {above, below};
   Html caption{"<b>Effort.</b> Solver iterations of each step (mean "};
-  caption += number(summary.iterations.mean) + Html{", most "} + exact(summary.iterations.max) + Html{") and contact points (mean "} +
-             number(summary.contacts.mean, 4) + Html{" given, "} + number(summary.active_contacts.mean, 4) +
-             Html{" with an impulse). <span class=\"look\">A flat top of the iterations is the limit: those steps were cut off before their "
-                  "tolerance.</span>"};
+  caption += number(summary.iterations.mean) + Html{", most "} + exact(summary.iterations.max) +
+             Html{") and contact points (mean "} + number(summary.contacts.mean, 4) +
+             Html{" given, "} + number(summary.active_contacts.mean, 4) +
+             Html{
+                 " with an impulse). <span class=\"look\">A flat top of the iterations is the "
+                 "limit: those steps were cut off before their "
+                 "tolerance.</span>"};
   return {figure, caption};
 }
 
@@ -101,7 +122,8 @@ std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, 
   const size_t count = data.steps.size();
   bins = std::min(bins, count);
   std::vector<double> time(bins), low(bins, 0.0);
-  for (size_t b = 0; b < bins; ++b) time[b] = data.steps[(b * count / bins + (b + 1) * count / bins) / 2].time;
+  for (size_t b = 0; b < bins; ++b)
+    time[b] = data.steps[(b * count / bins + (b + 1) * count / bins) / 2].time;
   time.front() = 0.0;
   time.back() = data.steps.back().time;
   std::vector<Curve> curves;
@@ -115,7 +137,8 @@ std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, 
     curve.y_low = low;
     for (size_t b = 0; b < bins; ++b) {
       std::vector<double> values;
-      for (size_t k = b * count / bins; k < (b + 1) * count / bins; ++k) values.push_back(1e3 * (data.steps[k].*summary.cost[p].seconds));
+      for (size_t k = b * count / bins; k < (b + 1) * count / bins; ++k)
+        values.push_back(1e3 * (data.steps[k].*summary.cost[p].seconds));
       const double mean = statistics(values).mean;
       curve.y.push_back(low[b] += std::isfinite(mean) ? mean : 0.0);
     }
@@ -134,8 +157,11 @@ ReportFigure cost_figure(const RunData& data, const RunSummary& summary) {
   figure.height = 460;
   figure.panels = {panel};
   Html caption{"<b>Cost</b> of a step by phase, one above the other, averaged over stretches of "};
-  caption += quantity(1e3 * summary.duration / static_cast<double>(std::min<size_t>(250, data.steps.size())), "ms") +
-             Html{" of simulated time. In all "} + quantity(summary.ms_per_step, "ms") + Html{" per step."};
+  caption += quantity(1e3 * summary.duration /
+                          static_cast<double>(std::min<size_t>(250, data.steps.size())),
+                      "ms") +
+             Html{" of simulated time. In all "} + quantity(summary.ms_per_step, "ms") +
+             Html{" per step."};
   return {figure, caption};
 }
 
@@ -147,9 +173,11 @@ ReportFigure energy_figure(const RunData& data, const RunSummary& summary) {
     for (size_t k = 1; k < count; ++k) sums[k] += sums[k - 1];
     return sums;
   };
-  Panel above = time_panel(data, "cumulative energy  (J)", false), below = time_panel(data, "energy  (J)", true);
+  Panel above = time_panel(data, "cumulative energy  (J)", false),
+        below = time_panel(data, "energy  (J)", true);
   const auto add = [&](double StepRecord::*value, const char* title, Ink ink) {
-    if (!is_zero(data, value)) above.curves.push_back(line_of(time, cumulative(value), title, ink, 1.8));
+    if (!is_zero(data, value))
+      above.curves.push_back(line_of(time, cumulative(value), title, ink, 1.8));
   };
   add(&StepRecord::work_load, "work of the load", Ink::blue);
   add(&StepRecord::work_gravity, "of gravity", Ink::green);
@@ -158,29 +186,35 @@ ReportFigure energy_figure(const RunData& data, const RunSummary& summary) {
   std::vector<double> residual(count, 0.0);
   for (size_t k = 1; k < count; ++k) {
     const StepRecord& step = data.steps[k];
-    residual[k] = residual[k - 1] + step.kinetic_energy - data.steps[k - 1].kinetic_energy - step.work_load - step.work_gravity -
-                  step.work_prescribed + step.dissipated;
+    residual[k] = residual[k - 1] + step.kinetic_energy - data.steps[k - 1].kinetic_energy -
+                  step.work_load - step.work_gravity - step.work_prescribed + step.dissipated;
   }
   for (double& value : residual) value = std::abs(value);
-  below.curves = {column_line(data, &StepRecord::kinetic_energy, 1.0, "kinetic energy", Ink::black, 1.4),
-                  line_of(time, residual, "|residual of the balance|", Ink::purple, 1.4)};
+  below.curves = {
+      column_line(data, &StepRecord::kinetic_energy, 1.0, "kinetic energy", Ink::black, 1.4),
+      line_of(time, residual, "|residual of the balance|", Ink::purple, 1.4)};
   Figure figure;
   figure.name = "energy";
   figure.title = "Energy balance";
   figure.height = 580;
   if (!above.curves.empty()) figure.panels.push_back(above);
   figure.panels.push_back(below);
-  Html caption{"<b>Energy.</b> Works and dissipation since the start (above); kinetic energy, and what is missing in <i>change of kinetic energy "
-               "= works − dissipation</i>, summed from the recorded columns (below). Residual at the end: "};
+  Html caption{
+      "<b>Energy.</b> Works and dissipation since the start (above); kinetic energy, and what is "
+      "missing in <i>change of kinetic energy "
+      "= works − dissipation</i>, summed from the recorded columns (below). Residual at the end: "};
   caption += quantity(summary.energy.residual, "J") + Html{", "} + number(summary.energy.relative) +
-             Html{" of the absolute work. <span class=\"look\">Dissipation must never fall; the residual should stay far below the kinetic "
-                  "energy.</span>"};
+             Html{
+                 " of the absolute work. <span class=\"look\">Dissipation must never fall; the "
+                 "residual should stay far below the kinetic "
+                 "energy.</span>"};
   return {figure, caption};
 }
 
 }  // namespace
 
-Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink, double width) {
+Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink,
+              double width) {
   Curve curve;
   thin_out(x, y, 3000);
   curve.x = std::move(x);
@@ -191,11 +225,14 @@ Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& t
   return curve;
 }
 
-ForceUnit force_unit(double f_max) { return f_max >= 1000.0 ? ForceUnit{"kN", 1e-3} : ForceUnit{"N", 1.0}; }
+ForceUnit force_unit(double f_max) {
+  return f_max >= 1000.0 ? ForceUnit{"kN", 1e-3} : ForceUnit{"N", 1.0};
+}
 
 std::vector<ReportFigure> diagnostic_figures(const RunData& data, const RunSummary& summary) {
   std::vector<ReportFigure> figures;
-  if (summary.wall.loop_first < summary.wall.loop_last && *summary.facts.has_packing) figures.push_back(jammed_figure(data, summary));
+  if (summary.wall.loop_first < summary.wall.loop_last && *summary.facts.has_packing)
+    figures.push_back(jammed_figure(data, summary));
   figures.push_back(error_figure(data, summary));
   // a scene without any overlap has no logarithm of it to show
   if (summary.penetration_max > 0.0) figures.push_back(penetration_figure(data, summary));

@@ -7,8 +7,10 @@ namespace {
 struct NamedUnit {
   const char *suffix, *unit;
 };
-constexpr NamedUnit named_units[] = {{"_m_s2", "m/s²"}, {"_kg_m3", "kg/m³"}, {"_m_s", "m/s"}, {"_kg", "kg"}, {"_Hz", "Hz"}, {"_MB", "MB"},
-                                     {"_GB", "GB"},     {"_N", "N"},         {"_J", "J"},     {"_s", "s"},   {"_m", "m"}};
+constexpr NamedUnit named_units[] = {{"_m_s2", "m/s²"}, {"_kg_m3", "kg/m³"}, {"_m_s", "m/s"},
+                                     {"_kg", "kg"},     {"_Hz", "Hz"},       {"_MB", "MB"},
+                                     {"_GB", "GB"},     {"_N", "N"},         {"_J", "J"},
+                                     {"_s", "s"},       {"_m", "m"}};
 
 /// Lists and objects on one line, without JSON's quotes and braces.
 std::string readable(const nlohmann::ordered_json& value) {
@@ -16,13 +18,15 @@ std::string readable(const nlohmann::ordered_json& value) {
   if (!value.is_structured()) return value.dump();
   std::string text;
   for (const auto& [name, part] : value.items())
-    text += (text.empty() ? "" : ", ") + (value.is_object() ? name + ' ' : std::string()) + readable(part);
+    text += (text.empty() ? "" : ", ") + (value.is_object() ? name + ' ' : std::string()) +
+            readable(part);
   return text;
 }
 
 Html summary_row_value(const nlohmann::ordered_json& value, const char* unit) {
   if (value.is_number_integer()) return escaped(value.dump());
-  if (value.is_number()) return exact(value.get<double>(), 6) + Html{*unit ? "&#8239;" : ""} + Html{unit};
+  if (value.is_number())
+    return exact(value.get<double>(), 6) + Html{*unit ? "&#8239;" : ""} + Html{unit};
   if (value.is_null()) return number(not_known);
   return escaped(readable(value));
 }
@@ -45,30 +49,43 @@ HtmlTable facts_table() {
 Html setting(double value, const char* unit) { return exact(value) + Html{"&#8239;"} + Html{unit}; }
 
 void add_scene(const Scene& scene, HtmlTable& table) {
-  const auto row = [&](const char* what, Html value) { table.rows.push_back({Html{what}, std::move(value)}); };
-  row("step <i>h</i>, duration", setting(scene.step, "s") + Html{", "} + setting(scene.duration, "s"));
+  const auto row = [&](const char* what, Html value) {
+    table.rows.push_back({Html{what}, std::move(value)});
+  };
+  row("step <i>h</i>, duration",
+      setting(scene.step, "s") + Html{", "} + setting(scene.duration, "s"));
   row("gravity", setting(scene.gravity.norm(), "m/s²"));
-  row("friction, restitution between bodies", exact(scene.friction) + Html{", "} + exact(scene.restitution));
-  row("solver", escaped(scene.solver.name) + Html{", tolerance "} + exact(scene.solver.tolerance) +
-                    Html{scene.gravity.isZero() ? " m/s" : " <i>gh</i>"} + Html{", at most "} +
-                    exact(scene.solver.max_iterations) + Html{scene.solver.warm_start ? " iterations, warm start" : " iterations, cold start"});
+  row("friction, restitution between bodies",
+      exact(scene.friction) + Html{", "} + exact(scene.restitution));
+  row("solver",
+      escaped(scene.solver.name) + Html{", tolerance "} + exact(scene.solver.tolerance) +
+          Html{scene.gravity.isZero() ? " m/s" : " <i>gh</i>"} + Html{", at most "} +
+          exact(scene.solver.max_iterations) +
+          Html{scene.solver.warm_start ? " iterations, warm start" : " iterations, cold start"});
   if (scene.sleep.enabled)
-    row("islands at rest fall asleep", Html{"after "} + exact(scene.sleep.steps) + Html{" steps below "} + exact(scene.sleep.velocity) +
+    row("islands at rest fall asleep", Html{"after "} + exact(scene.sleep.steps) +
+                                           Html{" steps below "} + exact(scene.sleep.velocity) +
                                            Html{" <i>gh</i>"});
-  row("overlap correction", scene.correction.enabled
-                                ? setting(100.0 * scene.correction.fraction, "%") + Html{" of what exceeds "} +
-                                      setting(1e6 * scene.correction.slop, "µm") + Html{" per step, "} +
-                                      exact(scene.correction.sweeps) + Html{" sweeps"}
-                                : Html{"off"});
+  row("overlap correction",
+      scene.correction.enabled
+          ? setting(100.0 * scene.correction.fraction, "%") + Html{" of what exceeds "} +
+                setting(1e6 * scene.correction.slop, "µm") + Html{" per step, "} +
+                exact(scene.correction.sweeps) + Html{" sweeps"}
+          : Html{"off"});
   if (!scene.grains) return;
   const DriveSpec& drive = scene.drive;
-  row("drive", setting(drive.frequency, "Hz") + Html{", <i>f</i><sub>max</sub> = "} + exact(drive.f_max_over_weight) +
-                   Html{" <i>mg</i>, <i>f</i><sub>min</sub> = "} + exact(drive.f_min_over_weight) + Html{" <i>mg</i>, wall "} +
-                   exact(drive.wall_mass_over_grains) + Html{" <i>m</i>, lid raised "} + setting(1e3 * drive.lid_raise, "mm"));
-  row("grains", exact(scene.grains->count, 6) + Html{", seed "} + Html{std::to_string(scene.grains->seed)} + Html{", "} +
+  row("drive", setting(drive.frequency, "Hz") + Html{", <i>f</i><sub>max</sub> = "} +
+                   exact(drive.f_max_over_weight) + Html{" <i>mg</i>, <i>f</i><sub>min</sub> = "} +
+                   exact(drive.f_min_over_weight) + Html{" <i>mg</i>, wall "} +
+                   exact(drive.wall_mass_over_grains) + Html{" <i>m</i>, lid raised "} +
+                   setting(1e3 * drive.lid_raise, "mm"));
+  row("grains", exact(scene.grains->count, 6) + Html{", seed "} +
+                    Html{std::to_string(scene.grains->seed)} + Html{", "} +
                     setting(scene.grains->density, "kg/m³"));
-  row("box, length × width", setting(scene.box.length, "m") + Html{" × "} + setting(scene.box.width, "m"));
-  row("friction of floor and lid, of side walls", exact(scene.box.friction_horizontal) + Html{", "} + exact(scene.box.friction_vertical));
+  row("box, length × width",
+      setting(scene.box.length, "m") + Html{" × "} + setting(scene.box.width, "m"));
+  row("friction of floor and lid, of side walls",
+      exact(scene.box.friction_horizontal) + Html{", "} + exact(scene.box.friction_vertical));
 }
 
 }  // namespace
@@ -79,8 +96,11 @@ Html parameters_table(const RunData& data) {
   const auto overrides = data.manifest.find("overrides");
   if (overrides != data.manifest.end() && overrides->is_array() && !overrides->empty()) {
     std::string list;
-    for (const auto& entry : *overrides) list += (list.empty() ? "" : "\n") + (entry.is_string() ? entry.get<std::string>() : entry.dump());
-    table.rows.push_back({Html{"settings other than the scene’s (--set)"}, Html{"<code>"} + escaped(list) + Html{"</code>"}});
+    for (const auto& entry : *overrides)
+      list += (list.empty() ? "" : "\n") +
+              (entry.is_string() ? entry.get<std::string>() : entry.dump());
+    table.rows.push_back({Html{"settings other than the scene’s (--set)"},
+                          Html{"<code>"} + escaped(list) + Html{"</code>"}});
   }
   const auto summary = data.manifest.find("summary");
   if (summary != data.manifest.end() && summary->is_object())
@@ -89,7 +109,9 @@ Html parameters_table(const RunData& data) {
       const char* unit = "";
       for (const NamedUnit& known : named_units) {
         const std::string suffix = known.suffix;
-        if (label.size() <= suffix.size() || label.compare(label.size() - suffix.size(), suffix.size(), suffix) != 0) continue;
+        if (label.size() <= suffix.size() ||
+            label.compare(label.size() - suffix.size(), suffix.size(), suffix) != 0)
+          continue;
         label.resize(label.size() - suffix.size());
         unit = known.unit;
         break;
@@ -109,7 +131,8 @@ Html provenance_table(const RunData& data) {
   const auto& manifest = data.manifest;
   row("ballast", text_at(manifest, "ballast", "version"));
   std::string commit = text_at(manifest, "ballast", "commit");
-  if (!commit.empty() && text_at(manifest, "ballast", "modified") == "true") commit += ", with changes that are not committed";
+  if (!commit.empty() && text_at(manifest, "ballast", "modified") == "true")
+    commit += ", with changes that are not committed";
   row("commit", commit);
   row("compiler", text_at(manifest, "ballast", "compiler"));
   row("build", text_at(manifest, "ballast", "build_type"));
@@ -123,7 +146,8 @@ Html provenance_table(const RunData& data) {
   for (const char* name : {"started", "key"})
     if (const auto value = manifest.find(name); value != manifest.end() && value->is_string())
       row(name, value->get<std::string>());
-  if (const auto resumed = manifest.find("resumed"); resumed != manifest.end() && resumed->is_array())
+  if (const auto resumed = manifest.find("resumed");
+      resumed != manifest.end() && resumed->is_array())
     for (const auto& entry : *resumed) row("resumed", readable(entry));
   return to_html(table);
 }
@@ -140,7 +164,9 @@ Html files_table(const RunData& data) {
   HtmlTable table = facts_table();
   for (const auto& [name, what] : files)
     if (std::filesystem::exists(data.folder / name))
-      table.rows.push_back({Html{std::string("<a href=\"") + name + "\"><code>" + name + "</code></a>"}, Html{what}});
+      table.rows.push_back(
+          {Html{std::string("<a href=\"") + name + "\"><code>" + name + "</code></a>"},
+           Html{what}});
   return to_html(table);
 }
 
@@ -152,14 +178,18 @@ std::string made_by(const RunData& data) {
   add("ballast ", text_at(data.manifest, "ballast", "version"));
   add("commit ", text_at(data.manifest, "ballast", "commit").substr(0, 12));
   add("", text_at(data.manifest, "machine", "cpu"));
-  if (const auto started = data.manifest.find("started"); started != data.manifest.end() && started->is_string())
+  if (const auto started = data.manifest.find("started");
+      started != data.manifest.end() && started->is_string())
     add("started ", started->get<std::string>());
   return text;
 }
 
 std::string shell_word(const std::string& word) {
-  const bool is_plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,@%") ==
-                                             std::string::npos;
+  const bool is_plain =
+      !word.empty() &&
+      word.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,@%") ==
+          std::string::npos;
   if (is_plain) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -179,8 +209,10 @@ std::string reproduce_commands(const RunData& data) {
         if (entry.is_string()) text += " --set " + shell_word(entry.get<std::string>());
     text += '\n';
   }
-  if (!data.scene_text.empty()) text += "# or from the resolved scene of this folder:\n./run.sh " +
-                                        shell_word((data.folder / "scene.toml").lexically_normal().string()) + " --output results/again\n";
+  if (!data.scene_text.empty())
+    text += "# or from the resolved scene of this folder:\n./run.sh " +
+            shell_word((data.folder / "scene.toml").lexically_normal().string()) +
+            " --output results/again\n";
   return text;
 }
 
@@ -188,16 +220,23 @@ std::string next_commands(bool has_grains) {
   const std::string program = "build/default/bin/ballast ";
   std::string text;
   if (has_grains)
-    text += "# another frequency, another set of grains; every key of a scene: docs/scenes.md\n" + program +
+    text += "# another frequency, another set of grains; every key of a scene: docs/scenes.md\n" +
+            program +
             "run vibrated_box --set drive.frequency=10 --set grains.seed=2 --output results/10Hz\n"
-            "# one figure of the paper with all its runs (each made once); what they cost: paper plan\n" +
+            "# one figure of the paper with all its runs (each made once); what they cost: paper "
+            "plan\n" +
             program + "paper fig12 --jobs 2\n";
-  text += "# a sweep: every combination of the values, several runs at a time\n"
-          "printf '[[sweep]]\\nname = \"nu\"\\nscene = \"vibrated_box_small\"\\nvary.\"drive.frequency\" = [5, 10, 20]\\n' > "
-          "my_sweep.toml\n" +
-          program + "sweep my_sweep.toml --jobs 2\n"
-          "# solvers beside each other in the same closed loop\n" +
-          program + "compare --live vibrated_box_small --duration 0.02 --solvers pgs,nncg --tolerances 1e-2,1e-4\n";
+  text +=
+      "# a sweep: every combination of the values, several runs at a time\n"
+      "printf '[[sweep]]\\nname = \"nu\"\\nscene = "
+      "\"vibrated_box_small\"\\nvary.\"drive.frequency\" = [5, 10, 20]\\n' > "
+      "my_sweep.toml\n" +
+      program +
+      "sweep my_sweep.toml --jobs 2\n"
+      "# solvers beside each other in the same closed loop\n" +
+      program +
+      "compare --live vibrated_box_small --duration 0.02 --solvers pgs,nncg --tolerances "
+      "1e-2,1e-4\n";
   return text;
 }
 

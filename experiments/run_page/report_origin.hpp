@@ -1,10 +1,11 @@
 #pragma once
-// Where a run came from: its parameters, program and machine, files, and how to make it again. Parts of a run's report.
+// Where a run came from: its parameters, program and machine, files, and how to make it again.
+// Parts of a run's report.
 
 #include <string>
 
-#include "experiments/page/html_page.hpp"
 #include "experiments/measure/run_data.hpp"
+#include "experiments/page/html_page.hpp"
 
 namespace ballast {
 
@@ -19,8 +20,8 @@ std::string made_by(const RunData& data);
 /// Commands that make the run again, as text for a shell.
 std::string reproduce_commands(const RunData& data);
 
-/// What to do next with the program, from the project's root: another run, a figure of the paper, a sweep, a comparison of
-/// solvers. `has_grains`: of a vibrated box.
+/// What to do next with the program, from the project's root: another run, a figure of the paper, a
+/// sweep, a comparison of solvers. `has_grains`: of a vibrated box.
 std::string next_commands(bool has_grains);
 
 /// A word as a shell reads it back.

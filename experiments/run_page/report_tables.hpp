@@ -1,9 +1,10 @@
 #pragma once
-// The tables of a run's report: every number with its unit, and the bound or the paper's value where there is one.
+// The tables of a run's report: every number with its unit, and the bound or the paper's value
+// where there is one.
 
-#include "experiments/page/html_page.hpp"
 #include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_summary.hpp"
+#include "experiments/page/html_page.hpp"
 
 namespace ballast {
 

@@ -30,7 +30,8 @@ OverlapCorrection::OverlapCorrection(const MechanicalSystem& system, const Corre
     : system_(system), spec_(spec) {
   for (const RigidBody& body : system.bodies) {
     const Freedom& freedom = body.freedom;
-    for (int d = 0; d < freedom.translations; ++d) inverse_mass_.push_back(body.is_wall() ? 0.0 : 1.0 / body.mass);
+    for (int d = 0; d < freedom.translations; ++d)
+      inverse_mass_.push_back(body.is_wall() ? 0.0 : 1.0 / body.mass);
     if (freedom.rotation)
       for (int d = 0; d < 3; ++d) inverse_mass_.push_back(1.0 / body.inertia[d]);
   }
@@ -38,22 +39,24 @@ OverlapCorrection::OverlapCorrection(const MechanicalSystem& system, const Corre
 }
 
 double OverlapCorrection::apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
-                                std::span<const ContactPoint> contacts, const Eigen::VectorXd& v, double h,
-                                MotionState& state) {
+                                std::span<const ContactPoint> contacts, const Eigen::VectorXd& v,
+                                double h, MotionState& state) {
   if (!spec_.enabled) return 0.0;
   const double tolerated = -spec_.slop;
-  const bool nothing_overlaps =
-      std::none_of(contacts.begin(), contacts.end(), [&](const ContactPoint& c) { return c.gap < tolerated; });
+  const bool nothing_overlaps = std::none_of(
+      contacts.begin(), contacts.end(), [&](const ContactPoint& c) { return c.gap < tolerated; });
   if (nothing_overlaps) return 0.0;
 
   rows_.clear();
   for (int c = 0; c < problem.contact_count(); ++c) {
     const ContactPoint& contact = contacts[assembler.detected()[c]];
     const double next_gap = contact.gap + h * normal_velocity(problem, c, v);
-    // a fraction of the overlap goes; a point that is open or within the slop may close to the slop, no further
+    // a fraction of the overlap goes; a point that is open or within the slop may close to the
+    // slop, no further
     const double wanted = tolerated + (1.0 - spec_.fraction) * std::min(0.0, next_gap - tolerated);
     double compliance = 0.0;
-    for_normal_row(problem, c, [&](int dof, double row) { compliance += row * row * inverse_mass_[dof]; });
+    for_normal_row(problem, c,
+                   [&](int dof, double row) { compliance += row * row * inverse_mass_[dof]; });
     if (compliance > 0.0) rows_.push_back({c, wanted - next_gap, 1.0 / compliance, 0.0});
   }
 
@@ -61,7 +64,9 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
   for (int sweep = 0; sweep < spec_.sweeps; ++sweep) {
     for (Row& row : rows_) {
       double moved = 0.0;
-      for_normal_row(problem, row.contact, [&](int dof, double coefficient) { moved += coefficient * displacement_[dof]; });
+      for_normal_row(problem, row.contact, [&](int dof, double coefficient) {
+        moved += coefficient * displacement_[dof];
+      });
       const double push = std::max(0.0, row.push + (row.target - moved) * row.stiffness);
       const double change = push - row.push;
       if (change == 0.0) continue;
@@ -78,7 +83,8 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
     const RigidBody& body = system_.bodies[b];
     if (first < 0 || body.is_wall()) continue;
     Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();
-    for (int d = 0; d < body.freedom.translations; ++d) shift += body.freedom.axes.col(d) * displacement_[first + d];
+    for (int d = 0; d < body.freedom.translations; ++d)
+      shift += body.freedom.axes.col(d) * displacement_[first + d];
     if (body.freedom.rotation) turn = displacement_.segment<3>(first + body.freedom.translations);
     if (shift.isZero(0.0) && turn.isZero(0.0)) continue;
     state.pose[b] = moved(state.pose[b], shift, turn, 1.0);

@@ -1,13 +1,17 @@
 #pragma once
-// Overlap correction by displacements: grains in overlap are moved apart after the step, velocities untouched.
+// Overlap correction by displacements: grains in overlap are moved apart after the step, velocities
+// untouched.
 //
-// Velocity-level contact keeps u_N >= 0 but never removes an overlap once it is there (curvature of the motion, changes of normal,
-// the solver's residual). The correction solves, after the step and only roughly, the frictionless problem
+// Velocity-level contact keeps u_N >= 0 but never removes an overlap once it is there (curvature of
+// the motion, changes of normal, the solver's residual). The correction solves, after the step and
+// only roughly, the frictionless problem
 //
-//   min 1/2 d^T M d   subject to   gap_c + h u_N,c + H_N,c d >= -slop - (1 - fraction) * max(0, -gap_c - slop)
+//   min 1/2 d^T M d   subject to   gap_c + h u_N,c + H_N,c d >= -slop - (1 - fraction) * max(0,
+//   -gap_c - slop)
 //
-// for small displacements d of the grains (unknowns of driven walls are locked), by a few warm-started Gauss-Seidel sweeps, and
-// moves the poses by d. It adds no kinetic energy and doesn't move a wall; what it does to the potential energy is recorded.
+// for small displacements d of the grains (unknowns of driven walls are locked), by a few
+// warm-started Gauss-Seidel sweeps, and moves the poses by d. It adds no kinetic energy and doesn't
+// move a wall; what it does to the potential energy is recorded.
 
 #include <span>
 #include <vector>
@@ -20,10 +24,12 @@ class OverlapCorrection {
  public:
   OverlapCorrection(const MechanicalSystem& system, const CorrectionSpec& spec);
 
-  /// `contacts`, `assembler`, `problem`: of this step; `v`: unknowns at its end; `h` its length. Displaces `state`'s
-  /// poses. Returns gravity's potential energy that the displacements gave [J] (negative: they lowered it).
-  double apply(const ProblemAssembler& assembler, const FrictionProblem& problem, std::span<const ContactPoint> contacts,
-               const Eigen::VectorXd& v, double h, MotionState& state);
+  /// `contacts`, `assembler`, `problem`: of this step; `v`: unknowns at its end; `h` its length.
+  /// Displaces `state`'s poses. Returns gravity's potential energy that the displacements gave [J]
+  /// (negative: they lowered it).
+  double apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
+               std::span<const ContactPoint> contacts, const Eigen::VectorXd& v, double h,
+               MotionState& state);
 
  private:
   const MechanicalSystem& system_;

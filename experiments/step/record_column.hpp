@@ -9,7 +9,8 @@
 namespace ballast {
 
 /// One entry per step, times `factor` (from SI to what a figure shows).
-std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value, double factor = 1.0);
+std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value,
+                                  double factor = 1.0);
 
 /// Wall clock of a step: all its phases [s].
 double step_seconds(const StepRecord& step);

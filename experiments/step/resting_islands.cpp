@@ -13,7 +13,9 @@ constexpr int calm_after = 20;
 /// And so many of them that the detector at hand does look at: one in this many.
 constexpr int calm_share = 8;
 
-bool varies(const ForceSpec& force) { return !force.amplitude.isZero(0.0) && force.frequency != 0.0; }
+bool varies(const ForceSpec& force) {
+  return !force.amplitude.isZero(0.0) && force.frequency != 0.0;
+}
 
 auto key_of(const ContactPoint& c) { return std::tie(c.body_a, c.body_b, c.feature); }
 
@@ -54,7 +56,8 @@ void RestingIslands::begin(StepMemory& memory) {
   const size_t count = system_.bodies.size();
   if (memory.rest.size() != count) memory.rest.assign(count, 0);
   if (force_.empty())
-    for (const RigidBody& body : system_.bodies) force_.push_back(body.force.at(0.0) + body.mass * system_.gravity);
+    for (const RigidBody& body : system_.bodies)
+      force_.push_back(body.force.at(0.0) + body.mass * system_.gravity);
   for (int b = 0; b < static_cast<int>(count); ++b) {
     if (!has_unknowns_[b]) {
       activity_[b] = is_moving_wall(b) ? Activity::awake : Activity::still;
@@ -69,20 +72,24 @@ void RestingIslands::begin(StepMemory& memory) {
 /// Between bodies of which none is awake and one sleeps: not solved for.
 bool RestingIslands::is_kept(const ContactPoint& contact) const {
   const Activity a = activity_[contact.body_a], b = activity_[contact.body_b];
-  return a != Activity::awake && b != Activity::awake && (a == Activity::asleep || b == Activity::asleep);
+  return a != Activity::awake && b != Activity::awake &&
+         (a == Activity::asleep || b == Activity::asleep);
 }
 
-void RestingIslands::detect(ContactDetector& detector, std::span<const Pose> poses, std::span<const double> reach,
-                            StepMemory& memory, std::vector<ContactPoint>& contacts) {
+void RestingIslands::detect(ContactDetector& detector, std::span<const Pose> poses,
+                            std::span<const double> reach, StepMemory& memory,
+                            std::vector<ContactPoint>& contacts) {
   if (!enabled_) return detector.detect(poses, reach, contacts);
   choose_detector();
   (calm_is_used_ ? *calm_ : detector).detect(poses, reach, contacts);
   const bool wakes = std::any_of(contacts.begin(), contacts.end(), [&](const ContactPoint& c) {
     const Activity a = activity_[c.body_a], b = activity_[c.body_b];
-    return (a == Activity::asleep && b == Activity::awake) || (a == Activity::awake && b == Activity::asleep);
+    return (a == Activity::asleep && b == Activity::awake) ||
+           (a == Activity::awake && b == Activity::asleep);
   });
   if (wakes) {
-    if (calm_is_used_) detector.detect(poses, reach, contacts);  // whoever wakes needs all its contacts
+    if (calm_is_used_)
+      detector.detect(poses, reach, contacts);  // whoever wakes needs all its contacts
     calm_is_used_ = false;
     wake_touched(contacts, memory);
   }
@@ -103,8 +110,8 @@ const DetectionCounters& RestingIslands::counters(const ContactDetector& detecto
   return calm_is_used_ ? calm_->counters() : detector.counters();
 }
 
-/// The calm detector may be used while all that is fixed to it sleeps: of the contacts that it leaves out none is asked
-/// for.
+/// The calm detector may be used while all that is fixed to it sleeps: of the contacts that it
+/// leaves out none is asked for.
 void RestingIslands::choose_detector() {
   calm_steps_ = activity_ == last_activity_ ? calm_steps_ + 1 : 0;
   last_activity_ = activity_;
@@ -159,7 +166,8 @@ void RestingIslands::restore_kept(StepMemory& memory) {
   if (!enabled_ || kept_contacts_.empty()) return;
   merged_contacts_.clear();
   merged_impulses_.clear();
-  const auto take = [&](const std::vector<ContactPoint>& contacts, const std::vector<Vec3>& impulses, size_t& k) {
+  const auto take = [&](const std::vector<ContactPoint>& contacts,
+                        const std::vector<Vec3>& impulses, size_t& k) {
     merged_contacts_.push_back(contacts[k]);
     merged_impulses_.push_back(impulses[k++]);
   };
@@ -176,8 +184,8 @@ void RestingIslands::restore_kept(StepMemory& memory) {
 }
 
 int RestingIslands::kept_active() const {
-  return static_cast<int>(
-      std::count_if(kept_impulses_.begin(), kept_impulses_.end(), [](const Vec3& r) { return !r.isZero(0.0); }));
+  return static_cast<int>(std::count_if(kept_impulses_.begin(), kept_impulses_.end(),
+                                        [](const Vec3& r) { return !r.isZero(0.0); }));
 }
 
 /// True if someone has been at rest for long enough.
@@ -186,7 +194,8 @@ bool RestingIslands::counts_rest(const MotionState& state, StepMemory& memory) c
   for (size_t b = 0; b < activity_.size(); ++b) {
     const RigidBody& body = system_.bodies[b];
     if (!has_unknowns_[b] || body.is_wall() || activity_[b] == Activity::asleep) continue;
-    const double speed = state.velocity[b].norm() + state.spin[b].norm() * body.shape.polyhedron->circumradius();
+    const double speed =
+        state.velocity[b].norm() + state.spin[b].norm() * body.shape.polyhedron->circumradius();
     const bool rests = speed <= velocity_limit_ && !is_disturbed_[b];
     memory.rest[b] = rests ? std::min(memory.rest[b] + 1, steps_) : 0;
     enough = enough || memory.rest[b] >= steps_;
@@ -212,7 +221,8 @@ double RestingIslands::settle(MotionState& state, StepMemory& memory) {
   look_at_islands(memory);
   double energy = 0.0;
   for (int b = 0; b < static_cast<int>(activity_.size()); ++b) {
-    if (activity_[b] != Activity::awake || !has_unknowns_[b] || flags_[sets_.find(b)] != supported) continue;
+    if (activity_[b] != Activity::awake || !has_unknowns_[b] || flags_[sets_.find(b)] != supported)
+      continue;
     energy += kinetic_energy(system_.bodies[b], state.velocity[b], state.spin[b]);
     state.velocity[b].setZero();
     state.spin[b].setZero();

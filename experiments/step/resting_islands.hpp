@@ -1,12 +1,13 @@
 #pragma once
-// Sleep: islands at rest are frozen, and neither detected, assembled nor solved until something comes near. Not exact;
-// what it neglects stands in docs/method.md.
+// Sleep: islands at rest are frozen, and neither detected, assembled nor solved until something
+// comes near. Not exact; what it neglects stands in docs/method.md.
 //
-// An island is what contacts within reach join; walls and fixed bodies join nothing. It falls asleep when all its
-// bodies have been slower than the limit for long enough, it stands on something that cannot move, and nothing acts on
-// it that changes: no driven wall, no wall with prescribed motion, no force that varies. It wakes as a whole in the
-// step in which a contact with anything awake comes within reach or a force on it changes. Its contacts and impulses
-// stay in the StepMemory.
+// An island is what contacts within reach join; walls and fixed bodies join nothing. It falls
+// asleep when all its bodies have been slower than the limit for long enough, it stands on
+// something that cannot move, and nothing acts on it that changes: no driven wall, no wall with
+// prescribed motion, no force that varies. It wakes as a whole in the step in which a contact with
+// anything awake comes within reach or a force on it changes. Its contacts and impulses stay in the
+// StepMemory.
 
 #include <optional>
 #include <span>
@@ -22,8 +23,8 @@ namespace ballast {
 class RestingIslands {
  public:
   /// `velocity_scale` [m/s]: g h. `system` must outlive this.
-  RestingIslands(const MechanicalSystem& system, const SleepSpec& sleep, const DetectionSettings& detection,
-                 double velocity_scale);
+  RestingIslands(const MechanicalSystem& system, const SleepSpec& sleep,
+                 const DetectionSettings& detection, double velocity_scale);
 
   /// Begins a step: reads who sleeps; wakes bodies on which a force has changed.
   void begin(StepMemory& memory);
@@ -31,25 +32,31 @@ class RestingIslands {
   /// Since begin() or detect().
   bool is_asleep(int body) const { return enabled_ && activity_[body] == Activity::asleep; }
 
-  /// As detector.detect(), but of sleeping bodies only contacts with what is awake; wakes islands that have one.
-  /// `detector` knows all bodies; while the same ones sleep another one is used, to which they are fixed.
-  void detect(ContactDetector& detector, std::span<const Pose> poses, std::span<const double> reach, StepMemory& memory,
-              std::vector<ContactPoint>& contacts);
+  /// As detector.detect(), but of sleeping bodies only contacts with what is awake; wakes islands
+  /// that have one. `detector` knows all bodies; while the same ones sleep another one is used, to
+  /// which they are fixed.
+  void detect(ContactDetector& detector, std::span<const Pose> poses, std::span<const double> reach,
+              StepMemory& memory, std::vector<ContactPoint>& contacts);
 
   /// The counters of the last detect().
   const DetectionCounters& counters(const ContactDetector& detector) const;
 
-  /// `memory` holds the contacts of detect() with their impulses: adds those that sleepers keep, in order.
+  /// `memory` holds the contacts of detect() with their impulses: adds those that sleepers keep, in
+  /// order.
   void restore_kept(StepMemory& memory);
   /// How many of them carry an impulse.
   int kept_active() const;
 
-  /// Ends a step: counts rest, and lets islands fall asleep, whose velocities become zero. Returns the kinetic energy
-  /// [J] that this takes away.
+  /// Ends a step: counts rest, and lets islands fall asleep, whose velocities become zero. Returns
+  /// the kinetic energy [J] that this takes away.
   double settle(MotionState& state, StepMemory& memory);
 
  private:
-  enum class Activity : unsigned char { still, asleep, awake };  // still: no unknowns, and not moving
+  enum class Activity : unsigned char {
+    still,
+    asleep,
+    awake
+  };  // still: no unknowns, and not moving
 
   bool is_moving_wall(int body) const;
   bool force_changed(int body);

@@ -1,13 +1,13 @@
 #pragma once
-// What every step leaves behind: one row of named scalars. The table of columns is the one source of names, units and
-// descriptions for CSV, HDF5 and the report.
+// What every step leaves behind: one row of named scalars. The table of columns is the one source
+// of names, units and descriptions for CSV, HDF5 and the report.
 
 #include <span>
 
 namespace ballast {
 
 struct StepRecord {
-  double time = 0;           // end of step
+  double time = 0;  // end of step
   double wall_x = 0, wall_v = 0;
   double load = 0, wall_force = 0;
   double solid_fraction = 0;
@@ -19,8 +19,8 @@ struct StepRecord {
   double work_load = 0, work_gravity = 0, work_prescribed = 0, dissipated = 0, work_gyroscopic = 0;
   double work_correction = 0;
   double energy_residual = 0;
-  double seconds_detect = 0, seconds_assemble = 0, seconds_solve = 0, seconds_judge = 0, seconds_correct = 0,
-         seconds_other = 0;
+  double seconds_detect = 0, seconds_assemble = 0, seconds_solve = 0, seconds_judge = 0,
+         seconds_correct = 0, seconds_other = 0;
 };
 
 struct StepColumn {

@@ -24,7 +24,8 @@ class PhaseClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Bound on how far any point of the body moves in h, with what gravity and forces of the order of g may add.
+/// Bound on how far any point of the body moves in h, with what gravity and forces of the order of
+/// g may add.
 double reach_of(const RigidBody& body, const MotionState& state, size_t b, double h, double g) {
   if (body.shape.fixed && body.wall.motion != WallMotion::prescribed) return 0.0;
   const double radius = body.shape.polyhedron ? body.shape.polyhedron->circumradius() : 0.0;
@@ -56,7 +57,8 @@ Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
   Vec3 next = spin;
   for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few times
     const Vec3 mean = 0.5 * (spin + next);
-    const Vec3 update = spin + h * inertia.cwiseInverse().cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
+    const Vec3 update =
+        spin + h * inertia.cwiseInverse().cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
     const double change = (update - next).norm();
     next = update;
     if (change <= 1e-16 * spin.norm()) break;
@@ -64,7 +66,8 @@ Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
   return next;
 }
 
-TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& settings, int driven_wall)
+TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& settings,
+                         int driven_wall)
     : system_(system),
       settings_(settings),
       driven_wall_(driven_wall),
@@ -91,7 +94,9 @@ void TimeStepper::share_work(int threads) {
   assembler_.use_team(team_.get());
   runner_.use_team(team_.get());
   detector_.run_parts_by(
-      [team = team_.get()](int parts, const std::function<void(int)>& part) { team->run(parts, part); },
+      [team = team_.get()](int parts, const std::function<void(int)>& part) {
+        team->run(parts, part);
+      },
       parts_of_thread * threads);
 }
 
@@ -123,7 +128,8 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
 
 void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
   const double g = system_.gravity.norm();
-  for (size_t b = 0; b < system_.bodies.size(); ++b) reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
+  for (size_t b = 0; b < system_.bodies.size(); ++b)
+    reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
   if (mid.step % settings_.detection.refresh_steps == 0) detector_.refresh();
   resting_.detect(detector_, mid.pose, reach_, memory, contacts_);
   if (settings_.solver.warm_start)
@@ -151,11 +157,14 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
 }
 
 void TimeStepper::account(const MotionState& before, const StepMemory& memory, StepRecord& record) {
-  // works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of prescribed walls
+  // works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of
+  // prescribed walls
   const Eigen::VectorXd& v0 = v_before_;
   const Eigen::VectorXd& v1 = v_after_;
-  const double contact_power = 0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
-  for (int c = 0; c < problem_.contact_count(); ++c) record.active_contacts += impulses_[problem_.row_begin[c]] > 0.0;
+  const double contact_power =
+      0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
+  for (int c = 0; c < problem_.contact_count(); ++c)
+    record.active_contacts += impulses_[problem_.row_begin[c]] > 0.0;
   assembler_.prescribed_part(contacts_, before.time + 0.5 * settings_.h, prescribed_);
   const double wall_power = impulses_.dot(prescribed_);
   record.dissipated = -(contact_power + wall_power);
@@ -175,12 +184,14 @@ void TimeStepper::account(const MotionState& before, const StepMemory& memory, S
       record.work_gyroscopic += gyroscopic_[dof] * mean;
       (body.is_wall() ? record.work_load : record.work_prescribed) += force_[dof] * mean;
       if (!turns && !body.is_wall())
-        record.work_gravity += mass * settings_.h * body.freedom.axes.col(d).dot(system_.gravity) * mean;
+        record.work_gravity +=
+            mass * settings_.h * body.freedom.axes.col(d).dot(system_.gravity) * mean;
     }
   }
   record.work_prescribed -= wall_power;
   record.energy_residual = record.kinetic_energy - kinetic_before -
-                           (record.work_load + record.work_gravity + record.work_prescribed) + record.dissipated;
+                           (record.work_load + record.work_gravity + record.work_prescribed) +
+                           record.dissipated;
 
   record.active_contacts += resting_.kept_active();
   double overlap = 0.0;

@@ -1,12 +1,14 @@
 #pragma once
-// One Moreau-Jean step (theta = 1/2): half a step of motion, detection, one friction problem, half a step of motion.
+// One Moreau-Jean step (theta = 1/2): half a step of motion, detection, one friction problem, half
+// a step of motion.
 //
-//   q_m = q_k + h/2 v_k                      contacts are detected at the mid-point configuration q_m
-//   M (v_{k+1} - v_k) = h f(t_m) + H^T r     with the exact Signorini-Coulomb law between r and u_{k+1}
-//   q_{k+1} = q_m + h/2 v_{k+1}
+//   q_m = q_k + h/2 v_k                      contacts are detected at the mid-point configuration
+//   q_m M (v_{k+1} - v_k) = h f(t_m) + H^T r     with the exact Signorini-Coulomb law between r and
+//   u_{k+1} q_{k+1} = q_m + h/2 v_{k+1}
 //
-// Mid-points follow one another at distance h v_{k+1}, so bias_N = gap/h closes an open gap exactly, to first order in the
-// rotation. The mean velocity (v_k + v_{k+1})/2 balances work and energy exactly: what is left is recorded.
+// Mid-points follow one another at distance h v_{k+1}, so bias_N = gap/h closes an open gap
+// exactly, to first order in the rotation. The mean velocity (v_k + v_{k+1})/2 balances work and
+// energy exactly: what is left is recorded.
 
 #include <memory>
 #include <vector>
@@ -22,12 +24,13 @@
 namespace ballast {
 
 struct StepSettings {
-  double h = 2e-4;               ///< [s]
+  double h = 2e-4;  ///< [s]
   SolverSpec solver;
   DetectionSettings detection;
   SleepSpec sleep;
   CorrectionSpec correction;
-  /// Tolerances are quoted relative to this velocity [m/s]: g h, or 1 m/s where there is no gravity.
+  /// Tolerances are quoted relative to this velocity [m/s]: g h, or 1 m/s where there is no
+  /// gravity.
   double velocity_scale() const { return scale; }
   double scale = 1.0;
 };
@@ -37,18 +40,19 @@ StepSettings step_settings(const Scene& scene);
 /// Steps one system. Holds no state of the motion: that is the caller's MotionState and StepMemory.
 class TimeStepper {
  public:
-  /// `driven_wall`: whose motion and load the record reports (-1: none). Throws UnknownSolver, MissingSolver.
+  /// `driven_wall`: whose motion and load the record reports (-1: none). Throws UnknownSolver,
+  /// MissingSolver.
   TimeStepper(const MechanicalSystem& system, const StepSettings& settings, int driven_wall);
 
   /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite.
   StepRecord step(MotionState& state, StepMemory& memory);
 
-  /// The same bits follow from a MotionState and StepMemory whose step is a multiple of this; 1 but where points are held
-  /// on to (DetectionSettings::reuse_motion).
+  /// The same bits follow from a MotionState and StepMemory whose step is a multiple of this; 1 but
+  /// where points are held on to (DetectionSettings::reuse_motion).
   int steps_between_restarts() const;
 
-  /// The problem solved last, its solution, and the contacts it came from: for capture and export. Sleepers' contacts are in
-  /// the StepMemory alone.
+  /// The problem solved last, its solution, and the contacts it came from: for capture and export.
+  /// Sleepers' contacts are in the StepMemory alone.
   const FrictionProblem& problem() const { return problem_; }
   const Impulses& impulses() const { return impulses_; }
   const ProblemAssembler& assembler() const { return assembler_; }
@@ -89,8 +93,9 @@ class TimeStepper {
 /// Kinetic energy of everything that has unknowns [J].
 double kinetic_energy(const MechanicalSystem& system, const MotionState& state);
 
-/// Angular velocity after a free flight of h, torque-free: implicit mid-point rule of Euler's equations in the body frame, which
-/// conserves energy and |angular momentum| exactly. `inertia` principal [kg m^2], `spin` body frame [rad/s].
+/// Angular velocity after a free flight of h, torque-free: implicit mid-point rule of Euler's
+/// equations in the body frame, which conserves energy and |angular momentum| exactly. `inertia`
+/// principal [kg m^2], `spin` body frame [rad/s].
 Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h);
 
 }  // namespace ballast

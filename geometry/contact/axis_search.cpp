@@ -39,18 +39,20 @@ AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
   turned_.reserve(edges);
 }
 
-AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis) {
+AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& hint,
+                             SeparatingAxis& axis) {
   const std::optional<SeparatingAxis> last = evaluate_axis(pair, hint, heights_);
   if (!last) return search(pair, alert, nullptr, hint, axis);
   axis.separation = last->separation;
   if (last->separation > alert) return AxisOutcome::separated_by_hint;
-  if (!is_proved_best(pair, face_isolation(pair, hint), *last)) return search(pair, alert, &*last, hint, axis);
+  if (!is_proved_best(pair, face_isolation(pair, hint), *last))
+    return search(pair, alert, &*last, hint, axis);
   axis = *last;
   return AxisOutcome::proved_by_hint;
 }
 
-AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const SeparatingAxis* start, AxisFeature& hint,
-                               SeparatingAxis& axis) {
+AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const SeparatingAxis* start,
+                               AxisFeature& hint, SeparatingAxis& axis) {
   best_ = start ? start->separation : kMinusInfinity;
   best_feature_ = start ? start->feature : AxisFeature{};
   edge_pairs_.clear();
@@ -58,7 +60,8 @@ AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const Separa
   if (start) add_witnesses_of(pair, *start);
   bool apart = search_faces(pair, 0, alert) || search_faces(pair, 1, alert);
   if (!apart) {
-    // the best axis so far touches near where an edge pair could do better: its corners are the tightest witnesses
+    // the best axis so far touches near where an edge pair could do better: its corners are the
+    // tightest witnesses
     if (!start || !(best_feature_ == start->feature))
       add_witnesses_of(pair, *evaluate_axis(pair, best_feature_, heights_));
     apart = search_edges(pair, alert);
@@ -86,7 +89,8 @@ void AxisSearch::start_side(const ShapePair& pair, int own) {
 void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) {
   const AffineRows& faces = pair.shape[own]->faces();
   Side& side = side_[own];
-  const int slot = std::min(side.witnesses, kWitnesses - 1);  // when full, the last place is used again
+  const int slot =
+      std::min(side.witnesses, kWitnesses - 1);  // when full, the last place is used again
   double* __restrict heights = side.heights.data() + static_cast<size_t>(slot) * faces.padded();
   double* __restrict bound = side.bound.data();
   faces.evaluate(point, heights);
@@ -112,10 +116,12 @@ void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& a
   // a few of a large face's corners are enough
   const size_t stride = 1 + (corners.size() - 1) / 4;
   for (size_t k = 0; k < corners.size(); k += stride)
-    add_witness(pair, 1 - own, pair.other[1 - own] * pair.shape[own]->vertices().xyz(corners[k].vertex));
+    add_witness(pair, 1 - own,
+                pair.other[1 - own] * pair.shape[own]->vertices().xyz(corners[k].vertex));
 }
 
-/// Faces of body `own`, most promising first, until no bound reaches the best. True as soon as one separates.
+/// Faces of body `own`, most promising first, until no bound reaches the best. True as soon as one
+/// separates.
 bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
   Side& side = side_[own];
   const int padded = pair.shape[own]->faces().padded();
@@ -128,16 +134,18 @@ bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
     side.bound[f] = kMinusInfinity;
     if (found.separation >= best_) {
       best_ = found.separation;
-      best_feature_ = own == 0 ? AxisFeature{AxisKind::face_of_a, f, -1} : AxisFeature{AxisKind::face_of_b, -1, f};
+      best_feature_ = own == 0 ? AxisFeature{AxisKind::face_of_a, f, -1}
+                               : AxisFeature{AxisKind::face_of_b, -1, f};
       if (best_ > alert) return true;
     }
     add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(found.support));
   }
 }
 
-/// Edges of body `own` whose arc of normals has a part that all witnesses let reach the best. On the arc n = m / |m|
-/// with m = (1 - l) n_left + l n_right, 0 <= l <= 1, |m| <= 1, and a witness asks for m.(w - edge) >= |m| s, which is
-/// at least min(s, 0): linear in l, with the faces' heights at the ends.
+/// Edges of body `own` whose arc of normals has a part that all witnesses let reach the best. On
+/// the arc n = m / |m| with m = (1 - l) n_left + l n_right, 0 <= l <= 1, |m| <= 1, and a witness
+/// asks for m.(w - edge) >= |m| s, which is at least min(s, 0): linear in l, with the faces'
+/// heights at the ends.
 void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   const CollisionShape& shape = *pair.shape[own];
   Side& side = side_[own];
@@ -165,7 +173,8 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
   turned_.clear();
   for (const int e : side_[1].edges) {
     const CollisionShape::Edge& edge = b.edges()[e];
-    turned_.push_back({e, rotation * edge.along, -(rotation * edge.left_normal), -(rotation * edge.right_normal)});
+    turned_.push_back({e, rotation * edge.along, -(rotation * edge.left_normal),
+                       -(rotation * edge.right_normal)});
   }
   // A cheap look at the arcs first: edge_separation decides, in its own rounding.
   const double blur = 1e-12;
@@ -173,10 +182,13 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
     const CollisionShape::Edge& edge = a.edges()[ea];
     const double length_blur = blur * pair.size();
     for (const TurnedEdge& other : turned_) {
-      const double left_a = edge.left_normal.dot(other.along), right_a = edge.right_normal.dot(other.along);
-      if (std::min(left_a, right_a) > length_blur || std::max(left_a, right_a) < -length_blur) continue;
+      const double left_a = edge.left_normal.dot(other.along),
+                   right_a = edge.right_normal.dot(other.along);
+      if (std::min(left_a, right_a) > length_blur || std::max(left_a, right_a) < -length_blur)
+        continue;
       const double left_b = other.left.dot(edge.along), right_b = other.right.dot(edge.along);
-      if (std::min(left_b, right_b) > length_blur || std::max(left_b, right_b) < -length_blur) continue;
+      if (std::min(left_b, right_b) > length_blur || std::max(left_b, right_b) < -length_blur)
+        continue;
       const std::optional<EdgeSeparation> found = edge_separation(pair, ea, other.index, heights_);
       if (!found || !(found->separation >= best_ - tie_tolerance(pair))) continue;
       edge_pairs_.push_back({ea, other.index, found->separation});
@@ -189,20 +201,23 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
   return false;
 }
 
-/// Among all axes within the tie tolerance of the best: faces before edges, a's before b's, the smallest index.
+/// Among all axes within the tie tolerance of the best: faces before edges, a's before b's, the
+/// smallest index.
 AxisFeature AxisSearch::choose(const ShapePair& pair) const {
   const double enough = best_ - tie_tolerance(pair);
   for (int own : {0, 1}) {
     const int count = pair.shape[own]->faces().count();
     for (int f = 0; f < count; ++f) {
       if (side_[own].value[f] >= enough)
-        return own == 0 ? AxisFeature{AxisKind::face_of_a, f, -1} : AxisFeature{AxisKind::face_of_b, -1, f};
+        return own == 0 ? AxisFeature{AxisKind::face_of_a, f, -1}
+                        : AxisFeature{AxisKind::face_of_b, -1, f};
     }
   }
   const EdgePair* first = nullptr;
   for (const EdgePair& candidate : edge_pairs_) {
     if (candidate.separation < enough) continue;
-    if (!first || std::pair(candidate.a, candidate.b) < std::pair(first->a, first->b)) first = &candidate;
+    if (!first || std::pair(candidate.a, candidate.b) < std::pair(first->a, first->b))
+      first = &candidate;
   }
   return {AxisKind::edges, first->a, first->b};
 }

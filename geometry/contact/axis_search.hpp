@@ -1,6 +1,6 @@
 #pragma once
-// The best separating axis of a pair: last step's if it can be proved to be the best still, otherwise an exact search
-// that bounds before it evaluates.
+// The best separating axis of a pair: last step's if it can be proved to be the best still,
+// otherwise an exact search that bounds before it evaluates.
 
 #include <vector>
 
@@ -24,18 +24,19 @@ class AxisSearch {
   /// `shapes`: all that will be asked for, to size the scratch.
   explicit AxisSearch(std::span<const CollisionShape> shapes);
 
-  /// The best axis of the pair, unless some facet's separation exceeds `alert` [m]: then no more than that is found
-  /// out: of `axis` then the separation alone is set, that of the facet found. `hint`: a facet to start from, of any
-  /// kind or none; on return the one that decided. Outcome (separated or not) and, unless separated, axis do not depend
-  /// on the hint, to the last bit.
+  /// The best axis of the pair, unless some facet's separation exceeds `alert` [m]: then no more
+  /// than that is found out: of `axis` then the separation alone is set, that of the facet found.
+  /// `hint`: a facet to start from, of any kind or none; on return the one that decided. Outcome
+  /// (separated or not) and, unless separated, axis do not depend on the hint, to the last bit.
   AxisOutcome find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis);
 
  private:
-  /// What is known of the facets on one body's side. A witness is a point of the other body, in this body's frame: as a
-  /// face f of this body is its support along n_f, s(n_f) <= n_f.w - offset_f.
+  /// What is known of the facets on one body's side. A witness is a point of the other body, in
+  /// this body's frame: as a face f of this body is its support along n_f, s(n_f) <= n_f.w -
+  /// offset_f.
   struct Side {
-    std::vector<double> bound;    // per face: upper bound of its separation; -infinity once evaluated
-    std::vector<double> value;    // per face: its separation, -infinity unless evaluated
+    std::vector<double> bound;  // per face: upper bound of its separation; -infinity once evaluated
+    std::vector<double> value;  // per face: its separation, -infinity unless evaluated
     std::vector<double> heights;  // per witness and face: n_f.w - offset_f
     std::vector<int> edges;       // that the witnesses do not rule out
     int witnesses = 0;
@@ -50,8 +51,8 @@ class AxisSearch {
     Vec3 along, left, right;
   };
 
-  AxisOutcome search(const ShapePair& pair, double alert, const SeparatingAxis* start, AxisFeature& hint,
-                     SeparatingAxis& axis);
+  AxisOutcome search(const ShapePair& pair, double alert, const SeparatingAxis* start,
+                     AxisFeature& hint, SeparatingAxis& axis);
   void start_side(const ShapePair& pair, int own);
   void add_witness(const ShapePair& pair, int own, const Vec3& point);
   void add_witnesses_of(const ShapePair& pair, const SeparatingAxis& axis);

@@ -25,7 +25,8 @@ Box bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& 
   return box;
 }
 
-BroadPhase::BroadPhase(std::vector<Body> bodies, double skin) : bodies_(std::move(bodies)), skin_(skin) {
+BroadPhase::BroadPhase(std::vector<Body> bodies, double skin)
+    : bodies_(std::move(bodies)), skin_(skin) {
   boxes_.resize(bodies_.size());
   for (size_t i = 0; i < bodies_.size(); ++i) {
     radius_.push_back(bodies_[i].shape ? bodies_[i].shape->circumradius() : 0.0);
@@ -34,7 +35,8 @@ BroadPhase::BroadPhase(std::vector<Body> bodies, double skin) : bodies_(std::mov
   first_.assign(bodies_.size() + 1, 0);
 }
 
-void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotations, std::span<const double> reach) {
+void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotations,
+                        std::span<const double> reach) {
   if (still_valid(poses, reach)) return;
   grow_boxes(poses, rotations, reach);
   sweep();
@@ -54,7 +56,8 @@ bool BroadPhase::still_valid(std::span<const Pose> poses, std::span<const double
   return true;
 }
 
-/// Fast bodies get a margin of several steps' reach: one of them must not cause a new list in every step.
+/// Fast bodies get a margin of several steps' reach: one of them must not cause a new list in every
+/// step.
 void BroadPhase::grow_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
                             std::span<const double> reach) {
   listed_pose_.assign(poses.begin(), poses.end());
@@ -117,7 +120,8 @@ void BroadPhase::sort_pairs() {
 void BroadPhase::carry_memory() {
   size_t old = 0;
   for (CandidatePair& pair : pairs_) {
-    while (old < old_pairs_.size() && std::pair(old_pairs_[old].a, old_pairs_[old].b) < std::pair(pair.a, pair.b))
+    while (old < old_pairs_.size() &&
+           std::pair(old_pairs_[old].a, old_pairs_[old].b) < std::pair(pair.a, pair.b))
       ++old;
     if (old == old_pairs_.size()) break;
     if (old_pairs_[old].a == pair.a && old_pairs_[old].b == pair.b) pair = old_pairs_[old];

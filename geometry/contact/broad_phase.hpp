@@ -1,5 +1,6 @@
 #pragma once
-// Candidate pairs of polyhedra: bounding boxes with a margin, listed once and kept until the margin is used up.
+// Candidate pairs of polyhedra: bounding boxes with a margin, listed once and kept until the margin
+// is used up.
 
 #include <span>
 #include <vector>
@@ -16,30 +17,32 @@ struct Box {
 /// Tight box around a shape at a pose.
 Box bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position);
 
-/// How far a body has moved: no point at distance r from its origin by more than shift + r turn. Added up over steps,
-/// the increase since any earlier time bounds the motion since then.
+/// How far a body has moved: no point at distance r from its origin by more than shift + r turn.
+/// Added up over steps, the increase since any earlier time bounds the motion since then.
 struct Travel {
   double shift = 0.0;  ///< [m]
   double turn = 0.0;   ///< chord of the unit circle [1]
 };
 
-/// A bound on a step's motion. The chord of a rotation by phi is 2 sin(phi/2) <= 4 sin(phi/4), and 2 sin(phi/4) is the
-/// distance of the unit quaternions.
+/// A bound on a step's motion. The chord of a rotation by phi is 2 sin(phi/2) <= 4 sin(phi/4), and
+/// 2 sin(phi/4) is the distance of the unit quaternions.
 Travel step_bound(const Pose& from, const Pose& to);
 
 /// Two polyhedra that may touch, a < b, and what is remembered of them.
 struct CandidatePair {
   int a, b;
   AxisFeature axis;  ///< last step's
-  /// Proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a + reach_b stays below this [m].
+  /// Proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a + reach_b
+  /// stays below this [m].
   double apart_below = -1.0;
   double arm_a = 0.0, arm_b = 0.0;  ///< [m]
   int touching = -1;                ///< its record among the pairs that touch; -1: none
 };
 
-/// The list holds every pair whose boxes, each grown by its body's reach, overlap at the given poses. It may hold more:
-/// boxes are listed with a margin, and the list stands as long as no body has used up its margin by moving or by a
-/// longer reach. How far bodies have moved is measured on the poses in every call.
+/// The list holds every pair whose boxes, each grown by its body's reach, overlap at the given
+/// poses. It may hold more: boxes are listed with a margin, and the list stands as long as no body
+/// has used up its margin by moving or by a longer reach. How far bodies have moved is measured on
+/// the poses in every call.
 class BroadPhase {
  public:
   struct Body {
@@ -50,8 +53,10 @@ class BroadPhase {
   /// `skin` [m]: least sum of the margins of two bodies.
   BroadPhase(std::vector<Body> bodies, double skin);
 
-  /// Brings the list up to date; what is remembered of pairs is carried over. `rotations`: R_WB of the poses.
-  void update(std::span<const Pose> poses, std::span<const Mat3> rotations, std::span<const double> reach);
+  /// Brings the list up to date; what is remembered of pairs is carried over. `rotations`: R_WB of
+  /// the poses.
+  void update(std::span<const Pose> poses, std::span<const Mat3> rotations,
+              std::span<const double> reach);
 
   /// Sorted by (a, b).
   std::span<CandidatePair> pairs() { return pairs_; }
@@ -62,7 +67,8 @@ class BroadPhase {
 
  private:
   bool still_valid(std::span<const Pose> poses, std::span<const double> reach) const;
-  void grow_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations, std::span<const double> reach);
+  void grow_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
+                  std::span<const double> reach);
   void sweep();
   void sort_pairs();
   void carry_memory();
@@ -71,9 +77,10 @@ class BroadPhase {
   std::vector<double> radius_;  // circumradii, for the shapes themselves are seldom in the cache
   double skin_;
   std::vector<Pose> listed_pose_;  // when the list was made
-  std::vector<double> allowance_;  // how far a body's surface may get from there, reach included [m]
-  std::vector<Box> boxes_;         // grown by the allowance
-  std::vector<int> order_;         // polyhedra, by the low end of their boxes
+  std::vector<double>
+      allowance_;           // how far a body's surface may get from there, reach included [m]
+  std::vector<Box> boxes_;  // grown by the allowance
+  std::vector<int> order_;  // polyhedra, by the low end of their boxes
   std::vector<std::pair<int, int>> found_;
   std::vector<CandidatePair> pairs_, old_pairs_;
   std::vector<int> first_;

@@ -12,8 +12,10 @@ constexpr double kFar = 1e100;  // [m]; finite, so that sums of padding stay fin
 
 int rounded_up(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
-/// The boundary of a patch of faces as one loop, counter-clockwise from outside, from its smallest vertex on.
-std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<int>& patch, int id) {
+/// The boundary of a patch of faces as one loop, counter-clockwise from outside, from its smallest
+/// vertex on.
+std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<int>& patch,
+                               int id) {
   std::vector<std::pair<int, int>> next;  // (corner, the corner after it)
   for (int f = 0; f < polyhedron.face_count(); ++f) {
     if (patch[f] != id) continue;
@@ -46,7 +48,8 @@ AffineRows::AffineRows(int count, double padding) : count_(count), padded_(round
 }
 
 void AffineRows::set(int row, const Vec3& xyz, double w) {
-  for (int axis = 0; axis < 3; ++axis) table_[axis * static_cast<size_t>(padded_) + row] = xyz[axis];
+  for (int axis = 0; axis < 3; ++axis)
+    table_[axis * static_cast<size_t>(padded_) + row] = xyz[axis];
   table_[3 * static_cast<size_t>(padded_) + row] = w;
 }
 
@@ -75,8 +78,8 @@ CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
   vertex_faces_.shrink_to_fit();
 }
 
-/// Number of the patch that each face belongs to; patches are numbered by their first face. A face joins when it is
-/// parallel to the patch's first face, so that slow curvature does not add up.
+/// Number of the patch that each face belongs to; patches are numbered by their first face. A face
+/// joins when it is parallel to the patch's first face, so that slow curvature does not add up.
 std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
   std::vector<int> patch(polyhedron.normals().size(), -1), queue;
   int count = 0;
@@ -116,7 +119,8 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
     vertices_.evaluate(normal, heights.data());
     const double offset = *std::max_element(heights.begin(), heights.begin() + vertices_.count());
     face_rows_.set(p, normal, -offset);
-    faces_.push_back({normal, offset, 1.0, static_cast<int>(corners_.size()), static_cast<int>(loop.size())});
+    faces_.push_back(
+        {normal, offset, 1.0, static_cast<int>(corners_.size()), static_cast<int>(loop.size())});
     for (const int v : loop) {
       corners_.push_back({v, -1, polyhedron.vertex(v)});
       bounds_.unevenness = std::max(bounds_.unevenness, offset - heights[v]);
@@ -125,7 +129,8 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
   for (Face& face : faces_) {
     for (const Face& other : faces_) {
       if (&face == &other || face.normal.dot(other.normal) < 0.5) continue;
-      face.isolation = std::min(face.isolation, face.normal.cross(other.normal).norm());  // sine <= angle
+      face.isolation =
+          std::min(face.isolation, face.normal.cross(other.normal).norm());  // sine <= angle
     }
   }
 }
@@ -134,10 +139,13 @@ void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector
   sides_.resize(corners_.size());
   const auto add_side = [&](int f, int from, int to) {
     const auto first = corners_.begin() + faces_[f].first_corner;
-    const auto corner = std::find_if(first, corners_.end(), [&](const Corner& c) { return c.vertex == from; });
+    const auto corner =
+        std::find_if(first, corners_.end(), [&](const Corner& c) { return c.vertex == from; });
     corner->edge = static_cast<int>(edges_.size());
-    const Vec3 outward = (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_[f].normal).normalized();
-    const double offset = std::max(outward.dot(polyhedron.vertex(from)), outward.dot(polyhedron.vertex(to)));
+    const Vec3 outward =
+        (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_[f].normal).normalized();
+    const double offset =
+        std::max(outward.dot(polyhedron.vertex(from)), outward.dot(polyhedron.vertex(to)));
     sides_[corner - corners_.begin()] = {outward, offset};
   };
   for (const Polyhedron::Edge& edge : polyhedron.edges()) {
@@ -146,22 +154,23 @@ void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector
     add_side(left, edge.tail, edge.head);
     add_side(right, edge.head, edge.tail);
     const Vec3 &left_normal = faces_[left].normal, &right_normal = faces_[right].normal;
-    // n = p left_normal + q right_normal with p, q = |right_normal.u|, |left_normal.u| times length / (sine |along x
-    // u|)
+    // n = p left_normal + q right_normal with p, q = |right_normal.u|, |left_normal.u| times length
+    // / (sine |along x u|)
     double below = kFar;
     for (int v = 0; v < polyhedron.vertex_count(); ++v) {
       if (v == edge.tail || v == edge.head) continue;
-      below = std::min(below, faces_[left].offset - left_normal.dot(polyhedron.vertex(v)) + faces_[right].offset -
-                                  right_normal.dot(polyhedron.vertex(v)));
+      below = std::min(below, faces_[left].offset - left_normal.dot(polyhedron.vertex(v)) +
+                                  faces_[right].offset - right_normal.dot(polyhedron.vertex(v)));
     }
     const Vec3 tail = polyhedron.vertex(edge.tail), along = polyhedron.vertex(edge.head) - tail;
     const double length = along.norm(), sine = left_normal.cross(right_normal).norm();
-    edges_.push_back(
-        {tail, along, left_normal, right_normal, length, below * length / sine, edge.tail, edge.head, left, right});
+    edges_.push_back({tail, along, left_normal, right_normal, length, below * length / sine,
+                      edge.tail, edge.head, left, right});
   }
 }
 
-void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron,
+                                        const std::vector<int>& patch) {
   vertex_begin_.assign(1, 0);
   for (int v = 0; v < polyhedron.vertex_count(); ++v) {
     for (const int f : polyhedron.vertex_faces(v)) vertex_faces_.push_back(patch[f]);
@@ -172,15 +181,16 @@ void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron, const std:
   }
 }
 
-/// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is larger: the mean is
-/// always strictly inside, the origin of a user's frame need not be.
+/// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is
+/// larger: the mean is always strictly inside, the origin of a user's frame need not be.
 void CollisionShape::build_ball(const Polyhedron& polyhedron) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : polyhedron.vertices()) mean += p;
   mean /= static_cast<double>(polyhedron.vertex_count());
   const auto radius_about = [&](const Vec3& centre) {
     double nearest = kFar;
-    for (const Face& face : faces_) nearest = std::min(nearest, face.offset - face.normal.dot(centre));
+    for (const Face& face : faces_)
+      nearest = std::min(nearest, face.offset - face.normal.dot(centre));
     return nearest;
   };
   if (radius_about(mean) > radius_about(Vec3::Zero())) bounds_.ball_centre = mean;

@@ -1,5 +1,6 @@
 #pragma once
-// A convex polyhedron laid out for contact detection: tables that the compiler sweeps with vector instructions.
+// A convex polyhedron laid out for contact detection: tables that the compiler sweeps with vector
+// instructions.
 
 #include <cstddef>
 #include <span>
@@ -9,12 +10,13 @@
 
 namespace ballast {
 
-/// Rows (x, y, z, w) stored column by column, padded to a multiple of 8 rows. A row stands for the affine function
-/// d -> (x, y, z).d + w.
+/// Rows (x, y, z, w) stored column by column, padded to a multiple of 8 rows. A row stands for the
+/// affine function d -> (x, y, z).d + w.
 class AffineRows {
  public:
   AffineRows() = default;
-  /// `padding`: w of the rows that fill up, chosen so that they never win the minimum or maximum that is sought.
+  /// `padding`: w of the rows that fill up, chosen so that they never win the minimum or maximum
+  /// that is sought.
   AffineRows(int count, double padding);
 
   int count() const { return count_; }
@@ -38,17 +40,20 @@ struct alignas(64) BodyBounds {
   Vec3 ball_centre = Vec3::Zero();  ///< of a ball inside the solid
   double ball_radius = 0.0;
   double circumradius = 0.0;  ///< largest distance of a vertex from the frame's origin
-  double unevenness = 0.0;    ///< largest distance of a corner from its face's plane [m]: rounding, or what the polyhedron's tolerance allowed
+  double unevenness = 0.0;    ///< largest distance of a corner from its face's plane [m]: rounding,
+                              ///< or what the polyhedron's tolerance allowed
 };
 
-/// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated boxes) are one face
-/// here, so that a contact patch does not end at a diagonal. Frame: that of the polyhedron [m].
+/// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated
+/// boxes) are one face here, so that a contact patch does not end at a diagonal. Frame: that of the
+/// polyhedron [m].
 class CollisionShape {
  public:
   /// Two faces whose normals differ by less than this angle [rad] are one.
   static constexpr double coplanar_angle = 1e-9;
 
-  /// Records hold all that one visit asks for, in one place: of 1200 shapes only a few are in the cache.
+  /// Records hold all that one visit asks for, in one place: of 1200 shapes only a few are in the
+  /// cache.
   struct Face {
     Vec3 normal;       ///< outward, unit
     double offset;     ///< support of the whole polyhedron along the normal
@@ -59,8 +64,8 @@ class CollisionShape {
     Vec3 from, along;                ///< the tail, and head - tail
     Vec3 left_normal, right_normal;  ///< outward; seen from outside, face `left` runs tail -> head
     double length;
-    /// Along the unit normal n of this edge and another one, u, every vertex but the two ends lies at least
-    /// drop min(|left_normal.u|, |right_normal.u|) / |along x u| below the edge [m].
+    /// Along the unit normal n of this edge and another one, u, every vertex but the two ends lies
+    /// at least drop min(|left_normal.u|, |right_normal.u|) / |along x u| below the edge [m].
     double drop;
     int tail, head, left, right;
   };
@@ -79,16 +84,22 @@ class CollisionShape {
 
   /// Rows (position, 0); padding is far above every height.
   const AffineRows& vertices() const { return vertices_; }
-  /// Rows (outward unit normal, -offset): the signed distance of a point to each face's plane. Padding is far inside.
+  /// Rows (outward unit normal, -offset): the signed distance of a point to each face's plane.
+  /// Padding is far inside.
   const AffineRows& faces() const { return face_rows_; }
   const Face& face(int f) const { return faces_[f]; }
   std::span<const Edge> edges() const { return edges_; }
 
-  std::span<const Corner> corners(int f) const { return {corners_.data() + faces_[f].first_corner, corner_span(f)}; }
-  std::span<const Side> sides(int f) const { return {sides_.data() + faces_[f].first_corner, corner_span(f)}; }
+  std::span<const Corner> corners(int f) const {
+    return {corners_.data() + faces_[f].first_corner, corner_span(f)};
+  }
+  std::span<const Side> sides(int f) const {
+    return {sides_.data() + faces_[f].first_corner, corner_span(f)};
+  }
   /// Faces that have v in their plane, ascending.
   std::span<const int> vertex_faces(int v) const {
-    return {vertex_faces_.data() + vertex_begin_[v], static_cast<size_t>(vertex_begin_[v + 1] - vertex_begin_[v])};
+    return {vertex_faces_.data() + vertex_begin_[v],
+            static_cast<size_t>(vertex_begin_[v + 1] - vertex_begin_[v])};
   }
   const BodyBounds& bounds() const { return bounds_; }
   double circumradius() const { return bounds_.circumradius; }

@@ -18,7 +18,8 @@ double chosen_skin(double skin, std::span<const CollisionShape> shapes) {
 
 std::vector<BroadPhase::Body> broad_phase_bodies(const DetectedBodies& bodies) {
   std::vector<BroadPhase::Body> list;
-  for (int i = 0; i < bodies.count(); ++i) list.push_back({bodies.shape(i), bodies.shapes[i].fixed});
+  for (int i = 0; i < bodies.count(); ++i)
+    list.push_back({bodies.shape(i), bodies.shapes[i].fixed});
   return list;
 }
 
@@ -55,7 +56,8 @@ struct ContactDetector::State {
   DetectionCounters counters;
 };
 
-ContactDetector::ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings)
+ContactDetector::ContactDetector(std::vector<ContactShape> shapes,
+                                 const DetectionSettings& settings)
     : state_(std::make_unique<State>(std::move(shapes), settings)) {}
 ContactDetector::~ContactDetector() = default;
 ContactDetector::ContactDetector(ContactDetector&&) noexcept = default;
@@ -97,21 +99,26 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   }
 }
 
-void ContactDetector::State::check(std::span<const Pose> poses, std::span<const double> reach) const {
+void ContactDetector::State::check(std::span<const Pose> poses,
+                                   std::span<const double> reach) const {
   const size_t count = bodies.shapes.size();
   if (poses.size() != count || reach.size() != count)
-    throw std::invalid_argument("detect: " + std::to_string(count) + " bodies, but " + std::to_string(poses.size()) +
-                                " poses and " + std::to_string(reach.size()) + " reaches");
+    throw std::invalid_argument("detect: " + std::to_string(count) + " bodies, but " +
+                                std::to_string(poses.size()) + " poses and " +
+                                std::to_string(reach.size()) + " reaches");
   for (size_t i = 0; i < poses.size(); ++i) {
-    if (!poses[i].position.allFinite() || !poses[i].rotation.coeffs().allFinite() || !(reach[i] >= 0.0))
-      throw std::invalid_argument("detect: pose or reach of body " + std::to_string(i) + " is not a finite number");
+    if (!poses[i].position.allFinite() || !poses[i].rotation.coeffs().allFinite() ||
+        !(reach[i] >= 0.0))
+      throw std::invalid_argument("detect: pose or reach of body " + std::to_string(i) +
+                                  " is not a finite number");
   }
 }
 
 void ContactDetector::State::take(std::span<const Pose> poses, std::span<const double> reach) {
   bodies.poses = poses;
   bodies.given_reach = bodies.reach = reach;
-  for (size_t i = 0; i < poses.size(); ++i) bodies.rotations[i] = poses[i].rotation.toRotationMatrix();
+  for (size_t i = 0; i < poses.size(); ++i)
+    bodies.rotations[i] = poses[i].rotation.toRotationMatrix();
   if (!bodies.holds()) return;
   for (size_t i = 0; i < poses.size(); ++i) wide_reach[i] = reach[i] + bodies.margin[i];
   bodies.reach = wide_reach;
@@ -126,12 +133,13 @@ void ContactDetector::State::advance(std::span<const Pose> poses) {
   previous.assign(poses.begin(), poses.end());
 }
 
-/// Deals the bodies out to the parts, each about the same work, and brings the records into the order of the list;
-/// those of pairs that left it are dropped.
+/// Deals the bodies out to the parts, each about the same work, and brings the records into the
+/// order of the list; those of pairs that left it are dropped.
 void ContactDetector::State::share() {
   const size_t plane_work = 1 + bodies.shapes.size() / 64;  // in pairs
   const auto work_of = [&](int a) {
-    return (bodies.shape(a) ? 0 : plane_work) + static_cast<size_t>(broad_phase.first(a + 1) - broad_phase.first(a));
+    return (bodies.shape(a) ? 0 : plane_work) +
+           static_cast<size_t>(broad_phase.first(a + 1) - broad_phase.first(a));
   };
   size_t total = 0, passed = 0;
   for (int a = 0; a < bodies.count(); ++a) total += work_of(a);
@@ -139,7 +147,9 @@ void ContactDetector::State::share() {
   int begin = 0;
   for (size_t k = 0; k < parts.size(); ++k) {
     int end = begin;
-    for (; end < bodies.count() && (k + 1 == parts.size() || passed * parts.size() < (k + 1) * total); ++end)
+    for (;
+         end < bodies.count() && (k + 1 == parts.size() || passed * parts.size() < (k + 1) * total);
+         ++end)
       passed += work_of(end);
     const int first = broad_phase.first(begin), last = broad_phase.first(end);
     parts[k].take_range(begin, end, static_cast<size_t>(last - first));
@@ -148,7 +158,8 @@ void ContactDetector::State::share() {
     begin = end;
   }
   for (size_t k = 0; k < parts.size(); ++k)
-    std::fill(part_of.begin() + parts[k].begin(), part_of.begin() + parts[k].end(), static_cast<int>(k));
+    std::fill(part_of.begin() + parts[k].begin(), part_of.begin() + parts[k].end(),
+              static_cast<int>(k));
 }
 
 }  // namespace ballast

@@ -1,5 +1,6 @@
 #pragma once
-// Shapes and poses -> contact points: broad phase, separating axis, face clipping, in one call per step.
+// Shapes and poses -> contact points: broad phase, separating axis, face clipping, in one call per
+// step.
 
 #include <functional>
 #include <iosfwd>
@@ -14,8 +15,9 @@ namespace ballast {
 /// Runs part(0) ... part(parts - 1), on as many threads as it likes, and returns when all are done.
 using RunParts = std::function<void(int parts, const std::function<void(int)>& part)>;
 
-/// Contact detection for one set of bodies, coherent from step to step. Contacts depend only on the poses and reaches
-/// given (never on the cache), unless reuse_motion is set, and come sorted by (body_a, body_b, feature).
+/// Contact detection for one set of bodies, coherent from step to step. Contacts depend only on the
+/// poses and reaches given (never on the cache), unless reuse_motion is set, and come sorted by
+/// (body_a, body_b, feature).
 class ContactDetector {
  public:
   ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings);
@@ -23,16 +25,20 @@ class ContactDetector {
   ContactDetector(ContactDetector&&) noexcept;
   ContactDetector& operator=(ContactDetector&&) noexcept;
 
-  /// poses[i]: pose of body i. reach[i] [m]: bound on how far any point of body i moves until the next detection. A
-  /// point is reported when its gap <= reach[a] + reach[b]. `contacts` is overwritten; no allocation once it has grown.
-  void detect(std::span<const Pose> poses, std::span<const double> reach, std::vector<ContactPoint>& contacts);
+  /// poses[i]: pose of body i. reach[i] [m]: bound on how far any point of body i moves until the
+  /// next detection. A point is reported when its gap <= reach[a] + reach[b]. `contacts` is
+  /// overwritten; no allocation once it has grown.
+  void detect(std::span<const Pose> poses, std::span<const double> reach,
+              std::vector<ContactPoint>& contacts);
 
   const DetectionCounters& counters() const;
 
-  /// Lets go of all points that were held on to: the next contacts depend on their poses and reaches alone.
+  /// Lets go of all points that were held on to: the next contacts depend on their poses and
+  /// reaches alone.
   void refresh();
 
-  /// From now on the work is done in so many parts, by `run`: the same contacts, whatever their number.
+  /// From now on the work is done in so many parts, by `run`: the same contacts, whatever their
+  /// number.
   void run_parts_by(RunParts run, int parts);
 
  private:

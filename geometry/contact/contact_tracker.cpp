@@ -24,7 +24,8 @@ bool has_feature(std::span<const ContactPoint> pair, std::uint64_t feature) {
 }
 
 /// Nearest point that no old point has by name, or the nearest of all if every one has.
-size_t nearest(std::span<const ContactPoint> candidates, std::span<const ContactPoint> old_pair, const Vec3& position) {
+size_t nearest(std::span<const ContactPoint> candidates, std::span<const ContactPoint> old_pair,
+               const Vec3& position) {
   size_t best = 0, best_any = 0;
   double distance = std::numeric_limits<double>::infinity(), distance_any = distance;
   for (size_t i = 0; i < candidates.size(); ++i) {
@@ -57,7 +58,8 @@ void carry_impulses(std::span<const ContactPoint> old_contacts, std::span<const 
       continue;
     }
     const size_t o_end = end_of_pair(old_contacts, o), n_end = end_of_pair(new_contacts, n);
-    const auto old_pair = old_contacts.subspan(o, o_end - o), new_pair = new_contacts.subspan(n, n_end - n);
+    const auto old_pair = old_contacts.subspan(o, o_end - o),
+               new_pair = new_contacts.subspan(n, n_end - n);
     size_t m = n;  // both are sorted by feature: one merge
     for (size_t i = o; i < o_end; ++i) {
       while (m < n_end && new_contacts[m].feature < old_contacts[i].feature) ++m;

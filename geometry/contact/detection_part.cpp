@@ -78,23 +78,29 @@ void DetectionPart::choose_pairs(const BroadPhase& broad_phase) {
 }
 
 /// `separation` shrinks by no more than the origins move and the arms times the turns.
-void DetectionPart::bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const {
+void DetectionPart::bound_separation(CandidatePair& pair, double arm_a, double arm_b,
+                                     double separation) const {
   pair.arm_a = arm_a;
   pair.arm_b = arm_b;
   const double use = bound_use(pair);
   // far above the rounding of separations and of sums over 1e7 steps
   pair.apart_below =
-      separation + use - 1e-9 * (bodies_.bounds[pair.a].circumradius + bodies_.bounds[pair.b].circumradius + use);
+      separation + use -
+      1e-9 * (bodies_.bounds[pair.a].circumradius + bodies_.bounds[pair.b].circumradius + use);
 }
 
-/// Of a pair whose axis separates it, at this `distance` of the origins. A face's separation is the least n.(x - p) of
-/// the other body's points x, less the face's offset: it shrinks by no more than x and the face's body p move, and by
-/// that body's turn times |x - p|. A separating face is found whatever the hint, hence the outcome is the one without a
-/// bound. An edge pair may cease to be a facet: no bound.
+/// Of a pair whose axis separates it, at this `distance` of the origins. A face's separation is the
+/// least n.(x - p) of the other body's points x, less the face's offset: it shrinks by no more than
+/// x and the face's body p move, and by that body's turn times |x - p|. A separating face is found
+/// whatever the hint, hence the outcome is the one without a bound. An edge pair may cease to be a
+/// facet: no bound.
 void DetectionPart::bound_separated(CandidatePair& pair, double distance, double separation) const {
-  const double radius_a = bodies_.bounds[pair.a].circumradius, radius_b = bodies_.bounds[pair.b].circumradius;
-  if (pair.axis.kind == AxisKind::face_of_a) bound_separation(pair, distance + radius_b, radius_b, separation);
-  if (pair.axis.kind == AxisKind::face_of_b) bound_separation(pair, radius_a, distance + radius_a, separation);
+  const double radius_a = bodies_.bounds[pair.a].circumradius,
+               radius_b = bodies_.bounds[pair.b].circumradius;
+  if (pair.axis.kind == AxisKind::face_of_a)
+    bound_separation(pair, distance + radius_b, radius_b, separation);
+  if (pair.axis.kind == AxisKind::face_of_b)
+    bound_separation(pair, radius_a, distance + radius_a, separation);
 }
 
 /// Every vertex within reach is a point.
@@ -115,8 +121,8 @@ void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts)
       const double gap = height + heights_[v];
       if (gap > alert) continue;
       const Vec3 vertex = poses[b].position + bodies_.rotations[b] * body->vertices().xyz(v);
-      contacts.push_back(
-          {plane, b, feature_key(PointKind::vertex_of_b, 0, v), normal, vertex - 0.5 * gap * normal, gap});
+      contacts.push_back({plane, b, feature_key(PointKind::vertex_of_b, 0, v), normal,
+                          vertex - 0.5 * gap * normal, gap});
     }
     if (contacts.size() > before) ++counters_.manifolds;
   }
@@ -134,9 +140,11 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
     return;
   }
 
-  // as products with transposes: a transposed copy would add in another order, and published runs have these bits
+  // as products with transposes: a transposed copy would add in another order, and published runs
+  // have these bits
   const Mat3& rotation = bodies_.rotations[a];
-  const RelativePose b_in_a{rotation.transpose() * bodies_.rotations[b], rotation.transpose() * between};
+  const RelativePose b_in_a{rotation.transpose() * bodies_.rotations[b],
+                            rotation.transpose() * between};
   if (append_held(candidate, b_in_a, contacts)) return;
   candidate.apart_below = -1.0;
   SeparatingAxis axis;
@@ -163,16 +171,20 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   if (outcome == AxisOutcome::proved_by_hint) ++counters_.proved_axes;
   if (outcome == AxisOutcome::separated || outcome == AxisOutcome::found) ++counters_.full_tests;
   if (is_separated(outcome)) return bound_separated(candidate, between.norm(), axis.separation);
-  // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says. Which of them count
-  // must not depend on which the broad phase happened to list: those that it lists with no margin at all.
+  // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says.
+  // Which of them count must not depend on which the broad phase happened to list: those that it
+  // lists with no margin at all.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, alert)) return;
   if (settings_.use_cache) remember(candidate, pair, axis, turn);
-  append(candidate, b_in_a, axis, manifold_.points(pair, axis, alert, settings_.max_points), contacts);
+  append(candidate, b_in_a, axis, manifold_.points(pair, axis, alert, settings_.max_points),
+         contacts);
 }
 
-/// Points found within the wide reach; where they are held on to, only those within the given one are contacts now.
-void DetectionPart::append(const CandidatePair& candidate, const RelativePose& b_in_a, const SeparatingAxis& axis,
-                           std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts) {
+/// Points found within the wide reach; where they are held on to, only those within the given one
+/// are contacts now.
+void DetectionPart::append(const CandidatePair& candidate, const RelativePose& b_in_a,
+                           const SeparatingAxis& axis, std::span<const ManifoldPoint> points,
+                           std::vector<ContactPoint>& contacts) {
   const int a = candidate.a, b = candidate.b;
   append(candidate, axis.normal, points, bodies_.given_reach[a] + bodies_.given_reach[b], contacts);
   if (!bodies_.holds()) return;
@@ -180,15 +192,16 @@ void DetectionPart::append(const CandidatePair& candidate, const RelativePose& b
   records_.held[candidate.touching].hold(pair, axis, points, bodies_.reach[a] + bodies_.reach[b]);
 }
 
-void DetectionPart::append(const CandidatePair& candidate, const Vec3& normal, std::span<const ManifoldPoint> points,
-                           double alert, std::vector<ContactPoint>& contacts) {
+void DetectionPart::append(const CandidatePair& candidate, const Vec3& normal,
+                           std::span<const ManifoldPoint> points, double alert,
+                           std::vector<ContactPoint>& contacts) {
   const size_t before = contacts.size();
   const Mat3& rotation = bodies_.rotations[candidate.a];
   const Vec3 normal_W = rotation * normal, origin = bodies_.poses[candidate.a].position;
   for (const ManifoldPoint& point : points)
     if (point.gap <= alert)
-      contacts.push_back(
-          {candidate.a, candidate.b, point.key, normal_W, origin + rotation * point.position, point.gap});
+      contacts.push_back({candidate.a, candidate.b, point.key, normal_W,
+                          origin + rotation * point.position, point.gap});
   if (contacts.size() > before) ++counters_.manifolds;
 }
 
@@ -209,7 +222,8 @@ bool DetectionPart::append_held(const CandidatePair& candidate, const RelativePo
   return true;
 }
 
-void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis, double turn) {
+void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair,
+                             const SeparatingAxis& axis, double turn) {
   if (candidate.touching < 0) {
     candidate.touching = static_cast<int>(records_.touching.size());
     records_.touching.emplace_back();
@@ -218,7 +232,8 @@ void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair, co
   records_.touching[candidate.touching].record(pair, axis, turn);
 }
 
-/// The record is needed four pairs from now; the list of pairs is read in order, its records nearly so.
+/// The record is needed four pairs from now; the list of pairs is read in order, its records nearly
+/// so.
 void DetectionPart::fetch(const BroadPhase& broad_phase, size_t next) const {
   if (next >= chosen_.size()) return;
   const int record = broad_phase.pairs()[chosen_[next]].touching;
@@ -234,9 +249,12 @@ void DetectionPart::fetch(const BroadPhase& broad_phase, size_t next) const {
 }
 
 bool DetectionPart::boxes_within_reach(const CandidatePair& pair, double alert) const {
-  const Box box_a = bounding_box(*bodies_.shape(pair.a), bodies_.rotations[pair.a], bodies_.poses[pair.a].position);
-  const Box box_b = bounding_box(*bodies_.shape(pair.b), bodies_.rotations[pair.b], bodies_.poses[pair.b].position);
-  return (box_b.low - box_a.high).maxCoeff() <= alert && (box_a.low - box_b.high).maxCoeff() <= alert;
+  const Box box_a = bounding_box(*bodies_.shape(pair.a), bodies_.rotations[pair.a],
+                                 bodies_.poses[pair.a].position);
+  const Box box_b = bounding_box(*bodies_.shape(pair.b), bodies_.rotations[pair.b],
+                                 bodies_.poses[pair.b].position);
+  return (box_b.low - box_a.high).maxCoeff() <= alert &&
+         (box_a.low - box_b.high).maxCoeff() <= alert;
 }
 
 }  // namespace ballast

@@ -1,6 +1,6 @@
 #pragma once
-// A share of the pairs that a detection looks at: what it remembers of them, and scratch memory of its own, so that
-// shares can be looked at side by side.
+// A share of the pairs that a detection looks at: what it remembers of them, and scratch memory of
+// its own, so that shares can be looked at side by side.
 
 #include <utility>
 #include <vector>
@@ -32,19 +32,23 @@ struct DetectedBodies {
 
   bool holds() const { return !margin.empty(); }
   std::span<const double> given_reach;
-  std::vector<double> margin;  ///< how far each body may move while points are held on to [m]; empty: they are not
+  std::vector<double>
+      margin;  ///< how far each body may move while points are held on to [m]; empty: they are not
 };
 
-/// The planes and pairs of a range of bodies a. Part 0's contacts, part 1's and so on are in the order of all.
+/// The planes and pairs of a range of bodies a. Part 0's contacts, part 1's and so on are in the
+/// order of all.
 class DetectionPart {
  public:
   DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings);
 
-  /// Bodies begin <= a < end from now on, with so many pairs; records of pairs are taken over by adopt().
+  /// Bodies begin <= a < end from now on, with so many pairs; records of pairs are taken over by
+  /// adopt().
   void take_range(int begin, int end, size_t pairs);
   int begin() const { return begin_; }
   int end() const { return end_; }
-  /// Lays aside what is remembered of touching pairs, for adopt() by the part that each of them belongs to next.
+  /// Lays aside what is remembered of touching pairs, for adopt() by the part that each of them
+  /// belongs to next.
   void lay_aside();
   void adopt(CandidatePair& pair, const DetectionPart& from);
   void drop_held();
@@ -61,12 +65,16 @@ class DetectionPart {
   void fetch(const BroadPhase& broad_phase, size_t next) const;
   void detect_plane(int plane, std::vector<ContactPoint>& contacts);
   void detect_pair(CandidatePair& pair, std::vector<ContactPoint>& contacts);
-  bool append_held(const CandidatePair& candidate, const RelativePose& b_in_a, std::vector<ContactPoint>& contacts);
-  void append(const CandidatePair& candidate, const RelativePose& b_in_a, const SeparatingAxis& axis,
-              std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts);
-  void append(const CandidatePair& candidate, const Vec3& normal, std::span<const ManifoldPoint> points, double alert,
+  bool append_held(const CandidatePair& candidate, const RelativePose& b_in_a,
+                   std::vector<ContactPoint>& contacts);
+  void append(const CandidatePair& candidate, const RelativePose& b_in_a,
+              const SeparatingAxis& axis, std::span<const ManifoldPoint> points,
               std::vector<ContactPoint>& contacts);
-  void remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis, double turn);
+  void append(const CandidatePair& candidate, const Vec3& normal,
+              std::span<const ManifoldPoint> points, double alert,
+              std::vector<ContactPoint>& contacts);
+  void remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis,
+                double turn);
   void bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const;
   void bound_separated(CandidatePair& pair, double distance, double separation) const;
   double bound_use(const CandidatePair& pair) const;

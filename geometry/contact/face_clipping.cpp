@@ -2,20 +2,22 @@
 
 namespace ballast {
 
-std::span<const ClippedPoint> FaceClipper::clip(const ShapePair& pair, int reference, int face, int incident,
-                                                double thickness) {
+std::span<const ClippedPoint> FaceClipper::clip(const ShapePair& pair, int reference, int face,
+                                                int incident, double thickness) {
   const CollisionShape& shape = *pair.shape[reference];
   start(pair, reference, incident);
   const std::span<const CollisionShape::Side> sides = shape.sides(face);
   for (size_t k = 0; k < sides.size() && !polygon_.empty(); ++k)
-    clip_by_side(pair, reference, face, static_cast<int>(k), {sides[k].outward, sides[k].offset}, thickness);
+    clip_by_side(pair, reference, face, static_cast<int>(k), {sides[k].outward, sides[k].offset},
+                 thickness);
   const Vec3& normal = shape.face(face).normal;
   for (ClippedPoint& p : polygon_) p.height = normal.dot(p.position) - shape.face(face).offset;
   return polygon_;
 }
 
-std::span<const ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int reference, int face, int incident,
-                                                      const Vec3& direction, double thickness) {
+std::span<const ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int reference,
+                                                      int face, int incident, const Vec3& direction,
+                                                      double thickness) {
   const CollisionShape& shape = *pair.shape[reference];
   start(pair, reference, incident);
   const std::span<const CollisionShape::Corner> corners = shape.corners(face);
@@ -23,11 +25,13 @@ std::span<const ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int
     const Vec3& from = corners[k].position;
     const Vec3 along = corners[k + 1 < corners.size() ? k + 1 : 0].position - from;
     const Vec3 outward = along.cross(direction).normalized();
-    clip_by_side(pair, reference, face, static_cast<int>(k), {outward, outward.dot(from)}, thickness);
+    clip_by_side(pair, reference, face, static_cast<int>(k), {outward, outward.dot(from)},
+                 thickness);
   }
   const Vec3& normal = shape.face(face).normal;
   const double scale = 1.0 / normal.dot(direction);
-  for (ClippedPoint& p : polygon_) p.height = (normal.dot(p.position) - shape.face(face).offset) * scale;
+  for (ClippedPoint& p : polygon_)
+    p.height = (normal.dot(p.position) - shape.face(face).offset) * scale;
   return polygon_;
 }
 
@@ -35,14 +39,15 @@ void FaceClipper::start(const ShapePair& pair, int reference, int incident) {
   const CollisionShape& other = *pair.shape[1 - reference];
   polygon_.clear();
   for (const CollisionShape::Corner& corner : other.corners(incident)) {
-    const std::uint64_t key = reference == 0 ? feature_key(PointKind::vertex_of_b, 0, corner.vertex)
-                                             : feature_key(PointKind::vertex_of_a, corner.vertex, 0);
+    const std::uint64_t key = reference == 0
+                                  ? feature_key(PointKind::vertex_of_b, 0, corner.vertex)
+                                  : feature_key(PointKind::vertex_of_a, corner.vertex, 0);
     polygon_.push_back({pair.other[reference] * corner.position, 0.0, key, corner.edge});
   }
 }
 
-void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, int k, const Plane& plane,
-                               double thickness) {
+void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, int k,
+                               const Plane& plane, double thickness) {
   distance_.clear();
   bool all_inside = true;
   for (const ClippedPoint& p : polygon_) {
@@ -60,10 +65,12 @@ void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, i
       // a corner in the plane whose edge leaves: the polygon goes on along the side
       if (here >= -thickness && there > thickness) clipped_.back().next_edge = ~k;
     }
-    const bool leaves = here < -thickness && there > thickness, enters = here > thickness && there < -thickness;
+    const bool leaves = here < -thickness && there > thickness,
+               enters = here > thickness && there < -thickness;
     if (!leaves && !enters) continue;
     ClippedPoint crossing;
-    crossing.position = p.position + (polygon_[next].position - p.position) * (here / (here - there));
+    crossing.position =
+        p.position + (polygon_[next].position - p.position) * (here / (here - there));
     crossing.height = 0.0;
     crossing.key = crossing_key(pair, reference, face, k, p.next_edge);
     crossing.next_edge = leaves ? ~k : p.next_edge;
@@ -72,9 +79,10 @@ void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, i
   polygon_.swap(clipped_);
 }
 
-/// Side k of the reference face meets an edge of the incident face, or one of the face's own sides at their common
-/// corner.
-std::uint64_t FaceClipper::crossing_key(const ShapePair& pair, int reference, int face, int k, int edge) const {
+/// Side k of the reference face meets an edge of the incident face, or one of the face's own sides
+/// at their common corner.
+std::uint64_t FaceClipper::crossing_key(const ShapePair& pair, int reference, int face, int k,
+                                        int edge) const {
   const std::span<const CollisionShape::Corner> corners = pair.shape[reference]->corners(face);
   const int own_edge = corners[k].edge;
   if (edge >= 0) {

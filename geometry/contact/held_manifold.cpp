@@ -5,8 +5,8 @@
 
 namespace ballast {
 
-void HeldManifold::hold(const ShapePair& pair, const SeparatingAxis& axis, std::span<const ManifoldPoint> points,
-                        double reach) {
+void HeldManifold::hold(const ShapePair& pair, const SeparatingAxis& axis,
+                        std::span<const ManifoldPoint> points, double reach) {
   count_ = 0;
   if (points.size() > most_points) return;
   const RelativePose& a_in_b = pair.other[1];
@@ -26,16 +26,17 @@ void HeldManifold::hold(const ShapePair& pair, const SeparatingAxis& axis, std::
   }
 }
 
-// Rotations by phi against each other: |R - S|_F = 2 sqrt(2) sin(phi/2), and a point at distance 1 moves by 2
-// sin(phi/2).
+// Rotations by phi against each other: |R - S|_F = 2 sqrt(2) sin(phi/2), and a point at distance 1
+// moves by 2 sin(phi/2).
 bool HeldManifold::is_valid(const RelativePose& b_in_a, double radius, double alert) const {
   if (count_ == 0) return false;
   const double turn = (b_in_a.rotation - b_in_a_.rotation).norm() / std::numbers::sqrt2;
   return (b_in_a.position - b_in_a_.position).norm() + radius * turn + alert < reach_;
 }
 
-std::span<const ManifoldPoint> HeldManifold::points(const RelativePose& b_in_a, double alert, Vec3& normal,
-                                                    std::array<ManifoldPoint, most_points>& storage) const {
+std::span<const ManifoldPoint> HeldManifold::points(
+    const RelativePose& b_in_a, double alert, Vec3& normal,
+    std::array<ManifoldPoint, most_points>& storage) const {
   if (kind_ == AxisKind::face_of_a) normal = first_;
   if (kind_ == AxisKind::face_of_b) normal = b_in_a.rotation * first_;
   if (kind_ == AxisKind::edges) normal = first_.cross(b_in_a.rotation * second_).normalized();

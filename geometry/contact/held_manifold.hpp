@@ -1,7 +1,8 @@
 #pragma once
-// A pair's contact points held on to while its bodies have hardly moved against each other: each point is a material
-// point of either body, the normal turns with the features that define it. The axis is not proved to be the best still;
-// that is what is saved, and why it is off by default (DetectionSettings::reuse_motion).
+// A pair's contact points held on to while its bodies have hardly moved against each other: each
+// point is a material point of either body, the normal turns with the features that define it. The
+// axis is not proved to be the best still; that is what is saved, and why it is off by default
+// (DetectionSettings::reuse_motion).
 
 #include <array>
 #include <span>
@@ -15,16 +16,18 @@ class HeldManifold {
   static constexpr int most_points = 4;  ///< manifolds with more are not held
 
   /// Takes the points that the pair's axis gave: all those with gap <= reach [m].
-  void hold(const ShapePair& pair, const SeparatingAxis& axis, std::span<const ManifoldPoint> points, double reach);
+  void hold(const ShapePair& pair, const SeparatingAxis& axis,
+            std::span<const ManifoldPoint> points, double reach);
   void drop() { count_ = 0; }
 
-  /// True if no point of b (distances from its origin up to `radius`), seen from a, has moved so far since hold() that
-  /// a point left out then could have a gap <= alert now [m].
+  /// True if no point of b (distances from its origin up to `radius`), seen from a, has moved so
+  /// far since hold() that a point left out then could have a gap <= alert now [m].
   bool is_valid(const RelativePose& b_in_a, double radius, double alert) const;
 
-  /// The points with gap <= alert at this relative pose, in a's frame, and their normal from a to b. Gaps are exact
-  /// where a vertex meets a face or two edges cross; corners of the common part of two faces are taken for points of
-  /// both bodies, which errs by what the bodies have slid times the angle between the faces.
+  /// The points with gap <= alert at this relative pose, in a's frame, and their normal from a to
+  /// b. Gaps are exact where a vertex meets a face or two edges cross; corners of the common part
+  /// of two faces are taken for points of both bodies, which errs by what the bodies have slid
+  /// times the angle between the faces.
   std::span<const ManifoldPoint> points(const RelativePose& b_in_a, double alert, Vec3& normal,
                                         std::array<ManifoldPoint, most_points>& storage) const;
 
@@ -37,7 +40,8 @@ class HeldManifold {
   int count_ = 0;
   double reach_ = 0.0;
   RelativePose b_in_a_;  ///< when the points were taken
-  Vec3 first_, second_;  ///< the face's normal from a to b in its body's frame; or the edges, cross product from a to b
+  Vec3 first_, second_;  ///< the face's normal from a to b in its body's frame; or the edges, cross
+                         ///< product from a to b
   std::array<Point, most_points> points_;
 };
 

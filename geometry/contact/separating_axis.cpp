@@ -30,8 +30,8 @@ Lowest lowest(const double* values, int padded) {
   return result;
 }
 
-/// Cross product of two edges, freed of its components along them: of nearly parallel edges these are all its error
-/// that matters, as the edges are long in that direction.
+/// Cross product of two edges, freed of its components along them: of nearly parallel edges these
+/// are all its error that matters, as the edges are long in that direction.
 Vec3 refined_cross(const Vec3& u, const Vec3& v) {
   Vec3 n = u.cross(v);
   n -= u * (n.dot(u) / u.squaredNorm());
@@ -41,8 +41,10 @@ Vec3 refined_cross(const Vec3& u, const Vec3& v) {
 
 }  // namespace
 
-SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature, const CollisionShape::Face& face,
-                         std::span<const CollisionShape::Side> sides, const Vec3& vertex, double separation) {
+SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature,
+                         const CollisionShape::Face& face,
+                         std::span<const CollisionShape::Side> sides, const Vec3& vertex,
+                         double separation) {
   const int own = feature.kind == AxisKind::face_of_a ? 0 : 1;
   SeparatingAxis axis;
   axis.feature = feature;
@@ -55,8 +57,9 @@ SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature, cons
   return axis;
 }
 
-SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature, const CollisionShape::Edge& a,
-                         const CollisionShape::Edge& b, const EdgeSeparation& found) {
+SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
+                         const CollisionShape::Edge& a, const CollisionShape::Edge& b,
+                         const EdgeSeparation& found) {
   SeparatingAxis axis;
   axis.feature = feature;
   axis.normal = found.normal;
@@ -64,7 +67,8 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature, cons
   const Vec3 between = pair.other[0] * b.from - a.from;
   axis.at_a = between.cross(found.along_b).dot(found.normal) / found.cross;
   axis.at_b = between.cross(a.along).dot(found.normal) / found.cross;
-  // the facet is the parallelogram of the two edges: distances to its sides are lengths times the sine
+  // the facet is the parallelogram of the two edges: distances to its sides are lengths times the
+  // sine
   const double cross = std::abs(found.cross);
   axis.inside = cross * std::min(std::min(axis.at_a, 1.0 - axis.at_a) / b.length,
                                  std::min(axis.at_b, 1.0 - axis.at_b) / a.length);
@@ -84,12 +88,14 @@ std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape:
                                     const CollisionShape::Edge& b) {
   const RelativePose& b_in_a = pair.other[0];
   const Vec3 along_a = a.along, along_b = b_in_a.rotation * b.along;
-  // The arc left -> right of an edge turns around `along`. The arc of a and the reversed arc of b cross where both are
-  // perpendicular to both edges: each edge must separate the ends of the other's arc, on the same half of the sphere.
+  // The arc left -> right of an edge turns around `along`. The arc of a and the reversed arc of b
+  // cross where both are perpendicular to both edges: each edge must separate the ends of the
+  // other's arc, on the same half of the sphere.
   const double left_a = a.left_normal.dot(along_b), right_a = a.right_normal.dot(along_b);
   if (!(left_a * right_a < 0.0)) return std::nullopt;
   const Vec3 along_a_in_b = pair.other[1].rotation * along_a;
-  const double left_b = -b.left_normal.dot(along_a_in_b), right_b = -b.right_normal.dot(along_a_in_b);
+  const double left_b = -b.left_normal.dot(along_a_in_b),
+               right_b = -b.right_normal.dot(along_a_in_b);
   if (!(left_b * right_b < 0.0) || !(left_a * right_b > 0.0)) return std::nullopt;
 
   EdgeFacet facet;
@@ -97,7 +103,8 @@ std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape:
   facet.weight_a = std::min(std::abs(left_a), std::abs(right_a));
   facet.weight_b = std::min(std::abs(left_b), std::abs(right_b));
   const Vec3 cross = along_a.cross(along_b);
-  const double sign = left_a > 0.0 ? 1.0 : -1.0, length = cross.norm(), sine = length / (a.length * b.length);
+  const double sign = left_a > 0.0 ? 1.0 : -1.0, length = cross.norm(),
+               sine = length / (a.length * b.length);
   if (sine < kParallelSine) return std::nullopt;
   facet.cross = sign * length;
   facet.nearly_parallel = !(sine > 1e-3);
@@ -107,7 +114,8 @@ std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape:
   return facet;
 }
 
-std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb, Heights& heights) {
+std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb,
+                                              Heights& heights) {
   const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
   const CollisionShape::Edge &edge_a = a.edges()[ea], &edge_b = b.edges()[eb];
   std::optional<EdgeFacet> facet = edge_facet(pair, edge_a, edge_b);
@@ -118,24 +126,28 @@ std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int
   a.vertices().evaluate(-facet->normal, heights.data());
   const double top_a = -lowest(heights.data(), a.vertices().padded()).value;
   b.vertices().evaluate(pair.other[1].rotation * facet->normal, heights.data());
-  const double bottom_b =
-      lowest(heights.data(), b.vertices().padded()).value + facet->normal.dot(pair.other[0].position);
+  const double bottom_b = lowest(heights.data(), b.vertices().padded()).value +
+                          facet->normal.dot(pair.other[0].position);
   facet->separation = bottom_b - top_a;
   return facet;
 }
 
-std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights) {
+std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature,
+                                            Heights& heights) {
   if (feature.kind == AxisKind::none) return std::nullopt;
   if (feature.kind == AxisKind::edges) {
-    const std::optional<EdgeSeparation> found = edge_separation(pair, feature.a, feature.b, heights);
+    const std::optional<EdgeSeparation> found =
+        edge_separation(pair, feature.a, feature.b, heights);
     if (!found) return std::nullopt;
-    return edge_axis(pair, feature, pair.shape[0]->edges()[feature.a], pair.shape[1]->edges()[feature.b], *found);
+    return edge_axis(pair, feature, pair.shape[0]->edges()[feature.a],
+                     pair.shape[1]->edges()[feature.b], *found);
   }
   const int own = feature.kind == AxisKind::face_of_a ? 0 : 1;
   const int f = own == 0 ? feature.a : feature.b;
   const FaceSeparation found = face_separation(pair, own, f, heights);
-  SeparatingAxis axis = face_axis(pair, feature, pair.shape[own]->face(f), pair.shape[own]->sides(f),
-                                  pair.shape[1 - own]->vertices().xyz(found.support), found.separation);
+  SeparatingAxis axis =
+      face_axis(pair, feature, pair.shape[own]->face(f), pair.shape[own]->sides(f),
+                pair.shape[1 - own]->vertices().xyz(found.support), found.separation);
   axis.support = found.support;
   axis.clearance = found.clearance;
   return axis;
@@ -147,17 +159,20 @@ double face_isolation(const ShapePair& pair, const AxisFeature& feature) {
   return 1.0;
 }
 
-/// Let n0 be the axis, s0 its separation, and n = n0 cos t + e sin t another unit vector, e perpendicular to n0. The
-/// facet's corners x_i lie in n0.x = s0, and around the origin's projection out to r = `inside` at least, so some
-/// corner has e.x_i <= -r, and s(n) <= min_i n.x_i <= s0 cos t - r sin t. That is below s0 - margin where
+/// Let n0 be the axis, s0 its separation, and n = n0 cos t + e sin t another unit vector, e
+/// perpendicular to n0. The facet's corners x_i lie in n0.x = s0, and around the origin's
+/// projection out to r = `inside` at least, so some corner has e.x_i <= -r, and s(n) <= min_i n.x_i
+/// <= s0 cos t - r sin t. That is below s0 - margin where
 ///     f(t) = r sin t + s0 (1 - cos t) - margin > 0,
-/// and as f > 0 is an interval of t, two ends prove all between. The lower end: within `isolation` of n0 the supports
-/// are only the facet's own vertices, so there is no other facet. The upper end: both bodies contain balls, so with c
-/// the ball centres' difference s(n) <= n.c - r_a - r_b, and n must lie in a cap around c.
+/// and as f > 0 is an interval of t, two ends prove all between. The lower end: within `isolation`
+/// of n0 the supports are only the facet's own vertices, so there is no other facet. The upper end:
+/// both bodies contain balls, so with c the ball centres' difference s(n) <= n.c - r_a - r_b, and n
+/// must lie in a cap around c.
 bool is_proved_best(const PairFrame& pair, double face_isolation, const SeparatingAxis& axis) {
   constexpr double isolation = 1e-8;  // [rad]
   const double size = pair.size();
-  const double margin = proof_margin(pair) + pair.bounds[0]->unevenness + pair.bounds[1]->unevenness;
+  const double margin =
+      proof_margin(pair) + pair.bounds[0]->unevenness + pair.bounds[1]->unevenness;
   const double s0 = axis.separation, r = axis.inside;
   if (!(axis.clearance > 4.0 * size * isolation)) return false;
   if (face_isolation < 2.0 * isolation) return false;

@@ -1,11 +1,12 @@
 #pragma once
 // Signed separation of two convex polyhedra along the facets of their Minkowski difference B - A.
 //
-// For a unit vector n let s(n) = min_B n.x - max_A n.x be the gap along n. The separation is the largest s over the
-// facets of B - A, whose normals are A's face normals, B's face normals reversed, and cross products of an edge of A
-// and an edge of B whose arcs on the Gauss sphere cross. Of an overlapping pair it is minus the penetration depth, the
-// largest s(n) of all n; of a pair apart it is positive, and the distance when the nearest points lie inside the
-// facet's two features.
+// For a unit vector n let s(n) = min_B n.x - max_A n.x be the gap along n. The separation is the
+// largest s over the facets of B - A, whose normals are A's face normals, B's face normals
+// reversed, and cross products of an edge of A and an edge of B whose arcs on the Gauss sphere
+// cross. Of an overlapping pair it is minus the penetration depth, the largest s(n) of all n; of a
+// pair apart it is positive, and the distance when the nearest points lie inside the facet's two
+// features.
 
 #include <cstdint>
 #include <optional>
@@ -19,7 +20,9 @@ struct RelativePose {
   Mat3 rotation;
   Vec3 position;
   Vec3 operator*(const Vec3& p) const { return position + rotation * p; }
-  RelativePose inverse() const { return {rotation.transpose(), -(rotation.transpose() * position)}; }
+  RelativePose inverse() const {
+    return {rotation.transpose(), -(rotation.transpose() * position)};
+  }
 };
 
 /// Where two bodies are and how large; index 0 is a, 1 is b.
@@ -42,7 +45,8 @@ struct ShapePair : PairFrame {
 
 enum class AxisKind : std::uint8_t { none, face_of_a, face_of_b, edges };
 
-/// A facet of the Minkowski difference: a face of one body (the other index is -1) or an edge of each.
+/// A facet of the Minkowski difference: a face of one body (the other index is -1) or an edge of
+/// each.
 struct AxisFeature {
   AxisKind kind = AxisKind::none;
   int a = -1, b = -1;
@@ -53,22 +57,26 @@ struct SeparatingAxis {
   AxisFeature feature;
   Vec3 normal;        ///< unit, in a's frame, from a to b
   double separation;  ///< [m]
-  int support = -1;   ///< of a face: the other body's vertex nearest to its plane (smallest index among equals)
-  double at_a = 0.0, at_b = 0.0;  ///< of two edges: closest points of their lines, from the tails in edge lengths
-  double inside;  ///< how far inside the facet the origin projects [m]: of a face, where the support vertex projects;
-                  ///< of two edges, where the lines' closest points lie; negative outside
-  double clearance;  ///< how much farther off than the touching vertex or edge all other vertices are [m]; of two
-                     ///< edges a lower bound
+  int support = -1;   ///< of a face: the other body's vertex nearest to its plane (smallest index
+                      ///< among equals)
+  double at_a = 0.0,
+         at_b =
+             0.0;  ///< of two edges: closest points of their lines, from the tails in edge lengths
+  double inside;   ///< how far inside the facet the origin projects [m]: of a face, where the
+                   ///< support vertex projects; of two edges, where the lines' closest points lie;
+                   ///< negative outside
+  double clearance;  ///< how much farther off than the touching vertex or edge all other vertices
+                     ///< are [m]; of two edges a lower bound
 };
 
-/// Axes whose separations differ by less than this are equal, and a rule chooses: faces before edges, a's before b's,
-/// the smaller index. Rounding is a hundred times less.
+/// Axes whose separations differ by less than this are equal, and a rule chooses: faces before
+/// edges, a's before b's, the smaller index. Rounding is a hundred times less.
 inline double tie_tolerance(const PairFrame& pair) { return 1e-13 * pair.size(); }
 /// Margin of every proof that an axis is not the best: above tie_tolerance by more than rounding.
 inline double proof_margin(const PairFrame& pair) { return 4e-13 * pair.size(); }
 
-/// Edges with a smaller sine of the angle between them count as parallel: their cross product is mostly rounding. The
-/// facet left out is a sliver of this width relative to the edge.
+/// Edges with a smaller sine of the angle between them count as parallel: their cross product is
+/// mostly rounding. The facet left out is a sliver of this width relative to the edge.
 constexpr double kParallelSine = 1e-7;
 
 /// Scratch: one double per padded vertex of the largest shape.
@@ -88,45 +96,57 @@ struct EdgeSeparation {
   Vec3 along_b;  ///< b's edge in a's frame
   double cross;  ///< along_a x along_b = cross * normal
   double weight_a,
-      weight_b;  ///< for CollisionShape::Edge::drop: the smaller |normal of a face beside the edge . other edge|
+      weight_b;  ///< for CollisionShape::Edge::drop: the smaller |normal of a face beside the edge
+                 ///< . other edge|
 };
-/// Separation along the facet of edges ea of a and eb of b; nothing if they do not form one, or count as parallel.
-std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb, Heights& heights);
+/// Separation along the facet of edges ea of a and eb of b; nothing if they do not form one, or
+/// count as parallel.
+std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb,
+                                              Heights& heights);
 
-/// All that is known of one axis; nothing if the feature is none or (any more) no facet. A pure function of the pair.
-std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature, Heights& heights);
+/// All that is known of one axis; nothing if the feature is none or (any more) no facet. A pure
+/// function of the pair.
+std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature,
+                                            Heights& heights);
 
 /// Smallest angle between the feature's face and any other of its body [rad]; 1 for two edges.
 double face_isolation(const ShapePair& pair, const AxisFeature& feature);
 
-/// True if it is proved that every other facet's separation is smaller by more than proof_margin. Sufficient, not
-/// necessary; what fails are near-ties and axes whose `inside` is not well above zero. A lower bound of the axis'
-/// clearance proves no more than the clearance does.
+/// True if it is proved that every other facet's separation is smaller by more than proof_margin.
+/// Sufficient, not necessary; what fails are near-ties and axes whose `inside` is not well above
+/// zero. A lower bound of the axis' clearance proves no more than the clearance does.
 bool is_proved_best(const PairFrame& pair, double face_isolation, const SeparatingAxis& axis);
 
-// The same axes from the features' records alone, to the same bits: what is remembered of a pair that touches needs no
-// more.
+// The same axes from the features' records alone, to the same bits: what is remembered of a pair
+// that touches needs no more.
 
-/// The facet of two edges, or nothing. Of nearly parallel ones normal and separation are left out: their shapes decide.
+/// The facet of two edges, or nothing. Of nearly parallel ones normal and separation are left out:
+/// their shapes decide.
 struct EdgeFacet : EdgeSeparation {
   bool nearly_parallel = false;
 };
 std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape::Edge& a,
                                     const CollisionShape::Edge& b);
-SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature, const CollisionShape::Edge& a,
-                         const CollisionShape::Edge& b, const EdgeSeparation& found);
+SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
+                         const CollisionShape::Edge& a, const CollisionShape::Edge& b,
+                         const EdgeSeparation& found);
 
-/// A vertex's height along direction d from the origin of its frame, as in a sweep over all vertices.
+/// A vertex's height along direction d from the origin of its frame, as in a sweep over all
+/// vertices.
 inline double vertex_height(const Vec3& d, const Vec3& vertex) {
   return ((d.x() * vertex.x() + d.y() * vertex.y()) + d.z() * vertex.z()) + 0.0;
 }
-/// Of a face of body `own`; `height`: of the other body's lowest vertex, vertex_height along the face's normal.
-inline double face_separation_at(const PairFrame& pair, int own, const CollisionShape::Face& face, double height) {
+/// Of a face of body `own`; `height`: of the other body's lowest vertex, vertex_height along the
+/// face's normal.
+inline double face_separation_at(const PairFrame& pair, int own, const CollisionShape::Face& face,
+                                 double height) {
   return height + (face.normal.dot(pair.other[own].position) - face.offset);
 }
-/// Support and clearance are left to who knows them. `vertex`: the other body's lowest above the face, in its own
-/// frame.
-SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature, const CollisionShape::Face& face,
-                         std::span<const CollisionShape::Side> sides, const Vec3& vertex, double separation);
+/// Support and clearance are left to who knows them. `vertex`: the other body's lowest above the
+/// face, in its own frame.
+SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature,
+                         const CollisionShape::Face& face,
+                         std::span<const CollisionShape::Side> sides, const Vec3& vertex,
+                         double separation);
 
 }  // namespace ballast

@@ -10,7 +10,8 @@
 
 namespace ballast {
 
-/// One table per distinct polyhedron, in the order of first use; `index[i]`: that of body i, -1 for planes.
+/// One table per distinct polyhedron, in the order of first use; `index[i]`: that of body i, -1 for
+/// planes.
 struct ShapeTables {
   explicit ShapeTables(std::span<const ContactShape> bodies) {
     std::vector<const Polyhedron*> polyhedra;
@@ -25,7 +26,8 @@ struct ShapeTables {
     for (const ContactShape& body : bodies) {
       index.push_back(-1);
       if (!body.polyhedron) continue;
-      int& table = table_of[std::lower_bound(distinct.begin(), distinct.end(), body.polyhedron) - distinct.begin()];
+      int& table = table_of[std::lower_bound(distinct.begin(), distinct.end(), body.polyhedron) -
+                            distinct.begin()];
       if (table < 0) {
         table = static_cast<int>(tables.size());
         tables.emplace_back(*body.polyhedron);

@@ -27,7 +27,8 @@ void TouchingPair::record(const ShapePair& pair, const SeparatingAxis& axis, dou
   contact_ = std::monostate{};
   feature_ = axis.feature;
   if (feature_.kind == AxisKind::edges) {
-    const CollisionShape::Edge &a = pair.shape[0]->edges()[feature_.a], &b = pair.shape[1]->edges()[feature_.b];
+    const CollisionShape::Edge &a = pair.shape[0]->edges()[feature_.a],
+                               &b = pair.shape[1]->edges()[feature_.b];
     const EdgeCrossing edges(pair, axis, a, b);
     contact_ = EdgeAcrossEdge{a, b, beside(*pair.shape[0], edges.face_a, feature_.a),
                               beside(*pair.shape[1], edges.face_b, feature_.b)};
@@ -47,23 +48,28 @@ void TouchingPair::record(const ShapePair& pair, const SeparatingAxis& axis, dou
   contact_ = contact;
 }
 
-TouchingPair::Look TouchingPair::look(const PairFrame& pair, double turn, double alert, SeparatingAxis& axis,
-                                      ManifoldPoint& point) const {
+TouchingPair::Look TouchingPair::look(const PairFrame& pair, double turn, double alert,
+                                      SeparatingAxis& axis, ManifoldPoint& point) const {
   if (const auto* vertex = std::get_if<VertexOnFace>(&contact_))
     return look_at(*vertex, pair, turn, alert, axis, point);
-  if (const auto* edges = std::get_if<EdgeAcrossEdge>(&contact_)) return look_at(*edges, pair, alert, axis, point);
+  if (const auto* edges = std::get_if<EdgeAcrossEdge>(&contact_))
+    return look_at(*edges, pair, alert, axis, point);
   return Look::undecided;
 }
 
-TouchingPair::Look TouchingPair::look_at(const VertexOnFace& contact, const PairFrame& pair, double turn, double alert,
-                                         SeparatingAxis& axis, ManifoldPoint& point) const {
+TouchingPair::Look TouchingPair::look_at(const VertexOnFace& contact, const PairFrame& pair,
+                                         double turn, double alert, SeparatingAxis& axis,
+                                         ManifoldPoint& point) const {
   const int own = feature_.kind == AxisKind::face_of_a ? 0 : 1;
   // 1e-9: far above the rounding of sums of turns over 1e7 steps
   const double diameter = 2.0 * pair.bounds[1 - own]->circumradius;
-  const double clearance = contact.clearance - diameter * (turn - contact.turn + 1e-9 * (1.0 + turn));
-  if (!(clearance > proof_margin(pair))) return Look::undecided;  // another vertex may be the lowest
+  const double clearance =
+      contact.clearance - diameter * (turn - contact.turn + 1e-9 * (1.0 + turn));
+  if (!(clearance > proof_margin(pair)))
+    return Look::undecided;  // another vertex may be the lowest
   const Vec3 direction = pair.other[1 - own].rotation * contact.face.normal;
-  const double separation = face_separation_at(pair, own, contact.face, vertex_height(direction, contact.vertex));
+  const double separation =
+      face_separation_at(pair, own, contact.face, vertex_height(direction, contact.vertex));
   axis.separation = separation;
   if (separation > alert) return Look::apart;
   const std::span<const CollisionShape::Side> sides(contact.sides.data(),
@@ -71,13 +77,15 @@ TouchingPair::Look TouchingPair::look_at(const VertexOnFace& contact, const Pair
   axis = face_axis(pair, feature_, contact.face, sides, contact.vertex, separation);
   axis.support = contact.support;
   axis.clearance = clearance;
-  if (!is_lone_vertex(pair, axis, alert) || !is_proved_best(pair, contact.face.isolation, axis)) return Look::undecided;
+  if (!is_lone_vertex(pair, axis, alert) || !is_proved_best(pair, contact.face.isolation, axis))
+    return Look::undecided;
   point = lone_vertex(pair, axis, contact.face, contact.vertex);
   return Look::touching;
 }
 
-TouchingPair::Look TouchingPair::look_at(const EdgeAcrossEdge& contact, const PairFrame& pair, double alert,
-                                         SeparatingAxis& axis, ManifoldPoint& point) const {
+TouchingPair::Look TouchingPair::look_at(const EdgeAcrossEdge& contact, const PairFrame& pair,
+                                         double alert, SeparatingAxis& axis,
+                                         ManifoldPoint& point) const {
   const std::optional<EdgeFacet> facet = edge_facet(pair, contact.a, contact.b);
   if (!facet || facet->nearly_parallel) return Look::undecided;
   axis.separation = facet->separation;
@@ -85,9 +93,10 @@ TouchingPair::Look TouchingPair::look_at(const EdgeAcrossEdge& contact, const Pa
   axis = edge_axis(pair, feature_, contact.a, contact.b, *facet);
   const EdgeCrossing edges(pair, axis, contact.a, contact.b);
   const bool known = edges.face_a == contact.beside_a.face && edges.face_b == contact.beside_b.face;
-  const bool lone = edges.is_sharp() ||
-                    (known && edges.rises_out_of_reach(pair, axis, contact.a, contact.b, sides_of(contact.beside_a),
-                                                       sides_of(contact.beside_b), alert));
+  const bool lone =
+      edges.is_sharp() || (known && edges.rises_out_of_reach(pair, axis, contact.a, contact.b,
+                                                             sides_of(contact.beside_a),
+                                                             sides_of(contact.beside_b), alert));
   if (!lone || !is_proved_best(pair, 1.0, axis)) return Look::undecided;
   point = crossing_point(pair, axis, contact.a, contact.b);
   return Look::touching;

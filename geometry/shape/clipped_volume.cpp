@@ -6,25 +6,30 @@ namespace ballast {
 
 namespace {
 
-/// Six times the volume between the origin and a flat polygon, positive when it is counter-clockwise seen from beyond.
+/// Six times the volume between the origin and a flat polygon, positive when it is
+/// counter-clockwise seen from beyond.
 double sixfold_cone(std::span<const Vec3> polygon) {
   double sum = 0.0;
-  for (size_t k = 2; k < polygon.size(); ++k) sum += polygon[0].dot(polygon[k - 1].cross(polygon[k]));
+  for (size_t k = 2; k < polygon.size(); ++k)
+    sum += polygon[0].dot(polygon[k - 1].cross(polygon[k]));
   return sum;
 }
 
 }  // namespace
 
-double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const Vec3& lo, const Vec3& hi,
-                          double full_volume) {
+double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const Vec3& lo,
+                          const Vec3& hi, double full_volume) {
   const Vec3 radius = Vec3::Constant(polyhedron.circumradius());
   const Vec3 sphere_lo = pose.position - radius, sphere_hi = pose.position + radius;
-  if ((sphere_lo.array() >= hi.array()).any() || (sphere_hi.array() <= lo.array()).any()) return 0.0;
-  if ((sphere_lo.array() >= lo.array()).all() && (sphere_hi.array() <= hi.array()).all()) return full_volume;
+  if ((sphere_lo.array() >= hi.array()).any() || (sphere_hi.array() <= lo.array()).any())
+    return 0.0;
+  if ((sphere_lo.array() >= lo.array()).all() && (sphere_hi.array() <= hi.array()).all())
+    return full_volume;
 
   const Mat3 rotation = pose.rotation.toRotationMatrix();
   world_.clear();
-  for (const Vec3& vertex : polyhedron.vertices()) world_.push_back(pose.position + rotation * vertex);
+  for (const Vec3& vertex : polyhedron.vertices())
+    world_.push_back(pose.position + rotation * vertex);
   Vec3 low = world_[0], high = world_[0];
   for (const Vec3& point : world_) {
     low = low.cwiseMin(point);
@@ -32,7 +37,8 @@ double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const 
   }
   if ((low.array() >= hi.array()).any() || (high.array() <= lo.array()).any()) return 0.0;
 
-  // Directions that both planes cut: inside = (below hi) - (below lo). One bit of `choice` for each of them.
+  // Directions that both planes cut: inside = (below hi) - (below lo). One bit of `choice` for each
+  // of them.
   HalfSpace cuts[3];
   int count = 0, both[3], both_count = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -66,12 +72,14 @@ double BoxClipper::cut_volume(const Polyhedron& polyhedron, Cuts cuts) {
   for (const Vec3& vertex : world_) {
     const Vec3 point = vertex - apex;
     unsigned outside = 0;
-    for (size_t k = 0; k < cuts.size(); ++k) outside |= unsigned{cuts[k].sign * point[cuts[k].axis] > 0.0} << k;
+    for (size_t k = 0; k < cuts.size(); ++k)
+      outside |= unsigned{cuts[k].sign * point[cuts[k].axis] > 0.0} << k;
     points_.push_back(point);
     outside_.push_back(outside);
   }
   double sixfold = 0.0;
-  for (int f = 0; f < polyhedron.face_count(); ++f) sixfold += sixfold_cone(clip_face(polyhedron.face(f), cuts));
+  for (int f = 0; f < polyhedron.face_count(); ++f)
+    sixfold += sixfold_cone(clip_face(polyhedron.face(f), cuts));
   return sixfold / 6.0;
 }
 
@@ -95,7 +103,8 @@ std::span<const Vec3> BoxClipper::clip_face(std::span<const int> loop, Cuts cuts
       if (height_a <= 0.0) next_polygon_.push_back(a);
       if ((height_a < 0.0 && height_b > 0.0) || (height_a > 0.0 && height_b < 0.0)) {
         next_polygon_.push_back(a + height_a / (height_a - height_b) * (b - a));
-        next_polygon_.back()[axis] = 0.0;  // exactly on the plane, so that the cut face adds exactly nothing
+        next_polygon_.back()[axis] =
+            0.0;  // exactly on the plane, so that the cut face adds exactly nothing
       }
     }
     std::swap(polygon_, next_polygon_);

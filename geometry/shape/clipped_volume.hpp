@@ -8,16 +8,20 @@
 
 namespace ballast {
 
-/// Volume of (pose * polyhedron) within [lo, hi]. A workspace: no allocation once its buffers have grown.
+/// Volume of (pose * polyhedron) within [lo, hi]. A workspace: no allocation once its buffers have
+/// grown.
 ///
-/// The divergence theorem about a point o on all the planes that cut (at most one in each direction; a polyhedron that
-/// both planes of a direction cut is taken as a difference of two): the faces that the cut makes pass through o and add
-/// nothing, so that only the old faces, clipped, are summed, and the cut faces are never built.
+/// The divergence theorem about a point o on all the planes that cut (at most one in each
+/// direction; a polyhedron that both planes of a direction cut is taken as a difference of two):
+/// the faces that the cut makes pass through o and add nothing, so that only the old faces,
+/// clipped, are summed, and the cut faces are never built.
 class BoxClipper {
  public:
-  /// `full_volume`: of the whole polyhedron [m^3], returned when the box holds it all. The polyhedron must be bounded
-  /// by its circumradius about its origin, as every Polyhedron is. lo <= hi.
-  double volume(const Polyhedron& polyhedron, const Pose& pose, const Vec3& lo, const Vec3& hi, double full_volume);
+  /// `full_volume`: of the whole polyhedron [m^3], returned when the box holds it all. The
+  /// polyhedron must be bounded by its circumradius about its origin, as every Polyhedron is. lo <=
+  /// hi.
+  double volume(const Polyhedron& polyhedron, const Pose& pose, const Vec3& lo, const Vec3& hi,
+                double full_volume);
 
  private:
   /// The half-space {x : sign (x[axis] - at) <= 0}.

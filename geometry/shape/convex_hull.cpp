@@ -20,12 +20,14 @@ namespace {
 constexpr double kWeld = 1e-9;
 /// Thinner sets are flat: they would not outlive the tolerances that follow.
 constexpr double kFlat = 1e-8;
-/// qhull's own error bound, option 'E': it merges facets that are coplanar within a few of these. A tenth of
-/// Polyhedron's tolerance, as a merged facet is flat only to several of them. The second is for the rare sets whose
-/// detail is of just the first's size, where qhull's merging goes too far or gives up: they are resolved instead.
+/// qhull's own error bound, option 'E': it merges facets that are coplanar within a few of these. A
+/// tenth of Polyhedron's tolerance, as a merged facet is flat only to several of them. The second
+/// is for the rare sets whose detail is of just the first's size, where qhull's merging goes too
+/// far or gives up: they are resolved instead.
 constexpr double kMerge[] = {1e-10, 1e-14};
-/// Corners of faces that rise less than this over the chord of their neighbours are dropped: they would make needles,
-/// whose planes mean nothing. Above Polyhedron's tolerance of 1e-9 of a size that is at most 2 sqrt(3) half-extents.
+/// Corners of faces that rise less than this over the chord of their neighbours are dropped: they
+/// would make needles, whose planes mean nothing. Above Polyhedron's tolerance of 1e-9 of a size
+/// that is at most 2 sqrt(3) half-extents.
 constexpr double kCorner = 4e-9;
 
 using Loops = std::vector<std::vector<int>>;
@@ -63,8 +65,9 @@ class QhullRun {
     std::ostringstream command;
     command << "qhull Pp E" << merge;  // Pp: no warnings about precision
     std::string text = command.str();  // qhull wants it writable
-    const int code = qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False,
-                                  text.data(), nullptr, messages_.file());
+    const int code =
+        qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False,
+                     text.data(), nullptr, messages_.file());
     if (code != qh_ERRnone) {
       const std::string reason = messages_.first_line();
       release();
@@ -75,7 +78,8 @@ class QhullRun {
   QhullRun(const QhullRun&) = delete;
   QhullRun& operator=(const QhullRun&) = delete;
 
-  /// Vertex loops of the merged facets, in qhull's order of facets; orientation and starting vertex as they come.
+  /// Vertex loops of the merged facets, in qhull's order of facets; orientation and starting vertex
+  /// as they come.
   Loops loops() {
     Loops result;
     qhT* qh = &qh_;  // the name that qhull's macros expect
@@ -109,7 +113,8 @@ class QhullRun {
       chain.push_back(at);
       const auto next = std::find_if(links.begin(), links.end(), [&](const auto& link) {
         const int previous = chain[chain.size() - 2];
-        return (link.first == at && link.second != previous) || (link.second == at && link.first != previous);
+        return (link.first == at && link.second != previous) ||
+               (link.second == at && link.first != previous);
       });
       if (next == links.end() || chain.size() > links.size()) {
         throw InvalidPolyhedron("a face of the hull is no simple loop");
@@ -123,11 +128,12 @@ class QhullRun {
   qhT qh_;
 };
 
-/// Throws on NaN and on too few points; returns the points moved to their box's centre and scaled to half-extent 1, so
-/// that qhull's tolerances are relative.
+/// Throws on NaN and on too few points; returns the points moved to their box's centre and scaled
+/// to half-extent 1, so that qhull's tolerances are relative.
 std::vector<Vec3> normalised(std::span<const Vec3> points) {
   if (points.size() < 4)
-    throw InvalidPolyhedron("no convex hull: at least 4 points are needed, got " + std::to_string(points.size()));
+    throw InvalidPolyhedron("no convex hull: at least 4 points are needed, got " +
+                            std::to_string(points.size()));
   Vec3 low = points[0], high = points[0];
   for (size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite())
@@ -138,7 +144,8 @@ std::vector<Vec3> normalised(std::span<const Vec3> points) {
   }
   const double half = 0.5 * (high - low).maxCoeff();
   if (!(half > 0.0)) throw InvalidPolyhedron("no convex hull: all points coincide");
-  if (!std::isfinite(half * half * half)) throw InvalidPolyhedron("no convex hull: the volume overflows");
+  if (!std::isfinite(half * half * half))
+    throw InvalidPolyhedron("no convex hull: the volume overflows");
   std::vector<Vec3> scaled;
   for (const Vec3& p : points) scaled.push_back((p - 0.5 * (low + high)) / half);
   return scaled;
@@ -147,30 +154,34 @@ std::vector<Vec3> normalised(std::span<const Vec3> points) {
 /// Throws when the points lie on a line or in a plane: thickness below kFlat.
 void check_spatial(const std::vector<Vec3>& points) {
   const auto farthest = [&](auto distance) {
-    return *std::max_element(points.begin(), points.end(),
-                             [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+    return *std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+      return distance(a) < distance(b);
+    });
   };
   const Vec3 a = farthest([&](const Vec3& p) { return (p - points[0]).norm(); });
   const Vec3 along = (farthest([&](const Vec3& p) { return (p - a).norm(); }) - a).normalized();
   const auto from_line = [&](const Vec3& p) { return (p - a - along * along.dot(p - a)).norm(); };
   const Vec3 c = farthest(from_line);
-  if (!(from_line(c) > kFlat)) throw InvalidPolyhedron("no convex hull: all points lie on one line");
+  if (!(from_line(c) > kFlat))
+    throw InvalidPolyhedron("no convex hull: all points lie on one line");
   const Vec3 normal = along.cross(c - a).normalized();
   const auto from_plane = [&](const Vec3& p) { return std::abs(normal.dot(p - a)); };
   if (!(from_plane(farthest(from_plane)) > kFlat))
     throw InvalidPolyhedron("no convex hull: all points lie in one plane");
 }
 
-/// Ascending indices of the points, without those within kWeld of one that stays (the smaller index stays). A sweep
-/// along a direction in which no usual set has many equal heights.
+/// Ascending indices of the points, without those within kWeld of one that stays (the smaller index
+/// stays). A sweep along a direction in which no usual set has many equal heights.
 std::vector<int> distinct(const std::vector<Vec3>& points) {
   const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
   std::vector<std::pair<double, int>> order;
-  for (size_t i = 0; i < points.size(); ++i) order.emplace_back(direction.dot(points[i]), static_cast<int>(i));
+  for (size_t i = 0; i < points.size(); ++i)
+    order.emplace_back(direction.dot(points[i]), static_cast<int>(i));
   std::sort(order.begin(), order.end());
   std::vector<bool> dropped(points.size(), false);
   for (size_t i = 0; i < order.size(); ++i) {
-    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * kWeld; ++j) {
+    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * kWeld;
+         ++j) {
       const int a = order[i].second, b = order[j].second;
       if ((points[a] - points[b]).norm() <= kWeld) dropped[std::max(a, b)] = true;
     }
@@ -189,8 +200,9 @@ Vec3 area_vector(const std::vector<int>& loop, const std::vector<Vec3>& points) 
   return sum;
 }
 
-/// The flattest corner of each face where it is flatter than kCorner, straight or re-entrant: merging leaves such
-/// behind too. At most one per face and none beside another, as the hull of what stays may well keep the neighbour.
+/// The flattest corner of each face where it is flatter than kCorner, straight or re-entrant:
+/// merging leaves such behind too. At most one per face and none beside another, as the hull of
+/// what stays may well keep the neighbour.
 std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points) {
   std::vector<int> flat;
   const auto listed = [&](int v) { return std::find(flat.begin(), flat.end(), v) != flat.end(); };
@@ -202,7 +214,8 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
     for (size_t k = 0; k < n; ++k) {
       const Vec3 in = points[loop[k]] - points[loop[(k + n - 1) % n]];
       const Vec3 out = points[loop[(k + 1) % n]] - points[loop[k]];
-      const double height = normal.dot(in.cross(out)) / (in + out).norm();  // negative: re-entrant after merging
+      const double height =
+          normal.dot(in.cross(out)) / (in + out).norm();  // negative: re-entrant after merging
       if (height < lowest) {
         lowest = height;
         corner = loop[k];
@@ -213,7 +226,8 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
   return flat;
 }
 
-/// Outward, starting at the smallest index, faces in ascending order: independent of how qhull listed them.
+/// Outward, starting at the smallest index, faces in ascending order: independent of how qhull
+/// listed them.
 void make_canonical(Loops& loops, const std::vector<Vec3>& points) {
   Vec3 inside = Vec3::Zero();
   double count = 0.0;
@@ -223,26 +237,29 @@ void make_canonical(Loops& loops, const std::vector<Vec3>& points) {
   }
   inside /= count;
   for (auto& loop : loops) {
-    if (area_vector(loop, points).dot(points[loop[0]] - inside) < 0.0) std::reverse(loop.begin(), loop.end());
+    if (area_vector(loop, points).dot(points[loop[0]] - inside) < 0.0)
+      std::reverse(loop.begin(), loop.end());
     std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
   }
   std::sort(loops.begin(), loops.end());
 }
 
-/// Faces of the hull as canonical loops of point indices. Each round drops the corners that are too flat and starts
-/// again without them: one round for almost all inputs.
+/// Faces of the hull as canonical loops of point indices. Each round drops the corners that are too
+/// flat and starts again without them: one round for almost all inputs.
 Loops hull_loops(const std::vector<Vec3>& points, double merge) {
   std::vector<int> kept = distinct(points);
   while (kept.size() >= 4) {
     std::vector<double> coordinates;
-    for (const int i : kept) coordinates.insert(coordinates.end(), points[i].begin(), points[i].end());
+    for (const int i : kept)
+      coordinates.insert(coordinates.end(), points[i].begin(), points[i].end());
     Loops loops = QhullRun(coordinates, merge).loops();
     for (auto& loop : loops)
       for (int& v : loop) v = kept[v];
     make_canonical(loops, points);
     const std::vector<int> flat = flat_corners(loops, points);
     if (flat.empty()) return loops;
-    std::erase_if(kept, [&](int i) { return std::find(flat.begin(), flat.end(), i) != flat.end(); });
+    std::erase_if(kept,
+                  [&](int i) { return std::find(flat.begin(), flat.end(), i) != flat.end(); });
   }
   throw InvalidPolyhedron("fewer than 4 distinct corners");
 }
@@ -276,7 +293,8 @@ Polyhedron convex_hull(std::span<const Vec3> points) {
   try {
     return assembled(points, hull_loops(scaled, kMerge[1]));
   } catch (const InvalidPolyhedron& error) {
-    throw InvalidPolyhedron(std::string("no convex hull: the points are almost flat or degenerate: ") + error.what());
+    throw InvalidPolyhedron(
+        std::string("no convex hull: the points are almost flat or degenerate: ") + error.what());
   }
 }
 

@@ -7,10 +7,11 @@
 
 namespace ballast {
 
-/// Hull of the points; coplanar facets (to 1e-10 of the size) are merged into polygons, interior points are dropped,
-/// and so are points that rise less than about 1e-8 of the size over the hull of the others. Vertices keep the order of
-/// the points; faces start at their smallest index and come in ascending order. Throws InvalidPolyhedron on fewer than
-/// four points, NaN, or a flat set; the message names the reason.
+/// Hull of the points; coplanar facets (to 1e-10 of the size) are merged into polygons, interior
+/// points are dropped, and so are points that rise less than about 1e-8 of the size over the hull
+/// of the others. Vertices keep the order of the points; faces start at their smallest index and
+/// come in ascending order. Throws InvalidPolyhedron on fewer than four points, NaN, or a flat set;
+/// the message names the reason.
 Polyhedron convex_hull(std::span<const Vec3> points);
 
 }  // namespace ballast

@@ -14,18 +14,21 @@ namespace ballast {
 namespace {
 
 void check(const GrainShapeSettings& s) {
-  const bool ratios_ok = 0.0 < s.elongation_min && s.elongation_min <= s.elongation_max && s.elongation_max <= 1.0 &&
-                         0.0 < s.flatness_min && s.flatness_min <= s.flatness_max && s.flatness_max <= 1.0 &&
+  const bool ratios_ok = 0.0 < s.elongation_min && s.elongation_min <= s.elongation_max &&
+                         s.elongation_max <= 1.0 && 0.0 < s.flatness_min &&
+                         s.flatness_min <= s.flatness_max && s.flatness_max <= 1.0 &&
                          s.flatness_min <= s.elongation_min;
-  if (!ratios_ok) throw std::invalid_argument("grain shape: need 0 < flatness_min <= elongation_min, min <= max <= 1");
+  if (!ratios_ok)
+    throw std::invalid_argument(
+        "grain shape: need 0 < flatness_min <= elongation_min, min <= max <= 1");
   if (s.min_vertices < 4 || s.max_vertices < s.min_vertices)
     throw std::invalid_argument("grain shape: need 4 <= min_vertices <= max_vertices");
   if (!(s.roughness >= 0.0 && s.roughness < 0.15))  // 6 deviations must leave a positive radius
     throw std::invalid_argument("grain shape: roughness must lie in [0, 0.15)");
 }
 
-/// `count` directions, each the one of six candidates that is farthest from those before it (Mitchell 1991): irregular
-/// but without clusters, as on a crushed stone.
+/// `count` directions, each the one of six candidates that is farthest from those before it
+/// (Mitchell 1991): irregular but without clusters, as on a crushed stone.
 std::vector<Vec3> spread_directions(int count, Random& random) {
   std::vector<Vec3> directions{random.unit_vector()};
   while (static_cast<int>(directions.size()) < count) {
@@ -44,7 +47,8 @@ std::vector<Vec3> spread_directions(int count, Random& random) {
   return directions;
 }
 
-/// One attempt: nothing when the hull has too few or too many vertices, or a face that is no triangle.
+/// One attempt: nothing when the hull has too few or too many vertices, or a face that is no
+/// triangle.
 std::optional<Polyhedron> try_grain(const GrainShapeSettings& s, Random& random) {
   // a few more directions than vertices wanted: some end inside the hull
   const int count = s.min_vertices + random.below(s.max_vertices + 4 - s.min_vertices);
@@ -65,11 +69,13 @@ Polyhedron scaled(const Polyhedron& shape, double factor) {
   std::vector<Vec3> vertices;
   for (const Vec3& p : shape.vertices()) vertices.push_back(factor * p);
   std::vector<std::vector<int>> faces;
-  for (int f = 0; f < shape.face_count(); ++f) faces.emplace_back(shape.face(f).begin(), shape.face(f).end());
+  for (int f = 0; f < shape.face_count(); ++f)
+    faces.emplace_back(shape.face(f).begin(), shape.face(f).end());
   return Polyhedron(std::move(vertices), faces);
 }
 
-/// Numbers per class: whole parts first, the rest to the largest remainders (the earlier class among equals).
+/// Numbers per class: whole parts first, the rest to the largest remainders (the earlier class
+/// among equals).
 std::vector<int> class_counts(int count, const std::vector<SizeClass>& distribution) {
   std::vector<int> counts;
   std::vector<double> remainders;
@@ -80,7 +86,8 @@ std::vector<int> class_counts(int count, const std::vector<SizeClass>& distribut
   }
   std::vector<size_t> order(distribution.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return remainders[a] > remainders[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return remainders[a] > remainders[b]; });
   int missing = count - std::accumulate(counts.begin(), counts.end(), 0);
   for (size_t k = 0; missing > 0; k = (k + 1) % order.size(), --missing) ++counts[order[k]];
   return counts;
@@ -88,11 +95,14 @@ std::vector<int> class_counts(int count, const std::vector<SizeClass>& distribut
 
 }  // namespace
 
-std::vector<SizeClass> paper_size_distribution() { return {{0.025, 0.50}, {0.0375, 0.34}, {0.05, 0.16}}; }
+std::vector<SizeClass> paper_size_distribution() {
+  return {{0.025, 0.50}, {0.0375, 0.34}, {0.05, 0.16}};
+}
 
 PrincipalShape make_grain(const GrainShapeSettings& settings, double radius, std::uint64_t seed) {
   check(settings);
-  if (!(radius > 0.0 && std::isfinite(radius))) throw std::invalid_argument("grain shape: radius must be positive");
+  if (!(radius > 0.0 && std::isfinite(radius)))
+    throw std::invalid_argument("grain shape: radius must be positive");
   Random random(seed);
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const std::optional<Polyhedron> hull = try_grain(settings, random);
@@ -100,7 +110,8 @@ PrincipalShape make_grain(const GrainShapeSettings& settings, double radius, std
     const Polyhedron principal = to_principal_frame(*hull).shape;
     return to_principal_frame(scaled(principal, radius / principal.circumradius()));
   }
-  throw std::runtime_error("grain shape: no hull with the wanted number of vertices in 1000 attempts");
+  throw std::runtime_error(
+      "grain shape: no hull with the wanted number of vertices in 1000 attempts");
 }
 
 Polyhedron make_sphere(double radius, int subdivisions) {
@@ -126,8 +137,8 @@ Polyhedron make_sphere(double radius, int subdivisions) {
 }
 
 std::vector<PrincipalShape> make_grains(int count, const std::vector<SizeClass>& distribution,
-                                        SizeConvention convention, const GrainShapeSettings& settings,
-                                        std::uint64_t seed) {
+                                        SizeConvention convention,
+                                        const GrainShapeSettings& settings, std::uint64_t seed) {
   double sum = 0.0;
   for (const SizeClass& c : distribution) {
     if (!(c.size > 0.0 && c.fraction >= 0.0))
@@ -140,11 +151,13 @@ std::vector<PrincipalShape> make_grains(int count, const std::vector<SizeClass>&
   std::vector<double> radii;
   const std::vector<int> counts = class_counts(count, distribution);
   for (size_t c = 0; c < distribution.size(); ++c) {
-    const double radius = convention == SizeConvention::radius ? distribution[c].size : 0.5 * distribution[c].size;
+    const double radius =
+        convention == SizeConvention::radius ? distribution[c].size : 0.5 * distribution[c].size;
     radii.insert(radii.end(), counts[c], radius);
   }
   Random random(seed);
-  for (int i = count - 1; i > 0; --i) std::swap(radii[i], radii[random.below(i + 1)]);  // Fisher-Yates
+  for (int i = count - 1; i > 0; --i)
+    std::swap(radii[i], radii[random.below(i + 1)]);  // Fisher-Yates
 
   std::vector<PrincipalShape> grains;
   for (const double radius : radii) grains.push_back(make_grain(settings, radius, random.next()));

@@ -9,12 +9,14 @@ namespace {
 
 /// Largest off-diagonal entry over the largest entry: 0 when the axes are principal.
 double off_diagonal(const Mat3& inertia) {
-  const double off = std::max({std::abs(inertia(0, 1)), std::abs(inertia(0, 2)), std::abs(inertia(1, 2))});
+  const double off =
+      std::max({std::abs(inertia(0, 1)), std::abs(inertia(0, 2)), std::abs(inertia(1, 2))});
   return off / inertia.diagonal().cwiseAbs().maxCoeff();
 }
 
-/// Columns: principal axes in the frame of `inertia`, moments ascending, right-handed. The sign of each axis is free:
-/// the largest component of the first two is made positive, so that the choice does not depend on the eigensolver.
+/// Columns: principal axes in the frame of `inertia`, moments ascending, right-handed. The sign of
+/// each axis is free: the largest component of the first two is made positive, so that the choice
+/// does not depend on the eigensolver.
 Mat3 principal_axes(const Mat3& inertia) {
   if (off_diagonal(inertia) <= 1e-12) return Mat3::Identity();
   Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvectors();
@@ -33,14 +35,16 @@ Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& 
   std::vector<std::vector<int>> faces;
   for (int f = 0; f < polyhedron.face_count(); ++f)
     faces.emplace_back(polyhedron.face(f).begin(), polyhedron.face(f).end());
-  // twice the constructor's tolerance: a motion adds its rounding to faces that were just flat enough
+  // twice the constructor's tolerance: a motion adds its rounding to faces that were just flat
+  // enough
   return Polyhedron(std::move(vertices), faces, 2e-9);
 }
 
 }  // namespace
 
-/// Tetrahedra from one inner point to a fan of each face; for a tetrahedron (0, a, b, c) with d = det(a, b, c):
-/// volume d/6, first moment d/24 (a+b+c), second moment d/120 (a a' + b b' + c c' + (a+b+c)(a+b+c)').
+/// Tetrahedra from one inner point to a fan of each face; for a tetrahedron (0, a, b, c) with d =
+/// det(a, b, c): volume d/6, first moment d/24 (a+b+c), second moment d/120 (a a' + b b' + c c' +
+/// (a+b+c)(a+b+c)').
 MassProperties mass_properties(const Polyhedron& polyhedron) {
   Vec3 reference = Vec3::Zero();
   for (const Vec3& p : polyhedron.vertices()) reference += p;
@@ -59,7 +63,8 @@ MassProperties mass_properties(const Polyhedron& polyhedron) {
       const Vec3 sum = a + b + c;
       volume += d / 6.0;
       first += d / 24.0 * sum;
-      second += d / 120.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+      second += d / 120.0 *
+                (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
     }
   }
   MassProperties result;
@@ -78,15 +83,18 @@ PrincipalShape to_principal_frame(const Polyhedron& polyhedron) {
   Polyhedron shape = in_frame(polyhedron, axes, origin);
   properties = mass_properties(shape);
 
-  // A mesh far from its origin leaves rounding of its distance behind: one correction, from the now near shape.
-  if (properties.centre.norm() > 1e-15 * shape.circumradius() || off_diagonal(properties.inertia) > 1e-12) {
+  // A mesh far from its origin leaves rounding of its distance behind: one correction, from the now
+  // near shape.
+  if (properties.centre.norm() > 1e-15 * shape.circumradius() ||
+      off_diagonal(properties.inertia) > 1e-12) {
     const Mat3 correction = principal_axes(properties.inertia);
     shape = in_frame(shape, correction, properties.centre);
     origin += axes * properties.centre;
     axes = axes * correction;
     properties = mass_properties(shape);
   }
-  return {std::move(shape), properties.volume, properties.inertia.diagonal(), Pose{origin, Quat(axes).normalized()}};
+  return {std::move(shape), properties.volume, properties.inertia.diagonal(),
+          Pose{origin, Quat(axes).normalized()}};
 }
 
 }  // namespace ballast

@@ -14,7 +14,8 @@ struct MassProperties {
 
 MassProperties mass_properties(const Polyhedron& polyhedron);
 
-/// The same solid moved into its body frame: centre of mass at the origin, principal axes along x, y, z.
+/// The same solid moved into its body frame: centre of mass at the origin, principal axes along x,
+/// y, z.
 struct PrincipalShape {
   Polyhedron shape;  ///< vertices in the body frame
   double volume;     ///< [m^3]
@@ -22,8 +23,8 @@ struct PrincipalShape {
   Pose pose;         ///< body frame in the frame of the polyhedron that was given
 };
 
-/// Axes that are principal already (to 1e-12) are kept as they are, so that a box stays an upright box; otherwise the
-/// rotation is proper, with moments ascending.
+/// Axes that are principal already (to 1e-12) are kept as they are, so that a box stays an upright
+/// box; otherwise the rotation is proper, with moments ascending.
 PrincipalShape to_principal_frame(const Polyhedron& polyhedron);
 
 }  // namespace ballast

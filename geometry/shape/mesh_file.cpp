@@ -17,7 +17,8 @@ namespace {
 using mesh_formats::Place;
 using mesh_formats::RawMesh;
 
-/// Dents and steps up to this part of the size are rounding of the file's numbers (single precision, six digits).
+/// Dents and steps up to this part of the size are rounding of the file's numbers (single
+/// precision, six digits).
 constexpr double kFileTolerance = 1e-6;
 
 enum class Format { obj, stl };
@@ -31,7 +32,8 @@ Format format_of(const std::filesystem::path& file) {
   Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read and written");
 }
 
-[[noreturn]] void fail_errno(const std::filesystem::path& file, const std::string& doing, int code) {
+[[noreturn]] void fail_errno(const std::filesystem::path& file, const std::string& doing,
+                             int code) {
   Place{file}.fail("cannot " + doing + ": " + std::generic_category().message(code));
 }
 
@@ -51,17 +53,20 @@ std::string content_of(const std::filesystem::path& file) {
 }
 
 RawMesh read_raw(const std::filesystem::path& file, double scale) {
-  if (!(scale > 0.0 && std::isfinite(scale))) Place{file}.fail("the scale must be positive and finite");
+  if (!(scale > 0.0 && std::isfinite(scale)))
+    Place{file}.fail("the scale must be positive and finite");
   const Format format = format_of(file);
   const std::string content = content_of(file);
-  RawMesh mesh = format == Format::obj ? mesh_formats::read_obj(file, content) : mesh_formats::read_stl(file, content);
+  RawMesh mesh = format == Format::obj ? mesh_formats::read_obj(file, content)
+                                       : mesh_formats::read_stl(file, content);
   if (mesh.vertices.empty()) Place{file}.fail("the file has no vertices");
   for (Vec3& p : mesh.vertices) p *= scale;
   return mesh;
 }
 
 /// The message of `error` with the line of the face or vertex that it is about.
-[[noreturn]] void fail_at(const std::filesystem::path& file, const RawMesh& mesh, const InvalidPolyhedron& error) {
+[[noreturn]] void fail_at(const std::filesystem::path& file, const RawMesh& mesh,
+                          const InvalidPolyhedron& error) {
   int line = 0;
   std::string counting = " (faces and vertices count from 0)";
   if (error.face >= 0) {
@@ -76,13 +81,15 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
 
 /// Whether two neighbouring faces lie in one plane: contact patches want them as one polygon.
 bool has_coplanar_neighbours(const Polyhedron& polyhedron) {
-  return std::any_of(polyhedron.edges().begin(), polyhedron.edges().end(), [&](const Polyhedron::Edge& edge) {
-    const std::span<const int> loop = polyhedron.face(edge.right);
-    return std::all_of(loop.begin(), loop.end(), [&](int v) {
-      const Vec3 arm = polyhedron.vertex(v) - polyhedron.vertex(edge.tail);
-      return std::abs(polyhedron.normal(edge.left).dot(arm)) <= 1e-9 * polyhedron.circumradius();
-    });
-  });
+  return std::any_of(polyhedron.edges().begin(), polyhedron.edges().end(),
+                     [&](const Polyhedron::Edge& edge) {
+                       const std::span<const int> loop = polyhedron.face(edge.right);
+                       return std::all_of(loop.begin(), loop.end(), [&](int v) {
+                         const Vec3 arm = polyhedron.vertex(v) - polyhedron.vertex(edge.tail);
+                         return std::abs(polyhedron.normal(edge.left).dot(arm)) <=
+                                1e-9 * polyhedron.circumradius();
+                       });
+                     });
 }
 
 }  // namespace
@@ -95,7 +102,8 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
       Polyhedron polyhedron(mesh.vertices, mesh.faces);
       return has_coplanar_neighbours(polyhedron) ? convex_hull(mesh.vertices) : polyhedron;
     } catch (const InvalidPolyhedron&) {
-      const Polyhedron nearly(mesh.vertices, mesh.faces, kFileTolerance);  // throws when the mesh is really broken
+      const Polyhedron nearly(mesh.vertices, mesh.faces,
+                              kFileTolerance);  // throws when the mesh is really broken
       return convex_hull(nearly.vertices());
     }
   } catch (const InvalidPolyhedron& error) {
@@ -114,14 +122,15 @@ Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale) {
 
 void write_mesh(const std::filesystem::path& file, const Polyhedron& polyhedron) {
   const Format format = format_of(file);
-  const std::string text =
-      format == Format::obj ? mesh_formats::obj_text(polyhedron) : mesh_formats::stl_text(polyhedron);
+  const std::string text = format == Format::obj ? mesh_formats::obj_text(polyhedron)
+                                                 : mesh_formats::stl_text(polyhedron);
   const std::filesystem::path beside = file.string() + ".tmp";
   std::FILE* out = std::fopen(beside.c_str(), "wb");
   if (!out) fail_errno(file, "write", errno);
   // a full disk may show only when the last block is flushed or the file is closed
   int code = 0;
-  if (std::fwrite(text.data(), 1, text.size(), out) != text.size() || std::fflush(out) != 0) code = errno;
+  if (std::fwrite(text.data(), 1, text.size(), out) != text.size() || std::fflush(out) != 0)
+    code = errno;
   if (std::fclose(out) != 0 && code == 0) code = errno;
   if (code == 0 && std::rename(beside.c_str(), file.c_str()) != 0) code = errno;
   if (code == 0) return;

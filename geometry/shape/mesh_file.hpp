@@ -4,22 +4,24 @@
 #include <filesystem>
 #include <string>
 
-#include "geometry/shape/polyhedron.hpp"
 #include "geometry/shape/mesh_file_error.hpp"
+#include "geometry/shape/polyhedron.hpp"
 
 namespace ballast {
 
-/// Reads a closed convex polyhedron; the format follows the suffix (.obj, .stl). `scale` multiplies coordinates (0.001
-/// for millimetres). STL vertices are welded when they agree to 1e-6 of the size. Coplanar neighbours become one
-/// polygon. Dents up to 1e-6 of the size, which single precision and short decimals leave, are closed by taking the
-/// hull; deeper ones are errors. Throws MeshFileError.
+/// Reads a closed convex polyhedron; the format follows the suffix (.obj, .stl). `scale` multiplies
+/// coordinates (0.001 for millimetres). STL vertices are welded when they agree to 1e-6 of the
+/// size. Coplanar neighbours become one polygon. Dents up to 1e-6 of the size, which single
+/// precision and short decimals leave, are closed by taking the hull; deeper ones are errors.
+/// Throws MeshFileError.
 Polyhedron read_mesh(const std::filesystem::path& file, double scale = 1.0);
 
-/// As read_mesh, but takes the convex hull of the vertices instead of insisting on convexity: for scanned grains.
+/// As read_mesh, but takes the convex hull of the vertices instead of insisting on convexity: for
+/// scanned grains.
 Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale = 1.0);
 
-/// Writes .obj (polygons) or .stl (text, triangles) beside the target, then renames; the numbers read back as the same
-/// bits. Throws MeshFileError; the target is then as it was.
+/// Writes .obj (polygons) or .stl (text, triangles) beside the target, then renames; the numbers
+/// read back as the same bits. Throws MeshFileError; the target is then as it was.
 void write_mesh(const std::filesystem::path& file, const Polyhedron& polyhedron);
 
 }  // namespace ballast

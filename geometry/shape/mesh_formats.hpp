@@ -1,5 +1,6 @@
 #pragma once
-// What mesh_file.cpp needs from each format: text in, raw mesh out, and back. Not for use elsewhere.
+// What mesh_file.cpp needs from each format: text in, raw mesh out, and back. Not for use
+// elsewhere.
 
 #include <algorithm>
 #include <charconv>
@@ -14,7 +15,8 @@
 
 namespace ballast::mesh_formats {
 
-/// A mesh as it stands in the file, nothing checked but indices. Lines count from 1; 0 in files without lines.
+/// A mesh as it stands in the file, nothing checked but indices. Lines count from 1; 0 in files
+/// without lines.
 struct RawMesh {
   std::vector<Vec3> vertices;
   std::vector<std::vector<int>> faces;
@@ -27,7 +29,8 @@ struct Place {
   int line = 0;
 
   [[noreturn]] void fail(const std::string& message) const {
-    throw MeshFileError(file.string() + (line > 0 ? ": line " + std::to_string(line) : "") + ": " + message);
+    throw MeshFileError(file.string() + (line > 0 ? ": line " + std::to_string(line) : "") + ": " +
+                        message);
   }
 };
 

@@ -27,8 +27,9 @@ inline Quat rotation_by(const Vec3& phi) {
   return Quat(std::cos(half), s * phi.x(), s * phi.y(), s * phi.z());
 }
 
-/// Moves a pose for `dt` [s] at velocity v_W [m/s] (world frame) and angular velocity w_B [rad/s] (body frame):
-/// the exponential map, then normalised, so that the quaternion's length does not drift.
+/// Moves a pose for `dt` [s] at velocity v_W [m/s] (world frame) and angular velocity w_B [rad/s]
+/// (body frame): the exponential map, then normalised, so that the quaternion's length does not
+/// drift.
 inline Pose moved(const Pose& pose, const Vec3& v_W, const Vec3& w_B, double dt) {
   Pose next;
   next.position = pose.position + dt * v_W;

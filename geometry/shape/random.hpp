@@ -1,6 +1,6 @@
 #pragma once
-// A seeded generator whose numbers are the same on every machine: integer arithmetic, additions and square roots only,
-// where the standard library's distributions and libm's functions may differ.
+// A seeded generator whose numbers are the same on every machine: integer arithmetic, additions and
+// square roots only, where the standard library's distributions and libm's functions may differ.
 
 #include <bit>
 #include <cmath>
@@ -17,7 +17,8 @@ class Random {
     for (std::uint64_t& word : state_) word = splitmix(seed);
   }
 
-  /// Advances `state` and returns the next number of splitmix64; also a good mixer of (seed, index) pairs.
+  /// Advances `state` and returns the next number of splitmix64; also a good mixer of (seed, index)
+  /// pairs.
   static std::uint64_t splitmix(std::uint64_t& state) {
     std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -63,7 +64,8 @@ class Random {
   /// Uniform over rotations (rejection in four dimensions).
   Quat rotation() {
     while (true) {
-      const double w = uniform(-1.0, 1.0), x = uniform(-1.0, 1.0), y = uniform(-1.0, 1.0), z = uniform(-1.0, 1.0);
+      const double w = uniform(-1.0, 1.0), x = uniform(-1.0, 1.0), y = uniform(-1.0, 1.0),
+                   z = uniform(-1.0, 1.0);
       const double length_sq = w * w + x * x + y * y + z * z;
       if (length_sq > 1.0 || length_sq < 1e-6) continue;
       const double length = std::sqrt(length_sq);

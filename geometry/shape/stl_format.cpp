@@ -1,5 +1,5 @@
-// STL: a soup of triangles, as text or binary (80 bytes of header, count, 50 bytes per triangle, little-endian).
-// Normals are passed over: the order of the corners says what is outside.
+// STL: a soup of triangles, as text or binary (80 bytes of header, count, 50 bytes per triangle,
+// little-endian). Normals are passed over: the order of the corners says what is outside.
 
 #include <algorithm>
 #include <bit>
@@ -13,7 +13,8 @@ namespace ballast::mesh_formats {
 
 namespace {
 
-constexpr double kWeld = 1e-6;  // of the largest extent; the corners are single precision in binary files
+constexpr double kWeld =
+    1e-6;  // of the largest extent; the corners are single precision in binary files
 constexpr size_t kHeader = 84, kRecord = 50;
 
 /// Corners of the triangles, three by three, and each triangle's line (0 in binary files).
@@ -36,14 +37,17 @@ Soup read_binary(const std::filesystem::path& file, std::string_view content) {
   const std::uint64_t count = little_endian(content.substr(80));
   if (content.size() != kHeader + kRecord * count)
     place.fail("truncated or no binary STL: " + std::to_string(count) + " triangles take " +
-               std::to_string(kHeader + kRecord * count) + " bytes, the file has " + std::to_string(content.size()));
+               std::to_string(kHeader + kRecord * count) + " bytes, the file has " +
+               std::to_string(content.size()));
   Soup soup;
   for (std::uint64_t t = 0; t < count; ++t) {
     const std::string_view record = content.substr(kHeader + kRecord * t, kRecord);
     for (int k = 0; k < 3; ++k) {
       Vec3 p;  // after the normal's 12 bytes
-      for (int x = 0; x < 3; ++x) p[x] = std::bit_cast<float>(little_endian(record.substr(12 + 12 * k + 4 * x)));
-      if (!p.allFinite()) place.fail("triangle " + std::to_string(t) + " has a coordinate that is not finite");
+      for (int x = 0; x < 3; ++x)
+        p[x] = std::bit_cast<float>(little_endian(record.substr(12 + 12 * k + 4 * x)));
+      if (!p.allFinite())
+        place.fail("triangle " + std::to_string(t) + " has a coordinate that is not finite");
       soup.corners.push_back(p);
     }
     soup.lines.push_back(0);
@@ -51,10 +55,12 @@ Soup read_binary(const std::filesystem::path& file, std::string_view content) {
   return soup;
 }
 
-/// Word after word of a text STL, with the line they stand on; keywords in either case, as found in the wild.
+/// Word after word of a text STL, with the line they stand on; keywords in either case, as found in
+/// the wild.
 class TextReader {
  public:
-  TextReader(const std::filesystem::path& file, std::string_view text) : place_{file, 0}, text_(text) {}
+  TextReader(const std::filesystem::path& file, std::string_view text)
+      : place_{file, 0}, text_(text) {}
 
   std::string_view word() {
     std::string_view found;
@@ -67,15 +73,18 @@ class TextReader {
   void skip_line() { line_ = {}; }  // the name after solid and endsolid is free text
   void expect(std::string_view keyword) {
     const std::string_view found = word();
-    if (found.empty()) place_.fail("the file ends where '" + std::string(keyword) + "' should stand");
-    if (!same(found, keyword)) place_.fail("expected '" + std::string(keyword) + "', found " + quoted(found));
+    if (found.empty())
+      place_.fail("the file ends where '" + std::string(keyword) + "' should stand");
+    if (!same(found, keyword))
+      place_.fail("expected '" + std::string(keyword) + "', found " + quoted(found));
   }
   double coordinate() { return parse_coordinate(word(), place_); }
   const Place& place() const { return place_; }
 
   static bool same(std::string_view word, std::string_view keyword) {
-    return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
-                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+    return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
+      return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+    });
   }
 
  private:
@@ -83,7 +92,8 @@ class TextReader {
   std::string_view text_, line_;
 };
 
-/// After the word "facet". Normals may be anything, even NaN, as some writers have it for thin triangles.
+/// After the word "facet". Normals may be anything, even NaN, as some writers have it for thin
+/// triangles.
 void read_facet(TextReader& reader, Soup& soup) {
   soup.lines.push_back(reader.place().line);
   reader.expect("normal");
@@ -104,9 +114,11 @@ Soup read_text(const std::filesystem::path& file, std::string_view content) {
   Soup soup;
   TextReader reader(file, content);
   for (std::string_view word = reader.word(); !word.empty(); word = reader.word()) {
-    if (!TextReader::same(word, "solid")) reader.place().fail("expected 'solid', found " + quoted(word));
+    if (!TextReader::same(word, "solid"))
+      reader.place().fail("expected 'solid', found " + quoted(word));
     reader.skip_line();
-    for (word = reader.word(); TextReader::same(word, "facet"); word = reader.word()) read_facet(reader, soup);
+    for (word = reader.word(); TextReader::same(word, "facet"); word = reader.word())
+      read_facet(reader, soup);
     if (word.empty()) reader.place().fail("the file ends where 'facet' or 'endsolid' should stand");
     if (!TextReader::same(word, "endsolid"))
       reader.place().fail("expected 'facet' or 'endsolid', found " + quoted(word));
@@ -127,17 +139,20 @@ std::vector<int> first_equals(const std::vector<Vec3>& corners) {
   // sweep along a direction in which no usual mesh has many equal heights
   const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
   std::vector<std::pair<double, int>> order;
-  for (size_t i = 0; i < corners.size(); ++i) order.emplace_back(direction.dot(corners[i] - low), static_cast<int>(i));
+  for (size_t i = 0; i < corners.size(); ++i)
+    order.emplace_back(direction.dot(corners[i] - low), static_cast<int>(i));
   std::sort(order.begin(), order.end());
   std::vector<int> first(corners.size());
   std::iota(first.begin(), first.end(), 0);
   for (size_t i = 0; i < order.size(); ++i) {
-    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * reach; ++j) {
+    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * reach;
+         ++j) {
       const auto [a, b] = std::minmax(order[i].second, order[j].second);
       if ((corners[a] - corners[b]).norm() <= reach) first[b] = std::min(first[b], a);
     }
   }
-  for (size_t i = 0; i < first.size(); ++i) first[i] = first[first[i]];  // smaller ones are resolved already
+  for (size_t i = 0; i < first.size(); ++i)
+    first[i] = first[first[i]];  // smaller ones are resolved already
   return first;
 }
 

@@ -10,9 +10,11 @@
 namespace ballast {
 namespace {
 
-/// Rows of one contact as 3-vector, zero-padded: a one-row contact is a frictionless one without tangential motion.
+/// Rows of one contact as 3-vector, zero-padded: a one-row contact is a frictionless one without
+/// tangential motion.
 Eigen::Vector3d segment(const Eigen::VectorXd& x, int first, int rows) {
-  return rows == 3 ? Eigen::Vector3d(x[first], x[first + 1], x[first + 2]) : Eigen::Vector3d(x[first], 0.0, 0.0);
+  return rows == 3 ? Eigen::Vector3d(x[first], x[first + 1], x[first + 2])
+                   : Eigen::Vector3d(x[first], 0.0, 0.0);
 }
 
 ContactError not_finite() {
@@ -27,14 +29,16 @@ ContactError not_finite() {
 }
 
 /// max |M (v - v_free) - H^T r| with p = H^T r.
-double momentum_residual(const DynamicsForm& dynamics, const Eigen::VectorXd& v, const Eigen::VectorXd& p) {
+double momentum_residual(const DynamicsForm& dynamics, const Eigen::VectorXd& v,
+                         const Eigen::VectorXd& p) {
   double worst = 0.0;
   for (int b = 0; b < dynamics.body_count(); ++b) {
     const int dofs = dynamics.body_dofs(b), first = dynamics.dof_begin[b];
     const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
     for (int i = 0; i < dofs; ++i) {
       double sum = -p[first + i];
-      for (int k = 0; k < dofs; ++k) sum += block[k * dofs + i] * (v[first + k] - dynamics.v_free[first + k]);
+      for (int k = 0; k < dofs; ++k)
+        sum += block[k * dofs + i] * (v[first + k] - dynamics.v_free[first + k]);
       worst = std::max(worst, std::abs(sum));
     }
   }
@@ -43,11 +47,12 @@ double momentum_residual(const DynamicsForm& dynamics, const Eigen::VectorXd& v,
 
 }  // namespace
 
-// Smith 1961: with B = (W - mean I) / spread, spread^2 = |W - mean I|^2 / 6, the eigenvalues of B are 2 cos(...), the
-// largest 1 + 2 s w where s^2 = (1 + det B / 2) / 2 and w in [1/2, 1/sqrt(3)] is the root of w^2 (3 + 2 s w) = 1. That
-// equation is well conditioned for every s in [0, 1]: from a cubic fit (error 6e-5) two Newton steps reach rounding,
-// without an arc cosine. Where the two largest eigenvalues coincide (s = 0) the determinant's own rounding leaves 1e-8,
-// relative: enough for a scale.
+// Smith 1961: with B = (W - mean I) / spread, spread^2 = |W - mean I|^2 / 6, the eigenvalues of B
+// are 2 cos(...), the largest 1 + 2 s w where s^2 = (1 + det B / 2) / 2 and w in [1/2, 1/sqrt(3)]
+// is the root of w^2 (3 + 2 s w) = 1. That equation is well conditioned for every s in [0, 1]: from
+// a cubic fit (error 6e-5) two Newton steps reach rounding, without an arc cosine. Where the two
+// largest eigenvalues coincide (s = 0) the determinant's own rounding leaves 1e-8, relative: enough
+// for a scale.
 double largest_eigenvalue(const Eigen::Matrix3d& block) {
   const double a = block(1, 0), b = block(2, 0), c = block(2, 1);
   const double off = a * a + b * b + c * c;
@@ -59,12 +64,13 @@ double largest_eigenvalue(const Eigen::Matrix3d& block) {
   const double determinant = x * (y * z - c * c) - a * (a * z - c * b) + b * (a * c - y * b);
   const double s = std::sqrt(std::clamp(0.5 + 0.25 * determinant / (square * spread), 0.0, 1.0));
   double w = 0.57729 + s * (-0.10927 + s * (0.04318 - 0.01123 * s));
-  for (int step = 0; step < 2; ++step) w -= (w * w * (3.0 + 2.0 * s * w) - 1.0) / (6.0 * w * (1.0 + s * w));
+  for (int step = 0; step < 2; ++step)
+    w -= (w * w * (3.0 + 2.0 * s * w) - 1.0) / (6.0 * w * (1.0 + s * w));
   return mean + spread * (1.0 + 2.0 * s * w);
 }
 
-void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
-                                             const Impulses& r) {
+void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
+                                             const std::vector<int>& row_begin, const Impulses& r) {
   factor_masses(dynamics, roots_);
   contact_to_body_impulse(dynamics, row_begin, r, hr_);
   v_ = hr_;
@@ -77,12 +83,13 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics, const
 
 void ContactJudge::recompute_contacts(const FrictionProblem& problem, int begin, int end) {
   delassus_diagonal(problem, roots_, begin, end, diagonal_);
-  body_to_contact_velocity(problem.dynamics, problem.row_begin, problem.dynamics.v_free, begin, end, q_);
+  body_to_contact_velocity(problem.dynamics, problem.row_begin, problem.dynamics.v_free, begin, end,
+                           q_);
   body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, begin, end, u_);
 }
 
-ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin,
-                                                 int end) const {
+ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r,
+                                                 int begin, int end) const {
   Share share;
   share.min_normal_velocity = std::numeric_limits<double>::infinity();
   for (int c = begin; c < end; ++c) {
@@ -102,15 +109,17 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
     share.square += natural_map(rc, uc, mu, 1.0).squaredNorm();
     share.cone_violation = std::max(share.cone_violation, (rc - project_cone(rc, mu)).norm());
     share.min_normal_velocity = std::min(share.min_normal_velocity, uc[0]);
-    share.complementarity = std::max(share.complementarity, std::abs(rc.dot(modified_velocity(uc, mu))));
+    share.complementarity =
+        std::max(share.complementarity, std::abs(rc.dot(modified_velocity(uc, mu))));
   }
   return share;
 }
 
 ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses& r) {
   if (r.size() != problem.row_count())
-    throw InvalidProblem("impulses has " + std::to_string(r.size()) + " entries, the contacts have " +
-                         std::to_string(problem.row_count()) + " rows");
+    throw InvalidProblem("impulses has " + std::to_string(r.size()) +
+                         " entries, the contacts have " + std::to_string(problem.row_count()) +
+                         " rows");
   ContactError error;
   const int contacts = problem.contact_count();
   if (problem.has_dynamics) recompute_body_velocities(problem.dynamics, problem.row_begin, r);
@@ -124,7 +133,8 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     free_contact_velocity(problem, q_);
     contact_velocity(problem, r, u_);
   }
-  shares_.resize((contacts + share_contacts - 1) / share_contacts);  // cut in the same places whoever works
+  shares_.resize((contacts + share_contacts - 1) /
+                 share_contacts);  // cut in the same places whoever works
   run_parts(team_, static_cast<int>(shares_.size()), [&](int part) {
     const int begin = part * share_contacts, end = std::min(begin + share_contacts, contacts);
     if (problem.has_dynamics) recompute_contacts(problem, begin, end);
@@ -139,7 +149,8 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     sum += share.scaled_square;
     unscaled_sum += share.square;
     counted += share.counted;
-    if (share.worst_contact >= 0 && (error.worst_contact < 0 || share.worst > error.natural_map_max)) {
+    if (share.worst_contact >= 0 &&
+        (error.worst_contact < 0 || share.worst > error.natural_map_max)) {
       error.natural_map_max = share.worst;
       error.worst_contact = share.worst_contact;
     }

@@ -1,32 +1,36 @@
 #pragma once
-// The one judge: every error figure in the project comes from here, from the returned impulses only.
+// The one judge: every error figure in the project comes from here, from the returned impulses
+// only.
 
+#include "platform/worker_team.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/algebra/mass_root.hpp"
-#include "platform/worker_team.hpp"
 
 namespace ballast {
 
 /// All measures of one answer r, in double, from u = W r + q recomputed.
 struct ContactError {
-  /// |r - P_K(r - rho (u + mu|u_T|n))| / rho with rho = 1 / lambda_max(W_cc): a velocity [m/s]. Root mean square and
-  /// maximum over the contacts; contacts with W_cc = 0 are left out of it.
+  /// |r - P_K(r - rho (u + mu|u_T|n))| / rho with rho = 1 / lambda_max(W_cc): a velocity [m/s].
+  /// Root mean square and maximum over the contacts; contacts with W_cc = 0 are left out of it.
   double natural_map_rms = 0.0;
   double natural_map_max = 0.0;
   int worst_contact = -1;  ///< the contact of natural_map_max; -1 without contacts
 
-  /// What Siconos' fc3d_compute_error prints: natural map with rho = 1 divided by max(|q|, |r|, |u|). Depends on units.
+  /// What Siconos' fc3d_compute_error prints: natural map with rho = 1 divided by max(|q|, |r|,
+  /// |u|). Depends on units.
   double fclib = 0.0;
 
   double cone_violation = 0.0;       ///< max over contacts of |r - P_K(r)| [N s]
   double min_normal_velocity = 0.0;  ///< min u_N [m/s]; >= 0 when nothing sinks in
   double complementarity = 0.0;      ///< max |r . (u + mu|u_T|n)| [J]
-  double power =
-      0.0;  ///< r . (u - bias) summed [J]: of the impulses on the end-of-step velocity; bias = 0 without dynamics
-  double momentum_residual = 0.0;  ///< |M (v - v_free) - H^T r|_inf with v recomputed (dynamics form) [N s]
-  double velocity_scale = 0.0;     ///< |q| rms over rows [m/s]: to quote relative errors of stored problems
-  bool finite = true;              ///< false: r or u holds NaN or infinity; all measures are then infinite
+  double power = 0.0;  ///< r . (u - bias) summed [J]: of the impulses on the end-of-step velocity;
+                       ///< bias = 0 without dynamics
+  double momentum_residual =
+      0.0;  ///< |M (v - v_free) - H^T r|_inf with v recomputed (dynamics form) [N s]
+  double velocity_scale =
+      0.0;             ///< |q| rms over rows [m/s]: to quote relative errors of stored problems
+  bool finite = true;  ///< false: r or u holds NaN or infinity; all measures are then infinite
 };
 
 /// Judges with its own workspace, so that a run can call it every step without allocating.
@@ -34,7 +38,8 @@ class ContactJudge {
  public:
   ContactError judge(const FrictionProblem& problem, const Impulses& r);
 
-  /// v = v_free + M^-1 H^T r of the answer judged last (dynamics form): what the step goes on with. Valid until the next call.
+  /// v = v_free + M^-1 H^T r of the answer judged last (dynamics form): what the step goes on with.
+  /// Valid until the next call.
   const Eigen::VectorXd& body_velocity() const { return v_; }
   /// H^T r of the same.
   const Eigen::VectorXd& body_impulse() const { return hr_; }
@@ -42,9 +47,10 @@ class ContactJudge {
   /// Shares the work from now on; null: alone. The same bits either way. `team` outlives the judge.
   void use_team(WorkerTeam* team) { team_ = team; }
 
-  /// The scaled natural map of one contact [m/s]: the summand of natural_map_rms. `lambda_max` of W_cc, > 0. A one-row
-  /// contact is padded with zeros.
-  static double scaled_natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu, double lambda_max) {
+  /// The scaled natural map of one contact [m/s]: the summand of natural_map_rms. `lambda_max` of
+  /// W_cc, > 0. A one-row contact is padded with zeros.
+  static double scaled_natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu,
+                                   double lambda_max) {
     return natural_map(r, u, mu, 1.0 / lambda_max).norm() * lambda_max;
   }
 
@@ -60,7 +66,8 @@ class ContactJudge {
   /// Contacts of a share: their blocks stay in the first cache between the passes.
   static constexpr int share_contacts = 64;
 
-  void recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r);
+  void recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                                 const Impulses& r);
   void recompute_contacts(const FrictionProblem& problem, int begin, int end);
   Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end) const;
 
@@ -71,7 +78,8 @@ class ContactJudge {
   std::vector<Share> shares_;
 };
 
-/// Largest eigenvalue of a symmetric 3 x 3 block (closed form): 1/rho of the scaled natural map. The one definition.
+/// Largest eigenvalue of a symmetric 3 x 3 block (closed form): 1/rho of the scaled natural map.
+/// The one definition.
 double largest_eigenvalue(const Eigen::Matrix3d& block);
 
 /// Judge once, for tests and tools.

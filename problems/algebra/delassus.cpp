@@ -10,11 +10,13 @@ namespace {
 
 using SideRows = Eigen::Matrix<double, 3, MassRoot::max_dofs>;
 
-/// G = H L^-T for one side of one contact: W = G G^T summed over the sides. Unused rows and columns are zero.
+/// G = H L^-T for one side of one contact: W = G G^T summed over the sides. Unused rows and columns
+/// are zero.
 SideRows mass_scaled_rows(const double* block, int rows, const MassRoot& root) {
   SideRows g = SideRows::Zero();
   if (rows == 3)
-    root.scaled_columns<3>(block, [&](int k, const double* column) { g.col(k) << column[0], column[1], column[2]; });
+    root.scaled_columns<3>(
+        block, [&](int k, const double* column) { g.col(k) << column[0], column[1], column[2]; });
   else
     root.scaled_columns<1>(block, [&](int k, const double* column) { g(0, k) = column[0]; });
   return g;
@@ -81,7 +83,8 @@ SparseRows assemble(const FrictionProblem& problem) {
       const Eigen::Matrix3d block = side.g * other.g.transpose();
       for (int i = 0; i < problem.contact_rows(side.contact); ++i)
         for (int j = 0; j < problem.contact_rows(other.contact); ++j)
-          entries.emplace_back(problem.row_begin[side.contact] + i, problem.row_begin[other.contact] + j, block(i, j));
+          entries.emplace_back(problem.row_begin[side.contact] + i,
+                               problem.row_begin[other.contact] + j, block(i, j));
     }
   }
   SparseRows w(problem.row_count(), problem.row_count());
@@ -106,7 +109,8 @@ void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
   roots.resize(dynamics.body_count());
   for (int b = 0; b < dynamics.body_count(); ++b)
     if (!roots[b].factor(dynamics.mass.data() + dynamics.mass_begin[b], dynamics.body_dofs(b)))
-      throw InvalidProblem("dynamics.mass: the block of body " + std::to_string(b) + " is not positive definite");
+      throw InvalidProblem("dynamics.mass: the block of body " + std::to_string(b) +
+                           " is not positive definite");
 }
 
 void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
@@ -123,8 +127,8 @@ void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& ro
   delassus_diagonal(problem, roots, 0, problem.contact_count(), blocks);
 }
 
-void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int begin, int end,
-                       std::vector<Eigen::Matrix3d>& blocks) {
+void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
+                       int begin, int end, std::vector<Eigen::Matrix3d>& blocks) {
   const DynamicsForm& dynamics = problem.dynamics;
   for (int c = begin; c < end; ++c) {
     const int rows = problem.contact_rows(c);

@@ -14,23 +14,27 @@ void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots);
 /// The diagonal block of contact c in the stored W, as it is; entries beyond its rows are zero.
 Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c);
 
-/// Diagonal blocks W_cc of every contact, as 3 x 3 (a one-row contact uses only entry 0,0; the rest is zero). Of a
-/// stored W the symmetric part: rho and local solves need no more, and a solution does not depend on either.
+/// Diagonal blocks W_cc of every contact, as 3 x 3 (a one-row contact uses only entry 0,0; the rest
+/// is zero). Of a stored W the symmetric part: rho and local solves need no more, and a solution
+/// does not depend on either.
 void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks);
 
-/// The same with the workspace of a caller that comes every step; `roots` holds the factored masses afterwards.
+/// The same with the workspace of a caller that comes every step; `roots` holds the factored masses
+/// afterwards.
 void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
                        std::vector<Eigen::Matrix3d>& blocks);
 
-/// The same for contacts begin <= c < end alone, their masses being factored and `blocks` having its size (dynamics form
-/// only).
-void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int begin, int end,
-                       std::vector<Eigen::Matrix3d>& blocks);
+/// The same for contacts begin <= c < end alone, their masses being factored and `blocks` having
+/// its size (dynamics form only).
+void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
+                       int begin, int end, std::vector<Eigen::Matrix3d>& blocks);
 
-/// The whole operator, assembled block by block from contacts that share a body (or the stored one).
+/// The whole operator, assembled block by block from contacts that share a body (or the stored
+/// one).
 SparseRows delassus_matrix(const FrictionProblem& problem);
 
-/// Adds the Delassus form to a problem that has only the dynamics form. The one conversion in the project.
+/// Adds the Delassus form to a problem that has only the dynamics form. The one conversion in the
+/// project.
 void add_delassus_form(FrictionProblem& problem);
 
 }  // namespace ballast

@@ -1,5 +1,6 @@
 #pragma once
-// Coulomb's cone K_mu = {r : |r_T| <= mu r_N} and its dual K_mu* = {u : u_N >= mu |u_T|}. Normal first.
+// Coulomb's cone K_mu = {r : |r_T| <= mu r_N} and its dual K_mu* = {u : u_N >= mu |u_T|}. Normal
+// first.
 
 #include <cmath>
 
@@ -8,7 +9,9 @@
 namespace ballast {
 
 /// |x_T|
-inline double tangential_norm(const Eigen::Vector3d& x) { return std::sqrt(x[1] * x[1] + x[2] * x[2]); }
+inline double tangential_norm(const Eigen::Vector3d& x) {
+  return std::sqrt(x[1] * x[1] + x[2] * x[2]);
+}
 
 /// Euclidean projection onto K_mu. mu = 0 gives the half-line r_N >= 0.
 inline Eigen::Vector3d project_cone(const Eigen::Vector3d& x, double mu) {
@@ -23,7 +26,8 @@ inline Eigen::Vector3d project_cone(const Eigen::Vector3d& x, double mu) {
 /// Euclidean projection onto K_mu* (Moreau: x = P_K(x) - P_K*(-x)).
 Eigen::Vector3d project_dual_cone(const Eigen::Vector3d& x, double mu);
 
-/// An element of the generalised Jacobian of project_cone at x (exact wherever it is differentiable).
+/// An element of the generalised Jacobian of project_cone at x (exact wherever it is
+/// differentiable).
 Eigen::Matrix3d project_cone_jacobian(const Eigen::Vector3d& x, double mu);
 
 /// u + mu |u_T| n: De Saxce's modified velocity, in K_mu* exactly when Coulomb's law holds with r.
@@ -31,8 +35,10 @@ inline Eigen::Vector3d modified_velocity(const Eigen::Vector3d& u, double mu) {
   return {u[0] + mu * tangential_norm(u), u[1], u[2]};
 }
 
-/// r - P_K(r - rho (u + mu |u_T| n)): zero exactly when (u, r) satisfies Signorini-Coulomb, for every rho > 0 [kg].
-inline Eigen::Vector3d natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu, double rho) {
+/// r - P_K(r - rho (u + mu |u_T| n)): zero exactly when (u, r) satisfies Signorini-Coulomb, for
+/// every rho > 0 [kg].
+inline Eigen::Vector3d natural_map(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu,
+                                   double rho) {
   return r - project_cone(r - rho * modified_velocity(u, mu), mu);
 }
 

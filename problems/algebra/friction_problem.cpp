@@ -7,10 +7,11 @@
 namespace ballast {
 namespace {
 
-/// u += B v for a column-major block of Rows x dofs. The sums are local: the compiler cannot know that u is not part of
-/// B.
+/// u += B v for a column-major block of Rows x dofs. The sums are local: the compiler cannot know
+/// that u is not part of B.
 template <int Rows>
-[[gnu::always_inline]] inline void multiply_add(const double* block, int dofs, const double* v, double* u) {
+[[gnu::always_inline]] inline void multiply_add(const double* block, int dofs, const double* v,
+                                                double* u) {
   double sum[Rows];
   for (int i = 0; i < Rows; ++i) sum[i] = u[i];
   for (int k = 0; k < dofs; ++k)
@@ -20,7 +21,8 @@ template <int Rows>
 
 /// v += B^T r.
 template <int Rows>
-[[gnu::always_inline]] inline void transposed_multiply_add(const double* block, int dofs, const double* r, double* v) {
+[[gnu::always_inline]] inline void transposed_multiply_add(const double* block, int dofs,
+                                                           const double* r, double* v) {
   double weight[Rows];
   for (int i = 0; i < Rows; ++i) weight[i] = r[i];
   for (int k = 0; k < dofs; ++k) {
@@ -30,7 +32,8 @@ template <int Rows>
   }
 }
 
-/// One contact's rows of H v; the six unknowns of a rigid body are known to the compiler, which unrolls.
+/// One contact's rows of H v; the six unknowns of a rigid body are known to the compiler, which
+/// unrolls.
 template <int Rows>
 inline void contact_row_velocity(const DynamicsForm& dynamics, int c, const double* v, double* u) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
@@ -63,8 +66,8 @@ inline void add_contact_impulse(const DynamicsForm& dynamics, int c, const doubl
 
 void require_rows(const char* name, Eigen::Index size, int rows) {
   if (size != rows)
-    throw InvalidProblem(std::string(name) + " has " + std::to_string(size) + " entries, the contacts have " +
-                         std::to_string(rows) + " rows");
+    throw InvalidProblem(std::string(name) + " has " + std::to_string(size) +
+                         " entries, the contacts have " + std::to_string(rows) + " rows");
 }
 
 }  // namespace
@@ -87,8 +90,8 @@ void FrictionProblem::clear() {
   dynamics.clear();
 }
 
-void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
-                              int begin, int end, Eigen::VectorXd& u) {
+void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                              const Eigen::VectorXd& v, int begin, int end, Eigen::VectorXd& u) {
   for (int i = row_begin[begin]; i < row_begin[end]; ++i) u[i] = dynamics.bias[i];
   for (int c = begin; c < end; ++c) {
     double* uc = u.data() + row_begin[c];
@@ -99,14 +102,14 @@ void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<in
   }
 }
 
-void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
-                              Eigen::VectorXd& u) {
+void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                              const Eigen::VectorXd& v, Eigen::VectorXd& u) {
   u.resize(row_begin.back());
   body_to_contact_velocity(dynamics, row_begin, v, 0, static_cast<int>(row_begin.size()) - 1, u);
 }
 
-void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r,
-                             Eigen::VectorXd& p) {
+void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                             const Impulses& r, Eigen::VectorXd& p) {
   p.setZero(dynamics.dof_count());
   const int contacts = static_cast<int>(row_begin.size()) - 1;
   for (int c = 0; c < contacts; ++c) {
@@ -137,15 +140,16 @@ void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::
   }
 }
 
-void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r,
-                   Eigen::VectorXd& v) {
+void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                   const Impulses& r, Eigen::VectorXd& v) {
   require_rows("impulses", r.size(), row_begin.back());
   contact_to_body_impulse(dynamics, row_begin, r, v);
   MassRoot root;
   for (int b = 0; b < dynamics.body_count(); ++b) {
     double* vb = v.data() + dynamics.dof_begin[b];
     if (!root.factor(dynamics.mass.data() + dynamics.mass_begin[b], dynamics.body_dofs(b)))
-      throw InvalidProblem("dynamics.mass: the block of body " + std::to_string(b) + " is not positive definite");
+      throw InvalidProblem("dynamics.mass: the block of body " + std::to_string(b) +
+                           " is not positive definite");
     root.solve_lower(vb);
     root.solve_upper(vb);
   }
@@ -160,7 +164,8 @@ Eigen::SparseMatrix<double> sparse_mass(const DynamicsForm& dynamics) {
     const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
     for (int j = 0; j < dofs; ++j)
       for (int i = 0; i < dofs; ++i)
-        if (i == j || block[j * dofs + i] != 0.0) entries.emplace_back(first + i, first + j, block[j * dofs + i]);
+        if (i == j || block[j * dofs + i] != 0.0)
+          entries.emplace_back(first + i, first + j, block[j * dofs + i]);
   }
   Eigen::SparseMatrix<double> mass(dynamics.dof_count(), dynamics.dof_count());
   mass.setFromTriplets(entries.begin(), entries.end());
@@ -178,7 +183,8 @@ SparseRows sparse_h(const FrictionProblem& problem) {
       const int dofs = dynamics.body_dofs(body);
       for (int k = 0; k < dofs; ++k)
         for (int i = 0; i < rows; ++i)
-          entries.emplace_back(problem.row_begin[c] + i, dynamics.dof_begin[body] + k, block[k * rows + i]);
+          entries.emplace_back(problem.row_begin[c] + i, dynamics.dof_begin[body] + k,
+                               block[k * rows + i]);
       block += rows * dofs;
     }
   }

@@ -1,11 +1,12 @@
 #pragma once
-// The friction problem: what every solver is handed, whether it comes from a time step or from a file.
+// The friction problem: what every solver is handed, whether it comes from a time step or from a
+// file.
 //
 //   M (v - v_free) = H^T r,    u = H v + bias,    W = H M^-1 H^T,    q = H v_free + bias
 //   Coulomb-Signorini:  K_mu ∋ r  ⟂  u + mu |u_T| n  ∈ K_mu*          (De Saxce 1998)
 //
-// Contact frame normal first (N, T1, T2). u: relative velocity of b against a [m/s], r: impulse on b [N s], u_N > 0
-// opens. A contact with friction has three rows, a frictionless one has one.
+// Contact frame normal first (N, T1, T2). u: relative velocity of b against a [m/s], r: impulse on
+// b [N s], u_N > 0 opens. A contact with friction has three rows, a frictionless one has one.
 
 #include <stdexcept>
 #include <vector>
@@ -25,42 +26,50 @@ class InvalidProblem : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The problem as the dynamics gives it: bodies with up to 6 unknowns each, contacts between at most two of them.
+/// The problem as the dynamics gives it: bodies with up to 6 unknowns each, contacts between at
+/// most two of them.
 struct DynamicsForm {
-  /// Bodies. Body b has unknowns dof_begin[b] .. dof_begin[b+1]; only bodies that can move are listed. Size bodies + 1.
+  /// Bodies. Body b has unknowns dof_begin[b] .. dof_begin[b+1]; only bodies that can move are
+  /// listed. Size bodies + 1.
   std::vector<int> dof_begin{0};
-  /// Mass blocks, dense d x d (column-major) per body, one after the other: mass_begin[b] .. . Symmetric positive
-  /// definite [kg, kg m^2].
+  /// Mass blocks, dense d x d (column-major) per body, one after the other: mass_begin[b] .. .
+  /// Symmetric positive definite [kg, kg m^2].
   std::vector<int> mass_begin{0};
   std::vector<double> mass;
 
-  /// Contacts. The two bodies of contact c (-1: nothing that moves); body_a[c] != body_b[c] unless both are -1.
+  /// Contacts. The two bodies of contact c (-1: nothing that moves); body_a[c] != body_b[c] unless
+  /// both are -1.
   std::vector<int> body_a, body_b;
-  /// H by blocks: for contact c, column-major rows x dof(a), then rows x dof(b), from h_begin[c]. Size contacts + 1.
+  /// H by blocks: for contact c, column-major rows x dof(a), then rows x dof(b), from h_begin[c].
+  /// Size contacts + 1.
   std::vector<int> h_begin{0};
   std::vector<double> h;
 
-  Eigen::VectorXd v_free;  ///< velocity without contact impulses, one entry per unknown [m/s, rad/s]
-  Eigen::VectorXd bias;    ///< one entry per contact row [m/s]: walls that move, gaps still open, restitution
+  Eigen::VectorXd
+      v_free;  ///< velocity without contact impulses, one entry per unknown [m/s, rad/s]
+  Eigen::VectorXd
+      bias;  ///< one entry per contact row [m/s]: walls that move, gaps still open, restitution
 
   int body_count() const { return static_cast<int>(dof_begin.size()) - 1; }
   int dof_count() const { return dof_begin.back(); }
   int body_dofs(int body) const { return body < 0 ? 0 : dof_begin[body + 1] - dof_begin[body]; }
 
-  /// No bodies, no contacts. v_free and bias keep their storage: whoever refills the problem resizes them, and nothing
-  /// is allocated while the sizes stay.
+  /// No bodies, no contacts. v_free and bias keep their storage: whoever refills the problem
+  /// resizes them, and nothing is allocated while the sizes stay.
   void clear();
 };
 
 /// The problem as files often give it: W (rows x rows) and q.
 struct DelassusForm {
-  /// Positive semidefinite [1/kg]. Symmetric when it comes from a DynamicsForm; stored problems with implicit
-  /// gyroscopic terms are unsymmetric by up to some per cent, and the law is then asked of u = W r + q with W as it is.
+  /// Positive semidefinite [1/kg]. Symmetric when it comes from a DynamicsForm; stored problems
+  /// with implicit gyroscopic terms are unsymmetric by up to some per cent, and the law is then
+  /// asked of u = W r + q with W as it is.
   SparseRows w;
   Eigen::VectorXd q;  ///< [m/s]
 };
 
-/// Either form, or both (they must then agree; validate() does not check that). Refilled every step without allocation.
+/// Either form, or both (they must then agree; validate() does not check that). Refilled every step
+/// without allocation.
 struct FrictionProblem {
   /// Contact c has rows row_begin[c] .. row_begin[c+1]: 1 (frictionless) or 3. Size contacts + 1.
   std::vector<int> row_begin{0};
@@ -77,9 +86,9 @@ struct FrictionProblem {
 
   void clear();  ///< no contacts, neither form; storage is kept (see DynamicsForm::clear)
 
-  /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range, NaN or infinity, mu
-  /// < 0, a mass block that is not symmetric positive definite, a Delassus diagonal block that is not positive
-  /// semidefinite. O(entries).
+  /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range,
+  /// NaN or infinity, mu < 0, a mass block that is not symmetric positive definite, a Delassus
+  /// diagonal block that is not positive semidefinite. O(entries).
   void validate() const;
 };
 
@@ -90,21 +99,22 @@ void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q);
 void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::VectorXd& u);
 
 /// v = v_free + M^-1 H^T r (dynamics form only).
-void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r,
-                   Eigen::VectorXd& v);
+void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                   const Impulses& r, Eigen::VectorXd& v);
 
 /// u = H v + bias (dynamics form only).
-void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
-                              Eigen::VectorXd& u);
+void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                              const Eigen::VectorXd& v, Eigen::VectorXd& u);
 /// The same for contacts begin <= c < end alone; `u` has its size already.
-void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Eigen::VectorXd& v,
-                              int begin, int end, Eigen::VectorXd& u);
+void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                              const Eigen::VectorXd& v, int begin, int end, Eigen::VectorXd& u);
 
 /// p = H^T r: what the contacts give to each unknown [N s, N m s] (dynamics form only).
-void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin, const Impulses& r,
-                             Eigen::VectorXd& p);
+void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                             const Impulses& r, Eigen::VectorXd& p);
 
-/// M and H as sparse matrices, for backends that factorise: built only when asked for (dynamics form only).
+/// M and H as sparse matrices, for backends that factorise: built only when asked for (dynamics
+/// form only).
 Eigen::SparseMatrix<double> sparse_mass(const DynamicsForm& dynamics);
 SparseRows sparse_h(const FrictionProblem& problem);
 

@@ -36,7 +36,8 @@ void Islands::find(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   sets_.reset(dynamics.body_count());
   for (int c = 0; c < problem.contact_count(); ++c)
-    if (dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0) sets_.join(dynamics.body_a[c], dynamics.body_b[c]);
+    if (dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0)
+      sets_.join(dynamics.body_a[c], dynamics.body_b[c]);
   number_bodies(problem);
   list_contacts(problem);
 }
@@ -47,7 +48,8 @@ void Islands::number_bodies(const FrictionProblem& problem) {
   local_.assign(dynamics.body_count(), -1);
   constexpr int touched = 0;
   for (int c = 0; c < problem.contact_count(); ++c)
-    if (const int body = moving_body(dynamics, c); body >= 0) island_of_[sets_.find(body)] = touched;
+    if (const int body = moving_body(dynamics, c); body >= 0)
+      island_of_[sets_.find(body)] = touched;
 
   // a set's name is its smallest member, which comes first
   body_begin_.assign(1, 0);
@@ -71,12 +73,14 @@ void Islands::list_contacts(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   contact_begin_.assign(count() + 1, 0);
   for (int c = 0; c < problem.contact_count(); ++c)
-    if (const int body = moving_body(dynamics, c); body >= 0) ++contact_begin_[island_of_[body] + 1];
+    if (const int body = moving_body(dynamics, c); body >= 0)
+      ++contact_begin_[island_of_[body] + 1];
   for (int i = 0; i < count(); ++i) contact_begin_[i + 1] += contact_begin_[i];
   contacts_.resize(contact_begin_.back());
   std::vector<int> next(contact_begin_.begin(), contact_begin_.end() - 1);
   for (int c = 0; c < problem.contact_count(); ++c)
-    if (const int body = moving_body(dynamics, c); body >= 0) contacts_[next[island_of_[body]]++] = c;
+    if (const int body = moving_body(dynamics, c); body >= 0)
+      contacts_[next[island_of_[body]]++] = c;
 }
 
 void Islands::extract(const FrictionProblem& problem, int island, FrictionProblem& result) const {
@@ -86,7 +90,8 @@ void Islands::extract(const FrictionProblem& problem, int island, FrictionProble
   DynamicsForm& to = result.dynamics;
   for (const int b : bodies(island)) {
     to.dof_begin.push_back(to.dof_begin.back() + from.body_dofs(b));
-    to.mass.insert(to.mass.end(), from.mass.begin() + from.mass_begin[b], from.mass.begin() + from.mass_begin[b + 1]);
+    to.mass.insert(to.mass.end(), from.mass.begin() + from.mass_begin[b],
+                   from.mass.begin() + from.mass_begin[b + 1]);
     to.mass_begin.push_back(static_cast<int>(to.mass.size()));
   }
   to.v_free.resize(to.dof_count());
@@ -106,7 +111,8 @@ void Islands::extract(const FrictionProblem& problem, int island, FrictionProble
   gather(problem, island, from.bias, to.bias);
 }
 
-void Islands::gather(const FrictionProblem& problem, int island, const Impulses& whole, Impulses& result) const {
+void Islands::gather(const FrictionProblem& problem, int island, const Impulses& whole,
+                     Impulses& result) const {
   int rows = 0;
   for (const int c : contacts(island)) rows += problem.contact_rows(c);
   result.resize(rows);
@@ -115,7 +121,8 @@ void Islands::gather(const FrictionProblem& problem, int island, const Impulses&
     for (int k = problem.row_begin[c]; k < problem.row_begin[c + 1]; ++k) result[row++] = whole[k];
 }
 
-void Islands::scatter(const FrictionProblem& problem, int island, const Impulses& result, Impulses& whole) const {
+void Islands::scatter(const FrictionProblem& problem, int island, const Impulses& result,
+                      Impulses& whole) const {
   int row = 0;
   for (const int c : contacts(island))
     for (int k = problem.row_begin[c]; k < problem.row_begin[c + 1]; ++k) whole[k] = result[row++];

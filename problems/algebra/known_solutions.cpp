@@ -33,9 +33,11 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& x) {
   return cross;
 }
 
-/// A rigid body of about unit size: mass m, inertia about m/10, turned, so that its block is not diagonal.
+/// A rigid body of about unit size: mass m, inertia about m/10, turned, so that its block is not
+/// diagonal.
 void add_body(double mass, SeededRandom& random, DynamicsForm& dynamics) {
-  const Eigen::Vector3d inertia(random.uniform(0.05, 0.15), random.uniform(0.05, 0.15), random.uniform(0.05, 0.15));
+  const Eigen::Vector3d inertia(random.uniform(0.05, 0.15), random.uniform(0.05, 0.15),
+                                random.uniform(0.05, 0.15));
   const Eigen::Matrix3d axes = random_frame(random);
   Eigen::Matrix<double, 6, 6> block = Eigen::Matrix<double, 6, 6>::Zero();
   block.topLeftCorner<3, 3>().diagonal().setConstant(mass);
@@ -67,8 +69,8 @@ void add_contact(int a, int b, int rows, SeededRandom& random, FrictionProblem& 
 }
 
 /// (r, u) of one contact that obeys Coulomb's law to rounding: leaves, slips or sticks.
-void choose_solution(const KnownSolutionSettings& settings, double mu, int rows, SeededRandom& random, double* r,
-                     double* u) {
+void choose_solution(const KnownSolutionSettings& settings, double mu, int rows,
+                     SeededRandom& random, double* r, double* u) {
   const double kind = random.uniform(), angle = 2.0 * M_PI * random.uniform();
   const double t1 = std::cos(angle), t2 = std::sin(angle);
   const double force = random.uniform(0.1, 1.0), speed = random.uniform(0.1, 1.0);
@@ -102,14 +104,16 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
   FrictionProblem& problem = known.problem;
   DynamicsForm& dynamics = problem.dynamics;
   problem.has_dynamics = true;
-  for (int b = 0; b < settings.bodies; ++b) add_body(random.log_uniform(1.0, settings.mass_ratio), random, dynamics);
+  for (int b = 0; b < settings.bodies; ++b)
+    add_body(random.log_uniform(1.0, settings.mass_ratio), random, dynamics);
 
   for (int c = 0; c < settings.contacts; ++c) {
     const bool frictionless = random.uniform() < settings.frictionless_fraction;
     const int b = random.index(settings.bodies);
     const int a = random.index(settings.bodies + 1) - 1;  // -1: against the ground
     add_contact(a == b ? -1 : a, b, frictionless ? 1 : 3, random, problem);
-    problem.friction.push_back(frictionless ? 0.0 : random.uniform(settings.friction_min, settings.friction_max));
+    problem.friction.push_back(
+        frictionless ? 0.0 : random.uniform(settings.friction_min, settings.friction_max));
   }
 
   known.r.setZero(problem.row_count());
@@ -164,7 +168,8 @@ void repeat_contacts(FrictionProblem& problem, int copies) {
       problem.friction.push_back(once.friction[c]);
       to.body_a.push_back(from.body_a[c]);
       to.body_b.push_back(from.body_b[c]);
-      to.h.insert(to.h.end(), from.h.begin() + from.h_begin[c], from.h.begin() + from.h_begin[c + 1]);
+      to.h.insert(to.h.end(), from.h.begin() + from.h_begin[c],
+                  from.h.begin() + from.h_begin[c + 1]);
       to.h_begin.push_back(static_cast<int>(to.h.size()));
     }
 }

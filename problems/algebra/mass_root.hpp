@@ -1,20 +1,21 @@
 #pragma once
-// The Cholesky factor of one body's mass block, M = L L^T: in the variables L^T v every body has the unit mass.
+// The Cholesky factor of one body's mass block, M = L L^T: in the variables L^T v every body has
+// the unit mass.
 
 #include <cmath>
 
 namespace ballast {
 
-/// At most 6 x 6, inline. Masses are usually diagonal; then every operation is a scaling, and one cache line is all it
-/// reads.
+/// At most 6 x 6, inline. Masses are usually diagonal; then every operation is a scaling, and one
+/// cache line is all it reads.
 struct alignas(64) MassRoot {
   static constexpr int max_dofs = 6;
 
   double inverse[max_dofs];  ///< 1 / L_ii
   int dofs = 0;
   bool diagonal = true;
-  double l[max_dofs *
-           max_dofs];  ///< column-major, stride max_dofs, lower triangle; only its diagonal is set when `diagonal`
+  double l[max_dofs * max_dofs];  ///< column-major, stride max_dofs, lower triangle; only its
+                                  ///< diagonal is set when `diagonal`
 
   /// `mass` is dofs x dofs, column-major; its lower triangle is read. False: not positive definite.
   bool factor(const double* mass, int dof_count);
@@ -23,9 +24,9 @@ struct alignas(64) MassRoot {
   void solve_upper(double* x) const;     ///< x := L^-T x
   void multiply_upper(double* x) const;  ///< x := L^T x
 
-  /// Calls visit(k, column) for the columns of G = H L^-T, where H is a column-major block of Rows x dofs and `column`
-  /// has Rows entries. Inlined where it is hot: with the usual six unknowns known, the compiler unrolls it into
-  /// registers.
+  /// Calls visit(k, column) for the columns of G = H L^-T, where H is a column-major block of Rows
+  /// x dofs and `column` has Rows entries. Inlined where it is hot: with the usual six unknowns
+  /// known, the compiler unrolls it into registers.
   template <int Rows, typename Visit>
   [[gnu::always_inline]] inline void scaled_columns(const double* h, const Visit& visit) const {
     if (dofs == max_dofs)
@@ -36,7 +37,8 @@ struct alignas(64) MassRoot {
 
  private:
   template <int Rows, typename Visit>
-  [[gnu::always_inline]] inline void scaled_columns(const double* h, int columns, const Visit& visit) const {
+  [[gnu::always_inline]] inline void scaled_columns(const double* h, int columns,
+                                                    const Visit& visit) const {
     double g[max_dofs][Rows];
     if (diagonal) {
       for (int j = 0; j < columns; ++j) {

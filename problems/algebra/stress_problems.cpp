@@ -13,7 +13,8 @@ namespace {
 constexpr double gh = stress_gravity_step;
 
 /// A body with a diagonal mass block; returns its number.
-int add_body(FrictionProblem& problem, const Eigen::VectorXd& diagonal, const Eigen::VectorXd& v_free) {
+int add_body(FrictionProblem& problem, const Eigen::VectorXd& diagonal,
+             const Eigen::VectorXd& v_free) {
   DynamicsForm& dynamics = problem.dynamics;
   const int dofs = static_cast<int>(diagonal.size());
   const Eigen::MatrixXd block = diagonal.asDiagonal();
@@ -54,7 +55,9 @@ void all_rest(StressProblem& stress) {
 
 std::string number(double x) {
   const std::string text = std::to_string(x);
-  return text.substr(0, text.find_last_not_of("0.") + 1).empty() ? "0" : text.substr(0, text.find('.') + 2);
+  return text.substr(0, text.find_last_not_of("0.") + 1).empty()
+             ? "0"
+             : text.substr(0, text.find('.') + 2);
 }
 
 /// 17. A body with two contacts whose normals differ by 2 angle [rad].
@@ -86,19 +89,23 @@ StressProblem manufactured(const char* name, int item, const KnownSolutionSettin
 }
 
 void add_manufactured(std::vector<StressProblem>& all) {
-  all.push_back(manufactured("masses over 1e6", 17, {.bodies = 10, .contacts = 8, .mass_ratio = 1e6}));
-  all.push_back(manufactured("units of gram and cm", 17,
-                             {.bodies = 10, .contacts = 8, .mass_unit = 1e3, .velocity_unit = 100.0}));
+  all.push_back(
+      manufactured("masses over 1e6", 17, {.bodies = 10, .contacts = 8, .mass_ratio = 1e6}));
+  all.push_back(
+      manufactured("units of gram and cm", 17,
+                   {.bodies = 10, .contacts = 8, .mass_unit = 1e3, .velocity_unit = 100.0}));
   all.push_back(manufactured("independent contacts", 20, {.bodies = 50, .contacts = 40}));
   all.push_back(manufactured("singular W", 20, {.bodies = 8, .contacts = 40, .friction_max = 0.5}));
   all.push_back(manufactured("repeated contacts", 20, {.bodies = 10, .contacts = 8, .copies = 5}));
   all.push_back(
-      manufactured("much friction", 20, {.bodies = 20, .contacts = 20, .friction_min = 1.0, .friction_max = 10.0}));
+      manufactured("much friction", 20,
+                   {.bodies = 20, .contacts = 20, .friction_min = 1.0, .friction_max = 10.0}));
   all.back().u.resize(0);  // with mu above one Coulomb's law has other solutions, too
 }
 
 void add_broken(std::vector<StressProblem>& all) {
-  const auto broken = [&](const char* name, const char* refused, const std::function<void(FrictionProblem&)>& harm) {
+  const auto broken = [&](const char* name, const char* refused,
+                          const std::function<void(FrictionProblem&)>& harm) {
     StressProblem stress = four_legged_table(0.5, 0.0, 1);
     stress.name = name;
     stress.item = 17;
@@ -108,22 +115,26 @@ void add_broken(std::vector<StressProblem>& all) {
     harm(stress.problem);
     all.push_back(std::move(stress));
   };
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                   infinity = std::numeric_limits<double>::infinity();
   broken("NaN in H", "dynamics.h[7]", [](FrictionProblem& p) { p.dynamics.h[7] = nan; });
-  broken("infinite velocity", "dynamics.v_free[2]", [](FrictionProblem& p) { p.dynamics.v_free[2] = infinity; });
+  broken("infinite velocity", "dynamics.v_free[2]",
+         [](FrictionProblem& p) { p.dynamics.v_free[2] = infinity; });
   broken("negative friction", "friction[3]", [](FrictionProblem& p) { p.friction[3] = -0.1; });
   broken("NaN friction", "friction[1]", [](FrictionProblem& p) { p.friction[1] = nan; });
   broken("zero mass", "positive definite", [](FrictionProblem& p) { p.dynamics.mass[0] = 0.0; });
-  broken("indefinite mass", "positive definite",
-         [](FrictionProblem& p) { p.dynamics.mass[1] = p.dynamics.mass[6] = 2.0 * p.dynamics.mass[0]; });
+  broken("indefinite mass", "positive definite", [](FrictionProblem& p) {
+    p.dynamics.mass[1] = p.dynamics.mass[6] = 2.0 * p.dynamics.mass[0];
+  });
 }
 
 }  // namespace
 
 StressProblem mass_stack(const std::vector<double>& masses, int rows) {
-  StressProblem stress = start("stack of " + std::to_string(masses.size()) + ", top " + number(masses.back()) +
-                                   (rows == 1 ? " kg, frictionless" : " kg"),
-                               8);
+  StressProblem stress =
+      start("stack of " + std::to_string(masses.size()) + ", top " + number(masses.back()) +
+                (rows == 1 ? " kg, frictionless" : " kg"),
+            8);
   const int dofs = rows;  // z, or z x y
   Eigen::VectorXd falling = Eigen::VectorXd::Zero(dofs);
   falling[0] = -gh;
@@ -138,17 +149,19 @@ StressProblem mass_stack(const std::vector<double>& masses, int rows) {
 }
 
 StressProblem painleve_rod(double mu, double approach) {
-  StressProblem stress = start("Painleve rod, mu " + number(mu) + (approach < 0.0 ? ", leaving" : ""), 10);
+  StressProblem stress =
+      start("Painleve rod, mu " + number(mu) + (approach < 0.0 ? ", leaving" : ""), 10);
   const double cosine = 1.0 / std::sqrt(5.0), sine = 2.0 / std::sqrt(5.0);
   // z, x, y, and the angular velocity about y; the inertia of a rod is m l^2 / 3.
-  const int rod = add_body(stress.problem, Eigen::Vector4d(1, 1, 1, 1.0 / 3.0), Eigen::Vector4d(-approach, 1, 0, 0));
+  const int rod = add_body(stress.problem, Eigen::Vector4d(1, 1, 1, 1.0 / 3.0),
+                           Eigen::Vector4d(-approach, 1, 0, 0));
   Eigen::Matrix<double, 3, 4> h;
   h << 1, 0, 0, -cosine, 0, 1, 0, -sine, 0, 0, 1, 0;
   add_contact(stress.problem, -1, rod, mu, {}, h);
   if (approach < 0.0) return stress;
-  // W_NN = 1.6, W_TN = 1.2, W_TT = 3.4. Slip: r_N = approach / p, as long as the tip does not stop; otherwise it
-  // sticks, held by an impulse in the cone: with W^-1 = [3.4 -1.2; -1.2 1.6] / 4, |r_T| = 0.4 + 0.3 a <= mu (0.3 + 0.85
-  // a).
+  // W_NN = 1.6, W_TN = 1.2, W_TT = 3.4. Slip: r_N = approach / p, as long as the tip does not stop;
+  // otherwise it sticks, held by an impulse in the cone: with W^-1 = [3.4 -1.2; -1.2 1.6] / 4,
+  // |r_T| = 0.4 + 0.3 a <= mu (0.3 + 0.85 a).
   stress.u.setZero(3);
   const double p = 1.6 - 1.2 * mu;
   const double speed = p > 0.0 ? 1.0 + approach / p * (1.2 - 3.4 * mu) : -1.0;
@@ -160,9 +173,10 @@ StressProblem painleve_rod(double mu, double approach) {
 }
 
 StressProblem four_legged_table(double mu, double speed, int copies) {
-  StressProblem stress = start("table, " + std::string(speed > 0.0 ? "pushed" : "at rest") +
-                                   (copies > 1 ? ", each contact " + std::to_string(copies) + " times" : ""),
-                               copies > 1 ? 17 : 14);
+  StressProblem stress =
+      start("table, " + std::string(speed > 0.0 ? "pushed" : "at rest") +
+                (copies > 1 ? ", each contact " + std::to_string(copies) + " times" : ""),
+            copies > 1 ? 17 : 14);
   Eigen::VectorXd mass(6), v_free(6);
   mass << 10, 10, 10, 1.5, 1.5, 2.5;
   v_free << speed, 0, -gh, 0, 0, 0;
@@ -185,9 +199,11 @@ StressProblem four_legged_table(double mu, double speed, int copies) {
 }
 
 StressProblem sliding_block(double mu, double heading) {
-  StressProblem stress = start("sliding block, mu " + number(mu) + ", heading " + number(heading), 15);
+  StressProblem stress =
+      start("sliding block, mu " + number(mu) + ", heading " + number(heading), 15);
   const Eigen::Vector2d along(std::cos(heading), std::sin(heading));
-  const int block = add_body(stress.problem, Eigen::Vector3d::Constant(2.0), Eigen::Vector3d(-gh, along[0], along[1]));
+  const int block = add_body(stress.problem, Eigen::Vector3d::Constant(2.0),
+                             Eigen::Vector3d(-gh, along[0], along[1]));
   add_contact(stress.problem, -1, block, mu, {}, Eigen::Matrix3d::Identity());
   all_rest(stress);
   const double left = std::max(0.0, 1.0 - mu * gh);
@@ -201,8 +217,10 @@ StressProblem jammed_chain(int grains, double force) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
   for (int k = 0; k <= grains; ++k) {  // the last is the wall, of a grain's mass
     const double v_free = k < grains ? 0.0 : -force * h;
-    const int body = add_body(stress.problem, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Constant(1, v_free));
-    add_contact(stress.problem, body - 1, body, 0.0, body > 0 ? Eigen::MatrixXd(-one) : Eigen::MatrixXd(), one);
+    const int body =
+        add_body(stress.problem, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Constant(1, v_free));
+    add_contact(stress.problem, body - 1, body, 0.0,
+                body > 0 ? Eigen::MatrixXd(-one) : Eigen::MatrixXd(), one);
   }
   all_rest(stress);
   return stress;

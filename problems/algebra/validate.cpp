@@ -1,5 +1,5 @@
-// FrictionProblem::validate(): fast loops look for any bad entry; only when there is one is it looked for again, to
-// name it.
+// FrictionProblem::validate(): fast loops look for any bad entry; only when there is one is it
+// looked for again, to name it.
 
 #include <bit>
 #include <cmath>
@@ -14,12 +14,13 @@
 namespace ballast {
 namespace {
 
-/// Asymmetry of a block, relative to its diagonal. Masses: rounding of rotated inertias. Stored Delassus operators:
-/// implicit gyroscopic terms make some of them truly unsymmetric (FCLIB's RockPile by 2 %); beyond this something else
-/// is wrong.
+/// Asymmetry of a block, relative to its diagonal. Masses: rounding of rotated inertias. Stored
+/// Delassus operators: implicit gyroscopic terms make some of them truly unsymmetric (FCLIB's
+/// RockPile by 2 %); beyond this something else is wrong.
 constexpr double mass_asymmetry = 1e-10;
 constexpr double delassus_asymmetry = 0.1;
-/// Below zero by this much, relative, a minor of a stored block is taken for rounding: some files hold six digits.
+/// Below zero by this much, relative, a minor of a stored block is taken for rounding: some files
+/// hold six digits.
 constexpr double semidefinite_rounding = 1e-5;
 
 template <typename... Parts>
@@ -34,11 +35,13 @@ void require_size(const char* array, long size, long expected, const char* becau
   if (size != expected) fail(array, " has ", size, " entries; ", because, " needs ", expected);
 }
 
-/// NaN and infinity have all exponent bits set. Integer work, so that the compiler vectorises the reduction.
+/// NaN and infinity have all exponent bits set. Integer work, so that the compiler vectorises the
+/// reduction.
 void require_finite(const char* array, const double* x, long size) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000ull;
   std::uint64_t bad = 0;
-  for (long i = 0; i < size; ++i) bad |= ((std::bit_cast<std::uint64_t>(x[i]) & exponent) + (1ull << 52)) >> 63;
+  for (long i = 0; i < size; ++i)
+    bad |= ((std::bit_cast<std::uint64_t>(x[i]) & exponent) + (1ull << 52)) >> 63;
   if (!bad) return;
   for (long i = 0; i < size; ++i)
     if (!std::isfinite(x[i])) fail(array, "[", i, "] = ", x[i], " is not finite");
@@ -69,13 +72,16 @@ void validate_mass_block(const DynamicsForm& dynamics, int b) {
   const double* block = dynamics.mass.data() + first;
   MassRoot root;
   if (!root.factor(block, dofs))
-    fail("dynamics.mass[", first, "] = ", block[0], ": the block of body ", b, " is not positive definite");
+    fail("dynamics.mass[", first, "] = ", block[0], ": the block of body ", b,
+         " is not positive definite");
   for (int j = 0; j < dofs; ++j)
     for (int i = j + 1; i < dofs; ++i) {
       const double lower = block[j * dofs + i], upper = block[i * dofs + j];
       if (lower == upper) continue;
-      if (std::abs(lower - upper) > mass_asymmetry * std::sqrt(block[j * dofs + j] * block[i * dofs + i]))
-        fail("dynamics.mass[", first + i * dofs + j, "] = ", upper, ": the block of body ", b, " is not symmetric");
+      if (std::abs(lower - upper) >
+          mass_asymmetry * std::sqrt(block[j * dofs + j] * block[i * dofs + i]))
+        fail("dynamics.mass[", first + i * dofs + j, "] = ", upper, ": the block of body ", b,
+             " is not symmetric");
     }
 }
 
@@ -87,16 +93,18 @@ void validate_bodies(const DynamicsForm& dynamics) {
   for (int b = 0; b < bodies; ++b) {
     const int dofs = dynamics.body_dofs(b);
     if (dofs < 1 || dofs > MassRoot::max_dofs)
-      fail("dynamics.dof_begin[", b + 1, "] = ", dynamics.dof_begin[b + 1], " gives body ", b, " ", dofs,
-           " unknowns; a body has 1 to ", MassRoot::max_dofs);
+      fail("dynamics.dof_begin[", b + 1, "] = ", dynamics.dof_begin[b + 1], " gives body ", b, " ",
+           dofs, " unknowns; a body has 1 to ", MassRoot::max_dofs);
     if (dynamics.mass_begin[b + 1] - dynamics.mass_begin[b] != dofs * dofs)
-      fail("dynamics.mass_begin[", b + 1, "] = ", dynamics.mass_begin[b + 1], ": the block of body ", b, " must have ",
-           dofs * dofs, " entries");
+      fail("dynamics.mass_begin[", b + 1, "] = ", dynamics.mass_begin[b + 1],
+           ": the block of body ", b, " must have ", dofs * dofs, " entries");
   }
-  require_size("dynamics.mass", static_cast<long>(dynamics.mass.size()), dynamics.mass_begin.back(), "mass_begin");
+  require_size("dynamics.mass", static_cast<long>(dynamics.mass.size()), dynamics.mass_begin.back(),
+               "mass_begin");
   require_finite("dynamics.mass", dynamics.mass.data(), dynamics.mass_begin.back());
   for (int b = 0; b < bodies; ++b) validate_mass_block(dynamics, b);
-  require_size("dynamics.v_free", dynamics.v_free.size(), dynamics.dof_count(), "one entry per unknown");
+  require_size("dynamics.v_free", dynamics.v_free.size(), dynamics.dof_count(),
+               "one entry per unknown");
   require_finite("dynamics.v_free", dynamics.v_free.data(), dynamics.v_free.size());
 }
 
@@ -104,22 +112,29 @@ void validate_dynamics(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   validate_bodies(dynamics);
   const int contacts = problem.contact_count(), bodies = dynamics.body_count();
-  require_size("dynamics.body_a", static_cast<long>(dynamics.body_a.size()), contacts, "one entry per contact");
-  require_size("dynamics.body_b", static_cast<long>(dynamics.body_b.size()), contacts, "one entry per contact");
+  require_size("dynamics.body_a", static_cast<long>(dynamics.body_a.size()), contacts,
+               "one entry per contact");
+  require_size("dynamics.body_b", static_cast<long>(dynamics.body_b.size()), contacts,
+               "one entry per contact");
   require_begin("dynamics.h_begin", dynamics.h_begin, contacts, "one block per contact");
   for (int c = 0; c < contacts; ++c) {
     const int a = dynamics.body_a[c], b = dynamics.body_b[c];
-    if (a < -1 || a >= bodies) fail("dynamics.body_a[", c, "] = ", a, " is not one of the ", bodies, " bodies, nor -1");
-    if (b < -1 || b >= bodies) fail("dynamics.body_b[", c, "] = ", b, " is not one of the ", bodies, " bodies, nor -1");
-    if (a == b && a != -1) fail("dynamics.body_b[", c, "] = ", b, ": body_a and body_b are the same body");
+    if (a < -1 || a >= bodies)
+      fail("dynamics.body_a[", c, "] = ", a, " is not one of the ", bodies, " bodies, nor -1");
+    if (b < -1 || b >= bodies)
+      fail("dynamics.body_b[", c, "] = ", b, " is not one of the ", bodies, " bodies, nor -1");
+    if (a == b && a != -1)
+      fail("dynamics.body_b[", c, "] = ", b, ": body_a and body_b are the same body");
     const int entries = problem.contact_rows(c) * (dynamics.body_dofs(a) + dynamics.body_dofs(b));
     if (dynamics.h_begin[c + 1] - dynamics.h_begin[c] != entries)
-      fail("dynamics.h_begin[", c + 1, "] = ", dynamics.h_begin[c + 1], ": the blocks of contact ", c, " must have ",
-           entries, " entries");
+      fail("dynamics.h_begin[", c + 1, "] = ", dynamics.h_begin[c + 1], ": the blocks of contact ",
+           c, " must have ", entries, " entries");
   }
-  require_size("dynamics.h", static_cast<long>(dynamics.h.size()), dynamics.h_begin.back(), "h_begin");
+  require_size("dynamics.h", static_cast<long>(dynamics.h.size()), dynamics.h_begin.back(),
+               "h_begin");
   require_finite("dynamics.h", dynamics.h.data(), dynamics.h_begin.back());
-  require_size("dynamics.bias", dynamics.bias.size(), problem.row_count(), "one entry per contact row");
+  require_size("dynamics.bias", dynamics.bias.size(), problem.row_count(),
+               "one entry per contact row");
   require_finite("dynamics.bias", dynamics.bias.data(), dynamics.bias.size());
 }
 
@@ -127,16 +142,17 @@ void validate_diagonal_block(const FrictionProblem& problem, int c) {
   const Eigen::Matrix3d d = stored_diagonal_block(problem, c), even = 0.5 * (d + d.transpose());
   const int first = problem.row_begin[c];
   for (int i = 0; i < 3; ++i)
-    if (d(i, i) < 0.0) fail("delassus.w(", first + i, ", ", first + i, ") = ", d(i, i), " is negative");
+    if (d(i, i) < 0.0)
+      fail("delassus.w(", first + i, ", ", first + i, ") = ", d(i, i), " is negative");
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < i; ++j) {
       const double product = d(i, i) * d(j, j);
       if (std::abs(d(i, j) - d(j, i)) > delassus_asymmetry * std::sqrt(product))
-        fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), ": the block of contact ", c,
-             " is not symmetric");
+        fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), ": the block of contact ",
+             c, " is not symmetric");
       if (even(i, j) * even(i, j) > product * (1.0 + semidefinite_rounding))
-        fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), ": the block of contact ", c,
-             " is not positive semidefinite");
+        fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), ": the block of contact ",
+             c, " is not positive semidefinite");
     }
   const double determinant = even.determinant();
   if (determinant < -semidefinite_rounding * d(0, 0) * d(1, 1) * d(2, 2))
@@ -156,7 +172,8 @@ void validate_delassus(const FrictionProblem& problem) {
     for (SparseRows::InnerIterator entry(w, row); entry; ++entry) {
       const int column = static_cast<int>(entry.col());
       if (column <= previous || column >= rows)
-        fail("delassus.w row ", row, " has column ", column, " after ", previous, "; columns ascend below ", rows);
+        fail("delassus.w row ", row, " has column ", column, " after ", previous,
+             "; columns ascend below ", rows);
       if (!std::isfinite(entry.value()))
         fail("delassus.w(", row, ", ", column, ") = ", entry.value(), " is not finite");
       previous = column;
@@ -172,7 +189,8 @@ void FrictionProblem::validate() const {
   if (has_dynamics) validate_dynamics(*this);
   if (has_delassus) validate_delassus(*this);
   if (!has_dynamics && !has_delassus && contact_count() > 0)
-    fail("has_dynamics = 0, has_delassus = 0: the problem of ", contact_count(), " contacts has neither form");
+    fail("has_dynamics = 0, has_delassus = 0: the problem of ", contact_count(),
+         " contacts has neither form");
 }
 
 }  // namespace ballast

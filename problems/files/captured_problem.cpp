@@ -38,7 +38,8 @@ class SideReader {
   template <typename Values>
   Values sized(const char* name, Values values, std::size_t size) const {
     if (values.size() != size)
-      file_.fail(path_of(name) + " has " + std::to_string(values.size()) + " entries, must have " + std::to_string(size));
+      file_.fail(path_of(name) + " has " + std::to_string(values.size()) + " entries, must have " +
+                 std::to_string(size));
     return values;
   }
   Hdf5Arrays file_;
@@ -48,12 +49,15 @@ class SideReader {
 void restore_bodies(const SideReader& side, const GlobalProblem& global, DynamicsForm& dynamics) {
   dynamics.dof_begin = side.ints("dof_begin");
   const std::vector<int>& begin = dynamics.dof_begin;
-  const auto bad = [&] { side.fail(path_of("dof_begin") + " does not divide the unknowns of M into bodies of 1 to 6"); };
+  const auto bad = [&] {
+    side.fail(path_of("dof_begin") + " does not divide the unknowns of M into bodies of 1 to 6");
+  };
   if (begin.empty() || begin.front() != 0 || begin.back() != global.m.rows()) bad();
   for (std::size_t b = 0; b + 1 < begin.size(); ++b) {
     const int d = begin[b + 1] - begin[b];
     if (d < 1 || d > 6) bad();
-    const Eigen::MatrixXd block = Eigen::SparseMatrix<double>(global.m.block(begin[b], begin[b], d, d));
+    const Eigen::MatrixXd block =
+        Eigen::SparseMatrix<double>(global.m.block(begin[b], begin[b], d, d));
     dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + block.size());
     dynamics.mass_begin.push_back(static_cast<int>(dynamics.mass.size()));
   }
@@ -62,7 +66,8 @@ void restore_bodies(const SideReader& side, const GlobalProblem& global, Dynamic
 }
 
 /// The blocks of H, taken out of the three-row H of the file.
-void restore_contacts(const SideReader& side, const GlobalProblem& global, FrictionProblem& problem) {
+void restore_contacts(const SideReader& side, const GlobalProblem& global,
+                      FrictionProblem& problem) {
   const std::size_t contacts = global.mu.size();
   DynamicsForm& dynamics = problem.dynamics;
   dynamics.body_a = side.ints("body_a", contacts);
@@ -70,13 +75,15 @@ void restore_contacts(const SideReader& side, const GlobalProblem& global, Frict
   const std::vector<int> rows = side.ints("rows", contacts);
   std::vector<double> bias;
   for (std::size_t c = 0; c < contacts; ++c) {
-    if (rows[c] != 1 && rows[c] != 3) side.fail(path_of("rows") + "[" + std::to_string(c) + "] is neither 1 nor 3");
+    if (rows[c] != 1 && rows[c] != 3)
+      side.fail(path_of("rows") + "[" + std::to_string(c) + "] is neither 1 nor 3");
     const Eigen::SparseMatrix<double> columns = global.h.middleCols(3 * static_cast<int>(c), 3);
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-      if (body >= dynamics.body_count()) side.fail(path_of("body_a") + ", body_b: no such body: " + std::to_string(body));
+      if (body >= dynamics.body_count())
+        side.fail(path_of("body_a") + ", body_b: no such body: " + std::to_string(body));
       if (body < 0) continue;
-      const Eigen::MatrixXd wide =
-          Eigen::SparseMatrix<double>(columns.middleRows(dynamics.dof_begin[body], dynamics.body_dofs(body)));
+      const Eigen::MatrixXd wide = Eigen::SparseMatrix<double>(
+          columns.middleRows(dynamics.dof_begin[body], dynamics.body_dofs(body)));
       const Eigen::MatrixXd block = wide.transpose().topRows(rows[c]);
       dynamics.h.insert(dynamics.h.end(), block.data(), block.data() + block.size());
     }
@@ -84,17 +91,21 @@ void restore_contacts(const SideReader& side, const GlobalProblem& global, Frict
     problem.row_begin.push_back(problem.row_begin.back() + rows[c]);
     for (int row = 0; row < rows[c]; ++row) bias.push_back(global.w[3 * static_cast<int>(c) + row]);
   }
-  dynamics.bias = Eigen::Map<const Eigen::VectorXd>(bias.data(), static_cast<Eigen::Index>(bias.size()));
+  dynamics.bias =
+      Eigen::Map<const Eigen::VectorXd>(bias.data(), static_cast<Eigen::Index>(bias.size()));
   problem.friction = global.mu;
 }
 
 Impulses read_rows(const SideReader& side, const char* name, const FrictionProblem& problem) {
-  const std::vector<double> values = side.doubles(name, static_cast<std::size_t>(problem.row_count()));
+  const std::vector<double> values =
+      side.doubles(name, static_cast<std::size_t>(problem.row_count()));
   return Eigen::Map<const Eigen::VectorXd>(values.data(), problem.row_count());
 }
 
 void write_side_group(Hdf5Arrays& file, const CapturedProblem& captured) {
-  const auto number = [&](const char* name, double value) { file.write(path_of(name), std::vector<double>{value}); };
+  const auto number = [&](const char* name, double value) {
+    file.write(path_of(name), std::vector<double>{value});
+  };
   file.make_group(group);
   number("h", captured.h);
   number("g", captured.g);
@@ -109,7 +120,8 @@ void write_side_group(Hdf5Arrays& file, const CapturedProblem& captured) {
   file.write(path_of("body_a"), dynamics.body_a);
   file.write(path_of("body_b"), dynamics.body_b);
   std::vector<int> rows;
-  for (int c = 0; c < captured.problem.contact_count(); ++c) rows.push_back(captured.problem.contact_rows(c));
+  for (int c = 0; c < captured.problem.contact_count(); ++c)
+    rows.push_back(captured.problem.contact_rows(c));
   file.write(path_of("rows"), rows);
   file.write(path_of("v_free"), as_vector(dynamics.v_free));
   file.write(path_of("start"), as_vector(captured.start));
@@ -138,7 +150,8 @@ CapturedProblem read_captured(const std::filesystem::path& path) {
   const auto stored = read_fclib(path);
   const SideReader side(path);
   const GlobalProblem* global = std::get_if<GlobalProblem>(&stored);
-  if (!global) side.fail("has " + group + " beside a local problem: it belongs beside a global one");
+  if (!global)
+    side.fail("has " + group + " beside a local problem: it belongs beside a global one");
   CapturedProblem captured;
   captured.problem.has_dynamics = true;
   restore_bodies(side, *global, captured.problem.dynamics);
@@ -170,8 +183,10 @@ CapturedProblem read_captured(const std::filesystem::path& path) {
 
 void write_captured(const std::filesystem::path& file, const CapturedProblem& captured) {
   captured.problem.validate();
-  if (!captured.problem.has_dynamics) throw InvalidProblem(file.string() + ": only a dynamics form can be captured");
-  write_problem(file, captured.problem, [&](Hdf5Arrays& opened) { write_side_group(opened, captured); });
+  if (!captured.problem.has_dynamics)
+    throw InvalidProblem(file.string() + ": only a dynamics form can be captured");
+  write_problem(file, captured.problem,
+                [&](Hdf5Arrays& opened) { write_side_group(opened, captured); });
 }
 
 }  // namespace ballast

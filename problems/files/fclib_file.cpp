@@ -14,9 +14,11 @@ constexpr int compressed_columns = -1, compressed_rows = -2;
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-void require_size(const Hdf5Arrays& file, const std::string& path, std::size_t size, std::size_t expected) {
+void require_size(const Hdf5Arrays& file, const std::string& path, std::size_t size,
+                  std::size_t expected) {
   if (size != expected)
-    file.fail(path + " has " + std::to_string(size) + " entries, must have " + std::to_string(expected));
+    file.fail(path + " has " + std::to_string(size) + " entries, must have " +
+              std::to_string(expected));
 }
 
 std::vector<double> read_vector(const Hdf5Arrays& file, const std::string& path, std::size_t size) {
@@ -24,11 +26,13 @@ std::vector<double> read_vector(const Hdf5Arrays& file, const std::string& path,
   require_size(file, path, values.size(), size);
   for (std::size_t i = 0; i < size; ++i)
     if (!std::isfinite(values[i]))
-      file.fail(path + "[" + std::to_string(i) + "] = " + std::to_string(values[i]) + " is not finite");
+      file.fail(path + "[" + std::to_string(i) + "] = " + std::to_string(values[i]) +
+                " is not finite");
   return values;
 }
 
-/// Reads one matrix group. nzmax may exceed the datasets' length, which may exceed the entries: p, or nz, decides.
+/// Reads one matrix group. nzmax may exceed the datasets' length, which may exceed the entries: p,
+/// or nz, decides.
 class MatrixReader {
  public:
   MatrixReader(const Hdf5Arrays& file, std::string group)
@@ -41,8 +45,10 @@ class MatrixReader {
         i_(file.read_ints(group_ + "/i")),
         x_(file.read_doubles(group_ + "/x")) {
     if (rows_ < 0 || columns_ < 0)
-      file.fail(group_ + ": " + std::to_string(rows_) + " x " + std::to_string(columns_) + " is no size of a matrix");
-    if (nz_ < compressed_rows) file.fail(group_ + "/nz = " + std::to_string(nz_) + " is no known storage");
+      file.fail(group_ + ": " + std::to_string(rows_) + " x " + std::to_string(columns_) +
+                " is no size of a matrix");
+    if (nz_ < compressed_rows)
+      file.fail(group_ + "/nz = " + std::to_string(nz_) + " is no known storage");
   }
 
   int rows() const { return rows_; }
@@ -61,24 +67,28 @@ class MatrixReader {
   void add(Triplets& entries, int row, int column, int k) const {
     if (row < 0 || row >= rows_ || column < 0 || column >= columns_)
       file_.fail(group_ + ": entry " + std::to_string(k) + " at (" + std::to_string(row) + ", " +
-                 std::to_string(column) + ") is outside " + std::to_string(rows_) + " x " + std::to_string(columns_));
+                 std::to_string(column) + ") is outside " + std::to_string(rows_) + " x " +
+                 std::to_string(columns_));
     if (!std::isfinite(x_[k]))
-      file_.fail(group_ + "/x[" + std::to_string(k) + "] = " + std::to_string(x_[k]) + " is not finite");
+      file_.fail(group_ + "/x[" + std::to_string(k) + "] = " + std::to_string(x_[k]) +
+                 " is not finite");
     entries.emplace_back(row, column, x_[k]);
   }
 
   void require_entries(int count) const {
     for (const auto& [name, size] : {std::pair{"/i", i_.size()}, std::pair{"/x", x_.size()}})
       if (size < static_cast<std::size_t>(count))
-        file_.fail(group_ + name + " has " + std::to_string(size) + " entries, must have " + std::to_string(count));
+        file_.fail(group_ + name + " has " + std::to_string(size) + " entries, must have " +
+                   std::to_string(count));
   }
 
-  /// fclib.h says p = rows, i = columns; all files, and CSparse from which the structure comes, have p = columns, i =
-  /// rows.
+  /// fclib.h says p = rows, i = columns; all files, and CSparse from which the structure comes,
+  /// have p = columns, i = rows.
   void read_triplets(Triplets& entries) const {
     require_entries(nz_);
     if (p_.size() < static_cast<std::size_t>(nz_))
-      file_.fail(group_ + "/p has " + std::to_string(p_.size()) + " entries, must have " + std::to_string(nz_));
+      file_.fail(group_ + "/p has " + std::to_string(p_.size()) + " entries, must have " +
+                 std::to_string(nz_));
     for (int k = 0; k < nz_; ++k) add(entries, i_[k], p_[k], k);
   }
 
@@ -89,7 +99,8 @@ class MatrixReader {
     if (p_[0] != 0) file_.fail(group_ + "/p[0] = " + std::to_string(p_[0]) + ", must be 0");
     for (int line = 0; line < lines; ++line)
       if (p_[line + 1] < p_[line])
-        file_.fail(group_ + "/p[" + std::to_string(line + 1) + "] = " + std::to_string(p_[line + 1]) + " decreases");
+        file_.fail(group_ + "/p[" + std::to_string(line + 1) +
+                   "] = " + std::to_string(p_[line + 1]) + " decreases");
     require_entries(p_[lines]);
     for (int line = 0; line < lines; ++line)
       for (int k = p_[line]; k < p_[line + 1]; ++k)
@@ -103,21 +114,26 @@ class MatrixReader {
   std::vector<double> x_;
 };
 
-void require_shape(const Hdf5Arrays& file, const std::string& group, const MatrixReader& matrix, int rows, int columns) {
+void require_shape(const Hdf5Arrays& file, const std::string& group, const MatrixReader& matrix,
+                   int rows, int columns) {
   if (matrix.rows() != rows || matrix.columns() != columns)
-    file.fail(group + " is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.columns()) + ", must be " +
-              std::to_string(rows) + " x " + std::to_string(columns));
+    file.fail(group + " is " + std::to_string(matrix.rows()) + " x " +
+              std::to_string(matrix.columns()) + ", must be " + std::to_string(rows) + " x " +
+              std::to_string(columns));
 }
 
 void require_unilateral_3d(const Hdf5Arrays& file, const std::string& root) {
   const int dimension = file.read_int(root + "/spacedim");
-  if (dimension != 3) file.fail(root + "/spacedim = " + std::to_string(dimension) + ": only 3 is supported");
+  if (dimension != 3)
+    file.fail(root + "/spacedim = " + std::to_string(dimension) + ": only 3 is supported");
   for (const char* bilateral : {"/V", "/R", "/G"})
-    if (file.has(root + bilateral)) file.fail(root + bilateral + ": bilateral constraints are not supported");
+    if (file.has(root + bilateral))
+      file.fail(root + bilateral + ": bilateral constraints are not supported");
 }
 
 int contact_count(const Hdf5Arrays& file, const std::string& group, int rows) {
-  if (rows % 3 != 0) file.fail(group + " has " + std::to_string(rows) + " contact rows, which is no multiple of 3");
+  if (rows % 3 != 0)
+    file.fail(group + " has " + std::to_string(rows) + " contact rows, which is no multiple of 3");
   return rows / 3;
 }
 
@@ -163,10 +179,13 @@ void write_matrix(Hdf5Arrays& file, const std::string& group, Matrix matrix) {
   file.make_group(group);
   file.write(group + "/m", std::vector<int>{static_cast<int>(matrix.rows())});
   file.write(group + "/n", std::vector<int>{static_cast<int>(matrix.cols())});
-  file.write(group + "/nz", std::vector<int>{Matrix::IsRowMajor ? compressed_rows : compressed_columns});
+  file.write(group + "/nz",
+             std::vector<int>{Matrix::IsRowMajor ? compressed_rows : compressed_columns});
   file.write(group + "/nzmax", std::vector<int>{entries});
-  file.write(group + "/p", std::vector<int>(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1));
-  file.write(group + "/i", std::vector<int>(matrix.innerIndexPtr(), matrix.innerIndexPtr() + entries));
+  file.write(group + "/p", std::vector<int>(matrix.outerIndexPtr(),
+                                            matrix.outerIndexPtr() + matrix.outerSize() + 1));
+  file.write(group + "/i",
+             std::vector<int>(matrix.innerIndexPtr(), matrix.innerIndexPtr() + entries));
   file.write(group + "/x", std::vector<double>(matrix.valuePtr(), matrix.valuePtr() + entries));
 }
 

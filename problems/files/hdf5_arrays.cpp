@@ -42,7 +42,8 @@ Hdf5Arrays::Hdf5Arrays(const std::filesystem::path& file, Mode mode) : name_(fil
   } else if (H5Fis_hdf5(name_.c_str()) <= 0) {
     problem = "not an HDF5 file";
   } else {
-    file_ = H5Fopen(name_.c_str(), mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT);
+    file_ =
+        H5Fopen(name_.c_str(), mode == Mode::extend ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT);
     problem = "damaged or truncated HDF5 file";
   }
   if (file_ >= 0) return;
@@ -61,7 +62,9 @@ void Hdf5Arrays::close() {
   if (!flushed || !closed) fail("cannot be written to the end");
 }
 
-void Hdf5Arrays::fail(const std::string& what) const { throw ProblemFileError(name_ + ": " + what); }
+void Hdf5Arrays::fail(const std::string& what) const {
+  throw ProblemFileError(name_ + ": " + what);
+}
 
 /// Asks group after group: HDF5 fails on a path whose parent is missing.
 bool Hdf5Arrays::has(const std::string& path) const {
@@ -81,7 +84,8 @@ std::vector<Value> Hdf5Arrays::read(const std::string& path, std::int64_t type) 
   const H5T_class_t kind = stored.valid() ? H5Tget_class(stored.id()) : H5T_NO_CLASS;
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(path + ": does not hold numbers");
   const hssize_t size = space.valid() ? H5Sget_simple_extent_npoints(space.id()) : -1;
-  // More entries than fit into a file of the largest sensible size: a damaged header, not a dataset.
+  // More entries than fit into a file of the largest sensible size: a damaged header, not a
+  // dataset.
   if (size < 0 || size > (hssize_t{1} << 31)) fail(path + ": has no readable extent");
   std::vector<Value> values(static_cast<std::size_t>(size));
   if (size > 0 && H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -89,7 +93,9 @@ std::vector<Value> Hdf5Arrays::read(const std::string& path, std::int64_t type) 
   return values;
 }
 
-std::vector<int> Hdf5Arrays::read_ints(const std::string& path) const { return read<int>(path, H5T_NATIVE_INT); }
+std::vector<int> Hdf5Arrays::read_ints(const std::string& path) const {
+  return read<int>(path, H5T_NATIVE_INT);
+}
 
 std::vector<double> Hdf5Arrays::read_doubles(const std::string& path) const {
   return read<double>(path, H5T_NATIVE_DOUBLE);
@@ -106,7 +112,8 @@ std::string Hdf5Arrays::read_text(const std::string& path) const {
   if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0)
     fail(path + ": is no text of fixed length");
   const Handle space(H5Dget_space(dataset.id()), H5Sclose);
-  if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1) fail(path + ": is not one text");
+  if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1)
+    fail(path + ": is not one text");
   std::string text(H5Tget_size(type.id()), '\0');
   if (H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     fail(path + ": cannot be read (damaged or truncated)");
@@ -115,21 +122,26 @@ std::string Hdf5Arrays::read_text(const std::string& path) const {
 
 int Hdf5Arrays::read_int(const std::string& path) const {
   const std::vector<int> values = read_ints(path);
-  if (values.size() != 1) fail(path + " has " + std::to_string(values.size()) + " entries, must have 1");
+  if (values.size() != 1)
+    fail(path + " has " + std::to_string(values.size()) + " entries, must have 1");
   return values[0];
 }
 
 void Hdf5Arrays::make_group(const std::string& path) {
-  const Handle group(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  const Handle group(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                     H5Gclose);
   if (!group.valid()) fail(path + ": cannot be written");
 }
 
-void Hdf5Arrays::write(const std::string& path, std::int64_t type, std::uint64_t size, const void* values) {
+void Hdf5Arrays::write(const std::string& path, std::int64_t type, std::uint64_t size,
+                       const void* values) {
   const hsize_t extent = size;
   const Handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
-  const Handle dataset(H5Dcreate2(file_, path.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Dclose);
-  if (!dataset.valid() || (size > 0 && H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
+  const Handle dataset(
+      H5Dcreate2(file_, path.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose);
+  if (!dataset.valid() ||
+      (size > 0 && H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
     fail(path + ": cannot be written");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// An adapter over HDF5's C interface: one-dimensional arrays of integers, doubles and 64-bit keys by path, errors as one line.
+// An adapter over HDF5's C interface: one-dimensional arrays of integers, doubles and 64-bit keys
+// by path, errors as one line.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,8 +9,9 @@
 
 namespace ballast {
 
-/// An open HDF5 file; handles are closed by the destructor, and HDF5's own error printing is off while it lives. Every
-/// failure is a ProblemFileError that starts with the file's name and names the dataset.
+/// An open HDF5 file; handles are closed by the destructor, and HDF5's own error printing is off
+/// while it lives. Every failure is a ProblemFileError that starts with the file's name and names
+/// the dataset.
 class Hdf5Arrays {
  public:
   enum class Mode { read, create, extend };

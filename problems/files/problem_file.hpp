@@ -1,6 +1,6 @@
 #pragma once
-// Stored problems: FCLIB's HDF5 layout (local: W, q, mu; global: M, H, f, w, mu), read and written; Siconos' text
-// format read.
+// Stored problems: FCLIB's HDF5 layout (local: W, q, mu; global: M, H, f, w, mu), read and written;
+// Siconos' text format read.
 
 #include <filesystem>
 
@@ -10,9 +10,10 @@
 
 namespace ballast {
 
-/// Reads .hdf5/.h5 (FCLIB local or global, 3-D) or .dat (Siconos FrictionContact: dense, block or sparse). Throws
-/// ProblemFileError. Global problems keep the dynamics form when M is block diagonal by bodies and a contact touches at
-/// most two of them; otherwise W is formed. What a run captured comes back in the form in which it was written.
+/// Reads .hdf5/.h5 (FCLIB local or global, 3-D) or .dat (Siconos FrictionContact: dense, block or
+/// sparse). Throws ProblemFileError. Global problems keep the dynamics form when M is block
+/// diagonal by bodies and a contact touches at most two of them; otherwise W is formed. What a run
+/// captured comes back in the form in which it was written.
 FrictionProblem read_problem(const std::filesystem::path& file);
 
 }  // namespace ballast

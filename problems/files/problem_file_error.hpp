@@ -4,7 +4,8 @@
 
 namespace ballast {
 
-/// What is wrong with a problem file; what() starts with the file's name and names the group, dataset and entry.
+/// What is wrong with a problem file; what() starts with the file's name and names the group,
+/// dataset and entry.
 class ProblemFileError : public Error {
  public:
   using Error::Error;

@@ -26,12 +26,17 @@ class Words {
     text_ = std::move(text).str();
   }
 
-  [[noreturn]] void fail(const std::string& what) const { throw ProblemFileError(name_ + ": " + what); }
-  [[noreturn]] void fail_here(const std::string& what) const { fail("line " + std::to_string(line_) + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw ProblemFileError(name_ + ": " + what);
+  }
+  [[noreturn]] void fail_here(const std::string& what) const {
+    fail("line " + std::to_string(line_) + ": " + what);
+  }
 
   /// `of` names what is read, in messages.
   std::string_view next(const char* of) {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) line_ += text_[at_++] == '\n';
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])))
+      line_ += text_[at_++] == '\n';
     const std::size_t begin = at_;
     while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
     if (begin == at_) fail_here(std::string("the file ends within ") + of);
@@ -45,10 +50,12 @@ class Words {
   int integer(const char* of) { return number<int>(next(of), of); }
   double real(const char* of) {
     const double value = number<double>(next(of), of);
-    if (!std::isfinite(value)) fail_here(std::string(of) + " = " + std::to_string(value) + " is not finite");
+    if (!std::isfinite(value))
+      fail_here(std::string(of) + " = " + std::to_string(value) + " is not finite");
     return value;
   }
-  /// Not negative, and no more than the rest of the file could hold: a wrong count must not be allocated.
+  /// Not negative, and no more than the rest of the file could hold: a wrong count must not be
+  /// allocated.
   int count(const char* of) {
     const int value = integer(of);
     if (value < 0) fail_here(std::string(of) + " = " + std::to_string(value) + " is negative");
@@ -88,8 +95,8 @@ struct TextMatrix {
 
   void add(const Words& words, int row, int column, double value) {
     words.require(row >= 0 && row < rows && column >= 0 && column < columns,
-                  "entry (" + std::to_string(row) + ", " + std::to_string(column) + ") is outside " +
-                      std::to_string(rows) + " x " + std::to_string(columns));
+                  "entry (" + std::to_string(row) + ", " + std::to_string(column) +
+                      ") is outside " + std::to_string(rows) + " x " + std::to_string(columns));
     if (value != 0.0) entries.emplace_back(row, column, value);
   }
 };
@@ -97,10 +104,12 @@ struct TextMatrix {
 /// Column-major.
 void read_dense(Words& words, TextMatrix& matrix) {
   const int rows = words.count("rows"), columns = words.count("columns");
-  words.require(rows == matrix.rows && columns == matrix.columns, "the matrix states two different sizes");
+  words.require(rows == matrix.rows && columns == matrix.columns,
+                "the matrix states two different sizes");
   words.require_room(static_cast<std::size_t>(rows) * columns, "a dense matrix");
   for (int column = 0; column < columns; ++column)
-    for (int row = 0; row < rows; ++row) matrix.add(words, row, column, words.real("a dense matrix"));
+    for (int row = 0; row < rows; ++row)
+      matrix.add(words, row, column, words.real("a dense matrix"));
 }
 
 std::vector<int> read_counts(Words& words, int size, const char* of) {
@@ -110,13 +119,15 @@ std::vector<int> read_counts(Words& words, int size, const char* of) {
   return values;
 }
 
-/// Block rows: cumulative block sizes, row pointers, block columns, then each block column-major after its number.
+/// Block rows: cumulative block sizes, row pointers, block columns, then each block column-major
+/// after its number.
 void read_blocks(Words& words, TextMatrix& matrix) {
   const int blocks = words.count("the number of blocks");
   const int block_rows = words.count("block rows"), block_columns = words.count("block columns");
   const std::vector<int> row_end = read_counts(words, block_rows, "sizes of block rows");
   const std::vector<int> column_end = read_counts(words, block_columns, "sizes of block columns");
-  const int pointers = words.count("the number of row pointers"), indices = words.count("the number of block columns");
+  const int pointers = words.count("the number of row pointers"),
+            indices = words.count("the number of block columns");
   const std::vector<int> begin = read_counts(words, pointers, "row pointers");
   const std::vector<int> column_of = read_counts(words, indices, "block columns");
   words.require(indices >= blocks, "there are fewer block columns than blocks");
@@ -136,7 +147,8 @@ void read_blocks(Words& words, TextMatrix& matrix) {
 void read_sparse(Words& words, TextMatrix& matrix) {
   enum Origin { triplet = 1, columns = 2, rows = 3 };
   const int origin = words.integer("the origin of a sparse matrix");
-  words.require(origin >= triplet && origin <= rows, "sparse origin " + std::to_string(origin) + " is not supported");
+  words.require(origin >= triplet && origin <= rows,
+                "sparse origin " + std::to_string(origin) + " is not supported");
   words.skip_line();
   words.skip_to(origin == triplet ? "triplet:" : "nzmax:", "a sparse matrix");
   if (origin == triplet) {
@@ -161,7 +173,8 @@ void read_sparse(Words& words, TextMatrix& matrix) {
       const int index = words.integer("an index");
       words.skip_to(":", "a sparse matrix");
       const double value = words.real("a sparse matrix");
-      origin == columns ? matrix.add(words, index, line, value) : matrix.add(words, line, index, value);
+      origin == columns ? matrix.add(words, index, line, value)
+                        : matrix.add(words, line, index, value);
     }
   }
 }
@@ -182,7 +195,8 @@ TextMatrix read_matrix(Words& words) {
       read_sparse(words, matrix);
       break;
     default:
-      words.fail_here("storage " + std::to_string(storage) + " is none of 0 dense, 1 blocks, 2 sparse");
+      words.fail_here("storage " + std::to_string(storage) +
+                      " is none of 0 dense, 1 blocks, 2 sparse");
   }
   return matrix;
 }
@@ -218,8 +232,9 @@ std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesyste
   }
   const TextMatrix h = read_matrix(words);
   words.require(h.rows == first.rows && h.columns == 3 * contacts,
-                "H is " + std::to_string(h.rows) + " x " + std::to_string(h.columns) + ", must be " +
-                    std::to_string(first.rows) + " x " + std::to_string(3 * contacts));
+                "H is " + std::to_string(h.rows) + " x " + std::to_string(h.columns) +
+                    ", must be " + std::to_string(first.rows) + " x " +
+                    std::to_string(3 * contacts));
   GlobalProblem global;
   assign(global.m, first);
   assign(global.h, h);

@@ -1,6 +1,6 @@
 #pragma once
-// Siconos' text format (.dat) of FrictionContactProblem and GlobalFrictionContactProblem: numbers separated by white
-// space.
+// Siconos' text format (.dat) of FrictionContactProblem and GlobalFrictionContactProblem: numbers
+// separated by white space.
 
 #include <filesystem>
 #include <variant>
@@ -9,9 +9,9 @@
 
 namespace ballast {
 
-/// Local: dimension, contacts, W, q, mu. Global: dimension, contacts, M, H, q, b, mu: told apart by the first matrix,
-/// which has as many rows as the contacts only when it is W. Matrices are dense, by blocks, or sparse. Throws
-/// ProblemFileError with the line.
+/// Local: dimension, contacts, W, q, mu. Global: dimension, contacts, M, H, q, b, mu: told apart by
+/// the first matrix, which has as many rows as the contacts only when it is W. Matrices are dense,
+/// by blocks, or sparse. Throws ProblemFileError with the line.
 std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesystem::path& file);
 
 }  // namespace ballast

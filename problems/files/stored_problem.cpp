@@ -24,7 +24,8 @@ class Grouping {
  public:
   Grouping(const GlobalProblem& global, int size) : size_(size) {
     const int unknowns = static_cast<int>(global.m.rows());
-    fits_ = unknowns % size == 0 && mass_is_block_diagonal(global.m) && find_bodies_of_contacts(global);
+    fits_ =
+        unknowns % size == 0 && mass_is_block_diagonal(global.m) && find_bodies_of_contacts(global);
   }
   bool fits() const { return fits_; }
   int size() const { return size_; }
@@ -74,8 +75,8 @@ void fill_bodies(const GlobalProblem& global, int size, DynamicsForm& dynamics) 
     dynamics.mass_begin.push_back(static_cast<int>(dynamics.mass.size()));
     MassRoot root;
     if (!root.factor(block.data(), size))
-      throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) +
-                           ") = " + std::to_string(block(0, 0)) + ": the block is not positive definite");
+      throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) + ") = " +
+                           std::to_string(block(0, 0)) + ": the block is not positive definite");
     root.solve_lower(dynamics.v_free.data() + first);
     root.solve_upper(dynamics.v_free.data() + first);
   }
@@ -97,7 +98,8 @@ void fill_contacts(const GlobalProblem& global, const Grouping& grouping, Dynami
   dynamics.bias = global.w;
 }
 
-/// W = H^T M^-1 H and q = H^T M^-1 f + w. By LU: stored iteration matrices need not be quite symmetric.
+/// W = H^T M^-1 H and q = H^T M^-1 f + w. By LU: stored iteration matrices need not be quite
+/// symmetric.
 FrictionProblem condense(const GlobalProblem& global) {
   Eigen::SparseLU<SparseColumns> factor(global.m);
   if (factor.info() != Eigen::Success) throw InvalidProblem("M is singular");
@@ -110,13 +112,16 @@ FrictionProblem condense(const GlobalProblem& global) {
 }
 
 /// Row of a three-row file in which our row `row` of contact c is.
-int file_row(const FrictionProblem& problem, int c, int row) { return 3 * c + row - problem.row_begin[c]; }
+int file_row(const FrictionProblem& problem, int c, int row) {
+  return 3 * c + row - problem.row_begin[c];
+}
 
 /// Our row of every row of the file; -1 for the tangents that a one-row contact does not have.
 std::vector<int> file_rows(const FrictionProblem& problem) {
   std::vector<int> rows(problem.row_count());
   for (int c = 0; c < problem.contact_count(); ++c)
-    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) rows[row] = file_row(problem, c, row);
+    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
+      rows[row] = file_row(problem, c, row);
   return rows;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// What problem files hold, before it becomes a FrictionProblem: matrices and vectors in the format's own shape.
+// What problem files hold, before it becomes a FrictionProblem: matrices and vectors in the
+// format's own shape.
 
 #include <vector>
 
@@ -30,9 +31,9 @@ inline Eigen::VectorXd as_eigen(const std::vector<double>& x) {
 
 FrictionProblem to_friction_problem(LocalProblem local);
 
-/// Keeps the dynamics form when the unknowns can be grouped into bodies of at most six so that M is block diagonal and
-/// a contact touches at most two of them; forms W otherwise. Throws InvalidProblem when M is not symmetric positive
-/// definite.
+/// Keeps the dynamics form when the unknowns can be grouped into bodies of at most six so that M is
+/// block diagonal and a contact touches at most two of them; forms W otherwise. Throws
+/// InvalidProblem when M is not symmetric positive definite.
 FrictionProblem to_friction_problem(const GlobalProblem& global);
 
 /// One-row contacts become three rows with mu = 0: their tangential rows of W or H are zero.

@@ -6,7 +6,8 @@
 namespace ballast {
 
 Mat3 contact_frame(const Vec3& n) {
-  // T1 in the plane of n and the world axis that is least along n (the first of equals): never near-parallel
+  // T1 in the plane of n and the world axis that is least along n (the first of equals): never
+  // near-parallel
   int axis = 0;
   if (std::abs(n.y()) < std::abs(n[axis])) axis = 1;
   if (std::abs(n.z()) < std::abs(n[axis])) axis = 2;
@@ -25,7 +26,8 @@ Vec3 prescribed_velocity(const RigidBody& body, double time) {
 
 ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(system) {
   for (const RigidBody& body : system.bodies) {
-    if (body.is_wall() && body.wall.motion == WallMotion::prescribed) some_wall_is_prescribed_ = true;
+    if (body.is_wall() && body.wall.motion == WallMotion::prescribed)
+      some_wall_is_prescribed_ = true;
     const int dofs = body.freedom.count();
     if (dofs == 0) {
       problem_body_.push_back(-1);
@@ -50,7 +52,8 @@ void ProblemAssembler::pack(const MotionState& state, Eigen::VectorXd& v) const 
     if (problem_body_[b] < 0) continue;
     const Freedom& freedom = system_.bodies[b].freedom;
     double* out = v.data() + first_dof(static_cast<int>(b));
-    for (int d = 0; d < freedom.translations; ++d) *out++ = freedom.axes.col(d).dot(state.velocity[b]);
+    for (int d = 0; d < freedom.translations; ++d)
+      *out++ = freedom.axes.col(d).dot(state.velocity[b]);
     if (freedom.rotation) Eigen::Map<Vec3>{out} = state.spin[b];
   }
 }
@@ -67,8 +70,9 @@ void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) cons
 }
 
 /// Returns where the next block begins.
-double* ProblemAssembler::write_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows,
-                                      const Vec3& point, double* h) const {
+double* ProblemAssembler::write_block(const MotionState& state, int body, double sign,
+                                      const Mat3& frame, int rows, const Vec3& point,
+                                      double* h) const {
   if (problem_body_[body] < 0) return h;
   const Freedom& freedom = system_.bodies[body].freedom;
   for (int d = 0; d < freedom.translations; ++d)
@@ -95,7 +99,8 @@ void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionP
     detected_.push_back(static_cast<int>(c));
     const double mu = system_.pair_friction(contact.body_a, contact.body_b);
     const int rows = mu > 0.0 ? 3 : 1;
-    const int dofs = system_.bodies[contact.body_a].freedom.count() + system_.bodies[contact.body_b].freedom.count();
+    const int dofs = system_.bodies[contact.body_a].freedom.count() +
+                     system_.bodies[contact.body_b].freedom.count();
     dynamics.h_begin.push_back(dynamics.h_begin.back() + rows * dofs);
     dynamics.body_a.push_back(problem_body_[contact.body_a]);
     dynamics.body_b.push_back(problem_body_[contact.body_b]);
@@ -107,8 +112,9 @@ void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionP
   row_begin_ = problem.row_begin;
 }
 
-void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd& v_free, double h, double end_time,
-                                std::span<const ContactPoint> contacts, FrictionProblem& problem) {
+void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd& v_free, double h,
+                                double end_time, std::span<const ContactPoint> contacts,
+                                FrictionProblem& problem) {
   problem.clear();
   problem.has_dynamics = true;
   DynamicsForm& dynamics = problem.dynamics;
@@ -118,7 +124,8 @@ void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd&
   dynamics.v_free = v_free;
 
   rotation_.resize(state.pose.size());
-  for (size_t b = 0; b < state.pose.size(); ++b) rotation_[b] = state.pose[b].rotation.toRotationMatrix();
+  for (size_t b = 0; b < state.pose.size(); ++b)
+    rotation_[b] = state.pose[b].rotation.toRotationMatrix();
 
   lay_out(contacts, problem);
   const int count = problem.contact_count();
@@ -135,7 +142,8 @@ void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd&
   });
 
   prescribed_part(contacts, end_time, dynamics.bias);
-  if (const double e = system_.restitution; e > 0.0) {  // Newton's law: u_N+ + e u_N- >= 0 for approaching points
+  if (const double e = system_.restitution;
+      e > 0.0) {  // Newton's law: u_N+ + e u_N- >= 0 for approaching points
     pack(state, v_before_);
     prescribed_part(contacts, state.time, u_before_);
     for (int c = 0; c < problem.contact_count(); ++c) {

@@ -1,17 +1,18 @@
 #pragma once
-// Bodies + contact points -> friction problem. Fixed bodies carry no unknown, a driven wall carries one, and a frictionless
-// contact one row: what a scene does not need is not assembled.
+// Bodies + contact points -> friction problem. Fixed bodies carry no unknown, a driven wall carries
+// one, and a frictionless contact one row: what a scene does not need is not assembled.
 
 #include <span>
 #include <vector>
 
+#include "platform/worker_team.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
-#include "platform/worker_team.hpp"
 
 namespace ballast {
 
-/// Rows N, T1, T2 of a contact frame in the world frame. The tangents are a fixed function of the normal.
+/// Rows N, T1, T2 of a contact frame in the world frame. The tangents are a fixed function of the
+/// normal.
 Mat3 contact_frame(const Vec3& normal);
 
 /// Velocity of a wall with prescribed motion at time t [m/s]; zero for others.
@@ -22,7 +23,8 @@ class ProblemAssembler {
  public:
   explicit ProblemAssembler(const MechanicalSystem& system);
 
-  /// Shares the work of assemble() from now on; null: alone. The same bits either way. `team` outlives the assembler.
+  /// Shares the work of assemble() from now on; null: alone. The same bits either way. `team`
+  /// outlives the assembler.
   void use_team(WorkerTeam* team) { team_ = team; }
 
   /// Unknowns <-> velocities. Bodies without freedom are left alone.
@@ -30,38 +32,44 @@ class ProblemAssembler {
   void pack(const MotionState& state, Eigen::VectorXd& v) const;
   void unpack(const Eigen::VectorXd& v, MotionState& state) const;
   /// First unknown of a body, or -1 without freedom.
-  int first_dof(int body) const { return problem_body_[body] < 0 ? -1 : dof_begin_[problem_body_[body]]; }
+  int first_dof(int body) const {
+    return problem_body_[body] < 0 ? -1 : dof_begin_[problem_body_[body]];
+  }
 
-  /// `state`: poses at which the contacts were detected, velocities at the beginning of the step. `v_free` [m/s, rad/s] is
-  /// copied in. `end_time`: when prescribed walls are taken. With restitution e > 0 points still open are left out: Newton's law speaks of
-  /// contacts that are closed; otherwise an open point acts only if it would close within the step, bias_N = gap / h.
+  /// `state`: poses at which the contacts were detected, velocities at the beginning of the step.
+  /// `v_free` [m/s, rad/s] is copied in. `end_time`: when prescribed walls are taken. With
+  /// restitution e > 0 points still open are left out: Newton's law speaks of contacts that are
+  /// closed; otherwise an open point acts only if it would close within the step, bias_N = gap / h.
   void assemble(const MotionState& state, const Eigen::VectorXd& v_free, double h, double end_time,
                 std::span<const ContactPoint> contacts, FrictionProblem& problem);
 
-  /// Frames of the contacts assembled last, and which detected contact each one is (left-out points have none).
+  /// Frames of the contacts assembled last, and which detected contact each one is (left-out points
+  /// have none).
   std::span<const Mat3> frames() const { return frames_; }
   std::span<const int> detected() const { return detected_; }
 
-  /// Velocity of prescribed walls seen at the contacts assembled last, in the contact frames, at another time: the part of
-  /// the relative velocity that is not H v. Rows as in the problem.
-  void prescribed_part(std::span<const ContactPoint> contacts, double time, Eigen::VectorXd& rows) const;
+  /// Velocity of prescribed walls seen at the contacts assembled last, in the contact frames, at
+  /// another time: the part of the relative velocity that is not H v. Rows as in the problem.
+  void prescribed_part(std::span<const ContactPoint> contacts, double time,
+                       Eigen::VectorXd& rows) const;
 
   /// World-frame impulses on body b <-> stacked rows of the problem assembled last.
   void to_rows(std::span<const Vec3> world, Impulses& r) const;
-  void to_world(const Impulses& r, std::span<const ContactPoint> contacts, std::vector<Vec3>& world) const;
+  void to_world(const Impulses& r, std::span<const ContactPoint> contacts,
+                std::vector<Vec3>& world) const;
 
  private:
   void lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem);
-  double* write_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows, const Vec3& point,
-                      double* h) const;
+  double* write_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows,
+                      const Vec3& point, double* h) const;
 
   const MechanicalSystem& system_;
   WorkerTeam* team_ = nullptr;
-  std::vector<int> problem_body_;      // body -> index among bodies with freedom, or -1
+  std::vector<int> problem_body_;  // body -> index among bodies with freedom, or -1
   std::vector<int> dof_begin_{0};
-  DynamicsForm constant_;              // dof_begin, mass_begin, mass: the same in every step
+  DynamicsForm constant_;  // dof_begin, mass_begin, mass: the same in every step
   bool some_wall_is_prescribed_ = false;
-  std::vector<Mat3> rotation_;         // R_WB of every body at the assembled poses
+  std::vector<Mat3> rotation_;  // R_WB of every body at the assembled poses
   std::vector<Mat3> frames_;
   std::vector<int> detected_;
   std::vector<int> row_begin_{0};

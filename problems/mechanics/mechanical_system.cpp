@@ -23,7 +23,8 @@ double MechanicalSystem::mass_of_grains() const {
 
 int MechanicalSystem::first_driven_wall() const {
   for (size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b].is_wall() && bodies[b].wall.motion == WallMotion::driven) return static_cast<int>(b);
+    if (bodies[b].is_wall() && bodies[b].wall.motion == WallMotion::driven)
+      return static_cast<int>(b);
   return -1;
 }
 

@@ -8,8 +8,9 @@
 
 namespace ballast {
 
-/// What of a body is unknown: translations along the first `translations` columns of `axes` (orthonormal, world frame),
-/// and all rotations (about the body axes) or none. A driven wall has one translation, a fixed body none.
+/// What of a body is unknown: translations along the first `translations` columns of `axes`
+/// (orthonormal, world frame), and all rotations (about the body axes) or none. A driven wall has
+/// one translation, a fixed body none.
 struct Freedom {
   int translations = 3;
   Mat3 axes = Mat3::Identity();
@@ -51,11 +52,12 @@ struct MechanicalSystem {
 
   double mass_of_grains() const;
   int find_body(const std::string& name) const;  ///< -1 when there is none
-  int first_driven_wall() const;               ///< -1 when there is none
+  int first_driven_wall() const;                 ///< -1 when there is none
   double pair_friction(int a, int b) const;      ///< a wall's own mu, else the bodies'
 };
 
-/// Bodies and walls of a scene, with the initial state. For scenes with `grains` use experiments/vibrated_box, which makes them.
+/// Bodies and walls of a scene, with the initial state. For scenes with `grains` use
+/// experiments/vibrated_box, which makes them.
 MechanicalSystem make_system(const Scene& scene, MotionState& state);
 
 /// Appends a body or a wall (walls last). Used by make_system and by the vibrated box.
@@ -67,7 +69,8 @@ std::vector<ContactShape> contact_shapes(const MechanicalSystem& system);
 /// Of what has unknowns [J]. `velocity` world frame [m/s], `spin` body frame [rad/s].
 double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& spin);
 
-/// Displacement of a wall from where it started, along -normal (outward) [m], and its outward velocity [m/s].
+/// Displacement of a wall from where it started, along -normal (outward) [m], and its outward
+/// velocity [m/s].
 double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall);
 double outward_velocity(const MechanicalSystem& system, const MotionState& state, int wall);
 

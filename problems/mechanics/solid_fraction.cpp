@@ -8,8 +8,8 @@ namespace ballast {
 ControlVolume::ControlVolume(const Vec3& lo, const Vec3& hi) : lo_(lo), hi_(hi) {
   if ((lo.array() < hi.array()).all()) return;
   std::ostringstream message;
-  message << "control volume: the margins leave nothing: from (" << lo.transpose() << ") to (" << hi.transpose()
-          << ") m";
+  message << "control volume: the margins leave nothing: from (" << lo.transpose() << ") to ("
+          << hi.transpose() << ") m";
   throw std::invalid_argument(message.str());
 }
 

@@ -12,7 +12,8 @@ class ControlVolume {
   /// Throws std::invalid_argument unless lo < hi in all three directions.
   ControlVolume(const Vec3& lo, const Vec3& hi);
 
-  /// Volume of all grains inside the box over the volume of the box, exact to rounding. Overlaps of grains count twice.
+  /// Volume of all grains inside the box over the volume of the box, exact to rounding. Overlaps of
+  /// grains count twice.
   double solid_fraction(const MechanicalSystem& system, const MotionState& state);
 
   const Vec3& lo() const { return lo_; }

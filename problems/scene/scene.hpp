@@ -1,5 +1,6 @@
 #pragma once
-// A scene: everything a run depends on, as plain data. Read from TOML by scene_file, turned into bodies by mechanical_system.
+// A scene: everything a run depends on, as plain data. Read from TOML by scene_file, turned into
+// bodies by mechanical_system.
 
 #include <memory>
 #include <numbers>
@@ -12,16 +13,19 @@
 
 namespace ballast {
 
-/// f(t) = (f_max + f_min)/2 - (f_max - f_min)/2 sin(2 pi nu t): compressive force on a driven wall [N] (paper, Eq. 1).
+/// f(t) = (f_max + f_min)/2 - (f_max - f_min)/2 sin(2 pi nu t): compressive force on a driven wall
+/// [N] (paper, Eq. 1).
 struct HarmonicLoad {
   double f_min = 0.0, f_max = 0.0;  ///< [N]
   double frequency = 0.0;           ///< nu [Hz]
   double at(double t) const {
-    return 0.5 * (f_max + f_min) - 0.5 * (f_max - f_min) * std::sin(2.0 * std::numbers::pi * frequency * t);
+    return 0.5 * (f_max + f_min) -
+           0.5 * (f_max - f_min) * std::sin(2.0 * std::numbers::pi * frequency * t);
   }
 };
 
-/// How a wall moves. `driven`: one unknown, its velocity along -normal (outward), pushed along +normal by the load.
+/// How a wall moves. `driven`: one unknown, its velocity along -normal (outward), pushed along
+/// +normal by the load.
 enum class WallMotion { fixed, prescribed, driven };
 
 /// The half-space boundary {x : normal.x = offset}; normal points into the free side.
@@ -31,13 +35,15 @@ struct WallSpec {
   double offset = 0.0;    ///< [m] at t = 0
   double friction = 0.0;  ///< mu of contacts with this wall
   WallMotion motion = WallMotion::fixed;
-  double mass = 0.0;      ///< driven: [kg]
-  HarmonicLoad load;      ///< driven
-  Vec3 amplitude = Vec3::Zero();  ///< prescribed: displacement amplitude (1 - cos 2 pi nu t), from rest [m]
-  double frequency = 0.0;         ///< prescribed: nu [Hz]
+  double mass = 0.0;  ///< driven: [kg]
+  HarmonicLoad load;  ///< driven
+  Vec3 amplitude =
+      Vec3::Zero();  ///< prescribed: displacement amplitude (1 - cos 2 pi nu t), from rest [m]
+  double frequency = 0.0;  ///< prescribed: nu [Hz]
 };
 
-/// f(t) = constant + amplitude cos(2 pi nu t + phase): a force on a body's centre of mass, world frame [N].
+/// f(t) = constant + amplitude cos(2 pi nu t + phase): a force on a body's centre of mass, world
+/// frame [N].
 struct ForceSpec {
   Vec3 constant = Vec3::Zero();
   Vec3 amplitude = Vec3::Zero();
@@ -69,91 +75,101 @@ struct GrainsSpec {
   SizeConvention size_convention = SizeConvention::radius;
   std::vector<SizeClass> distribution;
   GrainShapeSettings shape;
-  std::vector<std::string> meshes;  ///< files of the user's own grains, used in turn instead of generated ones, scaled to the sizes
+  std::vector<std::string> meshes;  ///< files of the user's own grains, used in turn instead of
+                                    ///< generated ones, scaled to the sizes
 };
 
 /// The box the grains are in: walls x_min, x_max, y_min, y_max, floor, lid. z up.
 struct BoxSpec {
-  double length = 0.0;  ///< along x, the driven direction [m]
-  double width = 0.0;   ///< along y [m]
+  double length = 0.0;               ///< along x, the driven direction [m]
+  double width = 0.0;                ///< along y [m]
   double friction_horizontal = 0.4;  ///< floor and lid
   double friction_vertical = 0.0;    ///< side walls
 };
 
 /// How the packing is made before the drive.
 struct DepositSpec {
-  double step = 5e-4;              ///< h while depositing [s]
-  double friction = 0.4;           ///< grain-grain and horizontal walls while depositing
-  double fill_fraction = 0.30;     ///< of the bounding spheres in the initial rain: its height follows
-  double max_time = 3.0;           ///< [s] give up waiting for rest after this
-  double rest_velocity = 0.01;     ///< rms grain velocity that counts as rest [m/s]
-  double lid_pressure_weight = 1.0;///< load on the lid while it presses, in grain weights; 0: the lid is only placed
-  double lid_time = 0.3;           ///< how long it presses [s]
-  double settle_time = 0.1;        ///< rest after the lid is raised [s]
-  double settle_step = 2e-4;       ///< h of that rest [s]
-  double gravity = 0.0;            ///< magnitude while depositing [m/s^2]; 0: the scene's. One packing then serves drives under several g
-  std::string solver = "nncg";     ///< its own, so that drives by several solvers start from one packing
-  double tolerance = 1e-2;         ///< natural map rms, in g h
+  double step = 5e-4;           ///< h while depositing [s]
+  double friction = 0.4;        ///< grain-grain and horizontal walls while depositing
+  double fill_fraction = 0.30;  ///< of the bounding spheres in the initial rain: its height follows
+  double max_time = 3.0;        ///< [s] give up waiting for rest after this
+  double rest_velocity = 0.01;  ///< rms grain velocity that counts as rest [m/s]
+  double lid_pressure_weight =
+      1.0;  ///< load on the lid while it presses, in grain weights; 0: the lid is only placed
+  double lid_time = 0.3;      ///< how long it presses [s]
+  double settle_time = 0.1;   ///< rest after the lid is raised [s]
+  double settle_step = 2e-4;  ///< h of that rest [s]
+  double gravity = 0.0;  ///< magnitude while depositing [m/s^2]; 0: the scene's. One packing then
+                         ///< serves drives under several g
+  std::string solver =
+      "nncg";               ///< its own, so that drives by several solvers start from one packing
+  double tolerance = 1e-2;  ///< natural map rms, in g h
   int max_iterations = 200;
 };
 
 /// The harmonic drive of wall x_max.
 struct DriveSpec {
-  double frequency = 5.0;           ///< nu [Hz]
-  double f_max_over_weight = 3.0;   ///< f_max / (m g), m the total grain mass
+  double frequency = 5.0;          ///< nu [Hz]
+  double f_max_over_weight = 3.0;  ///< f_max / (m g), m the total grain mass
   double f_min_over_weight = 0.0;
   double wall_mass_over_grains = 0.5;  ///< m_w / m
-  double lid_raise = 0.01;          ///< [m]
+  double lid_raise = 0.01;             ///< [m]
 };
 
 struct SolverSpec {
   std::string name = "nncg";
-  double tolerance = 1e-3;   ///< natural map rms, in g h (in m/s where there is no gravity)
+  double tolerance = 1e-3;  ///< natural map rms, in g h (in m/s where there is no gravity)
   int max_iterations = 200;
-  double max_seconds = 1e30; ///< per step: breaks reproducibility, so off
+  double max_seconds = 1e30;  ///< per step: breaks reproducibility, so off
   bool warm_start = true;
-  bool islands = false;      ///< heaps that don't touch are solved each on its own, each to the tolerance
+  bool islands =
+      false;        ///< heaps that don't touch are solved each on its own, each to the tolerance
   int threads = 1;  ///< set by the program, never by the file: results do not depend on it
 };
 
-/// Islands at rest fall asleep: frozen, and neither detected nor solved until something comes near (docs/method.md). Not exact.
+/// Islands at rest fall asleep: frozen, and neither detected nor solved until something comes near
+/// (docs/method.md). Not exact.
 struct SleepSpec {
   bool enabled = false;
   double velocity = 0.1;  ///< |v| + |w| R below which a body counts as at rest, in g h
   int steps = 100;        ///< for which all bodies of an island must have been at rest
 };
 
-/// Overlap correction by displacements only: grains are moved apart without changing velocities; driven walls stay.
+/// Overlap correction by displacements only: grains are moved apart without changing velocities;
+/// driven walls stay.
 struct CorrectionSpec {
   bool enabled = true;
-  double slop = 1e-6;      ///< overlap that is left alone [m]
-  double fraction = 0.2;   ///< of the overlap beyond the slop removed per step
+  double slop = 1e-6;     ///< overlap that is left alone [m]
+  double fraction = 0.2;  ///< of the overlap beyond the slop removed per step
   int sweeps = 4;
 };
 
 struct RecordSpec {
-  double pose_rate = 100.0;       ///< poses stored per simulated second
-  double state_rate = 0.0;        ///< whole states (with contacts and impulses) kept per simulated second; 0: none
-  double checkpoint_seconds = 20; ///< wall clock between checkpoints
-  bool paraview = false;          ///< .vtp + .pvd beside the record, at pose_rate
+  double pose_rate = 100.0;  ///< poses stored per simulated second
+  double state_rate =
+      0.0;  ///< whole states (with contacts and impulses) kept per simulated second; 0: none
+  double checkpoint_seconds = 20;  ///< wall clock between checkpoints
+  bool paraview = false;           ///< .vtp + .pvd beside the record, at pose_rate
 };
 
-/// Where the solid fraction of the vibrated box is taken: a box at rest inside the cell, under the initial gap, this far from the
-/// walls and from the top of the packing [m]. It must stay clear of the driven wall.
+/// Where the solid fraction of the vibrated box is taken: a box at rest inside the cell, under the
+/// initial gap, this far from the walls and from the top of the packing [m]. It must stay clear of
+/// the driven wall.
 struct ControlVolumeSpec {
   double margin_x = 0.08, margin_y = 0.0, margin_floor = 0.0, margin_top = 0.0;
 };
 
 struct Scene {
   std::string name, title;
-  double step = 2e-4;      ///< h [s]
-  double duration = 1.0;   ///< of the driven (or only) phase [s]
+  double step = 2e-4;     ///< h [s]
+  double duration = 1.0;  ///< of the driven (or only) phase [s]
   Vec3 gravity = Vec3(0, 0, -9.81);
-  double friction = 0.4;   ///< between bodies
+  double friction = 0.4;  ///< between bodies
   double restitution = 0.0;
   std::vector<WallSpec> walls;
   std::vector<BodySpec> bodies;
-  std::optional<GrainsSpec> grains;  ///< with it: box, deposit and drive hold, and walls and bodies must be empty
+  std::optional<GrainsSpec>
+      grains;  ///< with it: box, deposit and drive hold, and walls and bodies must be empty
   BoxSpec box;
   DepositSpec deposit;
   DriveSpec drive;

@@ -81,10 +81,12 @@ PrincipalShape read_mesh_shape(TomlTable& table, const std::filesystem::path& fo
   }
 }
 
-PrincipalShape read_shape_of_kind(TomlTable& table, const std::string& kind, const std::filesystem::path& folder) {
+PrincipalShape read_shape_of_kind(TomlTable& table, const std::string& kind,
+                                  const std::filesystem::path& folder) {
   if (kind == "box") {
     const Vec3 size = table.vector("size", "m");
-    if (!(size.minCoeff() > 0.0)) table.fail("size", "out of range, expected three lengths > 0 [m]");
+    if (!(size.minCoeff() > 0.0))
+      table.fail("size", "out of range, expected three lengths > 0 [m]");
     return to_principal_frame(make_box(size));
   }
   if (kind == "mesh") return read_mesh_shape(table, folder);
@@ -93,7 +95,8 @@ PrincipalShape read_shape_of_kind(TomlTable& table, const std::string& kind, con
     const auto subdivisions = static_cast<int>(table.whole("subdivisions", 0, 6, 3));
     return to_principal_frame(make_sphere(radius, subdivisions));
   }
-  return make_grain(GrainShapeSettings{}, radius, static_cast<std::uint64_t>(table.whole("seed", 0, any_seed, 1)));
+  return make_grain(GrainShapeSettings{}, radius,
+                    static_cast<std::uint64_t>(table.whole("seed", 0, any_seed, 1)));
 }
 
 PrincipalShape read_shape(TomlTable& table, const std::filesystem::path& folder) {
@@ -125,7 +128,8 @@ void read_locks(TomlTable& table, BodySpec& body) {
     else if (lock == "rotation")
       body.free_rotation = false;
     else
-      table.fail("locked", "unknown word \"" + lock + "\", expected a list of \"x\", \"y\", \"z\", \"rotation\"");
+      table.fail("locked", "unknown word \"" + lock +
+                               "\", expected a list of \"x\", \"y\", \"z\", \"rotation\"");
   }
 }
 
@@ -133,11 +137,14 @@ void read_locks(TomlTable& table, BodySpec& body) {
 void check_locked_velocity(TomlTable& table, const BodySpec& body, const Vec3& spin) {
   const bool free[3] = {body.free_x, body.free_y, body.free_z};
   for (int i = 0; i < 3; ++i)
-    if (!free[i] && body.velocity[i] != 0.0) table.fail("velocity", "moves along a locked direction, expected 0 there");
-  if (!body.free_rotation && spin.norm() != 0.0) table.fail("spin", "turns a body of locked rotation, expected 0");
+    if (!free[i] && body.velocity[i] != 0.0)
+      table.fail("velocity", "moves along a locked direction, expected 0 there");
+  if (!body.free_rotation && spin.norm() != 0.0)
+    table.fail("spin", "turns a body of locked rotation, expected 0");
 }
 
-BodySpec read_body(TomlTable& table, const std::filesystem::path& folder, const std::string& default_name) {
+BodySpec read_body(TomlTable& table, const std::filesystem::path& folder,
+                   const std::string& default_name) {
   BodySpec body;
   body.name = table.text("name", default_name);
   PrincipalShape shape = read_shape(table, folder);

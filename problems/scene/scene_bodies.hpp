@@ -9,7 +9,8 @@
 
 namespace ballast {
 
-/// Names are unique among walls and bodies; unnamed ones are called wall_0, body_0, ... Throws SceneFileError.
+/// Names are unique among walls and bodies; unnamed ones are called wall_0, body_0, ... Throws
+/// SceneFileError.
 std::vector<WallSpec> read_walls(TomlTable& root);
 std::vector<BodySpec> read_bodies(TomlTable& root, const std::filesystem::path& scene_folder,
                                   const std::vector<WallSpec>& walls);

@@ -26,18 +26,23 @@ void read_head(TomlTable table, Scene& scene, const std::filesystem::path& file)
   scene.step = table.number("step", positive, "s", scene.step);
   scene.duration = table.number("duration", positive, "s", scene.duration);
   // a name is also a folder's name
-  const bool plain = scene.name.find_first_not_of(
-                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == std::string::npos;
-  if (scene.name.empty() || scene.name[0] == '.' || !plain) table.fail("name", "expected letters, digits, _, - and .");
-  if (scene.step > scene.duration) table.fail("step", "longer than the scene, expected step <= duration");
-  if (scene.duration / scene.step > 1e12) table.fail("step", "too short, expected at most 1e12 steps");
+  const bool plain =
+      scene.name.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == std::string::npos;
+  if (scene.name.empty() || scene.name[0] == '.' || !plain)
+    table.fail("name", "expected letters, digits, _, - and .");
+  if (scene.step > scene.duration)
+    table.fail("step", "longer than the scene, expected step <= duration");
+  if (scene.duration / scene.step > 1e12)
+    table.fail("step", "too short, expected at most 1e12 steps");
   table.finish();
 }
 
 void read_gravity(TomlTable table, Scene& scene) {
   const double magnitude = table.number("magnitude", not_negative, "m/s^2", 9.81);
   const Vec3 direction = table.vector("direction", "", Vec3(0, 0, -1));
-  if (direction.norm() == 0.0) table.fail("direction", "has no direction, expected a vector that is not zero");
+  if (direction.norm() == 0.0)
+    table.fail("direction", "has no direction, expected a vector that is not zero");
   scene.gravity = magnitude * direction.normalized();
   table.finish();
 }
@@ -61,12 +66,14 @@ std::vector<SizeClass> read_distribution(TomlTable& grains) {
   std::vector<SizeClass> classes;
   double sum = 0.0;
   for (TomlTable& table : grains.sections("distribution")) {
-    classes.push_back({table.number("size", positive, "m"), table.number("fraction", part_of_one, "by number")});
+    classes.push_back(
+        {table.number("size", positive, "m"), table.number("fraction", part_of_one, "by number")});
     sum += classes.back().fraction;
     table.finish();
   }
   if (std::abs(sum - 1.0) > 1e-9)
-    grains.fail("distribution", "fractions sum to " + toml_value_text(toml::value<double>(sum), 30) + ", expected 1");
+    grains.fail("distribution", "fractions sum to " +
+                                    toml_value_text(toml::value<double>(sum), 30) + ", expected 1");
   return classes;
 }
 
@@ -78,11 +85,14 @@ GrainShapeSettings read_grain_shape(TomlTable table) {
     table.fail("min_vertices", "larger than max_vertices, expected at most that");
   shape.elongation_min = table.number("elongation_min", axis_ratio, "", shape.elongation_min);
   shape.elongation_max = table.number("elongation_max", axis_ratio, "", shape.elongation_max);
-  if (shape.elongation_min > shape.elongation_max) table.fail("elongation_min", "larger than elongation_max");
+  if (shape.elongation_min > shape.elongation_max)
+    table.fail("elongation_min", "larger than elongation_max");
   shape.flatness_min = table.number("flatness_min", axis_ratio, "", shape.flatness_min);
   shape.flatness_max = table.number("flatness_max", axis_ratio, "", shape.flatness_max);
-  if (shape.flatness_min > shape.flatness_max) table.fail("flatness_min", "larger than flatness_max");
-  shape.roughness = table.number("roughness", {"a number from 0 to 0.2", 0.0, 0.2, true, true}, "", shape.roughness);
+  if (shape.flatness_min > shape.flatness_max)
+    table.fail("flatness_min", "larger than flatness_max");
+  shape.roughness = table.number("roughness", {"a number from 0 to 0.2", 0.0, 0.2, true, true}, "",
+                                 shape.roughness);
   table.finish();
   return shape;
 }
@@ -115,13 +125,16 @@ BoxSpec read_box(TomlTable table, const GrainsSpec& grains) {
   BoxSpec box;
   box.length = table.number("length", positive, "m");
   box.width = table.number("width", positive, "m");
-  box.friction_horizontal = table.number("friction_horizontal", not_negative, "", box.friction_horizontal);
-  box.friction_vertical = table.number("friction_vertical", not_negative, "", box.friction_vertical);
+  box.friction_horizontal =
+      table.number("friction_horizontal", not_negative, "", box.friction_horizontal);
+  box.friction_vertical =
+      table.number("friction_vertical", not_negative, "", box.friction_vertical);
   double widest = 0.0;
   for (const SizeClass& c : grains.distribution)
-    widest = std::max(widest, grains.size_convention == SizeConvention::radius ? 2.0 * c.size : c.size);
-  const std::string expected =
-      "narrower than the largest grain, expected at least " + toml_value_text(toml::value<double>(widest), 30) + " [m]";
+    widest =
+        std::max(widest, grains.size_convention == SizeConvention::radius ? 2.0 * c.size : c.size);
+  const std::string expected = "narrower than the largest grain, expected at least " +
+                               toml_value_text(toml::value<double>(widest), 30) + " [m]";
   if (box.length < widest) table.fail("length", expected);
   if (box.width < widest) table.fail("width", expected);
   table.finish();
@@ -132,11 +145,12 @@ DepositSpec read_deposit(TomlTable table) {
   DepositSpec deposit;
   deposit.step = table.number("step", positive, "s", deposit.step);
   deposit.friction = table.number("friction", not_negative, "", deposit.friction);
-  deposit.fill_fraction = table.number("fill_fraction", fill_range, "of the bounding spheres", deposit.fill_fraction);
+  deposit.fill_fraction =
+      table.number("fill_fraction", fill_range, "of the bounding spheres", deposit.fill_fraction);
   deposit.max_time = table.number("max_time", positive, "s", deposit.max_time);
   deposit.rest_velocity = table.number("rest_velocity", positive, "m/s", deposit.rest_velocity);
-  deposit.lid_pressure_weight =
-      table.number("lid_pressure_weight", not_negative, "grain weights", deposit.lid_pressure_weight);
+  deposit.lid_pressure_weight = table.number("lid_pressure_weight", not_negative, "grain weights",
+                                             deposit.lid_pressure_weight);
   deposit.lid_time = table.number("lid_time", not_negative, "s", deposit.lid_time);
   deposit.settle_time = table.number("settle_time", not_negative, "s", deposit.settle_time);
   deposit.settle_step = table.number("settle_step", positive, "s", deposit.settle_step);
@@ -151,8 +165,10 @@ DepositSpec read_deposit(TomlTable table) {
 DriveSpec read_drive(TomlTable table) {
   DriveSpec drive;
   drive.frequency = table.number("frequency", positive, "Hz", drive.frequency);
-  drive.f_max_over_weight = table.number("f_max_over_weight", not_negative, "grain weights", drive.f_max_over_weight);
-  drive.f_min_over_weight = table.number("f_min_over_weight", not_negative, "grain weights", drive.f_min_over_weight);
+  drive.f_max_over_weight =
+      table.number("f_max_over_weight", not_negative, "grain weights", drive.f_max_over_weight);
+  drive.f_min_over_weight =
+      table.number("f_min_over_weight", not_negative, "grain weights", drive.f_min_over_weight);
   if (drive.f_min_over_weight > drive.f_max_over_weight)
     table.fail("f_min_over_weight", "larger than f_max_over_weight, expected at most that");
   drive.wall_mass_over_grains =
@@ -196,14 +212,16 @@ void read_numerics(TomlTable& root, Scene& scene) {
   scene.solver.max_iterations = whole_int(solver, "max_iterations", 1, scene.solver.max_iterations);
   scene.solver.max_seconds = solver.number("max_seconds", positive, "s", scene.solver.max_seconds);
   scene.solver.warm_start = solver.flag("warm_start", scene.solver.warm_start);
-  solver.know("islands");  // resolved only where given: a scene.toml from before it means what it meant
+  solver.know(
+      "islands");  // resolved only where given: a scene.toml from before it means what it meant
   if (solver.has("islands")) scene.solver.islands = solver.flag("islands");
   solver.finish();
 
   TomlTable correction = root.section("correction");
   scene.correction.enabled = correction.flag("enabled", scene.correction.enabled);
   scene.correction.slop = correction.number("slop", not_negative, "m", scene.correction.slop);
-  scene.correction.fraction = correction.number("fraction", part_of_one, "", scene.correction.fraction);
+  scene.correction.fraction =
+      correction.number("fraction", part_of_one, "", scene.correction.fraction);
   scene.correction.sweeps = whole_int(correction, "sweeps", 1, scene.correction.sweeps);
   correction.finish();
 
@@ -213,20 +231,26 @@ void read_numerics(TomlTable& root, Scene& scene) {
   scene.detection.use_cache = detection.flag("use_cache", scene.detection.use_cache);
   // only where given: a scene.toml from before has neither
   if (detection.has("reuse_motion")) {
-    scene.detection.reuse_motion = detection.number("reuse_motion", part_of_one, "of circumradii", 0.0);
+    scene.detection.reuse_motion =
+        detection.number("reuse_motion", part_of_one, "of circumradii", 0.0);
     if (!scene.detection.use_cache) detection.fail("reuse_motion", "needs use_cache = true");
-    if (scene.sleep.enabled) detection.fail("reuse_motion", "given together with sleep.enabled = true");
+    if (scene.sleep.enabled)
+      detection.fail("reuse_motion", "given together with sleep.enabled = true");
   }
   if (detection.has("refresh_steps")) {
-    if (!detection.has("reuse_motion")) detection.fail("refresh_steps", "has no meaning without reuse_motion");
-    scene.detection.refresh_steps = whole_int(detection, "refresh_steps", 1, scene.detection.refresh_steps);
+    if (!detection.has("reuse_motion"))
+      detection.fail("refresh_steps", "has no meaning without reuse_motion");
+    scene.detection.refresh_steps =
+        whole_int(detection, "refresh_steps", 1, scene.detection.refresh_steps);
   }
   detection.finish();
 
   TomlTable record = root.section("record");
   scene.record.pose_rate = record.number("pose_rate", positive, "1/s", scene.record.pose_rate);
-  scene.record.state_rate = record.number("state_rate", not_negative, "1/s", scene.record.state_rate);
-  scene.record.checkpoint_seconds = record.number("checkpoint_seconds", positive, "s", scene.record.checkpoint_seconds);
+  scene.record.state_rate =
+      record.number("state_rate", not_negative, "1/s", scene.record.state_rate);
+  scene.record.checkpoint_seconds =
+      record.number("checkpoint_seconds", positive, "s", scene.record.checkpoint_seconds);
   scene.record.paraview = record.flag("paraview", scene.record.paraview);
   record.finish();
 }
@@ -234,9 +258,11 @@ void read_numerics(TomlTable& root, Scene& scene) {
 /// The vibrated box: everything is made from the grains and the box.
 void read_box_scene(TomlTable& root, Scene& scene, const std::filesystem::path& folder) {
   for (const char* key : {"body", "wall"})
-    if (root.has(key)) root.fail(key, "given together with [grains], which make their own bodies and walls");
+    if (root.has(key))
+      root.fail(key, "given together with [grains], which make their own bodies and walls");
   if (scene.gravity.z() >= 0.0 || scene.gravity.x() != 0.0 || scene.gravity.y() != 0.0)
-    root.fail("gravity", "grains are deposited along -z, expected magnitude > 0 and direction [0, 0, -1]");
+    root.fail("gravity",
+              "grains are deposited along -z, expected magnitude > 0 and direction [0, 0, -1]");
   scene.grains = read_grains(root.section("grains"), folder);
   scene.box = read_box(root.section("box"), *scene.grains);
   scene.deposit = read_deposit(root.section("deposit"));
@@ -244,20 +270,25 @@ void read_box_scene(TomlTable& root, Scene& scene, const std::filesystem::path& 
   scene.control_volume = read_control_volume(root.section("control_volume"), scene.box);
 }
 
-void read_body_scene(TomlTable& root, Scene& scene, const std::filesystem::path& folder, const std::string& file) {
+void read_body_scene(TomlTable& root, Scene& scene, const std::filesystem::path& folder,
+                     const std::string& file) {
   for (const char* key : {"box", "deposit", "drive", "control_volume"})
     if (root.has(key)) root.fail(key, "has no meaning without [grains]");
   scene.walls = read_walls(root);
   scene.bodies = read_bodies(root, folder, scene.walls);
   if (scene.walls.empty() && scene.bodies.empty())
-    throw SceneFileError(file + ": nothing in it, expected [grains] with [box], or at least one [[body]] or [[wall]]");
+    throw SceneFileError(
+        file +
+        ": nothing in it, expected [grains] with [box], or at least one [[body]] or [[wall]]");
 }
 
-Scene read(const std::filesystem::path& file, std::span<const std::string> overrides, toml::table& resolved) {
+Scene read(const std::filesystem::path& file, std::span<const std::string> overrides,
+           toml::table& resolved) {
   const toml::table table = load_toml(file, overrides);
   TomlTable root(file.string(), table, resolved);
-  for (const char* key : {"scene", "gravity", "contact", "body", "wall", "grains", "box", "deposit", "drive", "solver",
-                          "sleep", "correction", "detection", "record", "control_volume"})
+  for (const char* key :
+       {"scene", "gravity", "contact", "body", "wall", "grains", "box", "deposit", "drive",
+        "solver", "sleep", "correction", "detection", "record", "control_volume"})
     root.know(key);
   root.finish();  // a misspelt section first: what follows depends on which sections there are
   Scene scene;
@@ -279,7 +310,8 @@ Scene read_scene(const std::filesystem::path& file, std::span<const std::string>
   return read(file, overrides, resolved);
 }
 
-std::string resolved_scene_text(const std::filesystem::path& file, std::span<const std::string> overrides) {
+std::string resolved_scene_text(const std::filesystem::path& file,
+                                std::span<const std::string> overrides) {
   toml::table resolved;
   read(file, overrides, resolved);
   return toml_text(resolved);

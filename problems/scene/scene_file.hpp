@@ -11,15 +11,18 @@
 
 namespace ballast {
 
-/// Reads and validates a scene; every key must be known, of its type and in its range. `overrides`: "dotted.key=value" with a
-/// TOML value, applied before validation (command line --set). Mesh files are relative to the scene file.
+/// Reads and validates a scene; every key must be known, of its type and in its range. `overrides`:
+/// "dotted.key=value" with a TOML value, applied before validation (command line --set). Mesh files
+/// are relative to the scene file.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-/// The merged and validated TOML text (file plus overrides), for manifests and cache keys: sorted keys, 17 digits.
-std::string resolved_scene_text(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+/// The merged and validated TOML text (file plus overrides), for manifests and cache keys: sorted
+/// keys, 17 digits.
+std::string resolved_scene_text(const std::filesystem::path& file,
+                                std::span<const std::string> overrides = {});
 
-/// A scene given by name ("vibrated_box") or path; names are looked up in the scene folder of the installation (see
-/// scene_folder()). Throws SceneFileError that lists what there is.
+/// A scene given by name ("vibrated_box") or path; names are looked up in the scene folder of the
+/// installation (see scene_folder()). Throws SceneFileError that lists what there is.
 std::filesystem::path find_scene(const std::string& name_or_path);
 std::filesystem::path scene_folder();
 /// name and title of every scene in the folder, sorted.

@@ -22,11 +22,13 @@ fs::path scene_folder() {
 std::vector<std::pair<std::string, std::string>> list_scenes() {
   std::vector<std::pair<std::string, std::string>> scenes;
   const fs::path folder = scene_folder();
-  if (!fs::is_directory(folder)) throw SceneFileError(folder.string() + ": no such folder of scenes");
+  if (!fs::is_directory(folder))
+    throw SceneFileError(folder.string() + ": no such folder of scenes");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
     const toml::table table = load_toml(entry.path(), {});
-    scenes.emplace_back(entry.path().stem().string(), table["scene"]["title"].value_or(std::string()));
+    scenes.emplace_back(entry.path().stem().string(),
+                        table["scene"]["title"].value_or(std::string()));
   }
   std::sort(scenes.begin(), scenes.end());
   return scenes;
@@ -35,13 +37,15 @@ std::vector<std::pair<std::string, std::string>> list_scenes() {
 fs::path find_scene(const std::string& name_or_path) {
   const fs::path path(name_or_path);
   if (fs::is_regular_file(path)) return path;
-  const bool is_name = !name_or_path.empty() && !path.has_parent_path() && path.extension() != ".toml";
+  const bool is_name =
+      !name_or_path.empty() && !path.has_parent_path() && path.extension() != ".toml";
   if (!is_name) throw SceneFileError(name_or_path + ": no such scene file");
   const fs::path named = scene_folder() / (name_or_path + ".toml");
   if (fs::is_regular_file(named)) return named;
   std::string there;
   for (const auto& [name, title] : list_scenes()) there += (there.empty() ? "" : ", ") + name;
-  throw SceneFileError(name_or_path + ": no scene of this name, expected a file or one of " + there);
+  throw SceneFileError(name_or_path + ": no scene of this name, expected a file or one of " +
+                       there);
 }
 
 }  // namespace ballast

@@ -17,7 +17,8 @@ struct Override {
   toml::table value;  ///< under the key "value"
 };
 
-[[noreturn]] void fail(const std::filesystem::path& file, const Override& o, const std::string& what) {
+[[noreturn]] void fail(const std::filesystem::path& file, const Override& o,
+                       const std::string& what) {
   const std::string first_line = o.text.substr(0, o.text.find_first_of("\r\n"));
   throw SceneFileError(file.string() + " (--set): " + first_line + ": " + what);
 }
@@ -33,7 +34,8 @@ std::vector<std::string> split_at_dots(const std::string& text) {
   return parts;
 }
 
-toml::table parse_value(const std::filesystem::path& file, const Override& o, const std::string& value) {
+toml::table parse_value(const std::filesystem::path& file, const Override& o,
+                        const std::string& value) {
   if (value.find_first_of("\r\n") != std::string::npos) fail(file, o, "a value is one line");
   try {
     return toml::parse("value = " + value, std::string_view("--set"));
@@ -60,14 +62,16 @@ Override parse_override(const std::filesystem::path& file, const std::string& te
 toml::table& element(const std::filesystem::path& file, const Override& o, toml::array& array,
                      const std::string& index) {
   const std::string range = "expected an index below " + std::to_string(array.size());
-  const bool digits = index.find_first_not_of("0123456789") == std::string::npos && index.size() < 10;
+  const bool digits =
+      index.find_first_not_of("0123456789") == std::string::npos && index.size() < 10;
   const size_t i = digits ? std::stoul(index) : array.size();
   if (i >= array.size()) fail(file, o, "no element " + index + " there, " + range);
   if (!array[i].is_table()) fail(file, o, "element " + index + " is not a table");
   return *array[i].as_table();
 }
 
-/// Values are moved into the tree: a copied node forgets its source, by which errors say that an override is to blame.
+/// Values are moved into the tree: a copied node forgets its source, by which errors say that an
+/// override is to blame.
 void apply(const std::filesystem::path& file, Override o, toml::table& root) {
   toml::table* table = &root;
   for (size_t k = 0; k + 1 < o.path.size(); ++k) {
@@ -82,7 +86,8 @@ void apply(const std::filesystem::path& file, Override o, toml::table& root) {
       fail(file, o, o.path[k] + " is not a table");
     }
   }
-  o.value.get("value")->visit([&](auto& value) { table->insert_or_assign(o.path.back(), std::move(value)); });
+  o.value.get("value")->visit(
+      [&](auto& value) { table->insert_or_assign(o.path.back(), std::move(value)); });
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ bool NumberRange::contains(double x) const {
   return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
 }
 
-TomlTable::TomlTable(std::string file, const toml::table& table, toml::table& resolved, std::string path)
+TomlTable::TomlTable(std::string file, const toml::table& table, toml::table& resolved,
+                     std::string path)
     : file_(std::move(file)), path_(std::move(path)), table_(&table), resolved_(&resolved) {}
 
 double TomlTable::number(std::string_view key, const NumberRange& range, const char* unit,
@@ -111,10 +112,12 @@ std::string TomlTable::text(std::string_view key, std::optional<std::string> fal
 std::string TomlTable::choice(std::string_view key, std::initializer_list<const char*> words,
                               std::optional<std::string> fallback) {
   std::string expected = "one of ";
-  for (const char* word : words) expected += (word == *words.begin() ? "\"" : ", \"") + std::string(word) + '"';
+  for (const char* word : words)
+    expected += (word == *words.begin() ? "\"" : ", \"") + std::string(word) + '"';
   if (!fallback && !has(key)) fail_missing(key, expected);
   const std::string value = text(key, std::move(fallback));
-  if (std::find(words.begin(), words.end(), value) == words.end()) fail(key, "unknown word, expected " + expected);
+  if (std::find(words.begin(), words.end(), value) == words.end())
+    fail(key, "unknown word, expected " + expected);
   return value;
 }
 
@@ -185,13 +188,15 @@ void TomlTable::finish() const {
   for (const auto& [key, value] : *table_) {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    const auto nearest = std::min_element(
-        known_.begin(), known_.end(),
-        [&](const std::string& a, const std::string& b) { return edit_distance(name, a) < edit_distance(name, b); });
+    const auto nearest = std::min_element(known_.begin(), known_.end(),
+                                          [&](const std::string& a, const std::string& b) {
+                                            return edit_distance(name, a) < edit_distance(name, b);
+                                          });
     std::vector<std::string> sorted = known_;
     std::sort(sorted.begin(), sorted.end());
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    if (nearest != known_.end() && edit_distance(name, *nearest) <= std::max<size_t>(2, name.size() / 3))
+    if (nearest != known_.end() &&
+        edit_distance(name, *nearest) <= std::max<size_t>(2, name.size() / 3))
       fail(name, "unknown key, did you mean \"" + *nearest + "\"?");
     fail(name, "unknown key, expected one of " + joined(sorted));
   }
@@ -222,7 +227,8 @@ std::string TomlTable::place(const toml::node* node) const {
   if (source.path && *source.path == override_source) return file_ + " (" + override_source + ")";
   if (source.begin.line > 0) return file_ + ':' + std::to_string(source.begin.line);
   // a table that an override made has no source of its own
-  if (const auto* table = node->as_table(); table && !table->empty()) return place(&table->begin()->second);
+  if (const auto* table = node->as_table(); table && !table->empty())
+    return place(&table->begin()->second);
   return file_;
 }
 

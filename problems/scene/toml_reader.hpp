@@ -1,6 +1,7 @@
 #pragma once
-// A TOML table read key by key: types and ranges are checked, every error names file, line, key and value, keys that
-// nobody asked for are errors, and what was read, defaults included, is kept as the resolved table.
+// A TOML table read key by key: types and ranges are checked, every error names file, line, key and
+// value, keys that nobody asked for are errors, and what was read, defaults included, is kept as
+// the resolved table.
 
 #include <toml++/toml.h>
 
@@ -30,26 +31,32 @@ struct NumberRange {
 
 inline constexpr NumberRange any_number{"a finite number"};
 inline constexpr NumberRange positive{"a number > 0", 0.0};
-inline constexpr NumberRange not_negative{"a number >= 0", 0.0, std::numeric_limits<double>::infinity(), true};
+inline constexpr NumberRange not_negative{"a number >= 0", 0.0,
+                                          std::numeric_limits<double>::infinity(), true};
 inline constexpr NumberRange zero_to_one{"a number from 0 to 1", 0.0, 1.0, true, true};
 inline constexpr NumberRange part_of_one{"a number > 0 and <= 1", 0.0, 1.0, false, true};
 
-/// Parses a file and applies overrides "dotted.key=value" (elements of arrays of tables by index: body.0.mass=2). A
-/// value is TOML; a bare word is taken as a string, so that a shell needs no quotes within quotes. Throws
-/// SceneFileError.
+/// Parses a file and applies overrides "dotted.key=value" (elements of arrays of tables by index:
+/// body.0.mass=2). A value is TOML; a bare word is taken as a string, so that a shell needs no
+/// quotes within quotes. Throws SceneFileError.
 toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides);
 
 class TomlTable {
  public:
-  /// `table` and `resolved` outlive this object. `path`: dotted name of the table, empty for the root.
-  TomlTable(std::string file, const toml::table& table, toml::table& resolved, std::string path = "");
-  TomlTable(TomlTable&&) = default;  // not copied: a copy would not know which keys the original was asked for
+  /// `table` and `resolved` outlive this object. `path`: dotted name of the table, empty for the
+  /// root.
+  TomlTable(std::string file, const toml::table& table, toml::table& resolved,
+            std::string path = "");
+  TomlTable(TomlTable&&) =
+      default;  // not copied: a copy would not know which keys the original was asked for
   TomlTable& operator=(TomlTable&&) = default;
 
   bool has(std::string_view key) const { return table_->contains(key); }
 
-  // Each throws SceneFileError when the key is absent and there is no fallback, of another type or out of range.
-  double number(std::string_view key, const NumberRange& range, const char* unit, std::optional<double> fallback = {});
+  // Each throws SceneFileError when the key is absent and there is no fallback, of another type or
+  // out of range.
+  double number(std::string_view key, const NumberRange& range, const char* unit,
+                std::optional<double> fallback = {});
   std::int64_t whole(std::string_view key, std::int64_t low, std::int64_t high,
                      std::optional<std::int64_t> fallback = {});
   bool flag(std::string_view key, std::optional<bool> fallback = {});
@@ -59,10 +66,11 @@ class TomlTable {
   Vec3 vector(std::string_view key, const char* unit, std::optional<Vec3> fallback = {});
   std::vector<std::string> texts(std::string_view key);  ///< absent: empty
 
-  TomlTable section(std::string_view key);                ///< absent: an empty table, so that all fallbacks hold
+  TomlTable section(std::string_view key);  ///< absent: an empty table, so that all fallbacks hold
   std::vector<TomlTable> sections(std::string_view key);  ///< an array of tables; absent: empty
 
-  /// A key that may stand here although nobody reads it: it is offered when another one is misspelt.
+  /// A key that may stand here although nobody reads it: it is offered when another one is
+  /// misspelt.
   void know(std::string_view key) { known_.emplace_back(key); }
 
   /// What the resolved table shall say instead of what was read (a path made absolute).

@@ -9,7 +9,8 @@
 namespace ballast {
 namespace {
 
-/// Shortest digits that read back to the same bits, with a point or an exponent, so that it stays a float.
+/// Shortest digits that read back to the same bits, with a point or an exponent, so that it stays a
+/// float.
 std::string float_text(double x) {
   if (std::isnan(x)) return "nan";
   if (std::isinf(x)) return x > 0 ? "inf" : "-inf";
@@ -28,7 +29,8 @@ std::string string_text(const std::string& s) {
       text += c;
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
       std::array<char, 8> escaped;
-      std::snprintf(escaped.data(), escaped.size(), "\\u%04X", static_cast<unsigned>(static_cast<unsigned char>(c)));
+      std::snprintf(escaped.data(), escaped.size(), "\\u%04X",
+                    static_cast<unsigned>(static_cast<unsigned char>(c)));
       text += escaped.data();
     } else {
       text += c;
@@ -39,8 +41,9 @@ std::string string_text(const std::string& s) {
 
 std::string key_text(std::string_view key) {
   const bool bare =
-      !key.empty() && key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
-                          std::string_view::npos;
+      !key.empty() &&
+      key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+          std::string_view::npos;
   return bare ? std::string(key) : string_text(std::string(key));
 }
 
@@ -51,7 +54,8 @@ std::string inline_text(const toml::node& node) {
   if (const auto* value = node.as_string()) return string_text(value->get());
   std::string text;
   if (const auto* array = node.as_array()) {
-    for (const toml::node& element : *array) text += (text.empty() ? "" : ", ") + inline_text(element);
+    for (const toml::node& element : *array)
+      text += (text.empty() ? "" : ", ") + inline_text(element);
     return "[" + text + "]";
   }
   if (const auto* table = node.as_table()) {
@@ -74,7 +78,8 @@ bool is_array_of_tables(const toml::node& node) {
 /// Plain keys first, then subtables, then arrays of tables: the order that TOML needs.
 void write_table(const toml::table& table, const std::string& path, std::string& out) {
   for (const auto& [key, value] : table)
-    if (!value.is_table() && !is_array_of_tables(value)) out += key_text(key.str()) + " = " + inline_text(value) + '\n';
+    if (!value.is_table() && !is_array_of_tables(value))
+      out += key_text(key.str()) + " = " + inline_text(value) + '\n';
   for (const auto& [key, value] : table) {
     const std::string name = path.empty() ? key_text(key.str()) : path + '.' + key_text(key.str());
     if (const auto* child = value.as_table()) {

@@ -1,5 +1,6 @@
 #pragma once
-// TOML written in one way only: sorted keys, shortest digits that read back to the same double. Same table, same text.
+// TOML written in one way only: sorted keys, shortest digits that read back to the same double.
+// Same table, same text.
 
 #include <toml++/toml.h>
 

@@ -5,14 +5,15 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/seam/iteration.hpp"
 #include "solvers/parts/shifted_delassus.hpp"
 #include "solvers/parts/slip_shift.hpp"
+#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
-// min 1/2 x.W x + x.(q + s n)  s.t.  x = r, r in K;  multiplier y, penalty P = beta lambda_max(W_cc):
+// min 1/2 x.W x + x.(q + s n)  s.t.  x = r, r in K;  multiplier y, penalty P = beta
+// lambda_max(W_cc):
 //   x  = (W + P)^-1 (P r - y - q - s n)
 //   x^ = a x + (1 - a) r
 //   r  = P_K(x^ + P^-1 y),   y += P (x^ - r)
@@ -58,7 +59,8 @@ class Admm final : public Solver {
     penalty_ = penalty;
     sigma_.resize(w_.contact_count());
     for (int c = 0; c < w_.contact_count(); ++c) {
-      const double rho = w_.rho()[c] > 0.0 ? w_.rho()[c] : 1.0;  // where nothing moves, anything will do
+      const double rho =
+          w_.rho()[c] > 0.0 ? w_.rho()[c] : 1.0;  // where nothing moves, anything will do
       sigma_[c] = rho / penalty * Eigen::Matrix3d::Identity();
     }
     shift_blocks_.resize(sigma_.size());
@@ -88,8 +90,8 @@ class Admm final : public Solver {
     }
   }
 
-  /// Another s, and the multiplier that goes with it. The multiplier's own u_T decides, which changes gently: with the
-  /// velocity that r gives the iteration may circle.
+  /// Another s, and the multiplier that goes with it. The multiplier's own u_T decides, which
+  /// changes gently: with the velocity that r gives the iteration may circle.
   void follow() {
     shift_multiplier(+1.0);
     shift_.follow(w_, y_);
@@ -104,7 +106,8 @@ class Admm final : public Solver {
     }
   }
 
-  /// Balances the two residuals, both velocities: what x and r differ, what r has moved (Boyd et al. 2011, 3.4.1).
+  /// Balances the two residuals, both velocities: what x and r differ, what r has moved (Boyd et
+  /// al. 2011, 3.4.1).
   void adapt(int count) {
     next_look_ = count + look_after_;
     look_after_ += look_after_ / 5;

@@ -3,16 +3,17 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/parts/anderson.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/parts/anderson.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
-// Only swept iterates, which lie in the cones, are judged or returned. The change of a sweep is measured in the
-// impulses, each scaled by the root of its own entry of W, so that heavy and light bodies count alike.
+// Only swept iterates, which lie in the cones, are judged or returned. The change of a sweep is
+// measured in the impulses, each scaled by the root of its own entry of W, so that heavy and light
+// bodies count alike.
 class AndersonPgs final : public Solver {
  public:
   explicit AndersonPgs(const AndersonPgsSettings& settings) : settings_(settings) {}
@@ -42,7 +43,8 @@ class AndersonPgs final : public Solver {
       if (iteration.error_due()) {
         double error = sweep.error();
         sweep.store(problem, r);
-        if (iteration.reached(error)) {  // once more from the impulses alone, without what the updates have rounded
+        if (iteration.reached(error)) {  // once more from the impulses alone, without what the
+                                         // updates have rounded
           sweep.load(problem, r);
           error = sweep.error();
         }

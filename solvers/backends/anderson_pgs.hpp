@@ -1,6 +1,7 @@
 #pragma once
-// Gauss-Seidel taken for a fixed point and accelerated by Anderson mixing (anderson.hpp). Safeguard in the spirit of
-// Zhang, O'Donoghue, Boyd 2020: an extrapolation after which a sweep has more to do than before it is taken back.
+// Gauss-Seidel taken for a fixed point and accelerated by Anderson mixing (anderson.hpp). Safeguard
+// in the spirit of Zhang, O'Donoghue, Boyd 2020: an extrapolation after which a sweep has more to
+// do than before it is taken back.
 
 #include <memory>
 

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "solvers/parts/contact_operator.hpp"
-#include "solvers/seam/iteration.hpp"
 #include "solvers/parts/slip_shift.hpp"
+#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
-// With u(r) = W r + q linear, the velocities at the extrapolated point are the same combination of those at the
-// iterates:
+// With u(r) = W r + q linear, the velocities at the extrapolated point are the same combination of
+// those at the iterates:
 //   r+ = P_K(y - t rho (u_y + s n)),   y+ = r+ + beta (r+ - r),   u_y+ = u+ + beta (u+ - u)
 class Apgd final : public Solver {
  public:
@@ -66,13 +66,15 @@ class Apgd final : public Solver {
   /// d.W d <= |d|^2 / t: the model that the step has minimised lies above the energy.
   bool short_enough() const {
     const double curvature = moved_.dot(next_u_ - uy_);
-    return curvature * step_ <= (1.0 + 1e-10) * w_.scaled_dot(moved_, moved_) || step_ < 1e-3 * first_step_;
+    return curvature * step_ <= (1.0 + 1e-10) * w_.scaled_dot(moved_, moved_) ||
+           step_ < 1e-3 * first_step_;
   }
 
   void accept(Impulses& r) {
     const Eigen::VectorXd& gone = (y_ = next_ - r);  // y has been used
     const bool uphill = w_.scaled_dot(moved_, gone) < 0.0;
-    const double next_theta = 0.5 * (std::sqrt(theta_ * theta_ * (theta_ * theta_ + 4.0)) - theta_ * theta_);
+    const double next_theta =
+        0.5 * (std::sqrt(theta_ * theta_ * (theta_ * theta_ + 4.0)) - theta_ * theta_);
     const double beta = theta_ * (1.0 - theta_) / (theta_ * theta_ + next_theta);
     uy_ = next_u_ - u_;
     r.swap(next_);
@@ -92,6 +94,8 @@ class Apgd final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_apgd(const ApgdSettings& settings) { return std::make_unique<Apgd>(settings); }
+std::unique_ptr<Solver> make_apgd(const ApgdSettings& settings) {
+  return std::make_unique<Apgd>(settings);
+}
 
 }  // namespace ballast

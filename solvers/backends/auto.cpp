@@ -17,7 +17,8 @@ namespace {
 /// One solve as a series of rounds by other backends: counts, clock and history of all of them.
 class Rounds {
  public:
-  Rounds(const Budget& budget, Impulses start) : budget_(budget), begin_(std::chrono::steady_clock::now()) {
+  Rounds(const Budget& budget, Impulses start)
+      : budget_(budget), begin_(std::chrono::steady_clock::now()) {
     solved_.impulses = std::move(start);
     solved_.reason = StopReason::stalled;
   }
@@ -25,15 +26,17 @@ class Rounds {
   /// Runs `solver` from the best iterate for at most `iterations`. Returns the error reached [m/s].
   double run(Solver& solver, const FrictionProblem& problem, int iterations) {
     const double elapsed = seconds();
-    Budget round{.tolerance = budget_.tolerance,
-                 .max_iterations = std::min(iterations, budget_.max_iterations - solved_.iterations),
-                 .max_seconds = std::max(0.0, budget_.max_seconds - elapsed),
-                 .keep_history = true};
+    Budget round{
+        .tolerance = budget_.tolerance,
+        .max_iterations = std::min(iterations, budget_.max_iterations - solved_.iterations),
+        .max_seconds = std::max(0.0, budget_.max_seconds - elapsed),
+        .keep_history = true};
     Solved part = solver.solve(problem, solved_.impulses, round);
     const double error = part.history.empty() ? error_ : part.history.back().error;
     for (const HistoryPoint& point : part.history)
       if (budget_.keep_history && (solved_.history.empty() || point.iteration > 0))
-        solved_.history.push_back({solved_.iterations + point.iteration, elapsed + point.seconds, point.error});
+        solved_.history.push_back(
+            {solved_.iterations + point.iteration, elapsed + point.seconds, point.error});
     solved_.iterations += part.iterations;
     solved_.own_residual = part.own_residual;
     if (!(error > error_)) {  // a round of sweeps may end worse than it began
@@ -48,7 +51,8 @@ class Rounds {
   }
 
   bool over() const {
-    return reached_ || failed_ || solved_.iterations >= budget_.max_iterations || seconds() >= budget_.max_seconds;
+    return reached_ || failed_ || solved_.iterations >= budget_.max_iterations ||
+           seconds() >= budget_.max_seconds;
   }
   int iterations() const { return solved_.iterations; }
   double error() const { return error_; }
@@ -117,11 +121,13 @@ class Auto final : public Solver {
       const double error = rounds.error();
       rounds.run(*newton_, problem, steps);
       if (rounds.over()) break;
-      // What misleads Newton is often local, and sweeps mend it. They get twice Newton's time where they are the faster of the two.
+      // What misleads Newton is often local, and sweeps mend it. They get twice Newton's time where
+      // they are the faster of the two.
       const double newton_cost = (rounds.iterations() - begin) * factor_cost_;
       const double newton_rate = std::log(error / rounds.error()) / newton_cost;
       const double share = newton_rate < sweep_rate_ ? 2.0 : 0.2;
-      sweep(*sweeps_, rounds, problem, std::clamp(static_cast<int>(share * newton_cost / sweep_cost_), 50, 20000));
+      sweep(*sweeps_, rounds, problem,
+            std::clamp(static_cast<int>(share * newton_cost / sweep_cost_), 50, 20000));
       standing_still = rounds.error() < 0.5 * before ? 0 : standing_still + 1;
       if (standing_still == from_elsewhere) {
         const std::unique_ptr<Solver> interior_point = interior_point_maker()();
@@ -141,15 +147,19 @@ class Auto final : public Solver {
     sweep_rate_ = std::log(before / rounds.error()) / (count * sweep_cost_);
   }
 
-  /// Doubling rounds of sweeps, until the rate of the last one promises less than Newton costs: 20-60 factorisations on stored problems
-  /// of up to 500 contacts, about a hundred on packings of 5000.
+  /// Doubling rounds of sweeps, until the rate of the last one promises less than Newton costs:
+  /// 20-60 factorisations on stored problems of up to 500 contacts, about a hundred on packings of
+  /// 5000.
   void sweep_while_it_pays(Rounds& rounds, const FrictionProblem& problem, double tolerance) {
     rounds.run(*opening_, problem, 8);
     for (int round = 8; !rounds.over(); round *= 2) {
       sweep(*opening_, rounds, problem, round);
-      const double needed = tolerance > 0.0 && sweep_rate_ > 0.0 ? std::log(rounds.error() / tolerance) / sweep_rate_ : 1e300;
+      const double needed = tolerance > 0.0 && sweep_rate_ > 0.0
+                                ? std::log(rounds.error() / tolerance) / sweep_rate_
+                                : 1e300;
       const bool far_away = needed > (20.0 + 0.02 * problem.contact_count()) * factor_cost_;
-      const bool fair_share = rounds.iterations() * sweep_cost_ > fair_factorisations * factor_cost_;
+      const bool fair_share =
+          rounds.iterations() * sweep_cost_ > fair_factorisations * factor_cost_;
       if (far_away && fair_share) return;
     }
   }
@@ -163,7 +173,8 @@ class Auto final : public Solver {
 
   std::unique_ptr<Solver> matrix_opening_, matrix_sweeps_, body_sweeps_, newton_;
   Solver* opening_ = nullptr;  ///< the first sweeps: accelerated
-  Solver* sweeps_ = nullptr;   ///< those between Newton's: acceleration has shown by then that it does not help
+  Solver* sweeps_ =
+      nullptr;  ///< those between Newton's: acceleration has shown by then that it does not help
   bool newton_is_prepared_ = false;
   double sweep_cost_ = 0.0, factor_cost_ = 0.0;  ///< model [s]
   double sweep_rate_ = 0.0;                      ///< of the last round [1/s]

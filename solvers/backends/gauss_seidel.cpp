@@ -24,8 +24,9 @@ class GaussSeidel final : public Solver {
   void use_threads(int threads) override { bodies_.use_threads(threads); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    return problem.has_delassus && !problem.has_dynamics ? iterate(delassus_, problem, std::move(start), budget)
-                                                         : iterate(bodies_, problem, std::move(start), budget);
+    return problem.has_delassus && !problem.has_dynamics
+               ? iterate(delassus_, problem, std::move(start), budget)
+               : iterate(bodies_, problem, std::move(start), budget);
   }
 
  private:
@@ -44,8 +45,8 @@ class GaussSeidel final : public Solver {
       if (!iteration.error_due()) continue;
       double error = sweep.error();
       sweep.store(problem, r);
-      if (iteration.reached(
-              error)) {  // once more from the impulses alone, without what thousands of updates have rounded
+      if (iteration.reached(error)) {  // once more from the impulses alone, without what thousands
+                                       // of updates have rounded
         sweep.load(problem, r);
         error = sweep.error();
       }

@@ -5,22 +5,25 @@
 #include <cmath>
 #include <utility>
 
-#include "solvers/seam/iteration.hpp"
-#include "solvers/parts/nesterov_todd.hpp"
 #include "solvers/backends/newton.hpp"
+#include "solvers/parts/nesterov_todd.hpp"
 #include "solvers/parts/shifted_delassus.hpp"
 #include "solvers/parts/slip_shift.hpp"
+#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
 using lorentz::Vector;
 
-// Each contact in Lorentz's cone, x = (mu r_N, r_T), z = (g_N / mu, g_T), g = u + s n; without friction x = r_N,
-// z = u_N on the half-line (r_T = 0). One step, with the residual e = u + s n - g:
-//   (W + P) dr = -e + S F (lambda \ c),   P = S F^2 S,  S = diag(mu, 1, 1),   dg = S (F (lambda \ c) - F^2 S dr)
-// predictor: c = -lambda o lambda; corrector: c = sigma nu 1 - lambda o lambda - (F dx) o (F^-1 dz).
-// Judged and returned is P_K(r - rho g): open contacts have no impulse there, though r lies inside the cones.
+// Each contact in Lorentz's cone, x = (mu r_N, r_T), z = (g_N / mu, g_T), g = u + s n; without
+// friction x = r_N, z = u_N on the half-line (r_T = 0). One step, with the residual e = u + s n -
+// g:
+//   (W + P) dr = -e + S F (lambda \ c),   P = S F^2 S,  S = diag(mu, 1, 1),   dg = S (F (lambda
+//   \ c) - F^2 S dr)
+// predictor: c = -lambda o lambda; corrector: c = sigma nu 1 - lambda o lambda - (F dx) o (F^-1
+// dz). Judged and returned is P_K(r - rho g): open contacts have no impulse there, though r lies
+// inside the cones.
 class InteriorPoint final : public Solver {
  public:
   explicit InteriorPoint(const InteriorPointSettings& settings) : settings_(settings) {}
@@ -29,7 +32,8 @@ class InteriorPoint final : public Solver {
     w_.prepare(problem);
     system_.prepare(w_);
     free_contact_velocity(problem, q_);
-    for (Eigen::VectorXd* x : {&u_, &right_, &r_, &g_, &dr_, &dg_, &rounded_u_}) x->resize(problem.row_count());
+    for (Eigen::VectorXd* x : {&u_, &right_, &r_, &g_, &dr_, &dg_, &rounded_u_})
+      x->resize(problem.row_count());
     const std::size_t contacts = problem.contact_count();
     scaling_.resize(contacts);
     sigma_.resize(contacts);
@@ -42,7 +46,8 @@ class InteriorPoint final : public Solver {
     Budget first = budget;
     first.tolerance = std::max(budget.tolerance, settings_.polish_from * velocity_scale());
     Solved solved = approach(std::move(start), first);
-    const bool near = solved.reason == StopReason::reached_tolerance && solved.own_residual > budget.tolerance;
+    const bool near =
+        solved.reason == StopReason::reached_tolerance && solved.own_residual > budget.tolerance;
     if (near || solved.reason == StopReason::stalled) polish(problem, budget, solved);
     return solved;
   }
@@ -92,7 +97,8 @@ class InteriorPoint final : public Solver {
 
   /// The rest of the way by proximal Newton, within what is left of the budget.
   void polish(const FrictionProblem& problem, const Budget& budget, Solved& solved) {
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_time_).count();
+    const double spent =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_time_).count();
     Budget rest = budget;
     rest.max_iterations -= solved.iterations;
     rest.max_seconds = std::max(0.0, budget.max_seconds - spent);
@@ -158,8 +164,8 @@ class InteriorPoint final : public Solver {
     w_.velocity(r_, u_);
   }
 
-  /// A new s begins at the last iterate whose barrier was not yet below what s had still to move: nearer to the cones'
-  /// sides it could not follow.
+  /// A new s begins at the last iterate whose barrier was not yet below what s had still to move:
+  /// nearer to the cones' sides it could not follow.
   void keep_for_next(double nu) {
     double impulse = 0.0;
     int cones = 0;
@@ -183,12 +189,14 @@ class InteriorPoint final : public Solver {
     if (!system_.factor(shift_blocks_, sigma_)) return false;
     const double nu = barrier();
     keep_for_next(nu);
-    for (int c = 0; c < w_.contact_count(); ++c) target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
+    for (int c = 0; c < w_.contact_count(); ++c)
+      target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
     solve_newton();
     const double predicted = longest(1.0);
     const double sigma = std::pow(1.0 - predicted, 3.0);
     for (int c = 0; c < w_.contact_count(); ++c) {
-      const Vector dx = scaling_[c].f * to_cone(dr_, c), dz = scaling_[c].f_inverse * to_dual(dg_, c);
+      const Vector dx = scaling_[c].f * to_cone(dr_, c),
+                   dz = scaling_[c].f_inverse * to_dual(dg_, c);
       target_[c] -= lorentz::product(dx, dz);
       target_[c][0] += sigma * nu;
     }
@@ -201,13 +209,15 @@ class InteriorPoint final : public Solver {
 
   bool scale_cones() {
     for (int c = 0; c < w_.contact_count(); ++c) {
-      const double lambda_max = moves(c) ? 1.0 / w_.rho()[c] : 1.0, nothing = 1e-20;  // what may not move does not
+      const double lambda_max = moves(c) ? 1.0 / w_.rho()[c] : 1.0,
+                   nothing = 1e-20;  // what may not move does not
       sigma_[c] = nothing / lambda_max * Eigen::Matrix3d::Identity();
       shift_blocks_[c] = lambda_max / nothing * Eigen::Matrix3d::Identity();
       if (!moves(c)) continue;
       lorentz::Scaling& scaling = scaling_[c];
       if (!lorentz::scale(to_cone(r_, c), to_dual(g_, c), half_line(c), scaling)) return false;
-      const double least = settings_.least_shift * lambda_max, most = lambda_max / settings_.least_shift;
+      const double least = settings_.least_shift * lambda_max,
+                   most = lambda_max / settings_.least_shift;
       const auto bounded = [=](double e) { return std::clamp(e, least, most); };
       if (half_line(c)) {
         shift_blocks_[c](0, 0) = bounded(scaling.eigenvalues[0]);
@@ -216,8 +226,9 @@ class InteriorPoint final : public Solver {
       }
       const Vector s(w_.friction(c), 1.0, 1.0), inverse = s.cwiseInverse();
       shift_blocks_[c] = s.asDiagonal() * scaling.of_square(bounded) * s.asDiagonal();
-      sigma_[c] =
-          inverse.asDiagonal() * scaling.of_square([&](double e) { return 1.0 / bounded(e); }) * inverse.asDiagonal();
+      sigma_[c] = inverse.asDiagonal() * scaling.of_square([&](double e) {
+        return 1.0 / bounded(e);
+      }) * inverse.asDiagonal();
     }
     return true;
   }
@@ -269,7 +280,8 @@ class InteriorPoint final : public Solver {
 
   void round(Impulses& r) const {
     r = r_;
-    for (int c = 0; c < w_.contact_count(); ++c) w_.put(r, c, w_.at(r_, c) - w_.rho()[c] * w_.at(g_, c));
+    for (int c = 0; c < w_.contact_count(); ++c)
+      w_.put(r, c, w_.at(r_, c) - w_.rho()[c] * w_.at(g_, c));
     w_.project(r);
   }
 

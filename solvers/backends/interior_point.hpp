@@ -1,9 +1,11 @@
 #pragma once
-// Primal-dual interior point for the second-order cone problem of contact: Nesterov-Todd scaling, Mehrotra's predictor
-// and corrector, one sparse factorisation a step. Acary, Armand, Nguyen, Shpakovych 2023, "Second-order cone
-// programming for frictional contact mechanics using interior point algorithm". The s-update (slip_shift.hpp) makes the
-// law Coulomb's: an inner problem with s held, then a new s, from an iterate that is still well inside. From a stated
-// distance on, or where this stalls (the scaling's range ends at rounding), proximal Newton goes the rest of the way.
+// Primal-dual interior point for the second-order cone problem of contact: Nesterov-Todd scaling,
+// Mehrotra's predictor and corrector, one sparse factorisation a step. Acary, Armand, Nguyen,
+// Shpakovych 2023, "Second-order cone programming for frictional contact mechanics using interior
+// point algorithm". The s-update (slip_shift.hpp) makes the law Coulomb's: an inner problem with s
+// held, then a new s, from an iterate that is still well inside. From a stated distance on, or
+// where this stalls (the scaling's range ends at rounding), proximal Newton goes the rest of the
+// way.
 
 #include <memory>
 
@@ -14,11 +16,14 @@ namespace ballast {
 struct InteriorPointSettings {
   double to_boundary = 0.99;   ///< of the longest step inside the cones
   int refinements = 1;         ///< of each linear solve, against the scaling's huge range
-  double least_shift = 1e-12;  ///< the scaling's eigenvalues stay above this, below its inverse, times lambda_max(W_cc)
-  double inner_part = 0.1;     ///< s is renewed when the convex problem is solved to this part of what s has to move
-  int most_steps = 25;         ///< with one s
-  int patience = 40;           ///< steps without the best error halved
-  double polish_from = 1e-4;   ///< proximal Newton takes over below this error, in units of the rms of q
+  double least_shift = 1e-12;  ///< the scaling's eigenvalues stay above this, below its inverse,
+                               ///< times lambda_max(W_cc)
+  double inner_part =
+      0.1;  ///< s is renewed when the convex problem is solved to this part of what s has to move
+  int most_steps = 25;  ///< with one s
+  int patience = 40;    ///< steps without the best error halved
+  double polish_from =
+      1e-4;  ///< proximal Newton takes over below this error, in units of the rms of q
 };
 
 /// Missing without SuiteSparse, as the maker is null.

@@ -1,18 +1,19 @@
 #pragma once
-// The contact problem as a nonlinear program for Ipopt (Waechter, Biegler 2006). Each solve is a child process:
-// Debian's Ipopt 3.11 with MUMPS does not survive a second one in the same process.
+// The contact problem as a nonlinear program for Ipopt (Waechter, Biegler 2006). Each solve is a
+// child process: Debian's Ipopt 3.11 with MUMPS does not survive a second one in the same process.
 
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
 
-/// The convex cone program with the s-update around it; polar coordinates (cone_program.hpp), exact sparse Hessian. An
-/// iteration is one of Ipopt's own. Null where the library is not used. (Tried instead on 5 problems: mu r_N - |r_T|,
-/// mu^2 r_N^2 - |r_T|^2 and mu^2 r_N - |r_T|^2 / r_N: 50 iterations to 500 and no answer, where this takes 30.)
+/// The convex cone program with the s-update around it; polar coordinates (cone_program.hpp), exact
+/// sparse Hessian. An iteration is one of Ipopt's own. Null where the library is not used. (Tried
+/// instead on 5 problems: mu r_N - |r_T|, mu^2 r_N^2 - |r_T|^2 and mu^2 r_N - |r_T|^2 / r_N: 50
+/// iterations to 500 and no answer, where this takes 30.)
 SolverMaker ipopt_maker();
 
-/// Coulomb's law itself as a mathematical program with complementarity constraints, relaxed (Scholtes 2001) by a
-/// parameter that goes to zero round by round.
+/// Coulomb's law itself as a mathematical program with complementarity constraints, relaxed
+/// (Scholtes 2001) by a parameter that goes to zero round by round.
 SolverMaker ipopt_mpcc_maker();
 
 }  // namespace ballast

@@ -2,16 +2,17 @@
 #include <cmath>
 #include <utility>
 
-#include "solvers/parts/cone_program.hpp"
 #include "solvers/backends/ipopt.hpp"
 #include "solvers/backends/ipopt_program.hpp"
+#include "solvers/parts/cone_program.hpp"
 
 namespace ballast {
 namespace {
 
 using Eigen::VectorXd;
 
-/// min 1/2 x.W x + q.x in polar coordinates y (n, d1, d2): n >= 0 and 1 - |d|^2 >= 0 for each contact with friction.
+/// min 1/2 x.W x + q.x in polar coordinates y (n, d1, d2): n >= 0 and 1 - |d|^2 >= 0 for each
+/// contact with friction.
 class ConeNlp final : public IpoptProgram {
  public:
   ConeNlp(const ConeProgram& cones, const VectorXd& q) : cones_(cones), q_(q) {
@@ -41,14 +42,16 @@ class ConeNlp final : public IpoptProgram {
 
   void constraint_values(const VectorXd& y, VectorXd& g) const override {
     g.resize(constraints());
-    for (int i = 0; i < constraints(); ++i) g[i] = 1.0 - y.segment<2>(first_row(i) + 1).squaredNorm();
+    for (int i = 0; i < constraints(); ++i)
+      g[i] = 1.0 - y.segment<2>(first_row(i) + 1).squaredNorm();
   }
   void jacobian(const VectorXd& y, Entries& entries) const override {
     entries.clear();
     for (int i = 0; i < constraints(); ++i)
       for (int j = 1; j <= 2; ++j) entries.add(i, first_row(i) + j, -2.0 * y[first_row(i) + j]);
   }
-  void hessian(const VectorXd& y, double factor, const VectorXd& multipliers, Entries& entries) const override {
+  void hessian(const VectorXd& y, double factor, const VectorXd& multipliers,
+               Entries& entries) const override {
     entries.clear();
     for (int row = 0; row < cones_.row_count(); ++row)
       for (SparseRows::InnerIterator entry(cones_.w, row); entry; ++entry)
@@ -82,7 +85,8 @@ class ConeNlp final : public IpoptProgram {
     const Slopes a = slopes(y, i), b = slopes(y, j);
     for (int p = 0; p < a.count; ++p)
       for (int q = 0; q < b.count; ++q)
-        if (a.entry[p] >= b.entry[q]) entries.add(a.entry[p], b.entry[q], value * a.slope[p] * b.slope[q]);
+        if (a.entry[p] >= b.entry[q])
+          entries.add(a.entry[p], b.entry[q], value * a.slope[p] * b.slope[q]);
   }
 
   const ConeProgram& cones_;

@@ -2,17 +2,17 @@
 #include <cmath>
 #include <utility>
 
-#include "solvers/parts/cone_program.hpp"
 #include "solvers/backends/ipopt.hpp"
 #include "solvers/backends/ipopt_program.hpp"
+#include "solvers/parts/cone_program.hpp"
 
 namespace ballast {
 namespace {
 
 using Eigen::VectorXd;
 
-// Unknowns of a contact with friction, in this order: n, d1, d2, speed, u_N, u_1, u_2; without friction n, u_N.
-// r_N = n, r_T = mu n d:
+// Unknowns of a contact with friction, in this order: n, d1, d2, speed, u_N, u_1, u_2; without
+// friction n, u_N. r_N = n, r_T = mu n d:
 //   u = W r + q,   0 <= n ⟂ u_N >= 0,   u_T + speed d = 0,   0 <= speed ⟂ 1 - |d|^2 >= 0
 // Both products are held below `relaxation`, and their sum is minimised.
 class MpccNlp final : public IpoptProgram {
@@ -56,7 +56,8 @@ class MpccNlp final : public IpoptProgram {
     for (int k = 0; k < cones_.contact_count(); ++k) {
       const int v = variable_[k];
       gap += x[v] * x[velocity(k)];
-      if (cones_.has_friction(k)) gap += x[v + 3] * (1.0 - x[v + 1] * x[v + 1] - x[v + 2] * x[v + 2]);
+      if (cones_.has_friction(k))
+        gap += x[v + 3] * (1.0 - x[v + 1] * x[v + 1] - x[v + 2] * x[v + 2]);
     }
     return gap;
   }
@@ -111,7 +112,8 @@ class MpccNlp final : public IpoptProgram {
     }
   }
 
-  void hessian(const VectorXd& x, double factor, const VectorXd& multipliers, Entries& entries) const override {
+  void hessian(const VectorXd& x, double factor, const VectorXd& multipliers,
+               Entries& entries) const override {
     entries.clear();
     const VectorXd push = cones_.w_as_is.transpose() * multipliers.head(cones_.row_count());
     for (int k = 0; k < cones_.contact_count(); ++k) {
@@ -132,7 +134,8 @@ class MpccNlp final : public IpoptProgram {
     for (int k = 0; k < cones_.contact_count(); ++k) {
       const int v = variable_[k], at = cones_.row_begin[k];
       r[at] = x[v];
-      if (cones_.has_friction(k)) r.segment<2>(at + 1) = cones_.friction[k] * x[v] * x.segment<2>(v + 1);
+      if (cones_.has_friction(k))
+        r.segment<2>(at + 1) = cones_.friction[k] * x[v] * x.segment<2>(v + 1);
     }
     return r;
   }
@@ -154,7 +157,9 @@ class MpccNlp final : public IpoptProgram {
   }
 
  private:
-  int row(int k) const { return cones_.row_count() + constraint_[k]; }  ///< first constraint of the contact
+  int row(int k) const {
+    return cones_.row_count() + constraint_[k];
+  }  ///< first constraint of the contact
   int velocity(int k) const { return variable_[k] + (cones_.has_friction(k) ? 4 : 1); }
 
   VectorXd velocities(const VectorXd& x) const {
@@ -166,10 +171,12 @@ class MpccNlp final : public IpoptProgram {
   }
 
   /// d r_j / d x times `factor`, into constraint i.
-  void add_impulse_derivative(const VectorXd& x, int i, int j, double factor, Entries& entries) const {
-    const int k = static_cast<int>(std::upper_bound(cones_.row_begin.begin(), cones_.row_begin.end(), j) -
-                                   cones_.row_begin.begin()) -
-                  1;
+  void add_impulse_derivative(const VectorXd& x, int i, int j, double factor,
+                              Entries& entries) const {
+    const int k =
+        static_cast<int>(std::upper_bound(cones_.row_begin.begin(), cones_.row_begin.end(), j) -
+                         cones_.row_begin.begin()) -
+        1;
     const int v = variable_[k], part = j - cones_.row_begin[k];
     if (part == 0) return entries.add(i, v, factor);
     entries.add(i, v, factor * cones_.friction[k] * x[v + part]);
@@ -188,7 +195,8 @@ class IpoptMpcc final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     MpccNlp nlp(cones_);
     nlp.relaxation = 1e-1;
-    const double last_relaxation = std::clamp(1e-2 * budget.tolerance / cones_.velocity_unit(), 1e-13, 1e-4);
+    const double last_relaxation =
+        std::clamp(1e-2 * budget.tolerance / cones_.velocity_unit(), 1e-13, 1e-4);
     VectorXd x;
     constexpr int patience = 12;
     return solve_in_rounds(problem, cones_.moving(), std::move(start), budget, patience,

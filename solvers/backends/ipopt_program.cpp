@@ -19,7 +19,8 @@ using Ipopt::Number;
 /// Ipopt's interface in terms of ours.
 class Adapter final : public Ipopt::TNLP {
  public:
-  Adapter(const IpoptProgram& program, const VectorXd& start) : program_(program), start_(start), answer_(start) {}
+  Adapter(const IpoptProgram& program, const VectorXd& start)
+      : program_(program), start_(start), answer_(start) {}
 
   const VectorXd& answer() const { return answer_; }
 
@@ -34,7 +35,8 @@ class Adapter final : public Ipopt::TNLP {
     style = C_STYLE;
     return true;
   }
-  bool get_bounds_info(Index n, Number* x_low, Number* x_high, Index m, Number* g_low, Number* g_high) override {
+  bool get_bounds_info(Index n, Number* x_low, Number* x_high, Index m, Number* g_low,
+                       Number* g_high) override {
     VectorXd xl(n), xh(n), gl(m), gh(m);
     program_.bounds(xl, xh, gl, gh);
     std::copy(xl.begin(), xl.end(), x_low);
@@ -43,7 +45,8 @@ class Adapter final : public Ipopt::TNLP {
     std::copy(gh.begin(), gh.end(), g_high);
     return true;
   }
-  bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index, bool, Number*) override {
+  bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index, bool,
+                          Number*) override {
     std::copy(start_.begin(), start_.end(), x);
     return true;
   }
@@ -59,18 +62,19 @@ class Adapter final : public Ipopt::TNLP {
     program_.constraint_values(take(x, n), work_);
     return give(work_, g);
   }
-  bool eval_jac_g(Index n, const Number* x, bool, Index, Index, Index* rows, Index* columns, Number* values) override {
+  bool eval_jac_g(Index n, const Number* x, bool, Index, Index, Index* rows, Index* columns,
+                  Number* values) override {
     if (values) program_.jacobian(take(x, n), jacobian_);
     return give(jacobian_, rows, columns, values);
   }
-  bool eval_h(Index n, const Number* x, bool, Number factor, Index m, const Number* multipliers, bool, Index,
-              Index* rows, Index* columns, Number* values) override {
+  bool eval_h(Index n, const Number* x, bool, Number factor, Index m, const Number* multipliers,
+              bool, Index, Index* rows, Index* columns, Number* values) override {
     if (values) program_.hessian(take(x, n), factor, take(multipliers, m), hessian_);
     return give(hessian_, rows, columns, values);
   }
-  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*, const Number*, Index,
-                         const Number*, const Number*, Number, const Ipopt::IpoptData*,
-                         Ipopt::IpoptCalculatedQuantities*) override {
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
+                         const Number*, Index, const Number*, const Number*, Number,
+                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
     answer_ = take(x, n);
   }
 
@@ -80,10 +84,12 @@ class Adapter final : public Ipopt::TNLP {
     std::copy(x.begin(), x.end(), out);
     return x.allFinite();
   }
-  static bool give(const IpoptProgram::Entries& entries, Index* rows, Index* columns, Number* values) {
+  static bool give(const IpoptProgram::Entries& entries, Index* rows, Index* columns,
+                   Number* values) {
     if (values) {
       std::copy(entries.value.begin(), entries.value.end(), values);
-      return std::all_of(values, values + entries.value.size(), [](double x) { return std::isfinite(x); });
+      return std::all_of(values, values + entries.value.size(),
+                         [](double x) { return std::isfinite(x); });
     }
     std::copy(entries.row.begin(), entries.row.end(), rows);
     std::copy(entries.column.begin(), entries.column.end(), columns);
@@ -108,21 +114,26 @@ void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings) {
   options.SetNumericValue("mu_init", settings.first_barrier);
   options.SetIntegerValue("max_iter", settings.max_iterations);
   // In time to hand out what there is; the parent kills at the limit itself.
-  if (settings.max_seconds < 1e6) options.SetNumericValue("max_cpu_time", std::max(1e-3, 0.9 * settings.max_seconds));
+  if (settings.max_seconds < 1e6)
+    options.SetNumericValue("max_cpu_time", std::max(1e-3, 0.9 * settings.max_seconds));
 }
 
 }  // namespace
 
-IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start, const IpoptSettings& settings) {
+IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start,
+                      const IpoptSettings& settings) {
   const ChildResult child = run_in_child(settings.max_seconds, [&](std::vector<double>& record) {
-    // Never destroyed: the record is written after this function, and Ipopt's destructors may crash.
+    // Never destroyed: the record is written after this function, and Ipopt's destructors may
+    // crash.
     Adapter* adapter = new Adapter(program, start);
     auto* held = new Ipopt::SmartPtr<Ipopt::TNLP>(adapter);
-    auto* application = new Ipopt::SmartPtr<Ipopt::IpoptApplication>(new Ipopt::IpoptApplication(false));
+    auto* application =
+        new Ipopt::SmartPtr<Ipopt::IpoptApplication>(new Ipopt::IpoptApplication(false));
     set_options(*(*application)->Options(), settings);
     if ((*application)->Initialize("") != Ipopt::Solve_Succeeded) return;
     const Ipopt::ApplicationReturnStatus status = (*application)->OptimizeTNLP(*held);
-    const bool limited = status == Ipopt::Maximum_Iterations_Exceeded || status == Ipopt::Maximum_CpuTime_Exceeded;
+    const bool limited =
+        status == Ipopt::Maximum_Iterations_Exceeded || status == Ipopt::Maximum_CpuTime_Exceeded;
     const Ipopt::SmartPtr<Ipopt::SolveStatistics> statistics = (*application)->Statistics();
     record.assign(adapter->answer().begin(), adapter->answer().end());
     record.push_back(IsValid(statistics) ? statistics->IterationCount() : 1);
@@ -130,7 +141,8 @@ IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start,
   });
   IpoptAnswer answer;
   const Eigen::Index n = program.variables();
-  if (child.end != ChildEnd::complete || static_cast<Eigen::Index>(child.record.size()) != n + 2) return answer;
+  if (child.end != ChildEnd::complete || static_cast<Eigen::Index>(child.record.size()) != n + 2)
+    return answer;
   answer.x = Eigen::Map<const Eigen::VectorXd>(child.record.data(), n);
   answer.iterations = static_cast<int>(child.record[n]);
   answer.finished = child.record[n + 1] == 0.0;

@@ -1,5 +1,6 @@
 #pragma once
-// A nonlinear program in the form in which it is easy to write one, solved by Ipopt in a child process.
+// A nonlinear program in the form in which it is easy to write one, solved by Ipopt in a child
+// process.
 
 #include <vector>
 
@@ -10,8 +11,9 @@ namespace ballast {
 /// What Ipopt takes for no bound.
 inline constexpr double ipopt_unbounded = 1e20;
 
-/// min f(x), x and g(x) within bounds. Derivatives are lists of entries (row, column, value); entries of the same place
-/// are added. Ipopt asks for the places once: every call must list the same ones in the same order.
+/// min f(x), x and g(x) within bounds. Derivatives are lists of entries (row, column, value);
+/// entries of the same place are added. Ipopt asks for the places once: every call must list the
+/// same ones in the same order.
 class IpoptProgram {
  public:
   struct Entries {
@@ -49,6 +51,7 @@ struct IpoptAnswer {
   bool finished = true;  ///< not by a limit
 };
 
-IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start, const IpoptSettings& settings);
+IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start,
+                      const IpoptSettings& settings);
 
 }  // namespace ballast

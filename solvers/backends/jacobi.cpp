@@ -4,15 +4,16 @@
 #include <utility>
 
 #include "solvers/parts/contact_operator.hpp"
-#include "solvers/seam/iteration.hpp"
 #include "solvers/parts/one_contact.hpp"
+#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
-// r := r + theta (r^ - r), r^_c the exact solution of contact c while the others are held. With D the diagonal blocks
-// of W, a frictionless problem's energy falls for theta < 2 / lambda_max(D^-1 W); theta = 1 / lambda_max falls most
-// surely. Where the error grows all the same (friction, an estimate from below) theta is halved.
+// r := r + theta (r^ - r), r^_c the exact solution of contact c while the others are held. With D
+// the diagonal blocks of W, a frictionless problem's energy falls for theta < 2 / lambda_max(D^-1
+// W); theta = 1 / lambda_max falls most surely. Where the error grows all the same (friction, an
+// estimate from below) theta is halved.
 class Jacobi final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
@@ -20,7 +21,8 @@ class Jacobi final : public Solver {
     contacts_.assign(w_.contact_count(), {});
     for (int c = 0; c < w_.contact_count(); ++c)
       make_principal(w_.diagonal()[c], w_.friction(c), contacts_[c].local, contacts_[c].turn);
-    const double lambda = largest_eigenvalue(w_, [this](Eigen::VectorXd& x) { divide_by_diagonal(x); });
+    const double lambda =
+        largest_eigenvalue(w_, [this](Eigen::VectorXd& x) { divide_by_diagonal(x); });
     damping_ = lambda > 1.0 ? 1.0 / lambda : 1.0;
   }
 
@@ -28,7 +30,8 @@ class Jacobi final : public Solver {
     Iteration iteration(budget, {1, 1.1});
     for (Contact& contact : contacts_) contact.slip = 0.0;
     for (int c = 0; c < w_.contact_count(); ++c)
-      if (!(contacts_[c].local.inverse_normal > 0.0)) w_.put(r, c, Eigen::Vector3d::Zero());  // it would stay
+      if (!(contacts_[c].local.inverse_normal > 0.0))
+        w_.put(r, c, Eigen::Vector3d::Zero());  // it would stay
     u_.resize(problem.row_count());
     w_.velocity(r, u_);
     double theta = damping_, last_error = w_.error(r, u_);

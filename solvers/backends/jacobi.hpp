@@ -1,5 +1,6 @@
 #pragma once
-// Block Jacobi: every contact solved exactly against the others' last impulses, all at once. The parallel baseline.
+// Block Jacobi: every contact solved exactly against the others' last impulses, all at once. The
+// parallel baseline.
 
 #include <memory>
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/seam/iteration.hpp"
 #include "solvers/parts/newton_step.hpp"
+#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
@@ -52,14 +52,16 @@ class Newton final : public Solver {
       step_.set_proximal(weight);
     }
     Solved solved = iteration.finish(std::move(best.r));
-    if (failures >= 8 && solved.reason != StopReason::reached_tolerance) solved.reason = StopReason::stalled;
+    if (failures >= 8 && solved.reason != StopReason::reached_tolerance)
+      solved.reason = StopReason::stalled;
     solved.own_residual = step_.residual();
     return solved;
   }
 
  private:
-  /// alpha rho where none is wanted: velocity-space elimination needs a regular contact block. Where W is singular, 1 / weight
-  /// times the rounding of u, about 1e-16 |q|, comes into r: a step without descent is taken for that and the weight grows.
+  /// alpha rho where none is wanted: velocity-space elimination needs a regular contact block.
+  /// Where W is singular, 1 / weight times the rounding of u, about 1e-16 |q|, comes into r: a step
+  /// without descent is taken for that and the weight grows.
   static constexpr double smallest_weight = 1e-7, largest_weight = 1e-3;
   NewtonSettings settings_;
   NewtonStep step_;
@@ -84,7 +86,8 @@ class ProximalNewton final : public Solver {
     iteration.evaluated(best.error);
     double weight = settings_.first_weight, halved = best.error;
     int failures = 0, halved_at = 0;
-    while (failures < 30 && iteration.count() - halved_at <= settings_.patience * budget.max_iterations) {
+    while (failures < 30 &&
+           iteration.count() - halved_at <= settings_.patience * budget.max_iterations) {
       const int steps = proximal_step(iteration, weight, best);
       if (steps < 0) break;  // the budget ended
       if (best.error < 0.5 * halved) {
@@ -113,15 +116,16 @@ class ProximalNewton final : public Solver {
  private:
   static constexpr double rho_factors[3] = {10.0, 100.0, 1.0};
 
-  Impulses swept(const FrictionProblem& problem, Impulses r, int count, double seconds, const Budget& budget) {
+  Impulses swept(const FrictionProblem& problem, Impulses r, int count, double seconds,
+                 const Budget& budget) {
     const Budget sweeps{.tolerance = budget.tolerance,
                         .max_iterations = count,
                         .max_seconds = std::max(0.0, seconds)};
     return start_->solve(problem, std::move(r), sweeps).impulses;
   }
 
-  /// One proximal step from the current iterate. Newton steps taken; one more than allowed: failed, and the iterate is where the
-  /// step began; -1: the budget ended.
+  /// One proximal step from the current iterate. Newton steps taken; one more than allowed: failed,
+  /// and the iterate is where the step began; -1: the budget ended.
   int proximal_step(Iteration& iteration, double weight, Best& best) {
     step_.centre();
     step_.set_proximal(0.0);
@@ -147,7 +151,9 @@ class ProximalNewton final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_newton(const NewtonSettings& settings) { return std::make_unique<Newton>(settings); }
+std::unique_ptr<Solver> make_newton(const NewtonSettings& settings) {
+  return std::make_unique<Newton>(settings);
+}
 
 std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& settings) {
   return std::make_unique<ProximalNewton>(settings);

@@ -14,22 +14,25 @@ struct NewtonSettings {
   int line_search = 12;     ///< halvings of a step at most
 };
 
-/// Newton steps with a line search on the equation's residual (Alart, Curnier 1991; Acary, Bremond, Huber 2018). One iteration is one
-/// factorisation. Fails where W is rank deficient and contacts stick, as the method does.
+/// Newton steps with a line search on the equation's residual (Alart, Curnier 1991; Acary, Bremond,
+/// Huber 2018). One iteration is one factorisation. Fails where W is rank deficient and contacts
+/// stick, as the method does.
 std::unique_ptr<Solver> make_newton(const NewtonSettings& settings);
 
 struct ProximalNewtonSettings {
   ContactEquation equation = ContactEquation::alart_curnier;
-  int start_sweeps = 200;          ///< of Gauss-Seidel, when the start is cold
-  int mending_sweeps = 50;         ///< after a proximal step that failed
-  double first_weight = 1e-3;      ///< alpha rho of the first proximal step
-  double inner_reduction = 0.5;    ///< of the residual that an inner Newton must reach
-  int inner_steps = 12;            ///< Newton steps, after which a proximal step has failed
-  double patience = 0.375;         ///< part of the budget's iterations without halving the error, after which it gives up (stalled)
+  int start_sweeps = 200;        ///< of Gauss-Seidel, when the start is cold
+  int mending_sweeps = 50;       ///< after a proximal step that failed
+  double first_weight = 1e-3;    ///< alpha rho of the first proximal step
+  double inner_reduction = 0.5;  ///< of the residual that an inner Newton must reach
+  int inner_steps = 12;          ///< Newton steps, after which a proximal step has failed
+  double patience = 0.375;  ///< part of the budget's iterations without halving the error, after
+                            ///< which it gives up (stalled)
 };
 
-/// r_{k+1} solves the law with u + alpha (r - r_k): regular whatever W's rank, and the same solutions (Acary, Bremond, Huber 2018,
-/// section 6). alpha shrinks after easy steps and grows after failed ones. One iteration is one factorisation.
+/// r_{k+1} solves the law with u + alpha (r - r_k): regular whatever W's rank, and the same
+/// solutions (Acary, Bremond, Huber 2018, section 6). alpha shrinks after easy steps and grows
+/// after failed ones. One iteration is one factorisation.
 std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& settings = {});
 
 /// For solver_list; null without SuiteSparse.

@@ -60,22 +60,24 @@ class Nlopt final : public Solver {
 
   void prepare(const FrictionProblem& problem) override {
     if (!recipe_.largest.admits(problem))
-      throw UnsupportedProblem(std::string(recipe_.name) + ": " + std::to_string(problem.contact_count()) +
-                               " contacts, " + std::to_string(contacts_with_friction(problem)) +
-                               " with friction; at most " + std::to_string(recipe_.largest.contacts) + " and " +
-                               std::to_string(recipe_.largest.with_friction) + " (" + recipe_.because + ")");
+      throw UnsupportedProblem(
+          std::string(recipe_.name) + ": " + std::to_string(problem.contact_count()) +
+          " contacts, " + std::to_string(contacts_with_friction(problem)) +
+          " with friction; at most " + std::to_string(recipe_.largest.contacts) + " and " +
+          std::to_string(recipe_.largest.with_friction) + " (" + recipe_.because + ")");
     cones_.take(problem);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     constexpr int patience = 40;
-    return cones_.solve(problem, std::move(start), budget, patience,
-                        [this](const ConeRequest& request, RoundAnswer& answer) { run(request, answer); });
+    return cones_.solve(
+        problem, std::move(start), budget, patience,
+        [this](const ConeRequest& request, RoundAnswer& answer) { run(request, answer); });
   }
 
  private:
-  /// Contacts whose projected gradient step P_K(x - u) ends at the apex stay there for this round: no constraint of
-  /// theirs has a gradient that NLopt could use. The others start from that step.
+  /// Contacts whose projected gradient step P_K(x - u) ends at the apex stay there for this round:
+  /// no constraint of theirs has a gradient that NLopt could use. The others start from that step.
   void run(const ConeRequest& request, RoundAnswer& answer) {
     VectorXd x = request.start - cones_.w * request.start - request.q;
     Program program;
@@ -117,11 +119,14 @@ class Nlopt final : public Solver {
   }
 
   /// Evaluations spent; `y` is the start and the answer.
-  int optimise(const ConeRequest& request, Program& program, const std::vector<int>& row, VectorXd& y) const {
-    const unsigned n = static_cast<unsigned>(row.size()), m = static_cast<unsigned>(program.row_begin.size());
+  int optimise(const ConeRequest& request, Program& program, const std::vector<int>& row,
+               VectorXd& y) const {
+    const unsigned n = static_cast<unsigned>(row.size()),
+                   m = static_cast<unsigned>(program.row_begin.size());
     VectorXd low = VectorXd::Constant(n, -HUGE_VAL);
     for (unsigned i = 0; i < n; ++i)
-      if (std::binary_search(cones_.row_begin.begin(), cones_.row_begin.end(), row[i])) low[i] = 0.0;
+      if (std::binary_search(cones_.row_begin.begin(), cones_.row_begin.end(), row[i]))
+        low[i] = 0.0;
     const double small = std::clamp(1e-2 * request.accuracy, 1e-14, 1e-4);
     nlopt_opt optimiser = nlopt_create(recipe_.algorithm, n);
     nlopt_set_lower_bounds(optimiser, low.data());
@@ -142,11 +147,14 @@ class Nlopt final : public Solver {
   ConeProgram cones_;
 };
 
-// Svanberg's approximations have one curvature for all variables: the sharpest of the cones slows every contact down.
-// 40 contacts with friction and a singular W end at 1e-5 m/s after 20 s.
-const NloptRecipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, nlopt_slsqp_limit, 400, "a dense quadratic program per step"};
-const NloptRecipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
-const NloptRecipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, nlopt_ccsaq_limit, 3000, "NLopt's dense Jacobian; one curvature for all cones"};
+// Svanberg's approximations have one curvature for all variables: the sharpest of the cones slows
+// every contact down. 40 contacts with friction and a singular W end at 1e-5 m/s after 20 s.
+const NloptRecipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, nlopt_slsqp_limit, 400,
+                        "a dense quadratic program per step"};
+const NloptRecipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000,
+                      "NLopt's dense Jacobian; one curvature for all cones"};
+const NloptRecipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, nlopt_ccsaq_limit, 3000,
+                        "NLopt's dense Jacobian; one curvature for all cones"};
 
 template <const NloptRecipe& recipe>
 std::unique_ptr<Solver> make_nlopt() {

@@ -1,15 +1,16 @@
 #pragma once
-// The convex cone program with the s-update, by NLopt's gradient-based optimisers for constraints (Johnson, NLopt):
-// SLSQP (Kraft 1994), MMA and CCSAQ (Svanberg 2002).
+// The convex cone program with the s-update, by NLopt's gradient-based optimisers for constraints
+// (Johnson, NLopt): SLSQP (Kraft 1994), MMA and CCSAQ (Svanberg 2002).
 
 #include "solvers/seam/size_limit.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
 
-/// Contacts at the apex of their cone, as a projected gradient step tells, are left out of a round; the others have
-/// |r_T| <= mu r_N. NLopt keeps the Jacobian dense, and SLSQP a dense factor of the Hessian: larger problems are
-/// declined. An iteration is one evaluation of the objective. Null where the library is not used.
+/// Contacts at the apex of their cone, as a projected gradient step tells, are left out of a round;
+/// the others have |r_T| <= mu r_N. NLopt keeps the Jacobian dense, and SLSQP a dense factor of the
+/// Hessian: larger problems are declined. An iteration is one evaluation of the objective. Null
+/// where the library is not used.
 SolverMaker nlopt_slsqp_maker();
 SolverMaker nlopt_mma_maker();
 SolverMaker nlopt_ccsaq_maker();

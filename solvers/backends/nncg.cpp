@@ -13,15 +13,16 @@ namespace {
 //   beta > 1: the search restarts, p = 0, r := r^
 //   else      r := r^ + beta p,  p := beta p + d
 //   r^ := sweep(r)
-// The body velocities are linear in r, so they take the same combination of their own past: no pass over the contacts'
-// blocks. Only swept iterates, which lie in the cones, are ever judged or returned. The law is not a minimisation, and
-// now and then the search circles: when the error has grown from one evaluation to the next, plain sweeps follow until
-// the one after.
+// The body velocities are linear in r, so they take the same combination of their own past: no pass
+// over the contacts' blocks. Only swept iterates, which lie in the cones, are ever judged or
+// returned. The law is not a minimisation, and now and then the search circles: when the error has
+// grown from one evaluation to the next, plain sweeps follow until the one after.
 class Nncg final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
     if (!problem.has_dynamics)
-      throw UnsupportedProblem("nncg: the problem has no dynamics form (M, H): it sweeps over bodies");
+      throw UnsupportedProblem(
+          "nncg: the problem has no dynamics form (M, H): it sweeps over bodies");
     sweep_.prepare(problem);
   }
 
@@ -39,7 +40,8 @@ class Nncg final : public Solver {
       if (!iteration.error_due()) continue;
       double error = sweep_.error();
       sweep_.store(problem, r);
-      if (iteration.reached(error)) {  // once more from the impulses alone, without what the updates have rounded
+      if (iteration.reached(
+              error)) {  // once more from the impulses alone, without what the updates have rounded
         load(problem, r);
         error = sweep_.error();
       }
@@ -63,8 +65,8 @@ class Nncg final : public Solver {
     square_ = last_square_ = 0.0;
   }
 
-  /// Plain: the sweep begins where the last one ended, and is remembered. The first sweep after a load or a restart is
-  /// plain in any case.
+  /// Plain: the sweep begins where the last one ended, and is remembered. The first sweep after a
+  /// load or a restart is plain in any case.
   SearchStep next_step(bool accelerates) {
     if (!accelerates || square_ == 0.0) return {0.0, 0.0};
     double beta = last_square_ > 0.0 ? square_ / last_square_ : 0.0;

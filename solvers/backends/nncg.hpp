@@ -1,6 +1,7 @@
 #pragma once
-// Nonsmooth nonlinear conjugate gradients: Gauss-Seidel sweeps taken for a gradient, Fletcher-Reeves for the rest.
-// Silcowitz-Hansen, Niebe, Erleben 2010, "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems".
+// Nonsmooth nonlinear conjugate gradients: Gauss-Seidel sweeps taken for a gradient,
+// Fletcher-Reeves for the rest. Silcowitz-Hansen, Niebe, Erleben 2010, "A nonsmooth nonlinear
+// conjugate gradient method for interactive contact force problems".
 
 #include <memory>
 

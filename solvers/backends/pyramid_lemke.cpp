@@ -6,14 +6,15 @@
 #include <utility>
 
 #include "problems/algebra/contact_error.hpp"
-#include "solvers/seam/iteration.hpp"
 #include "solvers/parts/lemke.hpp"
+#include "solvers/seam/iteration.hpp"
 #include "solvers/seam/moving_contacts.hpp"
 
 namespace ballast {
 namespace {
 
-// Unknowns of contact k, scaled by s = 1 / sqrt(lambda_max(W_kk)) so that the matrix has a diagonal of about one:
+// Unknowns of contact k, scaled by s = 1 / sqrt(lambda_max(W_kk)) so that the matrix has a diagonal
+// of about one:
 //   0 <= r_N      ⟂  u_N >= 0
 //   0 <= beta_j   ⟂  lambda + d_j . u_T >= 0          r_T = sum_j beta_j d_j
 //   0 <= lambda   ⟂  mu r_N - sum_j beta_j >= 0        lambda: the sliding speed
@@ -28,9 +29,10 @@ class PyramidLemke final : public Solver {
     for (int k = 0; k < moving_.contact_count(); ++k)
       begin_.push_back(begin_.back() + (has_friction(k) ? settings_.unknowns_per_contact() : 1));
     if (begin_.back() > settings_.largest)
-      throw UnsupportedProblem("pyramid_lemke: " + std::to_string(begin_.back()) + " unknowns, at most " +
-                               std::to_string(settings_.largest) + " (dense pivoting; " +
-                               std::to_string(settings_.unknowns_per_contact()) + " per contact with friction)");
+      throw UnsupportedProblem(
+          "pyramid_lemke: " + std::to_string(begin_.back()) + " unknowns, at most " +
+          std::to_string(settings_.largest) + " (dense pivoting; " +
+          std::to_string(settings_.unknowns_per_contact()) + " per contact with friction)");
     assemble();
   }
 
@@ -57,7 +59,8 @@ class PyramidLemke final : public Solver {
     }
     Solved solved = iteration.finish(std::move(r));
     if (z.size() > 0) solved.own_residual = residual(z);
-    // Ended by itself: there is nothing more that this method could do, for its own law or for Coulomb's.
+    // Ended by itself: there is nothing more that this method could do, for its own law or for
+    // Coulomb's.
     if (state != LemkeState::running && solved.reason == StopReason::numerical_failure &&
         solved.impulses.allFinite())
       solved.reason = StopReason::stalled;
@@ -90,10 +93,12 @@ class PyramidLemke final : public Solver {
     q_.setZero(n);
     for (int k = 0; k < contacts; ++k) {
       const int at = begin_[k], size = begin_[k + 1] - at;
-      q_.segment(at, size) = e[k].transpose() * moving_.q.segment(moving_.row_begin[k], moving_.rows(k));
+      q_.segment(at, size) =
+          e[k].transpose() * moving_.q.segment(moving_.row_begin[k], moving_.rows(k));
       for (int l = 0; l < contacts; ++l)
         m_.block(at, begin_[l], size, begin_[l + 1] - begin_[l]) =
-            e[k].transpose() * w.block(moving_.row_begin[k], moving_.row_begin[l], moving_.rows(k), moving_.rows(l)) *
+            e[k].transpose() *
+            w.block(moving_.row_begin[k], moving_.row_begin[l], moving_.rows(k), moving_.rows(l)) *
             e[l];
       if (size == 1) continue;
       const int last = at + size - 1;
@@ -106,7 +111,8 @@ class PyramidLemke final : public Solver {
   Eigen::VectorXd impulses(const Eigen::VectorXd& z) const {
     Eigen::VectorXd x(moving_.row_count());
     for (int k = 0; k < moving_.contact_count(); ++k)
-      x.segment(moving_.row_begin[k], moving_.rows(k)) = spread(k) * z.segment(begin_[k], begin_[k + 1] - begin_[k]);
+      x.segment(moving_.row_begin[k], moving_.rows(k)) =
+          spread(k) * z.segment(begin_[k], begin_[k + 1] - begin_[k]);
     return x;
   }
 
@@ -115,8 +121,10 @@ class PyramidLemke final : public Solver {
     const Eigen::VectorXd least = z.cwiseMin(m_ * z + q_);
     double largest = 0.0;
     for (int k = 0; k < moving_.contact_count(); ++k)
-      largest = std::max(largest, std::sqrt(moving_.lambda_max[k]) *
-                                      least.segment(begin_[k], begin_[k + 1] - begin_[k]).lpNorm<Eigen::Infinity>());
+      largest = std::max(
+          largest,
+          std::sqrt(moving_.lambda_max[k]) *
+              least.segment(begin_[k], begin_[k + 1] - begin_[k]).lpNorm<Eigen::Infinity>());
     return largest;
   }
 

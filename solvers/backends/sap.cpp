@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/seam/iteration.hpp"
 #include "solvers/parts/shifted_delassus.hpp"
 #include "solvers/parts/slip_shift.hpp"
+#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
@@ -18,7 +18,8 @@ class Sap final : public Solver {
 
   void prepare(const FrictionProblem& problem) override {
     if (!problem.has_dynamics)
-      throw UnsupportedProblem("sap: the problem has no dynamics form (M, H): the unknowns are the bodies' velocities");
+      throw UnsupportedProblem(
+          "sap: the problem has no dynamics form (M, H): the unknowns are the bodies' velocities");
     w_.prepare(problem);
     system_.prepare(w_);
     mass_ = sparse_mass(problem.dynamics);
@@ -46,7 +47,8 @@ class Sap final : public Solver {
       const bool solved = decrement <= std::max(enough, least_energy_);
       if (!solved && ++newtons < settings_.most_newtons) continue;
       // What is left is the relaxation: Coulomb's law is not reached by going on.
-      done = !settings_.proximal || no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.tolerance;
+      done = !settings_.proximal ||
+             no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.tolerance;
       centre_ = gamma_;
       newtons = 0;
     }
@@ -60,22 +62,26 @@ class Sap final : public Solver {
 
  private:
   double epsilon(int c) const { return settings_.regularisation / w_.rho()[c]; }
-  Eigen::Vector3d pressed(int c, const Eigen::Vector3d& u) const { return w_.at(centre_, c) - u / epsilon(c); }
+  Eigen::Vector3d pressed(int c, const Eigen::Vector3d& u) const {
+    return w_.at(centre_, c) - u / epsilon(c);
+  }
 
   /// u and gamma at v_.
   void place(const FrictionProblem& problem) {
     body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
     for (int c = 0; c < w_.contact_count(); ++c)
       w_.put(gamma_, c,
-             w_.rho()[c] > 0.0 ? project_cone(pressed(c, w_.at(u_, c)), w_.friction(c)) : Eigen::Vector3d::Zero());
+             w_.rho()[c] > 0.0 ? project_cone(pressed(c, w_.at(u_, c)), w_.friction(c))
+                               : Eigen::Vector3d::Zero());
   }
 
-  /// One step in v_, and what follows from it. Returns -gradient.dv [J], twice what the model promised to gain; not
-  /// finite: the factorisation failed.
+  /// One step in v_, and what follows from it. Returns -gradient.dv [J], twice what the model
+  /// promised to gain; not finite: the factorisation failed.
   double newton(const FrictionProblem& problem) {
     for (int c = 0; c < w_.contact_count(); ++c) {
       hessian_[c].setZero();
-      if (w_.rho()[c] > 0.0) hessian_[c] = project_cone_jacobian(pressed(c, w_.at(u_, c)), w_.friction(c)) / epsilon(c);
+      if (w_.rho()[c] > 0.0)
+        hessian_[c] = project_cone_jacobian(pressed(c, w_.at(u_, c)), w_.friction(c)) / epsilon(c);
     }
     if (!system_.factor(hessian_, hessian_)) return std::numeric_limits<double>::quiet_NaN();
     contact_to_body_impulse(problem.dynamics, problem.row_begin, gamma_, gradient_);
@@ -92,8 +98,8 @@ class Sap final : public Solver {
     return decrement;
   }
 
-  /// The minimum of the convex energy along dv: its slope is bracketed, and found by secants kept inside the bracket
-  /// (Illinois). `slope` and `curvature` of the kinetic part.
+  /// The minimum of the convex energy along dv: its slope is bracketed, and found by secants kept
+  /// inside the bracket (Illinois). `slope` and `curvature` of the kinetic part.
   double line_search(double slope, double curvature) const {
     const auto derivative = [&](double t) {
       double sum = slope + t * curvature;
@@ -136,7 +142,8 @@ class Sap final : public Solver {
   double proximal_energy() const {
     double sum = 0.0;
     for (int c = 0; c < w_.contact_count(); ++c)
-      if (w_.rho()[c] > 0.0) sum += epsilon(c) * (w_.at(gamma_, c) - w_.at(centre_, c)).squaredNorm();
+      if (w_.rho()[c] > 0.0)
+        sum += epsilon(c) * (w_.at(gamma_, c) - w_.at(centre_, c)).squaredNorm();
     return sum;
   }
 
@@ -152,7 +159,9 @@ class Sap final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_sap(const SapSettings& settings) { return std::make_unique<Sap>(settings); }
+std::unique_ptr<Solver> make_sap(const SapSettings& settings) {
+  return std::make_unique<Sap>(settings);
+}
 
 SolverMaker sap_maker() {
   return [] { return make_sap(); };

@@ -27,8 +27,8 @@ struct SiconosRecipe {
   void (*adjust)(SolverOptions&);
 };
 
-/// W by 3 x 3 blocks. A one-row contact gets two more rows with W_NN on the diagonal, q = 0 and mu = 0: no impulse
-/// there.
+/// W by 3 x 3 blocks. A one-row contact gets two more rows with W_NN on the diagonal, q = 0 and mu
+/// = 0: no impulse there.
 class BlockProblem {
  public:
   void take(const MovingContacts& moving) {
@@ -39,7 +39,8 @@ class BlockProblem {
       for (int i = 0; i < moving.rows(k); ++i) row_.push_back(3 * k + i);
     friction_ = moving.friction;
     q_.setZero(3 * contacts);
-    for (std::size_t i = 0; i < row_.size(); ++i) q_[row_[i]] = moving.q[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < row_.size(); ++i)
+      q_[row_[i]] = moving.q[static_cast<Eigen::Index>(i)];
 
     block_begin_.assign(1, 0);
     block_column_.clear();
@@ -116,7 +117,8 @@ class Siconos final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     // Siconos' error is a norm over contacts divided by max(|q|, |r|, |u|).
-    double tolerance = budget.tolerance * std::sqrt(std::max(1.0, static_cast<double>(blocks_.contacts()))) /
+    double tolerance = budget.tolerance *
+                       std::sqrt(std::max(1.0, static_cast<double>(blocks_.contacts()))) /
                        std::max(1.0, blocks_.q().norm());
     int chunk = recipe_.first_iterations;
     constexpr int patience = 3;
@@ -128,7 +130,8 @@ class Siconos final : public Solver {
                              if (!answer.finished)
                                chunk = chunk > (1 << 28) ? chunk : 2 * chunk;
                              else
-                               tolerance *= std::clamp(0.3 * budget.tolerance / request.last_error, 1e-4, 0.1);
+                               tolerance *= std::clamp(0.3 * budget.tolerance / request.last_error,
+                                                       1e-4, 0.1);
                            });
   }
 
@@ -160,17 +163,20 @@ class Siconos final : public Solver {
   BlockProblem blocks_;
 };
 
-const SiconosRecipe nsgs{"siconos_nsgs", SICONOS_FRICTION_3D_NSGS, 500, [](SolverOptions& options) {
-                    solver_options_update_internal(&options, 0, SICONOS_FRICTION_3D_ONECONTACT_NSN_GP_HYBRID);
-                    options.internalSolvers[0]->iparam[SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY] =
-                        SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_NSN_AND_PLI_NSN_LOOP;
-                  }};
+const SiconosRecipe nsgs{
+    "siconos_nsgs", SICONOS_FRICTION_3D_NSGS, 500, [](SolverOptions& options) {
+      solver_options_update_internal(&options, 0, SICONOS_FRICTION_3D_ONECONTACT_NSN_GP_HYBRID);
+      options.internalSolvers[0]->iparam[SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY] =
+          SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_NSN_AND_PLI_NSN_LOOP;
+    }};
 const SiconosRecipe prox{"siconos_prox", SICONOS_FRICTION_3D_PROX, 100, [](SolverOptions&) {}};
-const SiconosRecipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2000, [](SolverOptions& options) {
-                    options.iparam[SICONOS_FRICTION_3D_ADMM_IPARAM_RHO_STRATEGY] =
-                        SICONOS_FRICTION_3D_ADMM_RHO_STRATEGY_RESIDUAL_BALANCING;
-                  }};
-const SiconosRecipe nsn_ac{"siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 100, [](SolverOptions&) {}};
+const SiconosRecipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2000,
+                         [](SolverOptions& options) {
+                           options.iparam[SICONOS_FRICTION_3D_ADMM_IPARAM_RHO_STRATEGY] =
+                               SICONOS_FRICTION_3D_ADMM_RHO_STRATEGY_RESIDUAL_BALANCING;
+                         }};
+const SiconosRecipe nsn_ac{"siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 100,
+                           [](SolverOptions&) {}};
 
 template <const SiconosRecipe& recipe>
 std::unique_ptr<Solver> make_siconos() {

@@ -1,6 +1,7 @@
 #pragma once
-// Spectral projected gradient with a nonmonotone line search. Birgin, Martinez, Raydan 2000 (SPG2); in contact
-// mechanics Heyn, Anitescu, Tasora, Negrut 2013, with diagonal scaling and the s-update (slip_shift.hpp).
+// Spectral projected gradient with a nonmonotone line search. Birgin, Martinez, Raydan 2000 (SPG2);
+// in contact mechanics Heyn, Anitescu, Tasora, Negrut 2013, with diagonal scaling and the s-update
+// (slip_shift.hpp).
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 // Stands in for the backends that factorise where SuiteSparse is not used.
 
 #include "solvers/backends/admm.hpp"
-#include "solvers/backends/interior_point.hpp"
 #include "solvers/backends/auto.hpp"
+#include "solvers/backends/interior_point.hpp"
 #include "solvers/backends/newton.hpp"
 #include "solvers/backends/sap.hpp"
 

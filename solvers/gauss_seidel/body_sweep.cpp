@@ -8,11 +8,11 @@
 namespace ballast {
 namespace {
 
-/// Both sides' rows of G = H L^-T; a side that does not move gets zero rows and the velocity `nowhere`, which stays
-/// zero.
+/// Both sides' rows of G = H L^-T; a side that does not move gets zero rows and the velocity
+/// `nowhere`, which stays zero.
 template <int Rows>
-void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots, int c, int nowhere,
-                double (*rows)[Rows][row_width], int* body) {
+void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots, int c,
+                int nowhere, double (*rows)[Rows][row_width], int* body) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
   const int bodies[2] = {dynamics.body_a[c], dynamics.body_b[c]};
   for (int s = 0; s < 2; ++s) {
@@ -35,7 +35,8 @@ void BodySweep::prepare(const FrictionProblem& problem) {
   prepare_bodies(problem.dynamics);
   team_.run(team_.size(), [&](int member) {
     const std::vector<int>& order = plan_.contacts();
-    const size_t begin = order.size() * member / team_.size(), end = order.size() * (member + 1) / team_.size();
+    const size_t begin = order.size() * member / team_.size(),
+                 end = order.size() * (member + 1) / team_.size();
     for (size_t i = begin; i < end; ++i)
       if (is_one_row_[order[i]])
         prepare_one_row(problem, order[i], record_[order[i]]);
@@ -54,7 +55,8 @@ void BodySweep::prepare_ranges(const FrictionProblem& problem) {
   const auto number = [&](const std::vector<SweepPlan::Part>& parts, std::vector<Range>& ranges) {
     ranges.clear();
     for (const SweepPlan::Part& part : parts) {
-      ranges.push_back({friction, part.friction_end - part.begin, one_row, part.end - part.friction_end, 0.0, 0.0, 0});
+      ranges.push_back({friction, part.friction_end - part.begin, one_row,
+                        part.end - part.friction_end, 0.0, 0.0, 0});
       for (int i = part.begin; i < part.end; ++i) {
         const int c = plan_.contacts()[i];
         nowhere_[c] = nowhere;
@@ -118,7 +120,8 @@ void BodySweep::load(const FrictionProblem& problem, const Impulses& r) {
     if (is_one_row_[c]) {
       load_impulse(one_row_[record], rc, one_row_impulse_[record], velocity_.data());
     } else {
-      load_impulse(friction_[record], turn_[record], rc, friction_impulse_[record], velocity_.data());
+      load_impulse(friction_[record], turn_[record], rc, friction_impulse_[record],
+                   velocity_.data());
       friction_impulse_[record].slip = 0.0;
     }
   }
@@ -137,10 +140,10 @@ void BodySweep::store(const FrictionProblem& problem, Impulses& r) const {
 
 void BodySweep::sweep() {
   for_parts([this](const Range& range) {
-    sweep_friction(friction_.data() + range.friction, friction_impulse_.data() + range.friction, range.friction_count,
-                   velocity_.data());
-    sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row, range.one_row_count,
-                  velocity_.data());
+    sweep_friction(friction_.data() + range.friction, friction_impulse_.data() + range.friction,
+                   range.friction_count, velocity_.data());
+    sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row,
+                  range.one_row_count, velocity_.data());
   });
 }
 
@@ -155,7 +158,8 @@ void BodySweep::start_search(SweepSearch& search) const {
 void BodySweep::move_along(std::span<const int> bodies, SweepSearch& search, SearchStep step) {
   for (const int b : bodies)
     for (int i = 0; i < body_width; ++i) {
-      double &x = velocity_[b].w[i], &p = search.velocity_direction[b].w[i], &before = search.velocity_before[b].w[i];
+      double &x = velocity_[b].w[i], &p = search.velocity_direction[b].w[i],
+             &before = search.velocity_before[b].w[i];
       const double along = step.beta * p;
       p = along + step.gain * (x - before);
       x += along;
@@ -167,9 +171,11 @@ double BodySweep::sweep(SweepSearch& search, SearchStep step) {
   const auto sweep_range = [&](Range& range) {
     range.change_square =
         sweep_friction(friction_.data() + range.friction, friction_impulse_.data() + range.friction,
-                       search.friction.data() + range.friction, step, range.friction_count, velocity_.data()) +
+                       search.friction.data() + range.friction, step, range.friction_count,
+                       velocity_.data()) +
         sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row,
-                      search.one_row.data() + range.one_row, step, range.one_row_count, velocity_.data());
+                      search.one_row.data() + range.one_row, step, range.one_row_count,
+                      velocity_.data());
   };
   team_.run(static_cast<int>(interiors_.size()), [&](int slab) {
     move_along(plan_.bodies(slab), search, step);
@@ -188,7 +194,8 @@ void BodySweep::sweep(const SweepVariant& variant, const std::vector<int>& conta
     if (is_one_row_[c])
       resolve_by_variant(variant, one_row_[record], one_row_impulse_[record], velocity_.data());
     else
-      resolve_by_variant(variant, friction_[record], friction_impulse_[record], lambda_max_[record], velocity_.data());
+      resolve_by_variant(variant, friction_[record], friction_impulse_[record], lambda_max_[record],
+                         velocity_.data());
   }
 }
 
@@ -199,13 +206,15 @@ double BodySweep::error() {
     int counted = 0;
     for (int k = range.friction; k < range.friction + range.friction_count; ++k) {
       if (!(lambda_max_[k] > 0.0)) continue;
-      const double value = natural_map(friction_[k], friction_impulse_[k], lambda_max_[k], velocity_.data());
+      const double value =
+          natural_map(friction_[k], friction_impulse_[k], lambda_max_[k], velocity_.data());
       sum += value * value;
       ++counted;
     }
     for (int k = range.one_row; k < range.one_row + range.one_row_count; ++k) {
       if (!(one_row_lambda_max_[k] > 0.0)) continue;
-      const double value = natural_map(one_row_[k], one_row_impulse_[k], one_row_lambda_max_[k], velocity_.data());
+      const double value =
+          natural_map(one_row_[k], one_row_impulse_[k], one_row_lambda_max_[k], velocity_.data());
       sum += value * value;
       ++counted;
     }

@@ -13,7 +13,8 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
   const SparseRows& w = problem.delassus.w;
   std::vector<int> contact_of_row(problem.row_count());
   for (int c = 0; c < contacts; ++c)
-    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) contact_of_row[row] = c;
+    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
+      contact_of_row[row] = c;
 
   block_begin_.assign(1, 0);
   block_contact_.clear();
@@ -49,7 +50,8 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
   for (int c = 0; c < contacts; ++c) {
     make_principal(diagonal[c], problem.friction[c], contacts_[c].local, contacts_[c].turn);
     contacts_[c].lambda_max = largest_eigenvalue(diagonal[c]);
-    for (int i = 0; i < problem.contact_rows(c); ++i) q_[3 * c + i] = problem.delassus.q[problem.row_begin[c] + i];
+    for (int i = 0; i < problem.contact_rows(c); ++i)
+      q_[3 * c + i] = problem.delassus.q[problem.row_begin[c] + i];
   }
 }
 
@@ -57,7 +59,8 @@ void DelassusSweep::load(const FrictionProblem& problem, const Impulses& r) {
   for (int c = 0; c < problem.contact_count(); ++c) {
     // An impulse that moves nothing would stay as it was given.
     const double weight = contacts_[c].local.inverse_normal > 0.0 ? 1.0 : 0.0;
-    for (int i = 0; i < problem.contact_rows(c); ++i) r_[3 * c + i] = weight * r[problem.row_begin[c] + i];
+    for (int i = 0; i < problem.contact_rows(c); ++i)
+      r_[3 * c + i] = weight * r[problem.row_begin[c] + i];
   }
 }
 
@@ -114,7 +117,8 @@ double DelassusSweep::error() const {
     Eigen::Vector3d u;
     velocity(c, u.data());
     const Eigen::Vector3d r(r_[3 * c], r_[3 * c + 1], r_[3 * c + 2]);
-    const double value = ContactJudge::scaled_natural_map(r, u, contact.local.mu, contact.lambda_max);
+    const double value =
+        ContactJudge::scaled_natural_map(r, u, contact.local.mu, contact.lambda_max);
     sum += value * value;
     ++counted;
   }
@@ -125,7 +129,9 @@ void DelassusSweep::save(Eigen::VectorXd& state) const {
   state = Eigen::Map<const Eigen::VectorXd>(r_.data(), static_cast<Eigen::Index>(r_.size()));
 }
 
-void DelassusSweep::restore(const Eigen::VectorXd& state) { std::copy_n(state.data(), r_.size(), r_.data()); }
+void DelassusSweep::restore(const Eigen::VectorXd& state) {
+  std::copy_n(state.data(), r_.size(), r_.data());
+}
 
 void DelassusSweep::impulse_weights(Eigen::VectorXd& weights) const {
   weights.resize(3 * contacts_.size());

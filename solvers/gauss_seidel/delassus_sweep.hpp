@@ -1,14 +1,15 @@
 #pragma once
-// One Gauss-Seidel sweep on the Delassus form: u_c = sum_j W_cj r_j + q_c by 3 x 3 blocks in rows (block CSR).
+// One Gauss-Seidel sweep on the Delassus form: u_c = sum_j W_cj r_j + q_c by 3 x 3 blocks in rows
+// (block CSR).
 //
-// The contact at hand is solved with the symmetric part of W_cc from the velocity that the whole of W gives: where W_cc
-// is not symmetric this is another splitting of W, with the same fixed points.
+// The contact at hand is solved with the symmetric part of W_cc from the velocity that the whole of
+// W gives: where W_cc is not symmetric this is another splitting of W, with the same fixed points.
 
 #include <vector>
 
 #include "problems/algebra/friction_problem.hpp"
-#include "solvers/parts/one_contact.hpp"
 #include "solvers/gauss_seidel/sweep_variant.hpp"
+#include "solvers/parts/one_contact.hpp"
 
 namespace ballast {
 

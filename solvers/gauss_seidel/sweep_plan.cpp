@@ -48,7 +48,8 @@ void SweepPlan::find_levels(const DynamicsForm& dynamics) {
   }
 }
 
-/// Appends the component of `root` to the queue, numbers it from `level` on, and returns its last level.
+/// Appends the component of `root` to the queue, numbers it from `level` on, and returns its last
+/// level.
 int SweepPlan::breadth_first(int root, int level) {
   size_t next = queue_.size();
   queue_.push_back(root);
@@ -64,8 +65,8 @@ int SweepPlan::breadth_first(int root, int level) {
   return level_[queue_.back()];
 }
 
-/// Slabs of about equally many contacts, cut anywhere in the breadth-first order, but three levels thick where there are more than two:
-/// then the interfaces on a slab's two sides share no body.
+/// Slabs of about equally many contacts, cut anywhere in the breadth-first order, but three levels
+/// thick where there are more than two: then the interfaces on a slab's two sides share no body.
 void SweepPlan::cut_slabs(const DynamicsForm& dynamics) {
   const int bodies = dynamics.body_count();
   const int wanted = std::max(1, bodies / slab_bodies);
@@ -98,14 +99,15 @@ void SweepPlan::list_bodies() {
   for (int slab = 0; slab < slabs_; ++slab) body_begin_[slab + 1] += body_begin_[slab];
   bodies_.resize(slab_.size());
   place_.assign(body_begin_.begin(), body_begin_.end());
-  for (size_t body = 0; body < slab_.size(); ++body) bodies_[place_[slab_[body]]++] = static_cast<int>(body);
+  for (size_t body = 0; body < slab_.size(); ++body)
+    bodies_[place_[slab_[body]]++] = static_cast<int>(body);
 }
 
 void SweepPlan::order(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   const int contacts = problem.contact_count(), groups = 2 * slabs_ - 1;
-  // group: interior of a slab, or (slabs_ + k) the interface of slabs k and k + 1; friction before one row; then the contact's turn
-  // among those of its body
+  // group: interior of a slab, or (slabs_ + k) the interface of slabs k and k + 1; friction before
+  // one row; then the contact's turn among those of its body
   constexpr int turns = 8;
   rank_.assign(dynamics.body_count() + 1, 0);
   key_.resize(contacts);
@@ -127,7 +129,8 @@ void SweepPlan::order(const FrictionProblem& problem) {
   interfaces_.clear();
   for (int g = 0; g < groups; ++g)
     (g < slabs_ ? interiors_ : interfaces_)
-        .push_back({count_[g * 2 * turns], count_[(g * 2 + 1) * turns], count_[(g + 1) * 2 * turns]});
+        .push_back(
+            {count_[g * 2 * turns], count_[(g * 2 + 1) * turns], count_[(g + 1) * 2 * turns]});
   contacts_.resize(contacts);
   for (int c = 0; c < contacts; ++c) contacts_[count_[key_[c]]++] = c;
 }

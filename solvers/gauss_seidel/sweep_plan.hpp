@@ -1,9 +1,10 @@
 #pragma once
-// The order of a sweep over bodies: slabs of bodies that threads can sweep side by side, and within a slab an order in which one
-// contact rarely waits for the one before.
+// The order of a sweep over bodies: slabs of bodies that threads can sweep side by side, and within
+// a slab an order in which one contact rarely waits for the one before.
 //
-// A sweep is a chain of dependencies only where contacts share a body. Contacts in the order of their bodies wait for each other at
-// every step (28 ns a contact); taken by turns from all bodies of a slab they overlap in the processor (13 ns from its own cache).
+// A sweep is a chain of dependencies only where contacts share a body. Contacts in the order of
+// their bodies wait for each other at every step (28 ns a contact); taken by turns from all bodies
+// of a slab they overlap in the processor (13 ns from its own cache).
 
 #include <span>
 #include <vector>
@@ -12,7 +13,8 @@
 
 namespace ballast {
 
-/// Depends on the problem's graph alone, never on the number of threads: the same bits whoever sweeps.
+/// Depends on the problem's graph alone, never on the number of threads: the same bits whoever
+/// sweeps.
 class SweepPlan {
  public:
   /// Contacts of contacts()[begin] .. [end - 1]. Those with friction come first.
@@ -26,7 +28,8 @@ class SweepPlan {
   const std::vector<int>& contacts() const { return contacts_; }
   /// Bodies of a slab, ascending: bodies of no other slab are in interiors()[slab].
   std::span<const int> bodies(int slab) const {
-    return {bodies_.data() + body_begin_[slab], static_cast<size_t>(body_begin_[slab + 1] - body_begin_[slab])};
+    return {bodies_.data() + body_begin_[slab],
+            static_cast<size_t>(body_begin_[slab + 1] - body_begin_[slab])};
   }
   /// No two interiors share a body; nor do two interfaces. Interiors first, then interfaces.
   const std::vector<Part>& interiors() const { return interiors_; }
@@ -43,7 +46,8 @@ class SweepPlan {
   void order(const FrictionProblem& problem);
 
   std::vector<int> neighbour_begin_, neighbour_;  ///< bodies that share a contact
-  std::vector<int> level_, queue_;                ///< breadth-first distance; contacts join a level to itself or the next
+  std::vector<int> level_,
+      queue_;  ///< breadth-first distance; contacts join a level to itself or the next
   int levels_ = 0;
   std::vector<int> slab_;  ///< of each body
   int slabs_ = 1;

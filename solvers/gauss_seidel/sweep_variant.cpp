@@ -21,9 +21,10 @@ Matrix principal_block(const PrincipalContact& contact) {
   return w;
 }
 
-/// Alart-Curnier: F_N = r_N - max(0, r_N - rho u_N),  F_T = r_T - P_disc(r_T - rho u_T), the disc of radius
-/// mu max(0, r_N - rho u_N). With u = u_0 + W (r - r_0) this returns F and dF/dr.
-Vector alart_curnier(const Matrix& w, double mu, double rho, const Vector& r, const Vector& u, Matrix& jacobian) {
+/// Alart-Curnier: F_N = r_N - max(0, r_N - rho u_N),  F_T = r_T - P_disc(r_T - rho u_T), the disc
+/// of radius mu max(0, r_N - rho u_N). With u = u_0 + W (r - r_0) this returns F and dF/dr.
+Vector alart_curnier(const Matrix& w, double mu, double rho, const Vector& r, const Vector& u,
+                     Matrix& jacobian) {
   const double pressed = r[0] - rho * u[0], radius = mu * std::max(0.0, pressed);
   const Vector x = r - rho * u;
   const double length = tangential_norm(x);
@@ -98,8 +99,8 @@ const std::vector<int>& ContactOrder::next() {
   return contacts_;
 }
 
-void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& contact, double lambda_max,
-                        const double* u, double* y, double& slip) {
+void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& contact,
+                        double lambda_max, const double* u, double* y, double& slip) {
   if (!(contact.inverse_normal > 0.0)) {  // always open
     y[0] = y[1] = y[2] = 0.0;
     return;
@@ -107,7 +108,8 @@ void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& con
   const auto impulse = [&contact](const double* x) {
     return Vector(x[0] - contact.c1 * x[1] - contact.c2 * x[2], x[1], x[2]);
   };
-  const Vector before = impulse(y), velocity(u[0], u[1] + contact.c1 * u[0], u[2] + contact.c2 * u[0]);
+  const Vector before = impulse(y),
+               velocity(u[0], u[1] + contact.c1 * u[0], u[2] + contact.c2 * u[0]);
   Vector after = before;
   bool solved = false;
   if (variant.rule == LocalRule::projection) {
@@ -121,7 +123,8 @@ void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& con
     solve_exactly(contact, u, exact, slip);
     after = impulse(exact);
   }
-  if (variant.relaxation != 1.0) after = project_cone(before + variant.relaxation * (after - before), contact.mu);
+  if (variant.relaxation != 1.0)
+    after = project_cone(before + variant.relaxation * (after - before), contact.mu);
   y[0] = after[0] + contact.c1 * after[1] + contact.c2 * after[2];
   y[1] = after[1];
   y[2] = after[2];

@@ -1,6 +1,6 @@
 #pragma once
-// Other ways to sweep than the plain one, for comparison: how one contact is solved, relaxation, order. The plain sweep
-// has its own fast loop and never comes here.
+// Other ways to sweep than the plain one, for comparison: how one contact is solved, relaxation,
+// order. The plain sweep has its own fast loop and never comes here.
 
 #include <cstdint>
 #include <vector>
@@ -12,9 +12,10 @@ namespace ballast {
 
 enum class LocalRule {
   exact,       ///< the contact's own solution (one_contact.hpp)
-  projection,  ///< r_c := P_K(r_c - rho_c (u_c + mu |u_T| n)), rho_c = 1 / lambda_max(W_cc): one step of De Saxce, Feng
-               ///< 1998
-  newton       ///< Newton on Alart, Curnier 1991 for the contact alone; where it fails, the exact solution
+  projection,  ///< r_c := P_K(r_c - rho_c (u_c + mu |u_T| n)), rho_c = 1 / lambda_max(W_cc): one
+               ///< step of De Saxce, Feng 1998
+  newton       ///< Newton on Alart, Curnier 1991 for the contact alone; where it fails, the exact
+               ///< solution
 };
 
 enum class SweepOrder {
@@ -29,7 +30,9 @@ struct SweepVariant {
   double relaxation = 1.0;  ///< in (0, 2): of each contact's change, projected back onto the cone
   std::uint64_t seed = 1;   ///< of SweepOrder::random
 
-  bool plain() const { return rule == LocalRule::exact && order == SweepOrder::forward && relaxation == 1.0; }
+  bool plain() const {
+    return rule == LocalRule::exact && order == SweepOrder::forward && relaxation == 1.0;
+  }
 };
 
 /// In which order the contacts come. The same for the same seed.
@@ -46,10 +49,10 @@ class ContactOrder {
   bool first_ = true;
 };
 
-/// One contact while all others are held. y = (r_N + c . r_T, r_T): in, the impulse; out, the next one. u: in, the
-/// velocity (u_N, u_T - c u_N) that all impulses give. Both in the coordinates of PrincipalContact. `lambda_max` of
-/// W_cc.
-void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& contact, double lambda_max,
-                        const double* u, double* y, double& slip);
+/// One contact while all others are held. y = (r_N + c . r_T, r_T): in, the impulse; out, the next
+/// one. u: in, the velocity (u_N, u_T - c u_N) that all impulses give. Both in the coordinates of
+/// PrincipalContact. `lambda_max` of W_cc.
+void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& contact,
+                        double lambda_max, const double* u, double* y, double& slip);
 
 }  // namespace ballast

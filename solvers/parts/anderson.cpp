@@ -24,7 +24,8 @@ void Anderson::step(Eigen::VectorXd& x, const Eigen::VectorXd& image, Eigen::Ind
     image_steps_[next_] = image - last_image_;
     residual_steps_[next_] = residual_ - last_residual_;
     count_ = std::min(count_ + 1, memory_);
-    for (int k = 0; k < count_; ++k) gram_(next_, k) = gram_(k, next_) = residual_steps_[next_].dot(residual_steps_[k]);
+    for (int k = 0; k < count_; ++k)
+      gram_(next_, k) = gram_(k, next_) = residual_steps_[next_].dot(residual_steps_[k]);
     next_ = (next_ + 1) % memory_;
   }
   last_image_ = image;
@@ -37,7 +38,8 @@ void Anderson::step(Eigen::VectorXd& x, const Eigen::VectorXd& image, Eigen::Ind
   for (int k = 0; k < count_; ++k) x -= gamma[k] * image_steps_[k];
 }
 
-/// min |residual - sum gamma_k residual_step_k|, regularised so that steps that hardly differ do not get huge weights.
+/// min |residual - sum gamma_k residual_step_k|, regularised so that steps that hardly differ do
+/// not get huge weights.
 Eigen::VectorXd Anderson::combine() const {
   Eigen::MatrixXd gram = gram_.topLeftCorner(count_, count_);
   Eigen::VectorXd right(count_), scale(count_);

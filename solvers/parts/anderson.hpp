@@ -1,6 +1,6 @@
 #pragma once
-// Anderson acceleration of a fixed point x = G(x). Walker, Ni 2011, "Anderson acceleration for fixed-point iterations"
-// (type II: the combination of past steps whose residuals cancel best).
+// Anderson acceleration of a fixed point x = G(x). Walker, Ni 2011, "Anderson acceleration for
+// fixed-point iterations" (type II: the combination of past steps whose residuals cancel best).
 
 #include <vector>
 
@@ -14,8 +14,9 @@ class Anderson {
   void reset(int memory);
   void forget() { count_ = 0, primed_ = false; }
 
-  /// x := the accelerated next iterate, given x and its image G(x). The first call after forget() gives x := G(x).
-  /// Residuals are compared in the leading `compared` entries (-1: all), each times its weight (empty: all 1).
+  /// x := the accelerated next iterate, given x and its image G(x). The first call after forget()
+  /// gives x := G(x). Residuals are compared in the leading `compared` entries (-1: all), each
+  /// times its weight (empty: all 1).
   void step(Eigen::VectorXd& x, const Eigen::VectorXd& image, Eigen::Index compared = -1,
             const Eigen::VectorXd& weight = {});
 

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "solvers/parts/contact_operator.hpp"
-#include "solvers/seam/rounds.hpp"
 #include "solvers/parts/slip_shift.hpp"
+#include "solvers/seam/rounds.hpp"
 
 namespace ballast {
 
-/// What a solver of the convex program is handed, and gives back. No units: every block of W's diagonal has largest
-/// eigenvalue one, and the largest entry of the problem's q is one.
+/// What a solver of the convex program is handed, and gives back. No units: every block of W's
+/// diagonal has largest eigenvalue one, and the largest entry of the problem's q is one.
 struct ConeRequest {
   const Eigen::VectorXd& q;      ///< with s, one entry per row of ConeProgram
   const Eigen::VectorXd& start;  ///< in the cones
-  double accuracy;               ///< natural map that the budget asks for, in the program's unit of velocity
+  double accuracy;  ///< natural map that the budget asks for, in the program's unit of velocity
   int max_iterations;
   double max_seconds;
 };
@@ -36,20 +36,23 @@ class ConeProgram {
   std::vector<int> row_begin{0};  ///< 1 or 3 rows per contact, normal first
   std::vector<double> friction;   ///< mu; > 0 where there are three rows
   SparseRows w;                   ///< symmetric part
-  SparseRows w_as_is;             ///< a stored W may be unsymmetric: in solve() the rest goes into q, like s
-  Eigen::VectorXd q;              ///< without s
+  SparseRows w_as_is;  ///< a stored W may be unsymmetric: in solve() the rest goes into q, like s
+  Eigen::VectorXd q;   ///< without s
 
-  /// Polar coordinates y: the normal entry stays, the tangential ones are d with x_T = mu x_N d, |d| <= 1. The cone is
-  /// then a half-line times a disc, without the apex where no constraint has a gradient. (General optimisers need many
-  /// times fewer steps, though 1/2 x.W x is no longer convex in y.)
+  /// Polar coordinates y: the normal entry stays, the tangential ones are d with x_T = mu x_N d,
+  /// |d| <= 1. The cone is then a half-line times a disc, without the apex where no constraint has
+  /// a gradient. (General optimisers need many times fewer steps, though 1/2 x.W x is no longer
+  /// convex in y.)
   Eigen::VectorXd from_polar(const Eigen::VectorXd& y) const;
   /// Gradient in y of what has gradient g in x.
   Eigen::VectorXd polar_gradient(const Eigen::VectorXd& y, const Eigen::VectorXd& g) const;
-  /// Near x, with x_N >= floor and |d| <= longest < 1. Where x_T says nothing, d points against the velocity `u`.
-  Eigen::VectorXd to_polar(const Eigen::VectorXd& x, const Eigen::VectorXd& u, double floor, double longest) const;
+  /// Near x, with x_N >= floor and |d| <= longest < 1. Where x_T says nothing, d points against the
+  /// velocity `u`.
+  Eigen::VectorXd to_polar(const Eigen::VectorXd& x, const Eigen::VectorXd& u, double floor,
+                           double longest) const;
 
-  /// Rounds of `convex` with the s-update between them; `convex` sets answer.x (rows of ConeProgram), iterations,
-  /// finished. `problem` is the one of take().
+  /// Rounds of `convex` with the s-update between them; `convex` sets answer.x (rows of
+  /// ConeProgram), iterations, finished. `problem` is the one of take().
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget, int patience,
                const std::function<void(const ConeRequest&, RoundAnswer&)>& convex);
 

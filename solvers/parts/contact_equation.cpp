@@ -19,13 +19,16 @@ Matrix3d modified_velocity_jacobian(const Vector3d& u, double mu) {
   return a;
 }
 
-ContactLinearisation natural_map_linearised(const Vector3d& r, const Vector3d& u, double mu, double rho) {
+ContactLinearisation natural_map_linearised(const Vector3d& r, const Vector3d& u, double mu,
+                                            double rho) {
   const Vector3d x = r - rho * modified_velocity(u, mu);
   const Matrix3d g = project_cone_jacobian(x, mu);
-  return {r - project_cone(x, mu), Matrix3d::Identity() - g, rho * g * modified_velocity_jacobian(u, mu)};
+  return {r - project_cone(x, mu), Matrix3d::Identity() - g,
+          rho * g * modified_velocity_jacobian(u, mu)};
 }
 
-ContactLinearisation alart_curnier_linearised(const Vector3d& r, const Vector3d& u, double mu, double rho) {
+ContactLinearisation alart_curnier_linearised(const Vector3d& r, const Vector3d& u, double mu,
+                                              double rho) {
   const Vector3d x = r - rho * u;
   if (x[0] <= 0.0) return {r, Matrix3d::Identity(), Matrix3d::Zero()};
   const double t = tangential_norm(x), radius = mu * x[0];
@@ -36,7 +39,8 @@ ContactLinearisation alart_curnier_linearised(const Vector3d& r, const Vector3d&
   projection(0, 0) = 1.0;
   projection.block<2, 1>(1, 0) = mu * direction.tail<2>();
   projection.block<2, 2>(1, 1) =
-      radius / t * (Eigen::Matrix2d::Identity() - direction.tail<2>() * direction.tail<2>().transpose());
+      radius / t *
+      (Eigen::Matrix2d::Identity() - direction.tail<2>() * direction.tail<2>().transpose());
   const Vector3d projected = Vector3d(x[0], 0.0, 0.0) + radius * direction;
   return {r - projected, Matrix3d::Identity() - projection, rho * projection};
 }
@@ -49,7 +53,8 @@ Matrix3d arrow(const Vector3d& x) {
   return l;
 }
 
-/// (x^2 + y^2)^(1/2) in the Jordan algebra; a hair of smoothing keeps its derivative finite at the cone's boundary.
+/// (x^2 + y^2)^(1/2) in the Jordan algebra; a hair of smoothing keeps its derivative finite at the
+/// cone's boundary.
 Vector3d jordan_norm(const Vector3d& x, const Vector3d& y) {
   Vector3d w = 2.0 * (x[0] * x + y[0] * y);
   w[0] = x.squaredNorm() + y.squaredNorm();
@@ -61,7 +66,8 @@ Vector3d jordan_norm(const Vector3d& x, const Vector3d& y) {
   return root;
 }
 
-ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vector3d& u, double mu, double rho) {
+ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vector3d& u, double mu,
+                                                   double rho) {
   ContactLinearisation l{Vector3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
   if (mu == 0.0) {  // scalar along the normal, r_T = 0
     const double x = r[0], y = rho * u[0], norm = std::hypot(x, y);
@@ -87,7 +93,8 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
   const double smallest = z[0] - std::hypot(z[1], z[2]);
   if (smallest < 1e-10 * z[0]) lz += (1e-10 * z[0] + 1e-300) * Matrix3d::Identity();
   const Matrix3d inverse = lz.inverse();
-  const Matrix3d by_x = Matrix3d::Identity() - inverse * arrow(x), by_y = Matrix3d::Identity() - inverse * arrow(y);
+  const Matrix3d by_x = Matrix3d::Identity() - inverse * arrow(x),
+                 by_y = Matrix3d::Identity() - inverse * arrow(y);
   l.by_r = from_x.asDiagonal() * by_x * to_x.asDiagonal();
   l.by_u = from_x.asDiagonal() * by_y * to_y.asDiagonal() * modified_velocity_jacobian(u, mu);
   return l;
@@ -95,16 +102,21 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
 
 }  // namespace
 
-ContactLinearisation linearise(ContactEquation equation, const Vector3d& r, const Vector3d& u, double mu, double rho) {
+ContactLinearisation linearise(ContactEquation equation, const Vector3d& r, const Vector3d& u,
+                               double mu, double rho) {
   switch (equation) {
-    case ContactEquation::natural_map: return natural_map_linearised(r, u, mu, rho);
-    case ContactEquation::alart_curnier: return alart_curnier_linearised(r, u, mu, rho);
-    case ContactEquation::fischer_burmeister: return fischer_burmeister_linearised(r, u, mu, rho);
+    case ContactEquation::natural_map:
+      return natural_map_linearised(r, u, mu, rho);
+    case ContactEquation::alart_curnier:
+      return alart_curnier_linearised(r, u, mu, rho);
+    case ContactEquation::fischer_burmeister:
+      return fischer_burmeister_linearised(r, u, mu, rho);
   }
   return {};
 }
 
-Vector3d contact_equation(ContactEquation equation, const Vector3d& r, const Vector3d& u, double mu, double rho) {
+Vector3d contact_equation(ContactEquation equation, const Vector3d& r, const Vector3d& u, double mu,
+                          double rho) {
   if (equation == ContactEquation::natural_map) return natural_map(r, u, mu, rho);
   return linearise(equation, r, u, mu, rho).f;
 }

@@ -64,7 +64,8 @@ double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const
   int counted = 0;
   for (int c = 0; c < contact_count(); ++c) {
     if (!(rho_[c] > 0.0)) continue;
-    const double value = ContactJudge::scaled_natural_map(at(r, c), at(u, c), friction(c), 1.0 / rho_[c]);
+    const double value =
+        ContactJudge::scaled_natural_map(at(r, c), at(u, c), friction(c), 1.0 / rho_[c]);
     sum += value * value;
     ++counted;
   }

@@ -1,6 +1,6 @@
 #pragma once
-// u = W r + q for both forms of a problem, its natural scaling, and the judge's error at an iterate: what every method
-// needs that looks at all contacts at once.
+// u = W r + q for both forms of a problem, its natural scaling, and the judge's error at an
+// iterate: what every method needs that looks at all contacts at once.
 
 #include <vector>
 
@@ -10,11 +10,12 @@
 
 namespace ballast {
 
-/// Matrix-free for the dynamics form, the stored W otherwise; no product allocates. Vectors have one entry per row.
+/// Matrix-free for the dynamics form, the stored W otherwise; no product allocates. Vectors have
+/// one entry per row.
 class ContactOperator {
  public:
-  /// `problem` must outlive the use of the operator (until the next prepare). Throws InvalidProblem for a mass block
-  /// that is not positive definite.
+  /// `problem` must outlive the use of the operator (until the next prepare). Throws InvalidProblem
+  /// for a mass block that is not positive definite.
   void prepare(const FrictionProblem& problem);
 
   const FrictionProblem& problem() const { return *problem_; }
@@ -28,10 +29,12 @@ class ContactOperator {
 
   /// W_cc: its symmetric part, zero-padded for one-row contacts.
   const std::vector<Eigen::Matrix3d>& diagonal() const { return diagonal_; }
-  /// 1 / lambda_max(W_cc) [kg]; 0 where no impulse moves the contact. The scale in which a method takes its steps.
+  /// 1 / lambda_max(W_cc) [kg]; 0 where no impulse moves the contact. The scale in which a method
+  /// takes its steps.
   const std::vector<double>& rho() const { return rho_; }
 
-  /// One contact's rows, zero-padded: a one-row contact is a frictionless one without tangential motion.
+  /// One contact's rows, zero-padded: a one-row contact is a frictionless one without tangential
+  /// motion.
   Eigen::Vector3d at(const Eigen::VectorXd& x, int c) const {
     const double* rows = x.data() + problem_->row_begin[c];
     return problem_->contact_rows(c) == 3 ? Eigen::Vector3d(rows[0], rows[1], rows[2])
@@ -48,10 +51,12 @@ class ContactOperator {
 
   /// Every contact's impulse to the nearest point of its cone; zero where nothing moves (rho = 0).
   void project(Impulses& r) const;
-  /// sum_c x_c . y_c / rho_c: the product in which W's diagonal is about one. Contacts with rho = 0 are left out.
+  /// sum_c x_c . y_c / rho_c: the product in which W's diagonal is about one. Contacts with rho = 0
+  /// are left out.
   double scaled_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const;
 
-  /// The judge's scaled natural map, rms over contacts [m/s], of impulses r with the velocities u that they give.
+  /// The judge's scaled natural map, rms over contacts [m/s], of impulses r with the velocities u
+  /// that they give.
   double error(const Impulses& r, const Eigen::VectorXd& u) const;
 
  private:
@@ -64,13 +69,15 @@ class ContactOperator {
   Eigen::VectorXd v_;
 };
 
-/// lambda_max of D^-1 W by power iteration from a fixed start. `divide(x)` is x := D^-1 x with D symmetric positive
-/// definite, contact by contact. From below: some per cent short after 30 products.
+/// lambda_max of D^-1 W by power iteration from a fixed start. `divide(x)` is x := D^-1 x with D
+/// symmetric positive definite, contact by contact. From below: some per cent short after 30
+/// products.
 template <typename Divide>
 double largest_eigenvalue(ContactOperator& w, const Divide& divide, int products = 30) {
   const int rows = w.problem().row_count();
   Eigen::VectorXd x(rows), y(rows);
-  for (int i = 0; i < rows; ++i) x[i] = 1.0 + 0.5 * ((i * 7919) % 17) / 17.0 - (i % 3 == 1 ? 2.0 : 0.0);
+  for (int i = 0; i < rows; ++i)
+    x[i] = 1.0 + 0.5 * ((i * 7919) % 17) / 17.0 - (i % 3 == 1 ? 2.0 : 0.0);
   divide(x);
   double eigenvalue = 0.0;
   for (int k = 0; k < products; ++k) {

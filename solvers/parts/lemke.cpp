@@ -5,8 +5,8 @@
 namespace ballast {
 namespace {
 
-/// Entries of the entering column below this are no pivots, and ratios closer than this are equal; relative to the
-/// column, and for a problem whose diagonal is about one.
+/// Entries of the entering column below this are no pivots, and ratios closer than this are equal;
+/// relative to the column, and for a problem whose diagonal is about one.
 constexpr double no_pivot = 1e-11;
 constexpr double tie = 1e-12;
 
@@ -28,7 +28,8 @@ void Lemke::begin(const Eigen::MatrixXd& m, const Eigen::VectorXd& q) {
   tableau_.col(2 * n_).setConstant(-1.0);
   tableau_.col(2 * n_ + 1) = q;
   state_ = LemkeState::running;
-  // The artificial variable enters where q is least; of equals the last, which is lexicographically the least.
+  // The artificial variable enters where q is least; of equals the last, which is lexicographically
+  // the least.
   int row = 0;
   for (int i = 1; i < n_; ++i)
     if (q[i] <= q[row]) row = i;
@@ -48,7 +49,9 @@ bool Lemke::lexicographically_less(int i, int j, int entering) const {
 
 int Lemke::leaving_row(int entering) const {
   const double floor = no_pivot * std::max(1.0, tableau_.col(entering).cwiseAbs().maxCoeff());
-  const auto ratio = [&](int i) { return std::max(0.0, tableau_(i, 2 * n_ + 1)) / tableau_(i, entering); };
+  const auto ratio = [&](int i) {
+    return std::max(0.0, tableau_(i, 2 * n_ + 1)) / tableau_(i, entering);
+  };
   int best = -1;
   for (int i = 0; i < n_; ++i) {
     if (!(tableau_(i, entering) > floor)) continue;
@@ -97,13 +100,15 @@ Eigen::VectorXd Lemke::solution() const {
   const Eigen::VectorXd right = -q_(active);
   const Eigen::VectorXd x = block.partialPivLu().solve(right);
   // A basis that only rounding keeps regular: then the tableau's own values.
-  const bool close =
-      x.allFinite() && (block * x - right).lpNorm<Eigen::Infinity>() <= 1e-9 * (1.0 + right.lpNorm<Eigen::Infinity>());
+  const bool close = x.allFinite() && (block * x - right).lpNorm<Eigen::Infinity>() <=
+                                          1e-9 * (1.0 + right.lpNorm<Eigen::Infinity>());
   if (close)
-    for (std::size_t k = 0; k < active.size(); ++k) z[active[k]] = std::max(0.0, x[static_cast<Eigen::Index>(k)]);
+    for (std::size_t k = 0; k < active.size(); ++k)
+      z[active[k]] = std::max(0.0, x[static_cast<Eigen::Index>(k)]);
   else
     for (int i = 0; i < n_; ++i)
-      if (basis_[i] >= n_ && basis_[i] < 2 * n_) z[basis_[i] - n_] = std::max(0.0, tableau_(i, 2 * n_ + 1));
+      if (basis_[i] >= n_ && basis_[i] < 2 * n_)
+        z[basis_[i] - n_] = std::max(0.0, tableau_(i, 2 * n_ + 1));
   return z;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Lemke's complementary pivoting for a linear complementarity problem, dense, with the lexicographic ratio test.
-// Cottle, Pang, Stone 1992, "The linear complementarity problem", 4.4.
+// Lemke's complementary pivoting for a linear complementarity problem, dense, with the
+// lexicographic ratio test. Cottle, Pang, Stone 1992, "The linear complementarity problem", 4.4.
 
 #include <vector>
 
@@ -10,9 +10,10 @@ namespace ballast {
 
 enum class LemkeState { running, solved, ray };
 
-/// Find z >= 0 with w = m z + q >= 0 and z . w = 0, one pivot at a time. The lexicographic rule meets no basis twice,
-/// so that it ends for every m; it ends with a solution when m is copositive-plus and some z >= 0 has m z + q >= 0.
-/// Memory 16 n^2 bytes, a pivot costs about 4 n^2 operations.
+/// Find z >= 0 with w = m z + q >= 0 and z . w = 0, one pivot at a time. The lexicographic rule
+/// meets no basis twice, so that it ends for every m; it ends with a solution when m is
+/// copositive-plus and some z >= 0 has m z + q >= 0. Memory 16 n^2 bytes, a pivot costs about 4 n^2
+/// operations.
 class Lemke {
  public:
   /// Covering vector of ones. `m` is kept by reference until solution().
@@ -20,8 +21,8 @@ class Lemke {
   /// One pivot. `ray`: no solution was found this way.
   LemkeState pivot();
   LemkeState state() const { return state_; }
-  /// Of a solved problem: computed afresh from the final basis, without the rounding of the pivots; negative rounding
-  /// becomes zero.
+  /// Of a solved problem: computed afresh from the final basis, without the rounding of the pivots;
+  /// negative rounding becomes zero.
   Eigen::VectorXd solution() const;
 
  private:
@@ -32,7 +33,8 @@ class Lemke {
   void exchange(int row, int entering);
   int complement(int variable) const { return variable < n_ ? variable + n_ : variable - n_; }
 
-  // Variables: w_0..w_n-1, z_0..z_n-1, the artificial one. Columns of the tableau in that order, then q.
+  // Variables: w_0..w_n-1, z_0..z_n-1, the artificial one. Columns of the tableau in that order,
+  // then q.
   int n_ = 0, entering_ = 0;
   LemkeState state_ = LemkeState::solved;
   Rows tableau_;

@@ -6,7 +6,8 @@
 namespace ballast::lorentz {
 namespace {
 
-/// x.J x = (x_0 - |x_1|)(x_0 + |x_1|), J = diag(1, -1, -1): as a product, without cancellation of squares.
+/// x.J x = (x_0 - |x_1|)(x_0 + |x_1|), J = diag(1, -1, -1): as a product, without cancellation of
+/// squares.
 double determinant(const Vector& x) {
   const double t = std::hypot(x[1], x[2]);
   return (x[0] - t) * (x[0] + t);
@@ -50,7 +51,8 @@ double longest_step(const Vector& x, const Vector& d, double most) {
 }
 
 bool scale(const Vector& x, const Vector& z, bool half_line, Scaling& scaling) {
-  const double x_det = half_line ? x[0] * x[0] : determinant(x), z_det = half_line ? z[0] * z[0] : determinant(z);
+  const double x_det = half_line ? x[0] * x[0] : determinant(x),
+               z_det = half_line ? z[0] * z[0] : determinant(z);
   if (!(x[0] > 0.0 && z[0] > 0.0 && x_det > 0.0 && z_det > 0.0)) return false;
   const double beta_square = std::sqrt(z_det / x_det), beta = std::sqrt(beta_square);
   Vector w(1.0, 0.0, 0.0);
@@ -62,18 +64,22 @@ bool scale(const Vector& x, const Vector& z, bool half_line, Scaling& scaling) {
   const Vector v = (w + Vector(1.0, 0.0, 0.0)) / std::sqrt(2.0 * (w[0] + 1.0));
   scaling.f = beta * hyperbolic_reflection(v);
   scaling.f_inverse = hyperbolic_reflection(reflect(v)) / beta;
-  // 2 w w^T - J with w_0^2 - |w_1..|^2 = 1: (w_0 +- |w_1..|)^2 along (1, +- w_1.. / |w_1..|), 1 across.
+  // 2 w w^T - J with w_0^2 - |w_1..|^2 = 1: (w_0 +- |w_1..|)^2 along (1, +- w_1.. / |w_1..|), 1
+  // across.
   const double length = std::hypot(w[1], w[2]), stretch = (w[0] + length) * (w[0] + length);
-  const double cosine = length > 0.0 ? w[1] / length : 1.0, sine = length > 0.0 ? w[2] / length : 0.0;
+  const double cosine = length > 0.0 ? w[1] / length : 1.0,
+               sine = length > 0.0 ? w[2] / length : 0.0;
   const double half = std::sqrt(0.5);
   scaling.eigenvalues = beta_square * Vector(stretch, 1.0 / stretch, 1.0);
-  scaling.axes << half, half, 0.0, half * cosine, -half * cosine, -sine, half * sine, -half * sine, cosine;
+  scaling.axes << half, half, 0.0, half * cosine, -half * cosine, -sine, half * sine, -half * sine,
+      cosine;
   if (half_line) {
     scaling.eigenvalues.setConstant(beta_square);
     scaling.axes.setIdentity();
   }
   scaling.lambda = scaling.f * x;
-  return scaling.lambda.allFinite() && scaling.eigenvalues.allFinite() && (half_line || depth(scaling.lambda) > 0.0);
+  return scaling.lambda.allFinite() && scaling.eigenvalues.allFinite() &&
+         (half_line || depth(scaling.lambda) > 0.0);
 }
 
 }  // namespace ballast::lorentz

@@ -1,7 +1,7 @@
 #pragma once
-// Lorentz's cone L = {x : x_0 >= |x_1..|} of three rows, or the half-line of one: Nesterov-Todd scaling and the Jordan
-// algebra that an interior point needs. Nesterov, Todd 1997; formulas of Vandenberghe 2010, "The CVXOPT linear and
-// quadratic cone program solvers".
+// Lorentz's cone L = {x : x_0 >= |x_1..|} of three rows, or the half-line of one: Nesterov-Todd
+// scaling and the Jordan algebra that an interior point needs. Nesterov, Todd 1997; formulas of
+// Vandenberghe 2010, "The CVXOPT linear and quadratic cone program solvers".
 
 #include <Eigen/Dense>
 
@@ -25,15 +25,17 @@ double longest_step(const Vector& x, const Vector& d, double most);
 struct Scaling {
   Matrix f = Matrix::Identity(), f_inverse = Matrix::Identity();
   Vector lambda = Vector::Zero();
-  /// F^2 = sum of eigenvalue_i a_i a_i^T, a_i the columns of `axes`: each eigenvalue exact to rounding, however far
-  /// apart.
+  /// F^2 = sum of eigenvalue_i a_i a_i^T, a_i the columns of `axes`: each eigenvalue exact to
+  /// rounding, however far apart.
   Vector eigenvalues = Vector::Ones();
   Matrix axes = Matrix::Identity();
 
   /// axes f(eigenvalue) axes^T.
   template <typename Function>
   Matrix of_square(const Function& function) const {
-    return axes * Vector(function(eigenvalues[0]), function(eigenvalues[1]), function(eigenvalues[2])).asDiagonal() *
+    return axes *
+           Vector(function(eigenvalues[0]), function(eigenvalues[1]), function(eigenvalues[2]))
+               .asDiagonal() *
            axes.transpose();
   }
 };

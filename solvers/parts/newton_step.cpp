@@ -23,7 +23,8 @@ void NewtonStep::begin(ContactEquation equation, double rho_factor, Impulses r) 
 }
 
 void NewtonStep::set_proximal(double weight) {
-  for (int c = 0; c < w_.contact_count(); ++c) alpha_[c] = w_.rho()[c] > 0.0 ? weight / w_.rho()[c] : 0.0;
+  for (int c = 0; c < w_.contact_count(); ++c)
+    alpha_[c] = w_.rho()[c] > 0.0 ? weight / w_.rho()[c] : 0.0;
 }
 
 void NewtonStep::restart(const Impulses& r) {
@@ -31,7 +32,8 @@ void NewtonStep::restart(const Impulses& r) {
   w_.velocity(r_, u_);
 }
 
-Eigen::Vector3d NewtonStep::proximal_velocity(const Impulses& r, const Eigen::VectorXd& u, int c) const {
+Eigen::Vector3d NewtonStep::proximal_velocity(const Impulses& r, const Eigen::VectorXd& u,
+                                              int c) const {
   return w_.at(u, c) + alpha_[c] * (w_.at(r, c) - w_.at(centre_, c));
 }
 
@@ -41,7 +43,8 @@ double NewtonStep::residual_of(const Impulses& r, const Eigen::VectorXd& u) cons
   for (int c = 0; c < w_.contact_count(); ++c) {
     if (!(w_.rho()[c] > 0.0)) continue;
     const double rho = rho_factor_ * w_.rho()[c];
-    sum += contact_equation(equation_, w_.at(r, c), proximal_velocity(r, u, c), w_.friction(c), rho).squaredNorm() /
+    sum += contact_equation(equation_, w_.at(r, c), proximal_velocity(r, u, c), w_.friction(c), rho)
+               .squaredNorm() /
            (rho * rho);
     ++counted;
   }
@@ -60,7 +63,8 @@ bool NewtonStep::newton(int halvings) {
   if (!system_.solve(w_, linear_, alpha_, dr_)) return false;
   const double before = residual();
   w_.multiply(dr_, du_);
-  double t = 1.0, best_t = 0.0, best = halvings > 0 ? before * 1.1 : std::numeric_limits<double>::max();
+  double t = 1.0, best_t = 0.0,
+         best = halvings > 0 ? before * 1.1 : std::numeric_limits<double>::max();
   for (int k = 0; k <= halvings; ++k, t *= 0.5) {
     r_trial_ = r_ + t * dr_;
     u_trial_ = u_ + t * du_;

@@ -1,5 +1,6 @@
 #pragma once
-// One damped Newton step on the contact equations of all contacts, with an optional proximal term around a centre.
+// One damped Newton step on the contact equations of all contacts, with an optional proximal term
+// around a centre.
 
 #include <vector>
 
@@ -7,7 +8,8 @@
 
 namespace ballast {
 
-/// The iterate (r, u = W r + q) of a Newton method. The residual is that of F(r, u + alpha (r - centre)) = 0.
+/// The iterate (r, u = W r + q) of a Newton method. The residual is that of F(r, u + alpha (r -
+/// centre)) = 0.
 class NewtonStep {
  public:
   void prepare(const FrictionProblem& problem);
@@ -19,8 +21,9 @@ class NewtonStep {
   void centre() { centre_ = r_; }    ///< the centre moves to the iterate
   void restart(const Impulses& r);   ///< the iterate goes (back) to `r`
 
-  /// One factorisation and a backtracking line search on residual(). False: singular, or no descent; a step without descent is still
-  /// taken where it changes the residual by less than a tenth, so that flat places can be left, and taken whole with `halvings` = 0.
+  /// One factorisation and a backtracking line search on residual(). False: singular, or no
+  /// descent; a step without descent is still taken where it changes the residual by less than a
+  /// tenth, so that flat places can be left, and taken whole with `halvings` = 0.
   bool newton(int halvings);
 
   /// rms over contacts of |F_c| / rho_c [m/s].

@@ -6,7 +6,9 @@
 namespace ballast {
 namespace {
 
-int body_of(const DynamicsForm& d, int c, int side) { return side == 0 ? d.body_a[c] : d.body_b[c]; }
+int body_of(const DynamicsForm& d, int c, int side) {
+  return side == 0 ? d.body_a[c] : d.body_b[c];
+}
 
 /// H of contact c with respect to the body of one side: column-major, rows x dofs.
 const double* side_block(const FrictionProblem& problem, int c, int side) {
@@ -75,7 +77,8 @@ void NewtonSystem::prepare_bodies(const FrictionProblem& problem) {
   for (int b = 0; b < bodies; ++b) mass_offset_[b] = find(b, b);
 }
 
-void NewtonSystem::add_block(const FrictionProblem& problem, int c, int p, int q, const Eigen::Matrix3d& e) {
+void NewtonSystem::add_block(const FrictionProblem& problem, int c, int p, int q,
+                             const Eigen::Matrix3d& e) {
   const DynamicsForm& d = problem.dynamics;
   const int offset = offset_[c][2 * p + q];
   if (offset < 0) return;
@@ -95,7 +98,8 @@ void NewtonSystem::add_block(const FrictionProblem& problem, int c, int p, int q
   }
 }
 
-bool NewtonSystem::solve_bodies(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
+bool NewtonSystem::solve_bodies(const ContactOperator& w,
+                                const std::vector<ContactLinearisation>& linear,
                                 const std::vector<double>& alpha, Impulses& dr) {
   const FrictionProblem& problem = w.problem();
   const DynamicsForm& d = problem.dynamics;
@@ -104,7 +108,8 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w, const std::vector<Cont
     const int n = d.body_dofs(b);
     const double* mass = d.mass.data() + d.mass_begin[b];
     for (int j = 0; j < n; ++j) {
-      double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[d.dof_begin[b] + j] + mass_offset_[b];
+      double* column =
+          matrix_.valuePtr() + matrix_.outerIndexPtr()[d.dof_begin[b] + j] + mass_offset_[b];
       for (int i = 0; i < n; ++i) column[i] = mass[j * n + i];
     }
   }
@@ -115,7 +120,8 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w, const std::vector<Cont
     const Eigen::Matrix3d inverse = (linear[c].by_r + alpha[c] * linear[c].by_u).inverse();
     source_[c] = inverse * linear[c].f;
     gain_[c] = inverse * linear[c].by_u;
-    if (problem.contact_rows(c) == 1) gain_[c] = Eigen::Vector3d(gain_[c](0, 0), 0.0, 0.0).asDiagonal();
+    if (problem.contact_rows(c) == 1)
+      gain_[c] = Eigen::Vector3d(gain_[c](0, 0), 0.0, 0.0).asDiagonal();
     if (!source_[c].allFinite() || !gain_[c].allFinite()) return false;
     w.put(dr, c, -source_[c]);
     for (int p = 0; p < 2; ++p)
@@ -128,7 +134,8 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w, const std::vector<Cont
   if (!dv_.allFinite()) return false;
   body_to_contact_velocity(d, problem.row_begin, dv_, u_);
   u_ -= d.bias;
-  for (int c = 0; c < problem.contact_count(); ++c) w.put(dr, c, -source_[c] - gain_[c] * w.at(u_, c));
+  for (int c = 0; c < problem.contact_count(); ++c)
+    w.put(dr, c, -source_[c] - gain_[c] * w.at(u_, c));
   return true;
 }
 
@@ -139,7 +146,8 @@ void NewtonSystem::prepare_delassus(const FrictionProblem& problem) {
   entries.reserve(static_cast<size_t>(w.nonZeros()) + 9 * problem.contact_count());
   for (int c = 0; c < problem.contact_count(); ++c)
     for (int i = problem.row_begin[c]; i < problem.row_begin[c + 1]; ++i) {
-      for (int j = problem.row_begin[c]; j < problem.row_begin[c + 1]; ++j) entries.emplace_back(i, j, 0.0);
+      for (int j = problem.row_begin[c]; j < problem.row_begin[c + 1]; ++j)
+        entries.emplace_back(i, j, 0.0);
       for (SparseRows::InnerIterator entry(w, i); entry; ++entry)
         for (int k = problem.row_begin[c]; k < problem.row_begin[c + 1]; ++k)
           entries.emplace_back(k, static_cast<int>(entry.col()), 0.0);
@@ -148,7 +156,8 @@ void NewtonSystem::prepare_delassus(const FrictionProblem& problem) {
   matrix_.setFromTriplets(entries.begin(), entries.end());
 }
 
-bool NewtonSystem::solve_delassus(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
+bool NewtonSystem::solve_delassus(const ContactOperator& w,
+                                  const std::vector<ContactLinearisation>& linear,
                                   const std::vector<double>& alpha, Impulses& dr) {
   const FrictionProblem& problem = w.problem();
   const SparseRows& stored = problem.delassus.w;
@@ -169,7 +178,8 @@ bool NewtonSystem::solve_delassus(const ContactOperator& w, const std::vector<Co
       for (int j = 0; j < rows; ++j) entry_at(begin + i, begin + j) += b(i, j);
       for (SparseRows::InnerIterator entry(stored, begin + i); entry; ++entry)
         for (int k = 0; k < rows; ++k)
-          entry_at(begin + k, static_cast<int>(entry.col())) += linear[c].by_u(k, i) * entry.value();
+          entry_at(begin + k, static_cast<int>(entry.col())) +=
+              linear[c].by_u(k, i) * entry.value();
     }
   }
   ++factorisations_;
@@ -180,7 +190,8 @@ bool NewtonSystem::solve_delassus(const ContactOperator& w, const std::vector<Co
 
 bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
                          const std::vector<double>& alpha, Impulses& dr) {
-  return w.problem().has_dynamics ? solve_bodies(w, linear, alpha, dr) : solve_delassus(w, linear, alpha, dr);
+  return w.problem().has_dynamics ? solve_bodies(w, linear, alpha, dr)
+                                  : solve_delassus(w, linear, alpha, dr);
 }
 
 }  // namespace ballast

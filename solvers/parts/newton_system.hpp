@@ -1,11 +1,12 @@
 #pragma once
 // The linear system of a Newton step on all contacts at once:
 //
-//   by_r dr + by_u du = -f  at every contact,   du = W dr + alpha dr      (alpha: a proximal term, 0 for none)
+//   by_r dr + by_u du = -f  at every contact,   du = W dr + alpha dr      (alpha: a proximal term,
+//   0 for none)
 //
-// With the dynamics form the impulses are eliminated, dr = -B^-1 (f + by_u H dv), B = by_r + alpha by_u, and
-// (M + H^T B^-1 by_u H) dv = -H^T B^-1 f is solved in the bodies' velocities: few unknowns, a pattern of bodies that
-// touch. With a stored W it is (B + by_u W) dr = -f.
+// With the dynamics form the impulses are eliminated, dr = -B^-1 (f + by_u H dv), B = by_r + alpha
+// by_u, and (M + H^T B^-1 by_u H) dv = -H^T B^-1 f is solved in the bodies' velocities: few
+// unknowns, a pattern of bodies that touch. With a stored W it is (B + by_u W) dr = -f.
 
 #include <array>
 #include <vector>
@@ -21,8 +22,9 @@ class NewtonSystem {
   /// Pattern and positions of all blocks. `w` has been prepared for the problem.
   void prepare(const ContactOperator& w);
 
-  /// dr of the system above. `linear[c]` per contact; `alpha` [1/kg] per contact, > 0 with the dynamics form (there B
-  /// must be regular, and at a sticking contact by_r = 0). False: a singular matrix.
+  /// dr of the system above. `linear[c]` per contact; `alpha` [1/kg] per contact, > 0 with the
+  /// dynamics form (there B must be regular, and at a sticking contact by_r = 0). False: a singular
+  /// matrix.
   bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
              const std::vector<double>& alpha, Impulses& dr);
 
@@ -39,10 +41,11 @@ class NewtonSystem {
   void add_block(const FrictionProblem& problem, int c, int p, int q, const Eigen::Matrix3d& e);
 
   SparseColumns matrix_;
-  /// Per contact and sides (aa, ab, ba, bb): where in a column of the right body the rows of the left one begin.
+  /// Per contact and sides (aa, ab, ba, bb): where in a column of the right body the rows of the
+  /// left one begin.
   std::vector<std::array<int, 4>> offset_;
   std::vector<int> mass_offset_;
-  std::vector<Eigen::Matrix3d> gain_;   ///< E = B^-1 by_u per contact
+  std::vector<Eigen::Matrix3d> gain_;    ///< E = B^-1 by_u per contact
   std::vector<Eigen::Vector3d> source_;  ///< B^-1 f
   LuFactor factor_;
   Eigen::VectorXd right_, dv_, u_;

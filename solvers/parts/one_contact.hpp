@@ -1,6 +1,6 @@
 #pragma once
-// The exact solution of one contact: given W (3 x 3, symmetric positive definite) and q, find r with u = W r + q and
-// Coulomb's law.
+// The exact solution of one contact: given W (3 x 3, symmetric positive definite) and q, find r
+// with u = W r + q and Coulomb's law.
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,18 @@ namespace ballast {
 
 enum class ContactStatus { open, stick, slip };
 
-/// W of one contact in the coordinates in which it is diagonal. With c = W_TN / W_NN, the Schur complement
-/// S = W_TT - c W_TN^T, the tangents turned to the principal axes of S, and y = r_N + c . r_T in place of r_N:
+/// W of one contact in the coordinates in which it is diagonal. With c = W_TN / W_NN, the Schur
+/// complement S = W_TT - c W_TN^T, the tangents turned to the principal axes of S, and y = r_N + c
+/// . r_T in place of r_N:
 ///
 ///   u_N = W_NN y + q_N,     u_T - c u_N = S r_T + b,   S = diag(s1, s2),   b = q_T - c q_N
 ///
-/// Coulomb's law does not notice the turned tangents. Singular W is taken for the nearest regular one (relative
-/// rounding).
+/// Coulomb's law does not notice the turned tangents. Singular W is taken for the nearest regular
+/// one (relative rounding).
 struct PrincipalContact {
-  double inverse_normal = 0.0;  ///< 1 / W_NN [kg]; 0: no impulse moves the contact along its normal, it is always open
-  double s1 = 0.0, s2 = 0.0;    ///< 0 < s1 <= s2 [1/kg]
+  double inverse_normal =
+      0.0;  ///< 1 / W_NN [kg]; 0: no impulse moves the contact along its normal, it is always open
+  double s1 = 0.0, s2 = 0.0;  ///< 0 < s1 <= s2 [1/kg]
   double inverse_s1 = 0.0, inverse_s2 = 0.0;
   double c1 = 0.0, c2 = 0.0;
   double mu = 0.0;
@@ -46,27 +48,31 @@ struct TangentTurn {
 };
 
 /// `w` symmetric positive semidefinite; a one-row contact has W_NN alone.
-void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& contact, TangentTurn& turn);
+void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& contact,
+                    TangentTurn& turn);
 
-/// The slip branch: from the stick solution (y, t1, t2) outside the cone to |r_T| = mu r_N, y unchanged. `x` = s1 +
-/// lambda: in, a guess (0: none); out, the root. Here, and not in the .cpp, because the sweeps compile it for several
-/// instruction sets.
+/// The slip branch: from the stick solution (y, t1, t2) outside the cone to |r_T| = mu r_N, y
+/// unchanged. `x` = s1 + lambda: in, a guess (0: none); out, the root. Here, and not in the .cpp,
+/// because the sweeps compile it for several instruction sets.
 //
-// Slip: u_N = 0 and u_T = -lambda r_T give (S + lambda) r_T = -b and r_N = y - c . r_T. With x = s1 + lambda, x1 = x,
-// x2 = x + s2 - s1 and d = -b (so r_T,i = d_i / x_i), the unknown is the root of
+// Slip: u_N = 0 and u_T = -lambda r_T give (S + lambda) r_T = -b and r_N = y - c . r_T. With x = s1
+// + lambda, x1 = x, x2 = x + s2 - s1 and d = -b (so r_T,i = d_i / x_i), the unknown is the root of
 //
-//   psi(x) = mu r_N / |r_T| - 1 = mu N / R - 1,   N = y x1 x2 - c1 d1 x2 - c2 d2 x1,   R = |(d1 x2, d2 x1)|.
+//   psi(x) = mu r_N / |r_T| - 1 = mu N / R - 1,   N = y x1 x2 - c1 d1 x2 - c2 d2 x1,   R = |(d1 x2,
+//   d2 x1)|.
 //
 // psi is linear in x when s1 = s2, and nearly so otherwise: Newton needs few steps.
 //
-// Bracket. At x = s1 (lambda = 0) the solution is the stick one, which is outside the cone: psi < 0. For larger x,
-// |r_T| <= |d| / x, hence r_N >= y - |c| |r_T|, and mu r_N >= |r_T| as soon as |r_T| (1 + mu |c|) <= mu y, that is from
-// x = |d| (1 + mu |c|) / (mu y) on: psi >= 0. psi is continuous for x >= s1 > 0 (R = 0 means b = 0, which sticks), so a
-// root lies between. With much friction there may be several; each of them obeys Coulomb's law.
+// Bracket. At x = s1 (lambda = 0) the solution is the stick one, which is outside the cone: psi <
+// 0. For larger x, |r_T| <= |d| / x, hence r_N >= y - |c| |r_T|, and mu r_N >= |r_T| as soon as
+// |r_T| (1 + mu |c|) <= mu y, that is from x = |d| (1 + mu |c|) / (mu y) on: psi >= 0. psi is
+// continuous for x >= s1 > 0 (R = 0 means b = 0, which sticks), so a root lies between. With much
+// friction there may be several; each of them obeys Coulomb's law.
 inline void slide(const PrincipalContact& contact, double y, double& t1, double& t2, double& x) {
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr double beyond = 1e80;  // where d / x is nothing: y is next to nothing; larger powers would overflow
+  constexpr double beyond =
+      1e80;  // where d / x is nothing: y is next to nothing; larger powers would overflow
   const double mu = contact.mu;
   if (!(mu > 0.0)) {
     t1 = t2 = 0.0;
@@ -74,10 +80,12 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
   }
   const double d1 = contact.s1 * t1, d2 = contact.s2 * t2, spread = contact.s2 - contact.s1;
   const double square1 = d1 * d1, square2 = d2 * d2, square = square1 + square2;
-  const double coupling1 = contact.c1 * d1, coupling2 = contact.c2 * d2, coupling = coupling1 + coupling2;
+  const double coupling1 = contact.c1 * d1, coupling2 = contact.c2 * d2,
+               coupling = coupling1 + coupling2;
 
   double low = contact.s1, high = infinity;  // high: the bracket's end, once Newton needs one
-  if (!(x > low)) x = (std::sqrt(square) / mu + coupling) / y - spread * square2 / square;  // exact when s1 = s2
+  if (!(x > low))
+    x = (std::sqrt(square) / mu + coupling) / y - spread * square2 / square;  // exact when s1 = s2
   if (!(x > low)) x = low * (1.0 + 8.0 * rounding);
   if (x >= beyond) {
     t1 = t2 = x = 0.0;
@@ -98,7 +106,9 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
     const bool last = std::abs(next - x) <= 1e-9 * x;
     if (!last && !(next > low && next < high)) {
       if (high == infinity)
-        high = std::min(beyond, 2.0 * std::sqrt(square * (1.0 + mu * mu * contact.coupling_square())) / (mu * y));
+        high =
+            std::min(beyond, 2.0 * std::sqrt(square * (1.0 + mu * mu * contact.coupling_square())) /
+                                 (mu * y));
       next = std::sqrt(low * high);
     }
     x = next;
@@ -110,9 +120,10 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
   t2 = d2 * x * scale;
 }
 
-/// The three cases, in order. In: the impulse (y, r_T) that would stop all motion; out: the solution. Inlined into the
-/// sweeps.
-inline ContactStatus apply_coulomb(const PrincipalContact& contact, double& y, double& t1, double& t2, double& x) {
+/// The three cases, in order. In: the impulse (y, r_T) that would stop all motion; out: the
+/// solution. Inlined into the sweeps.
+inline ContactStatus apply_coulomb(const PrincipalContact& contact, double& y, double& t1,
+                                   double& t2, double& x) {
   if (y <= 0.0) {  // q_N >= 0: leaves by itself
     y = t1 = t2 = 0.0;
     return ContactStatus::open;
@@ -123,10 +134,11 @@ inline ContactStatus apply_coulomb(const PrincipalContact& contact, double& y, d
   return ContactStatus::slip;
 }
 
-/// One contact solved while all others are held. In: its impulse r and the velocity u that all impulses give it, in the
-/// given tangents; out: r. `slip`: the last slip root, kept for the next visit.
-inline void resolve_contact(const PrincipalContact& contact, const TangentTurn& turn, const double* velocity, double* r,
-                            double& slip) {
+/// One contact solved while all others are held. In: its impulse r and the velocity u that all
+/// impulses give it, in the given tangents; out: r. `slip`: the last slip root, kept for the next
+/// visit.
+inline void resolve_contact(const PrincipalContact& contact, const TangentTurn& turn,
+                            const double* velocity, double* r, double& slip) {
   double u1 = velocity[1], u2 = velocity[2], t1 = r[1], t2 = r[2];
   turn.to_principal(u1, u2);
   turn.to_principal(t1, t2);
@@ -140,14 +152,15 @@ inline void resolve_contact(const PrincipalContact& contact, const TangentTurn& 
   r[2] = t2;
 }
 
-/// Take-off, stick, or slip by a bracketed one-dimensional root; see slide() for the bracket's proof.
+/// Take-off, stick, or slip by a bracketed one-dimensional root; see slide() for the bracket's
+/// proof.
 ///   open : q_N >= 0                        -> r = 0
 ///   stick: r = -W^-1 q lies in K_mu        -> u = 0
 ///   slip : u_N = 0, u_T = -lambda r_T, |r_T| = mu r_N, lambda > 0
-/// `lambda` in: a guess (0: none), out: the slip root [1/kg]. The scaled natural map is at most 1e-12 (|q| +
-/// lambda_max(W) |r|), for every SPD W and mu >= 0: u = W r + q itself cannot be evaluated more closely than the
-/// rounding of its largest term.
-ContactStatus solve_one_contact(const Eigen::Matrix3d& w, const Eigen::Vector3d& q, double mu, Eigen::Vector3d& r,
-                                double& lambda);
+/// `lambda` in: a guess (0: none), out: the slip root [1/kg]. The scaled natural map is at most
+/// 1e-12 (|q| + lambda_max(W) |r|), for every SPD W and mu >= 0: u = W r + q itself cannot be
+/// evaluated more closely than the rounding of its largest term.
+ContactStatus solve_one_contact(const Eigen::Matrix3d& w, const Eigen::Vector3d& q, double mu,
+                                Eigen::Vector3d& r, double& lambda);
 
 }  // namespace ballast

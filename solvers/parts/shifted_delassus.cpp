@@ -3,7 +3,8 @@
 namespace ballast {
 
 template <typename Visit>
-void ShiftedDelassus::for_block_entries(const std::vector<Eigen::Matrix3d>& blocks, const Visit& visit) const {
+void ShiftedDelassus::for_block_entries(const std::vector<Eigen::Matrix3d>& blocks,
+                                        const Visit& visit) const {
   const FrictionProblem& problem = w_->problem();
   for (int c = 0; c < problem.contact_count(); ++c)
     for (int j = 0; j < problem.contact_rows(c); ++j)
@@ -28,12 +29,14 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
   symmetric_ = (base_ - transposed).norm() <= 1e-14 * base_.norm();
 }
 
-bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift, const std::vector<Eigen::Matrix3d>& sigma) {
+bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
+                             const std::vector<Eigen::Matrix3d>& sigma) {
   shift_ = shift;
   sigma_ = sigma;
   ++factorisations_;
   std::vector<Eigen::Triplet<double>> entries;
-  for_block_entries(dynamics_ ? sigma_ : shift_, [&](int i, int j, double x) { entries.emplace_back(i, j, x); });
+  for_block_entries(dynamics_ ? sigma_ : shift_,
+                    [&](int i, int j, double x) { entries.emplace_back(i, j, x); });
   SparseColumns blocks(w_->problem().row_count(), w_->problem().row_count());
   blocks.setFromTriplets(entries.begin(), entries.end());
   if (dynamics_) {

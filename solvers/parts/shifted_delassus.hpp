@@ -1,6 +1,6 @@
 #pragma once
-// (W + P)^-1 with P block diagonal, symmetric positive definite: the linear system of ADMM (P = the penalty) and of the
-// interior point (P = the cone's scaling).
+// (W + P)^-1 with P block diagonal, symmetric positive definite: the linear system of ADMM (P = the
+// penalty) and of the interior point (P = the cone's scaling).
 //
 // Dynamics form, Sigma = P^-1: in velocity space, sparse and never rank deficient (Woodbury),
 //   (W + P)^-1 b = Sigma b - Sigma H (M + H^T Sigma H)^-1 H^T Sigma b
@@ -18,14 +18,15 @@ class ShiftedDelassus {
   /// The constant parts. `w` must stay prepared for the same problem.
   void prepare(ContactOperator& w);
 
-  /// Factors with P_c = shift[c] [1/kg], 3 x 3 symmetric positive definite, and sigma[c] = P_c^-1 [kg], which the
-  /// caller knows better than an inversion would; of a one-row contact only entries 0,0 are read. False: not definite
-  /// to working precision; solve() must then not be called.
+  /// Factors with P_c = shift[c] [1/kg], 3 x 3 symmetric positive definite, and sigma[c] = P_c^-1
+  /// [kg], which the caller knows better than an inversion would; of a one-row contact only entries
+  /// 0,0 are read. False: not definite to working precision; solve() must then not be called.
   bool factor(const std::vector<Eigen::Matrix3d>& shift, const std::vector<Eigen::Matrix3d>& sigma);
-  /// x = (W + P)^-1 b, improved `refinements` times by the residual of the whole system. `x` must not be `b`.
+  /// x = (W + P)^-1 b, improved `refinements` times by the residual of the whole system. `x` must
+  /// not be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
-  /// x = (M + H^T Sigma H)^-1 b, in the bodies' unknowns: dynamics form only. Sigma may here be singular. `x` may be
-  /// `b`.
+  /// x = (M + H^T Sigma H)^-1 b, in the bodies' unknowns: dynamics form only. Sigma may here be
+  /// singular. `x` may be `b`.
   void solve_bodies(const Eigen::VectorXd& b, Eigen::VectorXd& x) { cholesky_.solve(b, x); }
   int factorisations() const { return factorisations_; }
 

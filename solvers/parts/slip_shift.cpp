@@ -25,14 +25,16 @@ double SlipShift::distance(const ContactOperator& w, const Eigen::VectorXd& u) c
   return w.contact_count() > 0 ? std::sqrt(sum / w.contact_count()) : 0.0;
 }
 
-double SlipShift::convex_error(const ContactOperator& w, const Impulses& r, const Eigen::VectorXd& u) const {
+double SlipShift::convex_error(const ContactOperator& w, const Impulses& r,
+                               const Eigen::VectorXd& u) const {
   double sum = 0.0;
   int counted = 0;
   for (int c = 0; c < w.contact_count(); ++c) {
     const double rho = w.rho()[c];
     if (!(rho > 0.0)) continue;
     const Eigen::Vector3d rc = w.at(r, c);
-    sum += (rc - project_cone(rc - rho * shifted(w, u, c), w.friction(c))).squaredNorm() / (rho * rho);
+    sum +=
+        (rc - project_cone(rc - rho * shifted(w, u, c), w.friction(c))).squaredNorm() / (rho * rho);
     ++counted;
   }
   return counted > 0 ? std::sqrt(sum / counted) : 0.0;
@@ -40,7 +42,8 @@ double SlipShift::convex_error(const ContactOperator& w, const Impulses& r, cons
 
 double SlipShift::improve(const ContactOperator& w, const Eigen::VectorXd& u) {
   const double now = distance(w, u);
-  for (int c = 0; c < w.contact_count(); ++c) image_[c] = w.friction(c) * tangential_norm(w.at(u, c));
+  for (int c = 0; c < w.contact_count(); ++c)
+    image_[c] = w.friction(c) * tangential_norm(w.at(u, c));
   if (now > 2.0 * last_distance_) mixing_.forget();
   mixing_.step(s_, image_);
   s_ = s_.cwiseMax(0.0);

@@ -32,7 +32,8 @@ class Pattern {
 struct CholeskyFactor::State {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
-  cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;  // kept: cholmod_solve2 then allocates nothing
+  cholmod_dense *x = nullptr, *y = nullptr,
+                *e = nullptr;  // kept: cholmod_solve2 then allocates nothing
   Pattern pattern;
 
   State() {
@@ -138,23 +139,24 @@ bool LuFactor::factor(const SparseColumns& a) {
   umfpack_di_free_numeric(&s.numeric);
   if (!s.symbolic || !s.pattern.is(a)) {
     umfpack_di_free_symbolic(&s.symbolic);
-    if (umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), &s.symbolic, s.control, s.info) !=
-        UMFPACK_OK)
+    if (umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), &s.symbolic,
+                            s.control, s.info) != UMFPACK_OK)
       return false;
     s.pattern.take(a);
     s.index_work.resize(static_cast<size_t>(n));
     s.work.resize(5 * static_cast<size_t>(n));
   }
-  return umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), s.symbolic, &s.numeric, s.control,
-                            s.info) == UMFPACK_OK;
+  return umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), s.symbolic,
+                            &s.numeric, s.control, s.info) == UMFPACK_OK;
 }
 
-void LuFactor::solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements) {
+void LuFactor::solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x,
+                     int refinements) {
   State& s = *state_;
   x.resize(b.size());
   s.control[UMFPACK_IRSTEP] = refinements;
-  umfpack_di_wsolve(UMFPACK_A, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), x.data(), b.data(), s.numeric,
-                    s.control, s.info, s.index_work.data(), s.work.data());
+  umfpack_di_wsolve(UMFPACK_A, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), x.data(),
+                    b.data(), s.numeric, s.control, s.info, s.index_work.data(), s.work.data());
 }
 
 double LuFactor::smallest_pivot_ratio() const {

@@ -1,7 +1,8 @@
 #pragma once
 // Sparse factorisations by SuiteSparse: the only place that knows CHOLMOD and UMFPACK.
 //
-// Both keep the symbolic analysis while the pattern stays the same, so that a sequence of matrices is ordered once.
+// Both keep the symbolic analysis while the pattern stays the same, so that a sequence of matrices
+// is ordered once.
 
 #include <memory>
 
@@ -20,8 +21,9 @@ class CholeskyFactor {
   CholeskyFactor(CholeskyFactor&&) noexcept;
   CholeskyFactor& operator=(CholeskyFactor&&) noexcept;
 
-  /// Reads the lower triangle of `a` (square, compressed). Analyses when the pattern is not the last one's. False: not
-  /// positive definite to working precision; then solve() must not be called.
+  /// Reads the lower triangle of `a` (square, compressed). Analyses when the pattern is not the
+  /// last one's. False: not positive definite to working precision; then solve() must not be
+  /// called.
   bool factor(const SparseColumns& a);
   /// x = A^-1 b, b of the size of A. `x` may be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
@@ -32,7 +34,8 @@ class CholeskyFactor {
   std::unique_ptr<State> state_;
 };
 
-/// P A Q = L U for a general square A (UMFPACK, symmetric strategy first: our matrices are nearly symmetric).
+/// P A Q = L U for a general square A (UMFPACK, symmetric strategy first: our matrices are nearly
+/// symmetric).
 class LuFactor {
  public:
   LuFactor();
@@ -42,9 +45,10 @@ class LuFactor {
 
   /// `a` square, compressed, sorted. False: singular to working precision.
   bool factor(const SparseColumns& a);
-  /// x = A^-1 b with the matrix given to factor(), which must still live (`a`): UMFPACK refines with it when
-  /// `refinements` > 0. `x` must not be `b`.
-  void solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
+  /// x = A^-1 b with the matrix given to factor(), which must still live (`a`): UMFPACK refines
+  /// with it when `refinements` > 0. `x` must not be `b`.
+  void solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x,
+             int refinements = 0);
   double smallest_pivot_ratio() const;  ///< min |U_ii| / max |U_ii|: how near to singular
 
  private:

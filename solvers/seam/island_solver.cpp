@@ -50,7 +50,8 @@ class IslandSolver final : public Solver {
     for (int i = 0; i < islands_.count(); ++i) {
       Budget own = budget;
       own.keep_history = false;
-      own.max_seconds = std::max(0.0, budget.max_seconds - std::chrono::duration<double>(Clock::now() - begin).count());
+      own.max_seconds = std::max(
+          0.0, budget.max_seconds - std::chrono::duration<double>(Clock::now() - begin).count());
       const Solved solved = solve_island(problem, i, start, own, whole.impulses);
       const double size = static_cast<double>(islands_.contacts(i).size());
       contacts += size;
@@ -64,9 +65,10 @@ class IslandSolver final : public Solver {
   }
 
  private:
-  /// Writes the island's rows of `impulses`; they stay zero where the backend fails to return any. The result has none.
-  Solved solve_island(const FrictionProblem& problem, int island, const Impulses& start, const Budget& budget,
-                      Impulses& impulses) {
+  /// Writes the island's rows of `impulses`; they stay zero where the backend fails to return any.
+  /// The result has none.
+  Solved solve_island(const FrictionProblem& problem, int island, const Impulses& start,
+                      const Budget& budget, Impulses& impulses) {
     islands_.extract(problem, island, part_);
     islands_.gather(problem, island, start, rows_);
     backend_->prepare(part_);

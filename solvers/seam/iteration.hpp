@@ -1,5 +1,6 @@
 #pragma once
-// The bookkeeping that every iterative backend shares: budget, clock, when to look at the error, why to stop, history.
+// The bookkeeping that every iterative backend shares: budget, clock, when to look at the error,
+// why to stop, history.
 
 #include <chrono>
 #include <vector>
@@ -8,8 +9,9 @@
 
 namespace ballast {
 
-/// When the error is evaluated: at `first`, and then after `growth` times as many iterations; `growth_far` while it was last
-/// above `far` tolerances. Of a sweeping method an evaluation costs more than an iteration, and only near the end does it matter when.
+/// When the error is evaluated: at `first`, and then after `growth` times as many iterations;
+/// `growth_far` while it was last above `far` tolerances. Of a sweeping method an evaluation costs
+/// more than an iteration, and only near the end does it matter when.
 struct CheckSchedule {
   static constexpr double far = 8.0;
   int first = 1;
@@ -17,7 +19,8 @@ struct CheckSchedule {
   double growth_far = growth;
 };
 
-/// Use:  evaluated(error);  while (next()) { one iteration; if (error_due()) evaluated(error); }  finish(std::move(r));
+/// Use:  evaluated(error);  while (next()) { one iteration; if (error_due()) evaluated(error); }
+/// finish(std::move(r));
 class Iteration {
  public:
   /// Iterations without any digit of the error changing, after which it never will.
@@ -26,19 +29,22 @@ class Iteration {
   /// `patience`: in place of stalled_after, where an iteration is something smaller.
   Iteration(const Budget& budget, const CheckSchedule& schedule, int patience = stalled_after);
 
-  /// Opens the next iteration. False when a reason to stop was found: the error of the current iterate is then known.
+  /// Opens the next iteration. False when a reason to stop was found: the error of the current
+  /// iterate is then known.
   bool next();
-  /// True when the iterate must be evaluated: by schedule, or because a limit is reached and the last error must be its
-  /// own.
+  /// True when the iterate must be evaluated: by schedule, or because a limit is reached and the
+  /// last error must be its own.
   bool error_due();
-  /// Small enough to stop. A hair below the tolerance, because the judge sums in another order than a backend does.
+  /// Small enough to stop. A hair below the tolerance, because the judge sums in another order than
+  /// a backend does.
   bool reached(double error) const { return error <= budget_.tolerance * (1.0 - margin); }
   /// Takes the scaled natural map (rms) of the current iterate, records it, and decides.
   void evaluated(double error);
 
   int count() const { return count_; }
   double seconds() const;
-  /// What a backend returns: `impulses`, with the reason, count, error and history, which are moved out.
+  /// What a backend returns: `impulses`, with the reason, count, error and history, which are moved
+  /// out.
   Solved finish(Impulses impulses);
 
   static constexpr double margin = 1e-3;

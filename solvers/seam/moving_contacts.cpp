@@ -23,7 +23,8 @@ void MovingContacts::take(const FrictionProblem& problem) {
     contact.push_back(c);
     friction.push_back(problem.friction[c]);
     lambda_max.push_back(largest);
-    for (int i = 0; i < problem.contact_rows(c); ++i) row_here[problem.row_begin[c] + i] = row_begin.back() + i;
+    for (int i = 0; i < problem.contact_rows(c); ++i)
+      row_here[problem.row_begin[c] + i] = row_begin.back() + i;
     row_begin.push_back(row_begin.back() + problem.contact_rows(c));
   }
   q.resize(row_count());
@@ -33,19 +34,22 @@ void MovingContacts::take(const FrictionProblem& problem) {
     if (row_here[row] < 0) continue;
     q[row_here[row]] = whole_q[row];
     for (SparseRows::InnerIterator entry(whole, row); entry; ++entry)
-      if (row_here[entry.col()] >= 0) entries.emplace_back(row_here[row], row_here[entry.col()], entry.value());
+      if (row_here[entry.col()] >= 0)
+        entries.emplace_back(row_here[row], row_here[entry.col()], entry.value());
   }
   w.resize(row_count(), row_count());
   w.setFromTriplets(entries.begin(), entries.end());
 }
 
-void MovingContacts::gather(const FrictionProblem& problem, const Impulses& r, Eigen::VectorXd& x) const {
+void MovingContacts::gather(const FrictionProblem& problem, const Impulses& r,
+                            Eigen::VectorXd& x) const {
   x.resize(row_count());
   for (int k = 0; k < contact_count(); ++k)
     x.segment(row_begin[k], rows(k)) = r.segment(problem.row_begin[contact[k]], rows(k));
 }
 
-void MovingContacts::scatter(const FrictionProblem& problem, const Eigen::VectorXd& x, Impulses& r) const {
+void MovingContacts::scatter(const FrictionProblem& problem, const Eigen::VectorXd& x,
+                             Impulses& r) const {
   r.setZero(problem.row_count());
   for (int k = 0; k < contact_count(); ++k)
     r.segment(problem.row_begin[contact[k]], rows(k)) = x.segment(row_begin[k], rows(k));

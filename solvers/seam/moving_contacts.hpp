@@ -1,5 +1,6 @@
 #pragma once
-// The problem in impulses alone, without the contacts that no impulse moves: what foreign solvers are handed.
+// The problem in impulses alone, without the contacts that no impulse moves: what foreign solvers
+// are handed.
 
 #include <vector>
 
@@ -7,8 +8,8 @@
 
 namespace ballast {
 
-/// u = w r + q over the contacts kept, in the problem's order. The others (W_cc = 0: both bodies fixed) have any
-/// impulse for a solution; they get zero.
+/// u = w r + q over the contacts kept, in the problem's order. The others (W_cc = 0: both bodies
+/// fixed) have any impulse for a solution; they get zero.
 struct MovingContacts {
   std::vector<int> contact;       ///< number in the problem of each contact kept
   std::vector<int> row_begin{0};  ///< rows of contact k here; size kept + 1

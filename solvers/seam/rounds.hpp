@@ -1,5 +1,6 @@
 #pragma once
-// The outer loop of backends that call a foreign solver again and again until the judge is content with its answer.
+// The outer loop of backends that call a foreign solver again and again until the judge is content
+// with its answer.
 
 #include <functional>
 
@@ -19,11 +20,13 @@ struct RoundRequest {
 struct RoundAnswer {
   Eigen::VectorXd x;     ///< not finite or empty: the round failed, and nothing is taken from it
   int iterations = 1;    ///< what the round cost; 1 at least is booked
-  bool finished = true;  ///< ended by its own criterion, not by a limit: a failure to improve counts as standing still
+  bool finished = true;  ///< ended by its own criterion, not by a limit: a failure to improve
+                         ///< counts as standing still
 };
 
-/// Rounds until the judge's error of the best iterate, which is what is returned, meets the budget; `stalled` when
-/// `patience` finished rounds in a row brought no tenth of improvement. The judge is asked after every round.
+/// Rounds until the judge's error of the best iterate, which is what is returned, meets the budget;
+/// `stalled` when `patience` finished rounds in a row brought no tenth of improvement. The judge is
+/// asked after every round.
 Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& moving, Impulses start,
                        const Budget& budget, int patience,
                        const std::function<void(const RoundRequest&, RoundAnswer&)>& round);

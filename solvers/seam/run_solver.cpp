@@ -11,17 +11,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 void validate_start(const FrictionProblem& problem, Impulses& start) {
   if (start.size() == 0) start.setZero(problem.row_count());
   if (start.size() != problem.row_count())
-    throw InvalidProblem("start has " + std::to_string(start.size()) + " entries, the contacts have " +
-                         std::to_string(problem.row_count()) + " rows");
+    throw InvalidProblem("start has " + std::to_string(start.size()) +
+                         " entries, the contacts have " + std::to_string(problem.row_count()) +
+                         " rows");
   if (start.allFinite()) return;
   for (Eigen::Index i = 0; i < start.size(); ++i)
     if (!std::isfinite(start[i]))
-      throw InvalidProblem("start[" + std::to_string(i) + "] = " + std::to_string(start[i]) + " is not finite");
+      throw InvalidProblem("start[" + std::to_string(i) + "] = " + std::to_string(start[i]) +
+                           " is not finite");
 }
 
 }  // namespace
@@ -50,7 +54,8 @@ SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& bu
   return run;
 }
 
-SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget) {
+SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start,
+                            const Budget& budget) {
   problem.validate();
   validate_start(problem, start);
   return guarded(problem, budget, [&](SolverRun& run) {

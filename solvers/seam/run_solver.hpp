@@ -1,5 +1,6 @@
 #pragma once
-// The only door to a solver that runs and benches use: validates, times, and judges outside the stopwatch.
+// The only door to a solver that runs and benches use: validates, times, and judges outside the
+// stopwatch.
 
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/seam/solver.hpp"
@@ -25,12 +26,16 @@ class SolverRunner {
   const Eigen::VectorXd& body_velocity() const { return judge_.body_velocity(); }
   const Eigen::VectorXd& body_impulse() const { return judge_.body_impulse(); }
 
-  /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem. A start of the wrong size is an
-  /// InvalidProblem; an empty one means zero. Other exceptions of a backend become reason = numerical_failure.
-  SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget);
+  /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem. A start of the wrong
+  /// size is an InvalidProblem; an empty one means zero. Other exceptions of a backend become
+  /// reason = numerical_failure.
+  SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start,
+                const Budget& budget);
 
-  /// Solves once more what run() prepared, from another start or for another budget: prepare_seconds is 0.
-  SolverRun run_again(Solver& solver, const FrictionProblem& problem, Impulses start, const Budget& budget);
+  /// Solves once more what run() prepared, from another start or for another budget:
+  /// prepare_seconds is 0.
+  SolverRun run_again(Solver& solver, const FrictionProblem& problem, Impulses start,
+                      const Budget& budget);
 
  private:
   template <typename Work>

@@ -5,8 +5,9 @@
 
 namespace ballast {
 
-/// What a backend promises: it takes every problem with at most so many contacts, and so many with friction among them.
-/// Beyond that it may decline (UnsupportedProblem). Zeros: it takes problems of any size.
+/// What a backend promises: it takes every problem with at most so many contacts, and so many with
+/// friction among them. Beyond that it may decline (UnsupportedProblem). Zeros: it takes problems
+/// of any size.
 struct SizeLimit {
   int contacts = 0;
   int with_friction = 0;  ///< contacts with mu > 0

@@ -10,7 +10,13 @@
 namespace ballast {
 
 /// Why a solver stopped. Says nothing about accuracy: contact_error does.
-enum class StopReason { reached_tolerance, iteration_limit, time_limit, stalled, numerical_failure };
+enum class StopReason {
+  reached_tolerance,
+  iteration_limit,
+  time_limit,
+  stalled,
+  numerical_failure
+};
 
 /// The law that a backend really solves; each one is judged on Coulomb's.
 enum class ContactLaw { coulomb, convex_relaxation, pyramid };
@@ -18,12 +24,14 @@ enum class ContactLaw { coulomb, convex_relaxation, pyramid };
 const char* name_of(StopReason reason);
 const char* name_of(ContactLaw law);
 
-/// When to stop. The error meant is the judge's scaled natural map, rms over contacts, in m/s (contact_error.hpp).
+/// When to stop. The error meant is the judge's scaled natural map, rms over contacts, in m/s
+/// (contact_error.hpp).
 struct Budget {
   double tolerance = 1e-8;     ///< [m/s]; 0: run until another limit
   int max_iterations = 10000;  ///< sweeps, Newton steps, ... : the backend's outer unit of work
   double max_seconds = 1e30;   ///< wall clock
-  bool keep_history = false;   ///< record (iteration, seconds, error) at every evaluation of the error
+  bool keep_history =
+      false;  ///< record (iteration, seconds, error) at every evaluation of the error
 };
 
 struct HistoryPoint {
@@ -47,22 +55,26 @@ class UnsupportedProblem : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A frictional-contact solver. One object serves a sequence of problems; buffers are kept between them.
+/// A frictional-contact solver. One object serves a sequence of problems; buffers are kept between
+/// them.
 class Solver {
  public:
   virtual ~Solver() = default;
-  /// Allocation, ordering, symbolic and numeric factorisation: timed apart from solve(). Throws UnsupportedProblem.
+  /// Allocation, ordering, symbolic and numeric factorisation: timed apart from solve(). Throws
+  /// UnsupportedProblem.
   virtual void prepare(const FrictionProblem& problem) = 0;
-  /// How many threads prepare() and solve() may use from now on. The same bits whatever their number; a backend that has no use for
-  /// more than one ignores it.
+  /// How many threads prepare() and solve() may use from now on. The same bits whatever their
+  /// number; a backend that has no use for more than one ignores it.
   virtual void use_threads(int /*threads*/) {}
-  /// `start` is the first iterate (zero: cold) and is moved through: its storage comes back as Solved::impulses, so
-  /// that a run of many steps does not allocate. `problem` is the one given to prepare().
+  /// `start` is the first iterate (zero: cold) and is moved through: its storage comes back as
+  /// Solved::impulses, so that a run of many steps does not allocate. `problem` is the one given to
+  /// prepare().
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
 };
 
-/// Makes one backend. A backend that needs an optional library offers `SolverMaker foo_maker();`: foo.cpp returns the
-/// function, foo_missing.cpp, compiled instead where the library is not used, returns null.
+/// Makes one backend. A backend that needs an optional library offers `SolverMaker foo_maker();`:
+/// foo.cpp returns the function, foo_missing.cpp, compiled instead where the library is not used,
+/// returns null.
 using SolverMaker = std::unique_ptr<Solver> (*)();
 
 }  // namespace ballast

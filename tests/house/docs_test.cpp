@@ -14,7 +14,8 @@ TEST_CASE("what docs/adding_a_solver.md quotes is what the files say") {
   int quotations = 0;
   for (std::string line; std::getline(lines, line);) {
     if (!inside) {  // the last file that was named before a block is the one quoted
-      for (size_t at = line.find("`solvers/"); at != std::string::npos; at = line.find("`solvers/", at + 1))
+      for (size_t at = line.find("`solvers/"); at != std::string::npos;
+           at = line.find("`solvers/", at + 1))
         file = line.substr(at + 1, line.find('`', at + 1) - at - 1);
       inside = line == "```cpp" || line == "```cmake";
       quotation.clear();

@@ -62,19 +62,17 @@ Arrows read_rooms(const std::string& text, const std::string& folder,
   Arrows arrows;
   constexpr std::string_view call = "ballast_room(";
   for (size_t at = text.find(call); at != std::string::npos; at = text.find(call, at + 1)) {
-    std::string body = text.substr(at + call.size());
-    body = body.substr(0, body.find(")\n"));
-    std::istringstream words(body);
-    std::string name, list;
-    words >> name;
+    const size_t begin = at + call.size();
+    std::istringstream words(text.substr(begin, text.find(')', begin) - begin));
+    std::string name, place, list;
+    words >> name >> place;
     arrows[name];
+    folder_of[name] = place == "." ? folder : folder + "/" + place;
     for (std::string word; words >> word;) {
-      if (word == "SOURCES" || word == "DOORS" || word == "LIBRARIES")
+      if (word == "DOORS" || word == "LIBRARIES" || word == "EXCEPT")
         list = word;
       else if (list == "DOORS")
         arrows[name].insert(word);
-      else if (list == "SOURCES" && word[0] != '$' && !folder_of.contains(name))
-        folder_of[name] = room_of(folder + "/" + word);
     }
   }
   return arrows;
@@ -84,8 +82,7 @@ Arrows doors() {
   std::map<std::string, std::string> folder_of;
   Arrows libraries;
   for (const char* top : {"platform", "geometry", "problems", "solvers", "experiments"}) {
-    const Arrows found =
-        read_rooms(content(root() / top / "CMakeLists.txt"), top, folder_of);
+    const Arrows found = read_rooms(content(root() / top / "CMakeLists.txt"), top, folder_of);
     libraries.insert(found.begin(), found.end());
   }
   Arrows rooms;
@@ -137,8 +134,9 @@ std::vector<std::set<std::string>> rings(const Arrows& arrows) {
 }
 
 size_t columns(std::string_view line) {
-  return static_cast<size_t>(std::count_if(
-      line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
 }
 
 }  // namespace ballast::house

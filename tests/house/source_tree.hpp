@@ -40,10 +40,10 @@ std::string module_of(const std::string& path);
 std::string room_of(const std::string& path);
 
 /// Room -> rooms that it may include, itself included: what the `ballast_room` calls of all
-/// CMakeLists.txt say, followed through. Two libraries of one folder are one room.
+/// CMakeLists.txt say, followed through.
 Arrows doors();
 /// The same from the text of one CMakeLists.txt that lies in `folder`: library -> libraries, and in
-/// `folder_of` library -> folder of its first source.
+/// `folder_of` library -> its folder.
 Arrows read_rooms(const std::string& text, const std::string& folder,
                   std::map<std::string, std::string>& folder_of);
 

@@ -28,7 +28,8 @@ TEST_CASE("a record comes back whole, whatever its size") {
     });
     REQUIRE(result.end == ChildEnd::complete);
     REQUIRE(result.record.size() == size);
-    for (std::size_t i = 0; i < size; ++i) REQUIRE(result.record[i] == 0.1 * static_cast<double>(i));
+    for (std::size_t i = 0; i < size; ++i)
+      REQUIRE(result.record[i] == 0.1 * static_cast<double>(i));
     CHECK(no_children());
   }
 }

@@ -1,4 +1,5 @@
-// What every registered backend must do: limits of size, iterations and time; repeatability; history.
+// What every registered backend must do: limits of size, iterations and time; repeatability;
+// history.
 
 #include <limits>
 
@@ -6,11 +7,13 @@
 
 using namespace ballast;
 
-/// Up to its stated limit a backend takes everything; and what it states is not less than what it takes.
+/// Up to its stated limit a backend takes everything; and what it states is not less than what it
+/// takes.
 TEST_CASE("a backend takes problems up to the size that the register says") {
   for_each_backend([](const SolverEntry& entry) {
     const SizeLimit& largest = entry.largest;
-    CHECK((largest.none() ? largest.with_friction == 0 : largest.with_friction <= largest.contacts));
+    CHECK(
+        (largest.none() ? largest.with_friction == 0 : largest.with_friction <= largest.contacts));
     const Budget nothing{.max_iterations = 0};
     const auto taken = [&](int contacts, int with_friction) {
       KnownSolutionSettings settings;
@@ -42,7 +45,8 @@ TEST_CASE("limits of iterations and of time are kept") {
       CHECK(result.solved.iterations <= limit);
       CHECK(result.error.finite);
     }
-    Budget budget{.tolerance = 0.0, .max_iterations = std::numeric_limits<int>::max(), .max_seconds = 0.05};
+    Budget budget{
+        .tolerance = 0.0, .max_iterations = std::numeric_limits<int>::max(), .max_seconds = 0.05};
     const SolverRun result = run_either(entry, problem, budget);
     CHECK(result.solve_seconds < 2.0);
     CHECK(result.solved.reason != StopReason::iteration_limit);
@@ -51,7 +55,8 @@ TEST_CASE("limits of iterations and of time are kept") {
 
 TEST_CASE("a start from the solution stops at once") {
   for_each_backend([](const SolverEntry& entry) {
-    const FrictionProblem problem = known(50, contacts_for(entry, 40), solves_coulomb(entry) ? 0.5 : 0.0, 1.0).problem;
+    const FrictionProblem problem =
+        known(50, contacts_for(entry, 40), solves_coulomb(entry) ? 0.5 : 0.0, 1.0).problem;
     const SolverRun cold = run_either(entry, problem, patient);
     REQUIRE(cold.success);
     const SolverRun warm = run_either(entry, problem, patient, cold.solved.impulses);
@@ -64,7 +69,8 @@ TEST_CASE("both forms of a problem give the same answer") {
   for_each_backend([](const SolverEntry& entry) {
     const FrictionProblem problem = known(50, contacts_for(entry, 40), 0.5, 1.0).problem;
     const Budget budget{.tolerance = 1e-10, .max_iterations = 100000, .max_seconds = 20.0};
-    const auto dynamics = run(entry, problem, budget), delassus = run(entry, only_delassus(problem), budget);
+    const auto dynamics = run(entry, problem, budget),
+               delassus = run(entry, only_delassus(problem), budget);
     REQUIRE((dynamics || delassus));
     if (!dynamics || !delassus) return;
     Eigen::VectorXd u, w;
@@ -78,14 +84,16 @@ TEST_CASE("the same problem gives the same bits") {
   for_each_backend([](const SolverEntry& entry) {
     const FrictionProblem problem = known(30, contacts_for(entry, 60), 0.5, 10.0).problem;
     const Budget budget{.tolerance = 1e-6, .max_iterations = 200};
-    const SolverRun once = run_either(entry, problem, budget), again = run_either(entry, problem, budget);
+    const SolverRun once = run_either(entry, problem, budget),
+                    again = run_either(entry, problem, budget);
     CHECK(once.solved.impulses == again.solved.impulses);
   });
 }
 
 TEST_CASE("history is kept on request, and ends with what is returned") {
   for_each_backend([](const SolverEntry& entry) {
-    const FrictionProblem problem = known(50, contacts_for(entry, 40), solves_coulomb(entry) ? 0.5 : 0.0, 1.0).problem;
+    const FrictionProblem problem =
+        known(50, contacts_for(entry, 40), solves_coulomb(entry) ? 0.5 : 0.0, 1.0).problem;
     Budget budget = patient;
     const SolverRun silent = run_either(entry, problem, budget);
     CHECK(silent.solved.history.empty());
@@ -93,7 +101,8 @@ TEST_CASE("history is kept on request, and ends with what is returned") {
     const SolverRun result = run_either(entry, problem, budget);
     REQUIRE_FALSE(result.solved.history.empty());
     CHECK(result.solved.history.back().iteration == result.solved.iterations);
-    CHECK(result.solved.history.back().error == Approx(result.error.natural_map_rms).epsilon(1e-3).margin(1e-14));
+    CHECK(result.solved.history.back().error ==
+          Approx(result.error.natural_map_rms).epsilon(1e-3).margin(1e-14));
     for (std::size_t i = 1; i < result.solved.history.size(); ++i) {
       CHECK(result.solved.history[i].iteration > result.solved.history[i - 1].iteration);
       CHECK(result.solved.history[i].seconds >= result.solved.history[i - 1].seconds);

@@ -1,5 +1,6 @@
 #pragma once
-// What the conformance tests share: every backend, problems of a size that it promises to take, budgets.
+// What the conformance tests share: every backend, problems of a size that it promises to take,
+// budgets.
 
 #include <algorithm>
 #include <optional>
@@ -12,8 +13,8 @@
 
 namespace ballast {
 
-/// Runs `check(entry)` for every backend that was built, each in a section of its own: `solvers_test -c NAME` tests
-/// one.
+/// Runs `check(entry)` for every backend that was built, each in a section of its own:
+/// `solvers_test -c NAME` tests one.
 template <typename Check>
 void for_each_backend(const Check& check) {
   for (const SolverEntry& entry : solver_list())
@@ -24,12 +25,14 @@ void for_each_backend(const Check& check) {
 
 /// `wanted` contacts, or as many as the backend takes with friction on all of them.
 inline int contacts_for(const SolverEntry& entry, int wanted) {
-  return entry.largest.none() ? wanted : std::min({wanted, entry.largest.contacts, entry.largest.with_friction});
+  return entry.largest.none()
+             ? wanted
+             : std::min({wanted, entry.largest.contacts, entry.largest.with_friction});
 }
 
 /// Nothing when the backend declines the problem's form or size.
-inline std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget,
-                                    const Impulses& start = {}) {
+inline std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem,
+                                    const Budget& budget, const Impulses& start = {}) {
   try {
     const auto solver = entry.make();
     return SolverRunner().run(*solver, problem, start, budget);
@@ -45,8 +48,10 @@ inline FrictionProblem only_delassus(FrictionProblem problem) {
   return problem;
 }
 
-/// The dynamics form, or W for a backend that takes only that. Nothing where it declines both: only beyond its limit.
-inline std::optional<SolverRun> run_unless_large(const SolverEntry& entry, const FrictionProblem& problem,
+/// The dynamics form, or W for a backend that takes only that. Nothing where it declines both: only
+/// beyond its limit.
+inline std::optional<SolverRun> run_unless_large(const SolverEntry& entry,
+                                                 const FrictionProblem& problem,
                                                  const Budget& budget, const Impulses& start = {}) {
   if (std::optional<SolverRun> result = run(entry, problem, budget, start)) return result;
   std::optional<SolverRun> result = run(entry, only_delassus(problem), budget, start);
@@ -55,14 +60,15 @@ inline std::optional<SolverRun> run_unless_large(const SolverEntry& entry, const
 }
 
 /// For problems within the backend's limit.
-inline SolverRun run_either(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget,
-                            const Impulses& start = {}) {
+inline SolverRun run_either(const SolverEntry& entry, const FrictionProblem& problem,
+                            const Budget& budget, const Impulses& start = {}) {
   std::optional<SolverRun> result = run_unless_large(entry, problem, budget, start);
   REQUIRE(result);
   return *std::move(result);
 }
 
-inline KnownSolution known(int bodies, int contacts, double friction, double mass_ratio, std::uint64_t seed = 1) {
+inline KnownSolution known(int bodies, int contacts, double friction, double mass_ratio,
+                           std::uint64_t seed = 1) {
   KnownSolutionSettings settings;
   settings.bodies = bodies;
   settings.contacts = contacts;

@@ -1,4 +1,5 @@
-// What every registered backend must do: answers. Adding a row to solver_list.cpp is enough to be tested here.
+// What every registered backend must do: answers. Adding a row to solver_list.cpp is enough to be
+// tested here.
 
 #include <cmath>
 #include <limits>
@@ -12,7 +13,8 @@ TEST_CASE("problems with a known solution are solved, whatever their size and ra
     int bodies, contacts;
   };
   for_each_backend([](const SolverEntry& entry) {
-    for (const Size size : {Size{1, 1}, {2, 1}, {3, 2}, {10, 8}, {50, 40}, {200, 150}, {20, 40}, {30, 60}})
+    for (const Size size :
+         {Size{1, 1}, {2, 1}, {3, 2}, {10, 8}, {50, 40}, {200, 150}, {20, 40}, {30, 60}})
       for (const double friction : {0.0, 0.3, 0.8}) {
         if (friction > 0.0 && !solves_coulomb(entry)) continue;
         CAPTURE(size.bodies, size.contacts, friction);
@@ -36,12 +38,14 @@ TEST_CASE("hard problems may not be solved, but no claim is false") {
       for (const double mass_ratio : {1.0, 1e3, 1e6})
         for (const int contacts : {2, 40, 60}) {
           CAPTURE(friction, mass_ratio, contacts);
-          const std::optional<SolverRun> run =
-              run_unless_large(entry, known(contacts == 60 ? 10 : 30, contacts, friction, mass_ratio).problem, hurried);
+          const std::optional<SolverRun> run = run_unless_large(
+              entry, known(contacts == 60 ? 10 : 30, contacts, friction, mass_ratio).problem,
+              hurried);
           if (!run) continue;
           const SolverRun& result = *run;
           CHECK(result.error.finite);
-          late += result.solved.reason == StopReason::time_limit;  // on a slow machine, under sanitizers
+          late += result.solved.reason ==
+                  StopReason::time_limit;  // on a slow machine, under sanitizers
           if (result.solved.reason == StopReason::reached_tolerance && solves_coulomb(entry)) {
             ++claims;
             CAPTURE(result.solved.own_residual, result.error.natural_map_rms);
@@ -77,7 +81,8 @@ TEST_CASE("no contacts, no bodies, and contacts that nothing moves") {
     CHECK(none.success);
     CHECK(none.solved.impulses.size() == 0);
 
-    FrictionProblem fixed = known(5, 4, 0.5, 1.0).problem;  // one more contact, between two things that do not move
+    FrictionProblem fixed =
+        known(5, 4, 0.5, 1.0).problem;  // one more contact, between two things that do not move
     fixed.row_begin.push_back(fixed.row_begin.back() + 3);
     fixed.friction.push_back(0.5);
     fixed.dynamics.body_a.push_back(-1);
@@ -112,7 +117,8 @@ TEST_CASE("contacts that all open take no impulse") {
 TEST_CASE("a start that is no start never reaches the backend") {
   for_each_backend([](const SolverEntry& entry) {
     const FrictionProblem problem = known(10, 8, 0.3, 1.0).problem;
-    CHECK_THROWS_AS(run(entry, problem, patient, Impulses::Zero(problem.row_count() - 1)), InvalidProblem);
+    CHECK_THROWS_AS(run(entry, problem, patient, Impulses::Zero(problem.row_count() - 1)),
+                    InvalidProblem);
     Impulses start = Impulses::Zero(problem.row_count());
     start[0] = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_AS(run(entry, problem, patient, start), InvalidProblem);

@@ -1,4 +1,5 @@
-// Every backend on the stress problems: no NaN, no hang, no false success, and the known answer where it claims one.
+// Every backend on the stress problems: no NaN, no hang, no false success, and the known answer
+// where it claims one.
 
 #include "problems/algebra/stress_problems.hpp"
 
@@ -22,14 +23,16 @@ const Budget short_budget{.tolerance = 1e-8, .max_iterations = 20000, .max_secon
 const Budget unhurried{.tolerance = 1e-8, .max_iterations = 20000, .max_seconds = 20.0};
 const Budget table_budget{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 2.0};
 
-/// By which a solve may overrun its time: AddressSanitizer's forks alone take a second on a loaded machine.
+/// By which a solve may overrun its time: AddressSanitizer's forks alone take a second on a loaded
+/// machine.
 #ifdef __SANITIZE_ADDRESS__
 constexpr double overrun = 10.0;
 #else
 constexpr double overrun = 2.0;
 #endif
 
-std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem, const Budget& budget) {
+std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem,
+                             const Budget& budget) {
   try {
     return SolverRunner().run(*entry.make(), problem, {}, budget);
   } catch (const UnsupportedProblem&) {
@@ -41,7 +44,8 @@ double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return a.size() > 0 ? (a - b).lpNorm<Eigen::Infinity>() : 0.0;
 }
 
-/// From an error of 1e-8 in the contacts to one in velocities: the worst amplification of these problems is 1e3.
+/// From an error of 1e-8 in the contacts to one in velocities: the worst amplification of these
+/// problems is 1e3.
 constexpr double near = 1e-5;
 
 void check_answer(const StressProblem& stress, const Impulses& r) {
@@ -58,7 +62,8 @@ double gauss_seidel_rate(const FrictionProblem& problem, int sweeps) {
   std::vector<double> errors;
   for (const int limit : {sweeps, 2 * sweeps}) {
     const Budget budget{.tolerance = 0.0, .max_iterations = limit};
-    errors.push_back(SolverRunner().run(*make_solver("pgs"), problem, {}, budget).error.natural_map_rms);
+    errors.push_back(
+        SolverRunner().run(*make_solver("pgs"), problem, {}, budget).error.natural_map_rms);
   }
   return std::pow(errors[1] / errors[0], 1.0 / sweeps);
 }
@@ -73,7 +78,8 @@ TEST_CASE("stress: every backend, every problem") {
       for (const StressProblem& stress : problems) {
         CAPTURE(stress.item, stress.name);
         if (!stress.refused.empty()) {
-          CHECK_THROWS_WITH(run(entry, stress.problem, short_budget), Catch::Contains(stress.refused));
+          CHECK_THROWS_WITH(run(entry, stress.problem, short_budget),
+                            Catch::Contains(stress.refused));
           continue;
         }
         const std::optional<SolverRun> result = run(entry, stress.problem, short_budget);
@@ -82,7 +88,8 @@ TEST_CASE("stress: every backend, every problem") {
         CHECK(result->error.finite);
         CHECK(result->solve_seconds < short_budget.max_seconds + overrun);
         CHECK(result->solved.iterations <= short_budget.max_iterations);
-        if (result->solved.reason == StopReason::reached_tolerance && entry.law == ContactLaw::coulomb)
+        if (result->solved.reason == StopReason::reached_tolerance &&
+            entry.law == ContactLaw::coulomb)
           CHECK(result->success);
         if (result->success) check_answer(stress, result->solved.impulses);
       }
@@ -90,13 +97,15 @@ TEST_CASE("stress: every backend, every problem") {
   }
 }
 
-/// Velocities of 250 cm/s with 1e-8 cm/s asked for, and a start at which Fischer and Burmeister's function has a kink.
+/// Velocities of 250 cm/s with 1e-8 cm/s asked for, and a start at which Fischer and Burmeister's
+/// function has a kink.
 TEST_CASE("stress: rounding and kinks do not stop Newton's methods and spg") {
-  const std::vector<std::pair<const char*, const char*>> solved = {{"newton_ac", "units of gram and cm"},
-                                                                   {"newton_nm", "units of gram and cm"},
-                                                                   {"newton_fb", "units of gram and cm"},
-                                                                   {"spg", "units of gram and cm"},
-                                                                   {"newton_fb", "stack of 2, top 1000.0 kg"}};
+  const std::vector<std::pair<const char*, const char*>> solved = {
+      {"newton_ac", "units of gram and cm"},
+      {"newton_nm", "units of gram and cm"},
+      {"newton_fb", "units of gram and cm"},
+      {"spg", "units of gram and cm"},
+      {"newton_fb", "stack of 2, top 1000.0 kg"}};
   for (const auto& [name, problem_name] : solved) {
     const SolverEntry& entry = find_solver(name);
     if (!entry.make) continue;
@@ -133,7 +142,9 @@ TEST_CASE("stress: answers are solutions") {
   CHECK(known > 20);
 }
 
-TEST_CASE("stress: Gauss-Seidel contracts by R / (1 + R) on a mass-ratio stack, by cos^2(pi / 2n) on n equal boxes") {
+TEST_CASE(
+    "stress: Gauss-Seidel contracts by R / (1 + R) on a mass-ratio stack, by cos^2(pi / 2n) on n "
+    "equal boxes") {
   for (const int rows : {1, 3}) {
     for (const double ratio : {1.0, 10.0, 1000.0}) {
       CAPTURE(rows, ratio);
@@ -144,7 +155,8 @@ TEST_CASE("stress: Gauss-Seidel contracts by R / (1 + R) on a mass-ratio stack, 
       CAPTURE(rows, n);
       const double cosine = std::cos(M_PI / (2.0 * n));
       const FrictionProblem problem = mass_stack(std::vector<double>(n, 1.0), rows).problem;
-      CHECK(gauss_seidel_rate(problem, n < 5 ? 20 : 5 * n * n / 4) == Approx(cosine * cosine).epsilon(1e-4));
+      CHECK(gauss_seidel_rate(problem, n < 5 ? 20 : 5 * n * n / 4) ==
+            Approx(cosine * cosine).epsilon(1e-4));
     }
   }
 }
@@ -154,7 +166,8 @@ TEST_CASE("stress: sliding tells the laws apart") {
     if (!entry.make) continue;
     CAPTURE(entry.name);
     const double mu = 0.4;
-    const StressProblem stress = sliding_block(mu, M_PI / 8.0);  // half-way between the directions of a pyramid
+    const StressProblem stress =
+        sliding_block(mu, M_PI / 8.0);  // half-way between the directions of a pyramid
     const std::optional<SolverRun> result = run(entry, stress.problem, unhurried);
     if (!result) continue;
     Eigen::VectorXd u;
@@ -172,8 +185,8 @@ TEST_CASE("stress: table of every backend", "[.stress_table]") {
   const std::vector<StressProblem> problems = stress_problems();
   std::printf("Problems:\n\n| | item | problem |\n|---|---|---|\n");
   for (std::size_t i = 0; i < problems.size(); ++i)
-    std::printf("| %c%c | %d | %s |\n", static_cast<char>('A' + i / 10), static_cast<char>('0' + i % 10),
-                problems[i].item, problems[i].name.c_str());
+    std::printf("| %c%c | %d | %s |\n", static_cast<char>('A' + i / 10),
+                static_cast<char>('0' + i % 10), problems[i].item, problems[i].name.c_str());
   std::printf("\n| backend |");
   for (std::size_t i = 0; i < problems.size(); ++i)
     std::printf(" %c%c |", static_cast<char>('A' + i / 10), static_cast<char>('0' + i % 10));

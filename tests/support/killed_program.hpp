@@ -14,10 +14,14 @@ namespace ballast {
 
 using Clock = std::chrono::steady_clock;
 
-inline double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+inline double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
 
-/// Runs the program, and kills it after `seconds`: its children die with it. Its exit code, or -1 when it was killed.
-inline int run_and_kill(double seconds, const std::vector<std::string>& arguments, const std::filesystem::path& log) {
+/// Runs the program, and kills it after `seconds`: its children die with it. Its exit code, or -1
+/// when it was killed.
+inline int run_and_kill(double seconds, const std::vector<std::string>& arguments,
+                        const std::filesystem::path& log) {
   Worker program(BALLAST_PROGRAM, arguments, log);
   const auto begin = Clock::now();
   while (!program.has_ended()) {

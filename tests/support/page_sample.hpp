@@ -11,7 +11,8 @@
 
 namespace ballast {
 
-/// Elements are closed in the order they were opened (void elements and <x/> aside). Returns the first complaint.
+/// Elements are closed in the order they were opened (void elements and <x/> aside). Returns the
+/// first complaint.
 inline std::string nesting_fault(const std::string& page) {
   const std::set<std::string> is_void{"meta", "br", "!DOCTYPE"};
   std::vector<std::string> open;
@@ -22,10 +23,13 @@ inline std::string nesting_fault(const std::string& page) {
     const bool closes = page[name_begin] == '/';
     if (closes) ++name_begin;
     size_t name_end = name_begin;
-    while (name_end < end && !std::isspace(static_cast<unsigned char>(page[name_end])) && page[name_end] != '/') ++name_end;
+    while (name_end < end && !std::isspace(static_cast<unsigned char>(page[name_end])) &&
+           page[name_end] != '/')
+      ++name_end;
     const std::string name = page.substr(name_begin, name_end - name_begin);
     if (closes) {
-      if (open.empty() || open.back() != name) return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
+      if (open.empty() || open.back() != name)
+        return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
       open.pop_back();
     } else if (page[end - 1] != '/' && !is_void.count(name)) {
       open.push_back(name);
@@ -61,8 +65,9 @@ inline void check_page(const std::string& page) {
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   CHECK((twice == ids.end() ? "" : *twice) == "");
-  CHECK_THAT(without_xmlns(page), !Contains("http:") && !Contains("https:") && !Contains("src=") && !Contains("<script") &&
-                                      !Contains("@import") && !Contains("<link"));
+  CHECK_THAT(without_xmlns(page), !Contains("http:") && !Contains("https:") && !Contains("src=") &&
+                                      !Contains("<script") && !Contains("@import") &&
+                                      !Contains("<link"));
 }
 
 }  // namespace ballast

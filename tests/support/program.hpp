@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "platform/program.hpp"
 #include "experiments/run/run.hpp"
+#include "platform/program.hpp"
 #include "tests/catch.hpp"
 
 namespace ballast {
@@ -16,13 +16,16 @@ inline ProgramResult ballast_program(const std::vector<std::string>& arguments) 
 }
 
 /// The same with a shell's words before it: limits, redirections. `words` ends in the call of "$@".
-inline ProgramResult ballast_in_shell(const std::string& words, std::vector<std::string> arguments) {
+inline ProgramResult ballast_in_shell(const std::string& words,
+                                      std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"-c", words, "sh", BALLAST_PROGRAM});
   return run_child("/bin/sh", arguments, 120.0);
 }
 
-/// It failed as failures shall: this exit code and one line on standard error, which names all of `named`.
-inline void check_failure(const ProgramResult& result, ExitCode code, const std::vector<std::string>& named) {
+/// It failed as failures shall: this exit code and one line on standard error, which names all of
+/// `named`.
+inline void check_failure(const ProgramResult& result, ExitCode code,
+                          const std::vector<std::string>& named) {
   CHECK_FALSE(result.timed_out);
   CHECK(result.status == static_cast<int>(code));
   CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);

@@ -18,7 +18,8 @@ inline void record(Recorder& recorder, const MechanicalSystem& system, long firs
   }
 }
 
-inline void check_record(const std::filesystem::path& folder, const MechanicalSystem& system, long steps) {
+inline void check_record(const std::filesystem::path& folder, const MechanicalSystem& system,
+                         long steps) {
   const auto rows = read_steps(folder);
   REQUIRE(rows.size() == static_cast<size_t>(steps));
   for (long k = 0; k < steps; ++k) CHECK(same_bits(rows[k], sample_row(k + 1)));
@@ -34,10 +35,15 @@ inline void check_record(const std::filesystem::path& folder, const MechanicalSy
   }
 }
 
-inline std::filesystem::path steps_log(const std::filesystem::path& folder) { return folder / "log" / "steps.bin"; }
-inline std::filesystem::path poses_log(const std::filesystem::path& folder) { return folder / "log" / "poses.bin"; }
+inline std::filesystem::path steps_log(const std::filesystem::path& folder) {
+  return folder / "log" / "steps.bin";
+}
+inline std::filesystem::path poses_log(const std::filesystem::path& folder) {
+  return folder / "log" / "poses.bin";
+}
 
-/// Runs `action` in a child that then dies without cleaning up, as by kill -9: what it had buffered is lost.
+/// Runs `action` in a child that then dies without cleaning up, as by kill -9: what it had buffered
+/// is lost.
 template <class Action>
 void killed(Action&& action) {
   const pid_t child = fork();

@@ -13,9 +13,9 @@
 #include <sstream>
 
 #include "experiments/record/recorder.hpp"
-#include "platform/error.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/random.hpp"
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -49,8 +49,8 @@ std::string run_error(Action&& action) {
 
 using Catch::Matchers::Contains;
 
-/// Three grains (two of one shape) and a square box of six walls from (0, 0, 0) to (0.6, 0.6, 0.5), of which x_max is
-/// driven.
+/// Three grains (two of one shape) and a square box of six walls from (0, 0, 0) to (0.6, 0.6, 0.5),
+/// of which x_max is driven.
 inline MechanicalSystem sample_system() {
   MechanicalSystem system;
   system.friction = 0.4;
@@ -69,7 +69,8 @@ inline MechanicalSystem sample_system() {
   }
   system.grain_count = 3;
   const char* names[] = {"floor", "lid", "x_min", "x_max", "y_min", "y_max"};
-  const Vec3 normals[] = {Vec3::UnitZ(), -Vec3::UnitZ(), Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitY()};
+  const Vec3 normals[] = {Vec3::UnitZ(),  -Vec3::UnitZ(), Vec3::UnitX(),
+                          -Vec3::UnitX(), Vec3::UnitY(),  -Vec3::UnitY()};
   for (int w = 0; w < 6; ++w) {
     RigidBody wall;
     wall.name = names[w];
@@ -94,12 +95,15 @@ inline MotionState sample_state(const MechanicalSystem& system, long step) {
     if (wall) {
       pose.position = offsets[b - 3] * system.bodies[b].shape.plane.normal;
     } else {
-      const double x = random.uniform(0.1, 0.5), y = random.uniform(0.1, 0.5), z = random.uniform(0.1, 0.4);
+      const double x = random.uniform(0.1, 0.5), y = random.uniform(0.1, 0.5),
+                   z = random.uniform(0.1, 0.4);
       pose = {Vec3(x, y, z), random.rotation()};
     }
     state.pose.push_back(pose);
-    state.velocity.push_back(wall ? Vec3::Zero() : Vec3(random.uniform(0.1, 1.0) * random.unit_vector()));
-    state.spin.push_back(wall ? Vec3::Zero() : Vec3(random.uniform(1.0, 9.0) * random.unit_vector()));
+    state.velocity.push_back(wall ? Vec3::Zero()
+                                  : Vec3(random.uniform(0.1, 1.0) * random.unit_vector()));
+    state.spin.push_back(wall ? Vec3::Zero()
+                              : Vec3(random.uniform(1.0, 9.0) * random.unit_vector()));
   }
   return state;
 }
@@ -117,7 +121,9 @@ inline StepRecord sample_row(long step) {
   return row;
 }
 
-inline bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+inline bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 inline bool same_bits(const Vec3& a, const Vec3& b) {
   return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z());
 }
@@ -139,7 +145,8 @@ bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
   return true;
 }
 
-/// While alive, no file of this process can grow beyond `bytes`: a disk that is full, for whoever runs the test.
+/// While alive, no file of this process can grow beyond `bytes`: a disk that is full, for whoever
+/// runs the test.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

@@ -1,6 +1,7 @@
 #pragma once
-// Records made up from formulas: a vibrated box whose wall follows Eq. 2 with a force-displacement law like that of the paper's Fig. 4,
-// so that its fits, phases and gains are known. Nothing here is a result.
+// Records made up from formulas: a vibrated box whose wall follows Eq. 2 with a force-displacement
+// law like that of the paper's Fig. 4, so that its fits, phases and gains are known. Nothing here
+// is a result.
 
 #include <cmath>
 #include <cstdio>
@@ -21,13 +22,13 @@ struct SyntheticBox {
   double h = 2e-4, duration = 1.0, frequency = 5.0;
   double grain_mass = 214.0, wall_mass = 214.0, f_max = 6300.0;
   double gravity = 9.81;
-  double active_force = 500.0, active_rate = 100.0;     ///< f_g = 500 N exp(xi 100/m)
-  double passive_force = 1500.0, passive_slope = 6e5;   ///< f_g = 1500 N - 6e5 N/m xi
-  double first_contraction = 6e-3;   ///< [m]
-  double ratchet = 0.05e-3;          ///< contraction per period [m]
+  double active_force = 500.0, active_rate = 100.0;    ///< f_g = 500 N exp(xi 100/m)
+  double passive_force = 1500.0, passive_slope = 6e5;  ///< f_g = 1500 N - 6e5 N/m xi
+  double first_contraction = 6e-3;                     ///< [m]
+  double ratchet = 0.05e-3;                            ///< contraction per period [m]
   double solid_initial = 0.501, solid_jump = 0.018, solid_gain = 0.0012;
-  double noise = 1.0;                ///< of f_g, iterations and times: 0 gives the bare formulas
-  double jam_slip = 2e-6;            ///< |v| while jammed [m/s]
+  double noise = 1.0;      ///< of f_g, iterations and times: 0 gives the bare formulas
+  double jam_slip = 2e-6;  ///< |v| while jammed [m/s]
 };
 
 namespace synthetic {
@@ -52,8 +53,9 @@ class Wall {
     }
     v += h * (law() - f) / box_.wall_mass;
     x += h * v;
-    force = law();  // of the position that is recorded with it
-    if (v < 0.0 && x <= x_back_) {  // stopped within one step: the impulse shows as a peak of f_g, cut to something drawable
+    force = law();                  // of the position that is recorded with it
+    if (v < 0.0 && x <= x_back_) {  // stopped within one step: the impulse shows as a peak of f_g,
+                                    // cut to something drawable
       x = x_back_;
       force = 1.6 * f;
       v = 0.0;
@@ -100,14 +102,16 @@ inline std::vector<StepRecord> synthetic_box(const SyntheticBox& box = {}) {
     const bool moves = wall.v != 0.0;
     s.wall_force = wall.force * (1.0 + jitter(moves ? 0.25 : 2e-4));
     const double settled = std::min(1.0, s.time / 0.15);
-    s.solid_fraction = box.solid_initial + box.solid_jump * settled + box.solid_gain * box.frequency * std::max(0.0, s.time - 0.2) -
+    s.solid_fraction = box.solid_initial + box.solid_jump * settled +
+                       box.solid_gain * box.frequency * std::max(0.0, s.time - 0.2) -
                        0.4 * (wall.x + box.first_contraction * settled);
     s.contacts = 6300.0 + 400.0 * settled + std::round(jitter(60.0));
     s.active_contacts = 4100.0 + 700.0 * settled + std::round(jitter(60.0));
     s.iterations = std::round((moves ? 90.0 : 35.0) * (1.0 + jitter(0.2)));
     s.error_rms = 1.962e-3 * (moves ? 9e-4 : 4e-4) * std::exp(jitter(0.3));
     s.error_max = 30.0 * s.error_rms * std::exp(jitter(0.5));
-    s.penetration_max = (20e-6 + 150e-6 * std::exp(-s.time / 0.1) * settled) * std::exp(jitter(0.3));
+    s.penetration_max =
+        (20e-6 + 150e-6 * std::exp(-s.time / 0.1) * settled) * std::exp(jitter(0.3));
     s.penetration_mean = (1.1e-6 + 3e-6 * std::exp(-s.time / 0.1)) * std::exp(jitter(0.1));
     const double kinetic_new = 0.5 * (box.wall_mass + 0.3 * box.grain_mass) * wall.v * wall.v;
     s.work_load = -s.load * wall.v * box.h;

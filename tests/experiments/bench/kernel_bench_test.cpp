@@ -4,7 +4,6 @@
 #include <iostream>
 #include <sstream>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/bench/accuracy_bench.hpp"
 #include "experiments/bench/bench_words.hpp"
 #include "experiments/bench/kernels.hpp"
@@ -12,10 +11,11 @@
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/bench/sweep_floor.hpp"
 #include "experiments/compare/bench_options.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "problems/algebra/contact_error.hpp"
-#include "solvers/solver_list.hpp"
 #include "solvers/gauss_seidel/sweep_kernels.hpp"
+#include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -68,7 +68,8 @@ TEST_CASE("Results are written, read and compared") {
   const TemporaryFolder folder;
   MachineFacts facts;
   facts.read_GB_s = 12.5;
-  const auto a = measurement_of("sweep", "pgs", "ns", {10.0}), b = measurement_of("sweep", "pgs", "ns", {5.0}),
+  const auto a = measurement_of("sweep", "pgs", "ns", {10.0}),
+             b = measurement_of("sweep", "pgs", "ns", {5.0}),
              other = measurement_of("sweep", "jacobi", "ns", {7.0});
   write_bench_result(folder.path() / "a", "kernels", "ballast bench kernels", facts, {a, other});
   write_bench_result(folder.path() / "b", "kernels", "ballast bench kernels", facts, {b});
@@ -77,10 +78,12 @@ TEST_CASE("Results are written, read and compared") {
   CHECK_FALSE(first.commit.empty());
   REQUIRE(first.measurements.size() == 2);
   CHECK(first.measurements[0].median == 10.0);
-  const std::string table = bench_ratio_table(first, read_bench_result(folder.path() / "b" / "kernels.json"));
+  const std::string table =
+      bench_ratio_table(first, read_bench_result(folder.path() / "b" / "kernels.json"));
   CHECK_THAT(table, Catch::Contains("| sweep/pgs | ns | 10 | 5 | 0.5 |"));
   CHECK_THAT(table, Catch::Contains("only in A: sweep/jacobi"));
-  CHECK_THAT(read_whole_file(folder.path() / "a" / "kernels.csv"), Catch::Contains("sweep,jacobi,ns,7,"));
+  CHECK_THAT(read_whole_file(folder.path() / "a" / "kernels.csv"),
+             Catch::Contains("sweep,jacobi,ns,7,"));
   write_whole_file(folder.path() / "bad.json", "{\"kind\": 3}");
   CHECK_THROWS_WITH(read_bench_result(folder.path() / "bad.json"), Catch::Contains("bad.json"));
   CHECK_THROWS_AS(read_bench_result(folder.path() / "none.json"), Error);
@@ -106,14 +109,16 @@ TEST_CASE("Copies side by side are the packing again and again") {
   size_t inner = 0;
   for (const ContactPoint& c : one.memory.contacts) {
     const int wall = c.body_a - 12;
-    if (wall == wall_x_min || wall == wall_x_max) inner += 2 * 2;  // on each side 2 of 3 columns, 2 rows
+    if (wall == wall_x_min || wall == wall_x_max)
+      inner += 2 * 2;  // on each side 2 of 3 columns, 2 rows
     if (wall == wall_y_min || wall == wall_y_max) inner += 3;
   }
   CHECK(six.memory.contacts.size() == 6 * one.memory.contacts.size() - inner);
   const auto deepest = [&](BenchStart& start) {
     TimeStepper stepper(start.system, step_settings(box.scene), -1);
     double depth = 0.0;
-    for (int k = 0; k < 5; ++k) depth = std::max(depth, stepper.step(start.state, start.memory).penetration_max);
+    for (int k = 0; k < 5; ++k)
+      depth = std::max(depth, stepper.step(start.state, start.memory).penetration_max);
     return depth;
   };
   CHECK(deepest(six) <= deepest(one) + 1e-5);  // no copy lies in another
@@ -169,7 +174,8 @@ TEST_CASE("The floor counts the records that the sweep reads") {
 }
 
 TEST_CASE("Steps are split into phases and states of the wall") {
-  const std::vector<BenchStep> steps = measure_steps(tiny_box().scene, driven_start(tiny_box()), 60, 1);
+  const std::vector<BenchStep> steps =
+      measure_steps(tiny_box().scene, driven_start(tiny_box()), 60, 1);
   REQUIRE(steps.size() == 60);
   const std::vector<Measurement> all = step_measurements(tiny_box().scene, steps, 1);
   double parts = 0.0, states = 0.0, whole = 0.0;
@@ -183,7 +189,8 @@ TEST_CASE("Steps are split into phases and states of the wall") {
   CHECK(states == 60.0);
   CHECK(value_of(all, "1 thread, all/contacts") > 0.0);
   // two threads: the same motion
-  const std::vector<BenchStep> two = measure_steps(tiny_box().scene, driven_start(tiny_box()), 60, 2);
+  const std::vector<BenchStep> two =
+      measure_steps(tiny_box().scene, driven_start(tiny_box()), 60, 2);
   for (const StepColumn& column : step_columns())
     if (std::string(column.name).rfind("seconds_", 0) != 0) {
       CAPTURE(column.name);
@@ -224,8 +231,9 @@ TEST_CASE("Scaling measures each packing in its own process") {
   CHECK(std::isinf(cold[0].iterations[0]));
   CHECK(scaling_figure(options, cold).panels[1].curves[0].x.empty());
   const auto words = scaling_measurements(options, cold);
-  CHECK(std::any_of(words.begin(), words.end(),
-                    [](const Measurement& m) { return m.name == "time, tolerance not reached, pgs"; }));
+  CHECK(std::any_of(words.begin(), words.end(), [](const Measurement& m) {
+    return m.name == "time, tolerance not reached, pgs";
+  }));
 }
 
 TEST_CASE("More iterations cost more and err less") {
@@ -269,10 +277,11 @@ TEST_CASE("Kernels run by name, or the library is named that is missing") {
     CHECK(value_of(measured, "problem/judge") > 0.0);
     CHECK(value_of(measured, "floor/sweep bytes streamed") > 0.0);
     for (const Measurement& m : measured)
-      CHECK_THAT(m.full_name(),
-                 Catch::StartsWith("one contact/") || Catch::StartsWith("floor/") || Catch::Equals("problem/judge"));
+      CHECK_THAT(m.full_name(), Catch::StartsWith("one contact/") || Catch::StartsWith("floor/") ||
+                                    Catch::Equals("problem/judge"));
     options.filter = "no such kernel";
-    CHECK_THROWS_WITH(run_kernels(problem, options, MachineFacts{}), Catch::Contains("no such kernel"));
+    CHECK_THROWS_WITH(run_kernels(problem, options, MachineFacts{}),
+                      Catch::Contains("no such kernel"));
   } catch (const MissingSolver& missing) {
     CHECK_THAT(missing.what(), Catch::Contains("Google Benchmark"));
   }

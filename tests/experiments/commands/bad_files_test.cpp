@@ -1,4 +1,5 @@
-// Meshes and stored problems that are broken: the program says which file, where in it, and exits with 1.
+// Meshes and stored problems that are broken: the program says which file, where in it, and exits
+// with 1.
 
 #include <filesystem>
 #include <fstream>
@@ -18,7 +19,8 @@ const std::string tetrahedron_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 const std::string tetrahedron_faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 /// Two contacts with W = 1, q = -1, mu as given; Siconos' dense text.
-std::string dense_problem(const std::string& w_entry, const std::string& q_entry, const std::string& mu) {
+std::string dense_problem(const std::string& w_entry, const std::string& q_entry,
+                          const std::string& mu) {
   return "3\n1\n0 3 3\n3 3\n" + w_entry + " 0 0 0 1 0 0 0 1\n" + q_entry + " 0 0\n" + mu + "\n";
 }
 
@@ -34,7 +36,8 @@ TEST_CASE("a sound mesh is described, a broken one is exit code 1") {
   const auto sound = folder.write("sound.obj", tetrahedron_vertices + tetrahedron_faces);
   const ProgramResult described = ballast_program({"check", sound.string()});
   CHECK(described.status == 0);
-  CHECK_THAT(described.output, Catch::Contains("4 vertices, 6 edges, 4 faces, volume 0.166667 m^3"));
+  CHECK_THAT(described.output,
+             Catch::Contains("4 vertices, 6 edges, 4 faces, volume 0.166667 m^3"));
 
   struct Wrong {
     std::string name, text;
@@ -49,25 +52,30 @@ TEST_CASE("a sound mesh is described, a broken one is exit code 1") {
       {"open.obj", tetrahedron_vertices + "f 1 3 2\nf 1 2 4\nf 1 4 3\n", {}},
       {"inside_out.obj", tetrahedron_vertices + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", {}},
       {"one_face_turned.obj", tetrahedron_vertices + "f 1 2 3\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", {}},
-      {"three_on_an_edge.obj", tetrahedron_vertices + "v 1 1 1\n" + tetrahedron_faces + "f 1 2 5\nf 2 1 5\n", {}},
+      {"three_on_an_edge.obj",
+       tetrahedron_vertices + "v 1 1 1\n" + tetrahedron_faces + "f 1 2 5\nf 2 1 5\n",
+       {}},
       {"flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n" + tetrahedron_faces, {}},
       {"unused_vertex.obj", tetrahedron_vertices + "v 5 5 5\n" + tetrahedron_faces, {}},
       {"cut.stl", "solid grain\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n", {}},
-      {"binary_cut.stl", std::string(80, ' ') + std::string("\x04\x00\x00\x00", 4) + "too short", {}},
+      {"binary_cut.stl",
+       std::string(80, ' ') + std::string("\x04\x00\x00\x00", 4) + "too short",
+       {}},
   };
   for (const Wrong& wrong : wrongs) {
     INFO(wrong.name);
     std::vector<std::string> named = wrong.named;
     named.push_back(wrong.name);
-    check_failure(ballast_program({"check", folder.write(wrong.name, wrong.text).string()}), ExitCode::failure, named);
+    check_failure(ballast_program({"check", folder.write(wrong.name, wrong.text).string()}),
+                  ExitCode::failure, named);
     // the same mesh in a scene: the scene's line and the mesh's
-    const auto scene =
-        folder.write("scene.toml", "[[body]]\nshape = \"mesh\"\nmass = 1\nfile = \"" + wrong.name + "\"\n");
+    const auto scene = folder.write(
+        "scene.toml", "[[body]]\nshape = \"mesh\"\nmass = 1\nfile = \"" + wrong.name + "\"\n");
     named.insert(named.end(), {"scene.toml:4", "body.0.file = \"" + wrong.name + "\""});
     check_failure(ballast_program({"check", scene.string()}), ExitCode::failure, named);
   }
-  check_failure(ballast_program({"check", sound.string(), (folder.path() / "none.obj").string()}), ExitCode::failure,
-                {"none.obj"});
+  check_failure(ballast_program({"check", sound.string(), (folder.path() / "none.obj").string()}),
+                ExitCode::failure, {"none.obj"});
 }
 
 TEST_CASE("a stored problem is solved, a broken one is exit code 1") {
@@ -76,8 +84,8 @@ TEST_CASE("a stored problem is solved, a broken one is exit code 1") {
   const ProgramResult solved = ballast_program({"solve", sound.string()});
   INFO(solved.errors);
   CHECK(solved.status == 0);
-  CHECK_THAT(solved.output,
-             Catch::Contains("sound.dat") && Catch::Contains("reached_tolerance") && Catch::Contains("yes"));
+  CHECK_THAT(solved.output, Catch::Contains("sound.dat") && Catch::Contains("reached_tolerance") &&
+                                Catch::Contains("yes"));
 
   KnownSolution known = make_known_solution({});
   add_delassus_form(known.problem);
@@ -104,14 +112,16 @@ TEST_CASE("a stored problem is solved, a broken one is exit code 1") {
     const auto file = folder.write(name, text);
     for (const char* command : {"solve", "check"})
       check_failure(ballast_program({command, file.string()}), ExitCode::failure, {file.string()});
-    check_failure(ballast_program({"compare", file.string(), "--solvers", "pgs", "--output", (folder.path() / "out").string()}),
+    check_failure(ballast_program({"compare", file.string(), "--solvers", "pgs", "--output",
+                                   (folder.path() / "out").string()}),
                   ExitCode::failure, {file.string()});
   }
   std::filesystem::create_directory(folder.path() / "folder.hdf5");
-  check_failure(ballast_program({"check", (folder.path() / "folder.hdf5").string()}), ExitCode::failure,
-                {"folder.hdf5"});
+  check_failure(ballast_program({"check", (folder.path() / "folder.hdf5").string()}),
+                ExitCode::failure, {"folder.hdf5"});
   check_failure(ballast_program({"solve", "none.hdf5"}), ExitCode::failure, {"none.hdf5"});
-  check_failure(ballast_program({"solve", sound.string(), "none.dat"}), ExitCode::failure, {"none.dat"});
+  check_failure(ballast_program({"solve", sound.string(), "none.dat"}), ExitCode::failure,
+                {"none.dat"});
 }
 
 TEST_CASE("a solver that stops short is exit code 1, by the clock 3") {
@@ -126,9 +136,10 @@ TEST_CASE("a solver that stops short is exit code 1, by the clock 3") {
     more.insert(more.begin(), {"solve", file.string(), "--tolerance", "0"});
     return ballast_program(more);
   };
-  check_failure(solve({"--max-iterations", "3"}), ExitCode::failure, {"hard.hdf5", "iteration_limit"});
-  check_failure(solve({"--max-iterations", "1000000000", "--max-seconds", "0.05"}), ExitCode::time_limit,
-                {"hard.hdf5", "time_limit"});
+  check_failure(solve({"--max-iterations", "3"}), ExitCode::failure,
+                {"hard.hdf5", "iteration_limit"});
+  check_failure(solve({"--max-iterations", "1000000000", "--max-seconds", "0.05"}),
+                ExitCode::time_limit, {"hard.hdf5", "time_limit"});
   const ProgramResult json = solve({"--max-iterations", "3", "--json"});
   CHECK_THAT(json.output, Catch::StartsWith("[") && Catch::Contains("\"natural_map_rms\": "));
 }
@@ -159,7 +170,9 @@ TEST_CASE("a broken checkpoint is exit code 1") {
   };
   for (const auto& [name, text] : wrongs) {
     INFO(name);
-    check_failure(ballast_program({"check", folder.write(name, text).string()}), ExitCode::failure, {name});
+    check_failure(ballast_program({"check", folder.write(name, text).string()}), ExitCode::failure,
+                  {name});
   }
-  check_failure(ballast_program({"check", (folder.path() / "none.bin").string()}), ExitCode::failure, {"none.bin"});
+  check_failure(ballast_program({"check", (folder.path() / "none.bin").string()}),
+                ExitCode::failure, {"none.bin"});
 }

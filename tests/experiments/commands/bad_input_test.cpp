@@ -1,15 +1,15 @@
-// What a user can get wrong, through the program itself: one line that names it, and the exit code that says of which
-// kind it is.
+// What a user can get wrong, through the program itself: one line that names it, and the exit code
+// that says of which kind it is.
 
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "experiments/commands/command.hpp"
+#include "platform/error.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "platform/error.hpp"
 
 using namespace ballast;
 
@@ -19,8 +19,8 @@ const std::string wall = "[[wall]]\nnormal = [0, 0, 1]\n";
 const std::string body = "[[body]]\nshape = \"box\"\nsize = [1, 1, 1]\n";
 
 /// Ten steps of one box on a floor: a run of milliseconds.
-const std::string tiny_scene =
-    "[scene]\nname = \"tiny\"\nstep = 1e-3\nduration = 0.01\n" + wall + body + "mass = 1\nposition = [0, 0, 0.5]\n";
+const std::string tiny_scene = "[scene]\nname = \"tiny\"\nstep = 1e-3\nduration = 0.01\n" + wall +
+                               body + "mass = 1\nposition = [0, 0, 0.5]\n";
 
 }  // namespace
 
@@ -100,10 +100,12 @@ TEST_CASE("a bad scene is exit code 1 and names file, line, key and value") {
       {wall + "friction = -0.4\n", {":3:", "wall.0.friction = -0.4", ">= 0"}},
       {wall + "friction = nan\n", {":3:", "wall.0.friction = nan"}},
       {wall + "offset = inf\n", {"wall.0.offset = inf", "finite"}},
-      {wall + "motion = \"driven\"\nload = { f_max = 1, frequency = 1 }\n", {"wall.0.mass is missing"}},
+      {wall + "motion = \"driven\"\nload = { f_max = 1, frequency = 1 }\n",
+       {"wall.0.mass is missing"}},
       {wall + body, {"body.0.density is missing"}},
       {wall + body + "mass = 0\n", {"body.0.mass = 0", "> 0 [kg]"}},
-      {wall + "[[body]]\nshape = \"box\"\nsize = [1, 1, -1]\nmass = 1\n", {"body.0.size = [1, 1, -1]", "> 0"}},
+      {wall + "[[body]]\nshape = \"box\"\nsize = [1, 1, -1]\nmass = 1\n",
+       {"body.0.size = [1, 1, -1]", "> 0"}},
       {wall + "[[body]]\nshape = \"mesh\"\nfile = \"none.stl\"\nmass = 1\n",
        {"body.0.file = \"none.stl\"", "none.stl"}},
       {wall + body + "mass = 1\nname = \"wall_0\"\n", {"body.0.name = \"wall_0\"", "twice"}},
@@ -111,7 +113,8 @@ TEST_CASE("a bad scene is exit code 1 and names file, line, key and value") {
       {wall + "[contact]\nrestitution = 2\n", {"contact.restitution = 2"}},
       {wall + "[grains]\ncount = 5\n", {"wall", "[grains]"}},
       {"[grains]\ncount = -5\n[box]\nlength = 1\nwidth = 1\n", {"grains.count = -5", "from 1"}},
-      {"[grains]\ncount = 5\nmeshes = [\"none.obj\"]\n[box]\nlength = 1\nwidth = 1\n", {"grains.meshes", "none.obj"}},
+      {"[grains]\ncount = 5\nmeshes = [\"none.obj\"]\n[box]\nlength = 1\nwidth = 1\n",
+       {"grains.meshes", "none.obj"}},
       {wall + "[solver]\nname = \"oracle\"\n", {"oracle", "pgs"}},
   };
   const TemporaryFolder folder;
@@ -133,9 +136,12 @@ TEST_CASE("a bad override or an unknown scene is exit code 1") {
       {{"no_such_scene"}, {"no_such_scene", "vibrated_box"}},
       {{"no/such/scene.toml"}, {"no/such/scene.toml"}},
       {{folder.path().string()}, {folder.path().string()}},
-      {{"incline", "--set", "scene.step"}, {"incline.toml (--set)", "scene.step", "dotted.key=value"}},
-      {{"incline", "--set", "scene.stp=1e-3"}, {"incline.toml (--set)", "scene.stp = 0.001", "\"step\""}},
-      {{"incline", "--set", "scene.step=-1"}, {"incline.toml (--set)", "scene.step = -1", "> 0 [s]"}},
+      {{"incline", "--set", "scene.step"},
+       {"incline.toml (--set)", "scene.step", "dotted.key=value"}},
+      {{"incline", "--set", "scene.stp=1e-3"},
+       {"incline.toml (--set)", "scene.stp = 0.001", "\"step\""}},
+      {{"incline", "--set", "scene.step=-1"},
+       {"incline.toml (--set)", "scene.step = -1", "> 0 [s]"}},
       {{"incline", "--set", "body.7.mass=1"}, {"incline.toml (--set)", "body.7.mass=1", "below 1"}},
       {{"incline", "--set", "solver.name=oracle"}, {"oracle", "pgs"}},
       {{"vibrated_box", "--set", "drive.frequency=0"},
@@ -147,7 +153,8 @@ TEST_CASE("a bad override or an unknown scene is exit code 1") {
     arguments.insert(arguments.end(), {"--output", output});
     check_failure(ballast_program(arguments), ExitCode::failure, named);
   }
-  check_failure(ballast_program({"scenes", "no_such_scene"}), ExitCode::failure, {"no_such_scene", "vibrated_box"});
+  check_failure(ballast_program({"scenes", "no_such_scene"}), ExitCode::failure,
+                {"no_such_scene", "vibrated_box"});
 }
 
 TEST_CASE("a folder that can't take the run is exit code 1") {
@@ -155,36 +162,44 @@ TEST_CASE("a folder that can't take the run is exit code 1") {
   const std::string scene = folder.write("tiny.toml", tiny_scene).string();
   const std::string in_the_way = folder.write("file", "in the way").string();
   const std::string output = (folder.path() / "run").string();
-  check_failure(ballast_program({"run", scene, "--output", in_the_way + "/below"}), ExitCode::failure, {in_the_way});
-  check_failure(ballast_program({"run", scene, "--output", "/proc/ballast"}), ExitCode::failure, {"/proc/ballast"});
-  check_failure(ballast_program({"run", scene, "--output", output, "--resume"}), ExitCode::failure, {output, "no run"});
+  check_failure(ballast_program({"run", scene, "--output", in_the_way + "/below"}),
+                ExitCode::failure, {in_the_way});
+  check_failure(ballast_program({"run", scene, "--output", "/proc/ballast"}), ExitCode::failure,
+                {"/proc/ballast"});
+  check_failure(ballast_program({"run", scene, "--output", output, "--resume"}), ExitCode::failure,
+                {output, "no run"});
 
   const ProgramResult first = ballast_program({"run", scene, "--output", output, "--no-report"});
   INFO(first.errors);
   REQUIRE(first.status == 0);
-  check_failure(ballast_program({"run", scene, "--output", output}), ExitCode::failure, {output, "--overwrite"});
-  check_failure(ballast_program({"run", scene, "--output", output, "--resume", "--set", "body.0.mass=2"}),
-                ExitCode::failure, {output, "other settings"});
-  CHECK(ballast_program({"run", scene, "--output", output, "--overwrite", "--no-report"}).status == 0);
+  check_failure(ballast_program({"run", scene, "--output", output}), ExitCode::failure,
+                {output, "--overwrite"});
+  check_failure(
+      ballast_program({"run", scene, "--output", output, "--resume", "--set", "body.0.mass=2"}),
+      ExitCode::failure, {output, "other settings"});
+  CHECK(ballast_program({"run", scene, "--output", output, "--overwrite", "--no-report"}).status ==
+        0);
 
   // its checkpoint cut short
   const std::filesystem::path checkpoint = std::filesystem::path(output) / "checkpoint.bin";
   std::filesystem::resize_file(checkpoint, std::filesystem::file_size(checkpoint) / 2);
   check_failure(ballast_program({"run", scene, "--output", output, "--resume"}), ExitCode::failure,
                 {checkpoint.string(), "truncated"});
-  check_failure(ballast_program({"check", checkpoint.string()}), ExitCode::failure, {checkpoint.string(), "truncated"});
-  check_failure(ballast_program({"export", output, "--output", output + "/a.obj"}), ExitCode::failure,
+  check_failure(ballast_program({"check", checkpoint.string()}), ExitCode::failure,
                 {checkpoint.string(), "truncated"});
+  check_failure(ballast_program({"export", output, "--output", output + "/a.obj"}),
+                ExitCode::failure, {checkpoint.string(), "truncated"});
 }
 
 TEST_CASE("a disk that is full is exit code 1") {
   const TemporaryFolder folder;
   const std::string scene = folder.write("tiny.toml", tiny_scene).string();
-  check_failure(ballast_in_shell("\"$@\" > /dev/full", {"scenes"}), ExitCode::failure, {"standard output"});
+  check_failure(ballast_in_shell("\"$@\" > /dev/full", {"scenes"}), ExitCode::failure,
+                {"standard output"});
   // no file may become larger than one block of 512 bytes: what a full disk does to a write
   const std::string output = (folder.path() / "run").string();
-  const ProgramResult full =
-      ballast_in_shell("trap '' XFSZ; ulimit -f 1; exec \"$@\"", {"run", scene, "--output", output, "--no-report"});
+  const ProgramResult full = ballast_in_shell("trap '' XFSZ; ulimit -f 1; exec \"$@\"",
+                                              {"run", scene, "--output", output, "--no-report"});
   check_failure(full, ExitCode::failure, {output, "File too large"});
 }
 
@@ -198,10 +213,11 @@ TEST_CASE("a solver built without its library is exit code 4") {
   for (const SolverEntry& entry : solver_list()) {
     if (entry.make) continue;
     INFO(entry.name);
-    check_failure(ballast_program({"solve", "p.hdf5", "--solver", entry.name}), ExitCode::backend_missing,
-                  {entry.name});
-    check_failure(ballast_program({"check", "incline", "--set", std::string("solver.name=") + entry.name}),
+    check_failure(ballast_program({"solve", "p.hdf5", "--solver", entry.name}),
                   ExitCode::backend_missing, {entry.name});
+    check_failure(
+        ballast_program({"check", "incline", "--set", std::string("solver.name=") + entry.name}),
+        ExitCode::backend_missing, {entry.name});
   }
 }
 
@@ -213,7 +229,8 @@ TEST_CASE("every kind of failure has its exit code and its line") {
   };
   CHECK(outcome([] { return ExitCode::ok; }) == "0 ");
   CHECK(outcome([] { return ExitCode::time_limit; }) == "3 ");
-  CHECK(outcome([]() -> ExitCode { throw UsageError("two\nlines\n"); }) == "2 ballast: two lines\n");
+  CHECK(outcome([]() -> ExitCode { throw UsageError("two\nlines\n"); }) ==
+        "2 ballast: two lines\n");
   CHECK(outcome([]() -> ExitCode { throw Error("x"); }) == "1 ballast: x\n");
   CHECK(outcome([]() -> ExitCode { throw std::bad_alloc(); }) == "1 ballast: out of memory\n");
 }

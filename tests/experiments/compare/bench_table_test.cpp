@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/compare/bench_html.hpp"
 #include "experiments/compare/bench_report.hpp"
 #include "experiments/compare/reference_times.hpp"
-#include "experiments/run/manifest.hpp"
 #include "experiments/page/plot.hpp"
+#include "experiments/run/manifest.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/page_sample.hpp"
@@ -23,9 +23,11 @@ namespace {
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// Four cases, three solvers. a is fastest on 1 and 2, b on 3, nobody solves 4.
-const std::vector<std::vector<double>> hand_made = {{1.0, 2.0, inf}, {2.0, 8.0, 6.0}, {9.0, 3.0, inf}, {inf, inf, inf}};
+const std::vector<std::vector<double>> hand_made = {
+    {1.0, 2.0, inf}, {2.0, 8.0, 6.0}, {9.0, 3.0, inf}, {inf, inf, inf}};
 
-BenchRow row(const char* case_name, const char* solver, double seconds, Outcome outcome, int repeat = 0) {
+BenchRow row(const char* case_name, const char* solver, double seconds, Outcome outcome,
+             int repeat = 0) {
   BenchRow r;
   r.case_name = case_name;
   r.family = "hand";
@@ -79,9 +81,10 @@ TEST_CASE("Shifted geometric means") {
 }
 
 TEST_CASE("Cells: medians over repeats, solved only when every repeat is") {
-  const std::vector<BenchRow> rows = {row("x", "a", 3.0, Outcome::solved, 0), row("x", "a", 1.0, Outcome::solved, 1),
-                                      row("x", "a", 2.0, Outcome::solved, 2), row("x", "b", 1.0, Outcome::solved, 0),
-                                      row("x", "b", 60.0, Outcome::timeout, 1)};
+  const std::vector<BenchRow> rows = {
+      row("x", "a", 3.0, Outcome::solved, 0), row("x", "a", 1.0, Outcome::solved, 1),
+      row("x", "a", 2.0, Outcome::solved, 2), row("x", "b", 1.0, Outcome::solved, 0),
+      row("x", "b", 60.0, Outcome::timeout, 1)};
   const std::vector<BenchTable> tables = bench_tables(rows);
   REQUIRE(tables.size() == 1);
   const BenchCell& a = tables[0].cells[0][0];
@@ -113,14 +116,16 @@ TEST_CASE("Errors of histories fall, and their means are taken at equal times") 
 
 TEST_CASE("Reference times: names that differ by their suffixes, and ratios") {
   const TemporaryFolder folder;
-  const auto file = folder.write("ref.csv", "problem,ms_1e-4,solver_1e-4\nx-condensed.dat,500,NSGS\ny.dat,,\nz.dat,7,ADMM\n");
+  const auto file = folder.write(
+      "ref.csv", "problem,ms_1e-4,solver_1e-4\nx-condensed.dat,500,NSGS\ny.dat,,\nz.dat,7,ADMM\n");
   const std::vector<ReferenceTimes> reference = read_reference_times(file);
   REQUIRE(reference.size() == 1);
   CHECK(reference[0].tolerance == 1e-4);
   CHECK(reference[0].entries.at("x").seconds == Approx(0.5));
-  const std::vector<BenchRow> rows = {row("x.hdf5", "a", 2.0, Outcome::solved), row("x.hdf5", "auto", 1.0, Outcome::solved),
-                                      row("y.dat", "a", 3.0, Outcome::solved), row("y.dat", "auto", 4.0, Outcome::stopped),
-                                      row("x.hdf5", "siconos_nsgs", 0.1, Outcome::solved)};
+  const std::vector<BenchRow> rows = {
+      row("x.hdf5", "a", 2.0, Outcome::solved), row("x.hdf5", "auto", 1.0, Outcome::solved),
+      row("y.dat", "a", 3.0, Outcome::solved), row("y.dat", "auto", 4.0, Outcome::stopped),
+      row("x.hdf5", "siconos_nsgs", 0.1, Outcome::solved)};
   const std::vector<BenchTable> tables = bench_tables(rows);
   const std::vector<ReferenceComparison> compared = compare_with_reference(tables, reference);
   REQUIRE(compared.size() == 1);
@@ -130,7 +135,8 @@ TEST_CASE("Reference times: names that differ by their suffixes, and ratios") {
   CHECK(compared[0].missing.empty());
   CHECK(compared[0].ratio(0.0, 60.0, false) == Approx(2.0));
   CHECK(compared[0].ratio(0.5, 60.0, true) == Approx(1.5));
-  for (const char* bad : {"problem,ms\n", "problem,ms_1e-4,solver\nx,fast,me\n", "problem,ms_1e-4,solver\nx,1\n", ""})
+  for (const char* bad :
+       {"problem,ms\n", "problem,ms_1e-4,solver\nx,fast,me\n", "problem,ms_1e-4,solver\nx,1\n", ""})
     CHECK_THROWS_AS(read_reference_times(folder.write("bad.csv", bad)), Error);
 }
 
@@ -151,10 +157,12 @@ TEST_CASE("The page of a bench is well-formed and has what it promises") {
   CHECK(page.find("x&amp;&lt;1") != std::string::npos);
   CHECK(page.find("the judge denies it") != std::string::npos);
   if (!gnuplot_version().empty())
-    for (const char* name : {"performance_cold_1e-04", "data_cold_1e-04", "cost_contacts_cold_1e-04", "case_y2_cold", "family_hand_cold"}) {
+    for (const char* name : {"performance_cold_1e-04", "data_cold_1e-04",
+                             "cost_contacts_cold_1e-04", "case_y2_cold", "family_hand_cold"}) {
       INFO(name);
       CHECK(page.find(std::string("<figure id=\"") + name) != std::string::npos);
-      CHECK(std::filesystem::file_size(folder.path() / "figures" / (std::string(name) + ".pdf")) > 1000);
+      CHECK(std::filesystem::file_size(folder.path() / "figures" / (std::string(name) + ".pdf")) >
+            1000);
     }
   CHECK(bench_summary(rows, {}).find("CLAIMS DENIED") != std::string::npos);
 }

@@ -1,4 +1,5 @@
-// The bench: crashes and timeouts are rows, nobody is believed without the judge, and what is there is not done again.
+// The bench: crashes and timeouts are rows, nobody is believed without the judge, and what is there
+// is not done again.
 
 #include "experiments/compare/bench.hpp"
 
@@ -10,8 +11,8 @@
 #include <cmath>
 #include <thread>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/compare/bench_options.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/interrupt.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
@@ -45,13 +46,19 @@ struct Hang {
   }
 };
 struct Lie {
-  void operator()(const FrictionProblem&, Solved& solved) const { solved.reason = StopReason::reached_tolerance; }
+  void operator()(const FrictionProblem&, Solved& solved) const {
+    solved.reason = StopReason::reached_tolerance;
+  }
 };
 struct Throw {
-  void operator()(const FrictionProblem&, Solved&) const { throw std::runtime_error("thrown on purpose"); }
+  void operator()(const FrictionProblem&, Solved&) const {
+    throw std::runtime_error("thrown on purpose");
+  }
 };
 struct Refuse {
-  void operator()(const FrictionProblem&, Solved&) const { throw UnsupportedProblem("refuse: on purpose"); }
+  void operator()(const FrictionProblem&, Solved&) const {
+    throw UnsupportedProblem("refuse: on purpose");
+  }
 };
 struct NoMemory {
   void operator()(const FrictionProblem&, Solved&) const { throw std::bad_alloc(); }
@@ -59,7 +66,8 @@ struct NoMemory {
 
 template <typename Act>
 BenchSolver misbehaving(const char* name) {
-  return {name, ContactLaw::coulomb, []() -> std::unique_ptr<Solver> { return std::make_unique<Misbehaving<Act>>(); }};
+  return {name, ContactLaw::coulomb,
+          []() -> std::unique_ptr<Solver> { return std::make_unique<Misbehaving<Act>>(); }};
 }
 
 BenchOptions options_in(const fs::path& folder, std::vector<BenchSolver> solvers) {
@@ -80,8 +88,10 @@ std::vector<BenchCase> one_case() { return bench_cases({"known:contacts=12,bodie
 
 TEST_CASE("Whatever a backend does becomes a row") {
   const TemporaryFolder folder;
-  BenchOptions options = options_in(folder.path(), {misbehaving<Crash>("crash"), misbehaving<Lie>("lie"), misbehaving<Throw>("throw"),
-                                                    misbehaving<Refuse>("refuse"), misbehaving<NoMemory>("no_memory")});
+  BenchOptions options =
+      options_in(folder.path(),
+                 {misbehaving<Crash>("crash"), misbehaving<Lie>("lie"), misbehaving<Throw>("throw"),
+                  misbehaving<Refuse>("refuse"), misbehaving<NoMemory>("no_memory")});
   options.solvers.push_back(bench_solvers("pgs")[0]);
   options.tolerances = {1e-6};
   const std::vector<BenchRow> rows = run_bench(one_case(), options, go_on);
@@ -106,7 +116,8 @@ TEST_CASE("Whatever a backend does becomes a row") {
 
 TEST_CASE("A backend that does not stop is stopped") {
   const TemporaryFolder folder;
-  BenchOptions options = options_in(folder.path(), {misbehaving<Hang>("hang"), bench_solvers("pgs")[0]});
+  BenchOptions options =
+      options_in(folder.path(), {misbehaving<Hang>("hang"), bench_solvers("pgs")[0]});
   options.tolerances = {1e-4};
   options.max_seconds = 0.2;
   const std::vector<BenchRow> rows = run_bench(one_case(), options, go_on);
@@ -121,7 +132,8 @@ TEST_CASE("The measure of Siconos is reached through falling tolerances on the n
   BenchOptions options = options_in(folder.path(), bench_solvers("pgs,nncg"));
   options.measure = Measure::fclib;
   options.tolerances = {1e-3, 1e-7};
-  const std::vector<BenchRow> rows = run_bench(bench_cases({"known:contacts=20,bodies=10,seed=2,mass_ratio=100"}), options, go_on);
+  const std::vector<BenchRow> rows =
+      run_bench(bench_cases({"known:contacts=20,bodies=10,seed=2,mass_ratio=100"}), options, go_on);
   REQUIRE(rows.size() == 4);
   for (const BenchRow& row : rows) {
     INFO(row.solver << " " << row.tolerance);
@@ -129,7 +141,8 @@ TEST_CASE("The measure of Siconos is reached through falling tolerances on the n
     CHECK(row.error == row.fclib);
     CHECK(row.fclib <= row.tolerance);
     CHECK(row.rounds >= 1);
-    for (size_t k = 1; k < row.history.size(); ++k) CHECK(row.history[k].seconds >= row.history[k - 1].seconds);
+    for (size_t k = 1; k < row.history.size(); ++k)
+      CHECK(row.history[k].seconds >= row.history[k - 1].seconds);
   }
   CHECK(rows[2].rounds > 1);  // 1e-7 is more than one fall of 1e-3
 }
@@ -173,10 +186,11 @@ TEST_CASE("A bench goes on after kill -9") {
   waitpid(child, &status, 0);
   REQUIRE(WIFSIGNALED(status));
   int made = 0;
-  const std::vector<BenchRow> rows = run_bench(cases, options, [&](const BenchRow&, bool was_there, size_t, size_t) {
-    made += !was_there;
-    return true;
-  });
+  const std::vector<BenchRow> rows =
+      run_bench(cases, options, [&](const BenchRow&, bool was_there, size_t, size_t) {
+        made += !was_there;
+        return true;
+      });
   CHECK(rows.size() == 30);
   CHECK(made == 23);
   for (const BenchRow& row : rows) CHECK(row.outcome == Outcome::solved);
@@ -197,7 +211,8 @@ TEST_CASE("An interrupt stops the bench after the row under way") {
   }
   const InterruptGuard forgotten;  // for the tests that follow
   CHECK(rows.size() == 2);
-  CHECK(read_whole_file(folder.path() / "manifest.json").find("the same command goes on") != std::string::npos);
+  CHECK(read_whole_file(folder.path() / "manifest.json").find("the same command goes on") !=
+        std::string::npos);
 }
 
 TEST_CASE("A row survives its file to the last bit") {
@@ -232,13 +247,16 @@ TEST_CASE("Cases: families, names, and what is refused") {
   CHECK(made[0].load().facts.velocity_scale == 9.81e-3);
   for (const BenchCase& c : made) CHECK_NOTHROW(c.load());
   const TemporaryFolder folder;
-  for (const std::string word : {"known:bodies=x", "known:colour=3", "known:contacts=0", "known:bodies", "stress:", "stress:stack,weight=3", "stress:stack,rows=2", "/no/such/file.dat"})
+  for (const std::string word :
+       {"known:bodies=x", "known:colour=3", "known:contacts=0", "known:bodies",
+        "stress:", "stress:stack,weight=3", "stress:stack,rows=2", "/no/such/file.dat"})
     CHECK_THROWS_AS(bench_cases({word}), BenchCaseError);
   CHECK_THROWS_AS(bench_cases({folder.path().string()}), BenchCaseError);
   CHECK_THROWS_AS(bench_cases({folder.write("notes.txt", "").string()}), BenchCaseError);
   folder.write("b.dat", "3 0 0 0 0");
   folder.write("a.dat", "3 0 0 0 0");
-  const std::vector<BenchCase> cases = bench_cases({(folder.path() / "*.dat").string(), folder.path().string()});
+  const std::vector<BenchCase> cases =
+      bench_cases({(folder.path() / "*.dat").string(), folder.path().string()});
   REQUIRE(cases.size() == 4);
   CHECK(cases[0].name == "a.dat");
   CHECK(cases[2].name == "a.dat (2)");

@@ -1,13 +1,14 @@
-// The closed loop from one start: equal settings are equal bits, looser tolerances are farther from the reference.
+// The closed loop from one start: equal settings are equal bits, looser tolerances are farther from
+// the reference.
 
 #include "experiments/compare/live.hpp"
 
 #include <iostream>
 #include <sstream>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/compare/bench_options.hpp"
 #include "experiments/run/manifest.hpp"
+#include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/page_sample.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -20,7 +21,8 @@ namespace {
 LiveOptions small_live(const std::filesystem::path& folder) {
   LiveOptions options;
   options.scene = "vibrated_box_small";
-  options.overrides = {"grains.count=12", "box.length=0.12", "box.width=0.12", "control_volume.margin_x=0.02"};
+  options.overrides = {"grains.count=12", "box.length=0.12", "box.width=0.12",
+                       "control_volume.margin_x=0.02"};
   options.solvers = bench_solvers("pgs,nncg");
   options.tolerances = {1e-2, 1e-8};
   options.start = 2e-3;
@@ -58,7 +60,8 @@ TEST_CASE("One start under several backends and tolerances") {
     CHECK(t.frame_times.back() == Approx(6e-3));
     CHECK(t.positions.front() == comparison.trajectories[0].positions.front());  // the same start
     CHECK(t.positions.back().size() == 36);
-    for (const StepRecord& step : t.steps) CHECK(step.error_rms <= t.tolerance * comparison.velocity_scale);
+    for (const StepRecord& step : t.steps)
+      CHECK(step.error_rms <= t.tolerance * comparison.velocity_scale);
   }
   REQUIRE(comparison.reference == 2);  // pgs 1e-8: tightest, first listed
   const Trajectory& reference = comparison.trajectories[2];
@@ -69,7 +72,8 @@ TEST_CASE("One start under several backends and tolerances") {
   CHECK(other_backend < loose);
   // from the files now: the same
   REQUIRE(again.trajectories.size() == 4);
-  for (size_t k = 0; k < 4; ++k) CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
+  for (size_t k = 0; k < 4; ++k)
+    CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
 
   Manifest("compare --live x", {}, "key").write(folder.path() / "manifest.json");
   write_live_report(folder.path(), comparison);

@@ -3,8 +3,8 @@
 #include "experiments/export/vtp_file.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
-#include "tests/support/sample_run.hpp"
 #include "tests/experiments/export/xml_sample.hpp"
+#include "tests/support/sample_run.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
@@ -15,7 +15,8 @@ std::vector<ContactPoint> sample_contacts(int count) {
   Random random(8);
   std::vector<ContactPoint> contacts;
   for (int c = 0; c < count; ++c)
-    contacts.push_back({0, c + 1, 7, random.unit_vector(), random.unit_vector(), random.uniform(-1, 1)});
+    contacts.push_back(
+        {0, c + 1, 7, random.unit_vector(), random.unit_vector(), random.uniform(-1, 1)});
   return contacts;
 }
 
@@ -31,7 +32,8 @@ std::vector<std::string> pvd_files(const fs::path& file) {
 
 TEST_CASE("formats are found by name") {
   CHECK(export_format("engines") == ExportFormat::engines);
-  CHECK_THAT(run_error([] { export_format("OBJ"); }), Contains("'OBJ'") && Contains("obj, text, vtp, engines"));
+  CHECK_THAT(run_error([] { export_format("OBJ"); }),
+             Contains("'OBJ'") && Contains("obj, text, vtp, engines"));
 }
 
 TEST_CASE("obj: a grain comes back as a mesh, in its place") {
@@ -44,7 +46,8 @@ TEST_CASE("obj: a grain comes back as a mesh, in its place") {
   const PrincipalShape read = to_principal_frame(read_mesh(folder.path() / "grain.obj"));
   CHECK(read.volume == Approx(system.bodies[0].volume).epsilon(1e-12));
   CHECK((read.pose.position - state.pose[0].position).norm() < 1e-14);
-  CHECK((read.inertia * 2700.0 - system.bodies[0].inertia).norm() < 1e-12 * system.bodies[0].inertia.norm());
+  CHECK((read.inertia * 2700.0 - system.bodies[0].inertia).norm() <
+        1e-12 * system.bodies[0].inertia.norm());
 }
 
 TEST_CASE("obj: every grain is an object of its own vertices") {
@@ -76,7 +79,8 @@ TEST_CASE("obj: every grain is an object of its own vertices") {
   for (int b = 0; b < 3; ++b) {
     const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
     CHECK(faces[b] == static_cast<size_t>(shape.face_count()));
-    for (int v = 0; v < shape.vertex_count(); ++v) CHECK(vertices[first[b] + v] == state.pose[b] * shape.vertex(v));
+    for (int v = 0; v < shape.vertex_count(); ++v)
+      CHECK(vertices[first[b] + v] == state.pose[b] * shape.vertex(v));
   }
 }
 
@@ -114,10 +118,13 @@ TEST_CASE("vtp: well-formed, with the faces of all grains") {
   const fs::path file = folder.path() / "state.vtp";
   export_state(system, state, ExportFormat::vtp, file);
   const auto elements = parse_xml(file_bytes(file));
-  const auto points = vtk_array<float>(elements, "Points"), speed = vtk_array<float>(elements, "speed"),
-             velocity = vtk_array<float>(elements, "velocity"), mass = vtk_array<float>(elements, "mass");
+  const auto points = vtk_array<float>(elements, "Points"),
+             speed = vtk_array<float>(elements, "speed"),
+             velocity = vtk_array<float>(elements, "velocity"),
+             mass = vtk_array<float>(elements, "mass");
   const auto connectivity = vtk_array<std::int32_t>(elements, "connectivity"),
-             offsets = vtk_array<std::int32_t>(elements, "offsets"), grain = vtk_array<std::int32_t>(elements, "grain");
+             offsets = vtk_array<std::int32_t>(elements, "offsets"),
+             grain = vtk_array<std::int32_t>(elements, "grain");
   size_t point = 0, face = 0;
   std::int32_t begin = 0;
   for (int b = 0; b < 3; ++b) {
@@ -127,15 +134,18 @@ TEST_CASE("vtp: well-formed, with the faces of all grains") {
       CHECK(speed.at(face) == static_cast<float>(state.velocity[b].norm()));
       CHECK(velocity.at(3 * face + 2) == static_cast<float>(state.velocity[b].z()));
       REQUIRE(offsets.at(face) - begin == static_cast<std::int32_t>(shape.face(f).size()));
-      for (const int v : shape.face(f)) CHECK(connectivity.at(begin++) == static_cast<std::int32_t>(point) + v);
+      for (const int v : shape.face(f))
+        CHECK(connectivity.at(begin++) == static_cast<std::int32_t>(point) + v);
     }
     for (const Vec3& vertex : shape.vertices()) {
       const Vec3 expected = state.pose[b] * vertex;
-      for (int k = 0; k < 3; ++k) CHECK(points.at(3 * point + k) == static_cast<float>(expected[k]));
+      for (int k = 0; k < 3; ++k)
+        CHECK(points.at(3 * point + k) == static_cast<float>(expected[k]));
       ++point;
     }
   }
-  CHECK((points.size() == 3 * point && offsets.size() == face && connectivity.size() == static_cast<size_t>(begin)));
+  CHECK((points.size() == 3 * point && offsets.size() == face &&
+         connectivity.size() == static_cast<size_t>(begin)));
   for (const XmlElement& element : elements) {
     if (element.name != "Piece") continue;
     CHECK(element.attributes.at("NumberOfPoints") == std::to_string(point));
@@ -161,7 +171,8 @@ TEST_CASE("engines: what the benches' own reader would read") {
     REQUIRE((scene >> vertex_count >> face_count >> r >> mass));
     for (double& value : head) REQUIRE((scene >> value));
     const RigidBody& body = system.bodies[b];
-    CHECK((mass == body.mass && r == body.shape.polyhedron->circumradius() && Vec3(head) == body.inertia));
+    CHECK((mass == body.mass && r == body.shape.polyhedron->circumradius() &&
+           Vec3(head) == body.inertia));
     std::vector<Vec3> vertices(vertex_count);
     for (Vec3& vertex : vertices) REQUIRE((scene >> vertex[0] >> vertex[1] >> vertex[2]));
     double volume = 0.0;
@@ -181,7 +192,8 @@ TEST_CASE("engines: what the benches' own reader would read") {
   CHECK_FALSE((scene >> rest || motion >> rest));
 
   state.pose[6].position.x() = 0.58;  // the driven wall
-  CHECK_THAT(run_error([&] { export_state(system, state, ExportFormat::engines, file); }), Contains("square"));
+  CHECK_THAT(run_error([&] { export_state(system, state, ExportFormat::engines, file); }),
+             Contains("square"));
   system.bodies.pop_back();
   CHECK_THAT(run_error([&] { export_state(system, state, ExportFormat::engines, file); }),
              Contains("four upright walls"));
@@ -190,7 +202,8 @@ TEST_CASE("engines: what the benches' own reader would read") {
 TEST_CASE("a file that cannot be written is an error that names it") {
   const MechanicalSystem system = sample_system();
   const MotionState state = sample_state(system, 3);
-  for (const ExportFormat format : {ExportFormat::obj, ExportFormat::text, ExportFormat::vtp, ExportFormat::engines}) {
+  for (const ExportFormat format :
+       {ExportFormat::obj, ExportFormat::text, ExportFormat::vtp, ExportFormat::engines}) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "out";
     fs::create_symlink("/dev/full", file.string() + ".tmp");
@@ -198,7 +211,8 @@ TEST_CASE("a file that cannot be written is an error that names it") {
                Contains(file.string()) && Contains("No space left"));
     CHECK(fs::is_empty(folder.path()));
     const fs::path nowhere = folder.path() / "no" / "out";
-    CHECK_THAT(run_error([&] { export_state(system, state, format, nowhere); }), Contains(nowhere.string()));
+    CHECK_THAT(run_error([&] { export_state(system, state, format, nowhere); }),
+               Contains(nowhere.string()));
   }
 }
 
@@ -210,7 +224,8 @@ TEST_CASE("a ParaView series goes on after the step of the checkpoint") {
   const fs::path paraview = folder.path() / "paraview";
   {
     ParaviewSeries series(folder.path(), system, 0);
-    for (long step : {0, 50, 100, 150}) series.add(sample_state(system, step), contacts, impulses, 2e-4);
+    for (long step : {0, 50, 100, 150})
+      series.add(sample_state(system, step), contacts, impulses, 2e-4);
   }
   fs::remove(paraview / "grains.pvd");  // died before it was written
   put_bytes(paraview / "grains_00000200.vtp.tmp", "half a frame");
@@ -223,7 +238,8 @@ TEST_CASE("a ParaView series goes on after the step of the checkpoint") {
     series.add(sample_state(system, 150));
   }
   CHECK(pvd_files(paraview / "grains.pvd") ==
-        std::vector<std::string>{"grains_00000000.vtp 0", "grains_00000050.vtp 0.01", "grains_00000100.vtp 0.02",
+        std::vector<std::string>{"grains_00000000.vtp 0", "grains_00000050.vtp 0.01",
+                                 "grains_00000100.vtp 0.02",
                                  "grains_00000150.vtp 0.030000000000000002"});
   CHECK(pvd_files(paraview / "contacts.pvd").size() == 3);
   CHECK(file_bytes(paraview / "grains_of_salt.vtp") == "not ours");
@@ -242,7 +258,8 @@ TEST_CASE("contacts as points with forces") {
       impulses.push_back(2e-4 * (3.0 * contact.normal + contact.normal.unitOrthogonal()));
     write_contacts_vtp(file, 0.1, contacts, impulses, 2e-4);
     const auto elements = parse_xml(file_bytes(file));
-    const auto normal_force = vtk_array<float>(elements, "normal_force"), points = vtk_array<float>(elements, "Points"),
+    const auto normal_force = vtk_array<float>(elements, "normal_force"),
+               points = vtk_array<float>(elements, "Points"),
                force = vtk_array<float>(elements, "force"), gap = vtk_array<float>(elements, "gap");
     REQUIRE((points.size() == 3u * count && gap.size() == 1u * count));
     CHECK(vtk_array<std::int32_t>(elements, "offsets").size() == static_cast<size_t>(count));

@@ -16,8 +16,8 @@ struct XmlElement {
   std::map<std::string, std::string> attributes;
 };
 
-/// All elements in the order of their opening tags. Fails the test unless the text is well-formed: one root, every tag
-/// closed in order, attributes quoted.
+/// All elements in the order of their opening tags. Fails the test unless the text is well-formed:
+/// one root, every tag closed in order, attributes quoted.
 inline std::vector<XmlElement> parse_xml(const std::string& xml) {
   std::vector<XmlElement> elements;
   std::vector<size_t> open;
@@ -52,7 +52,8 @@ inline std::vector<XmlElement> parse_xml(const std::string& xml) {
       const size_t equals = inside.find("=\"", position), quote = inside.find('"', equals + 2);
       REQUIRE((equals != std::string::npos && quote != std::string::npos));
       const std::string name = inside.substr(position + 1, equals - position - 1);
-      REQUIRE(element.attributes.emplace(name, inside.substr(equals + 2, quote - equals - 2)).second);
+      REQUIRE(
+          element.attributes.emplace(name, inside.substr(equals + 2, quote - equals - 2)).second);
       position = inside.find(' ', quote);
     }
     if (open.empty()) ++roots;
@@ -72,7 +73,8 @@ inline std::string decode_base64(const std::string& text) {
     int given = 0;
     for (size_t k = 0; k < 4; ++k) {
       const size_t digit = digits.find(text[at + k]);
-      if (text[at + k] != '=') REQUIRE((digit != std::string::npos && given == static_cast<int>(k)));
+      if (text[at + k] != '=')
+        REQUIRE((digit != std::string::npos && given == static_cast<int>(k)));
       given += text[at + k] != '=';
       group = group << 6 | (text[at + k] == '=' ? 0u : static_cast<std::uint32_t>(digit));
     }
@@ -86,7 +88,8 @@ template <class Number>
 std::vector<Number> vtk_array(const std::vector<XmlElement>& elements, const std::string& name) {
   for (const XmlElement& element : elements) {
     const auto found = element.attributes.find("Name");
-    if (element.name != "DataArray" || found == element.attributes.end() || found->second != name) continue;
+    if (element.name != "DataArray" || found == element.attributes.end() || found->second != name)
+      continue;
     REQUIRE(element.attributes.at("type") == (std::is_same_v<Number, float> ? "Float32" : "Int32"));
     const std::string bytes = decode_base64(element.text);
     std::uint64_t length = 0;

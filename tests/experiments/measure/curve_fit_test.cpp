@@ -33,7 +33,8 @@ TEST_CASE("a straight line gives back its parameters") {
 }
 
 TEST_CASE("a line through scattered points: worked by hand") {
-  // means 1.5 and 2; Sxx = 5, Sxy = 3, slope 0.6; residuals -0.1, 0.3, -0.3, 0.1 (squares 0.2), total 2
+  // means 1.5 and 2; Sxx = 5, Sxy = 3, slope 0.6; residuals -0.1, 0.3, -0.3, 0.1 (squares 0.2),
+  // total 2
   const std::vector<double> x{0, 1, 2, 3}, y{1, 2, 2, 3};
   const LineFit fit = fit_line(x, y);
   CHECK(fit.slope == Approx(0.6));
@@ -45,7 +46,8 @@ TEST_CASE("a line through scattered points: worked by hand") {
 TEST_CASE("an exponential gives back its parameters, rising, falling, flat, far from the origin") {
   const double rate = GENERATE(100.0, -40.0, 0.0, 3000.0), origin = GENERATE(0.0, -6e-3, 2e-2);
   const auto x = grid(origin, origin + 2e-3, 200);
-  const ExponentialFit fit = fit_exponential(x, map(x, [&](double t) { return 500.0 * std::exp(rate * (t - origin)); }));
+  const ExponentialFit fit =
+      fit_exponential(x, map(x, [&](double t) { return 500.0 * std::exp(rate * (t - origin)); }));
   // rate is found to within the golden section's last interval, about 1e-8 of 1/range
   CHECK(fit.rate == Approx(rate).epsilon(1e-6).margin(1e-3));
   CHECK(fit.at(origin) == Approx(500.0).epsilon(1e-6));
@@ -55,11 +57,13 @@ TEST_CASE("an exponential gives back its parameters, rising, falling, flat, far 
 TEST_CASE("an exponential through noise is the least-squares one: no neighbour is better") {
   Random random(3);
   const auto x = grid(0.0, 2e-3, 150);
-  const auto y = map(x, [&](double t) { return 500.0 * std::exp(300.0 * t) + 80.0 * random.uniform(-1.0, 1.0); });
+  const auto y = map(
+      x, [&](double t) { return 500.0 * std::exp(300.0 * t) + 80.0 * random.uniform(-1.0, 1.0); });
   const ExponentialFit fit = fit_exponential(x, y);
   const auto squares = [&](double amplitude, double rate) {
     double sum = 0.0;
-    for (size_t k = 0; k < x.size(); ++k) sum += std::pow(y[k] - amplitude * std::exp(rate * x[k]), 2);
+    for (size_t k = 0; k < x.size(); ++k)
+      sum += std::pow(y[k] - amplitude * std::exp(rate * x[k]), 2);
     return sum;
   };
   const double least = squares(fit.amplitude, fit.rate);
@@ -89,7 +93,8 @@ TEST_CASE("the low-pass keeps lines, kills what is faster than its window, shift
   const auto x = grid(0.0, 1.0, 201);
   const auto line = map(x, [](double t) { return 3.0 - 2.0 * t; });
   const auto smooth_line = low_pass(line, 21);
-  for (size_t k = 20; k + 20 < line.size(); ++k) CHECK(smooth_line[k] == Approx(line[k]).epsilon(1e-12));
+  for (size_t k = 20; k + 20 < line.size(); ++k)
+    CHECK(smooth_line[k] == Approx(line[k]).epsilon(1e-12));
 
   std::vector<double> alternating(201), bump(201, 0.0);
   for (size_t k = 0; k < alternating.size(); ++k) alternating[k] = k % 2 ? 1.0 : -1.0;

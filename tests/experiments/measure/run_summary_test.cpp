@@ -45,7 +45,8 @@ TEST_CASE("strokes: against every pair of samples") {
   for (const WallPeriod& period : summary.wall.periods) {
     double rise = 0.0;
     for (size_t i = period.first; i < period.last; ++i)
-      for (size_t j = i; j < period.last; ++j) rise = std::max(rise, steps[j].wall_x - steps[i].wall_x);
+      for (size_t j = i; j < period.last; ++j)
+        rise = std::max(rise, steps[j].wall_x - steps[i].wall_x);
     CHECK(period.rise == rise);
     CHECK(steps[period.peak].wall_x == period.x_peak);
     CHECK(period.x_peak - period.x_before == rise);
@@ -67,7 +68,8 @@ TEST_CASE("phases: outwards active, inwards passive, at rest under the load jamm
   for (size_t k = 1001; k < steps.size(); ++k) {
     if (std::abs(steps[k].wall_v) > 0.1 * wall.v_peak) {
       // smoothing blurs half a window on both sides of a jump of the velocity
-      const bool at_jump = k + 10 >= steps.size() || std::abs(steps[k + 10].wall_v - steps[k].wall_v) > 0.5 * wall.v_peak;
+      const bool at_jump = k + 10 >= steps.size() ||
+                           std::abs(steps[k + 10].wall_v - steps[k].wall_v) > 0.5 * wall.v_peak;
       if (at_jump) continue;
       ++judged;
       wrong += wall.phase[k] != (steps[k].wall_v > 0.0 ? WallPhase::active : WallPhase::passive);
@@ -100,8 +102,10 @@ TEST_CASE("a wall that swings under the load's maximum is not jammed") {
   const SyntheticBox box;
   auto steps = synthetic_box(box);
   for (StepRecord& step : steps) {
-    step.wall_v = 0.1 * std::sin(2.0 * std::numbers::pi * box.frequency * step.time);  // largest speed at the load's maximum
-    step.wall_x = -0.1 / (2.0 * std::numbers::pi * box.frequency) * std::cos(2.0 * std::numbers::pi * box.frequency * step.time);
+    step.wall_v = 0.1 * std::sin(2.0 * std::numbers::pi * box.frequency *
+                                 step.time);  // largest speed at the load's maximum
+    step.wall_x = -0.1 / (2.0 * std::numbers::pi * box.frequency) *
+                  std::cos(2.0 * std::numbers::pi * box.frequency * step.time);
   }
   const RunSummary summary = summarise(steps, facts_of(box));
   CHECK(summary.wall.jammed_periods == 0);
@@ -115,12 +119,15 @@ TEST_CASE("first contraction, compaction and the prefactor of Eq. 3") {
   const SyntheticBox box = bare_box();
   const RunSummary summary = summarise(synthetic_box(box), facts_of(box));
   CHECK(summary.contraction.size == Approx(box.first_contraction + box.ratchet).epsilon(0.01));
-  CHECK(summary.contraction.time90 == Approx(0.15 * std::acos(-0.8) / std::numbers::pi).margin(3e-3));
+  CHECK(summary.contraction.time90 ==
+        Approx(0.15 * std::acos(-0.8) / std::numbers::pi).margin(3e-3));
   CHECK(summary.compaction.initial == box.solid_initial);
   CHECK(summary.compaction.reference == Approx(box.solid_initial + box.solid_jump));
   // by the linear gain, and by the ratchet through -0.4 x
-  CHECK(summary.compaction.per_period.slope == Approx(box.solid_gain + 0.4 * box.ratchet).epsilon(1e-3));
-  CHECK(summary.compaction.relative_gain == Approx(summary.compaction.per_period.slope / summary.compaction.reference));
+  CHECK(summary.compaction.per_period.slope ==
+        Approx(box.solid_gain + 0.4 * box.ratchet).epsilon(1e-3));
+  CHECK(summary.compaction.relative_gain ==
+        Approx(summary.compaction.per_period.slope / summary.compaction.reference));
   CHECK(summary.compaction.rate == Approx(5.0 * summary.compaction.relative_gain));
   const double eq3 = 0.5 * (214.0 * 9.81 / 6300.0) * (9.81 / 25.0);
   CHECK(summary.prefactor == Approx(summary.rise.mean / eq3));
@@ -186,7 +193,8 @@ TEST_CASE("a record without wall or packing has the rest") {
   CHECK(std::isnan(summary.rise.mean));
   CHECK(summary.energy.dissipated == Approx(2.0));  // all of the cube's 2 J
   CHECK(summary.energy.kinetic_last == 0.0);
-  CHECK(summary.energy.relative != summary.energy.relative);  // no work at all: nothing to compare with
+  CHECK(summary.energy.relative !=
+        summary.energy.relative);  // no work at all: nothing to compare with
 }
 
 TEST_CASE("too short for a period, or nothing at all") {
@@ -204,7 +212,8 @@ TEST_CASE("too short for a period, or nothing at all") {
 
 TEST_CASE("columns that are all NaN are not known, never zero") {
   auto steps = synthetic_box();
-  for (StepRecord& step : steps) step.wall_x = step.penetration_max = step.solid_fraction = step.seconds_solve = not_known;
+  for (StepRecord& step : steps)
+    step.wall_x = step.penetration_max = step.solid_fraction = step.seconds_solve = not_known;
   RunFacts facts = facts_of({});
   facts.has_packing = true;
   const RunSummary summary = summarise(steps, facts);
@@ -220,7 +229,8 @@ TEST_CASE("columns that are all NaN are not known, never zero") {
 TEST_CASE("single NaN samples are passed over") {
   auto steps = synthetic_box();
   const RunSummary clean = summarise(steps, facts_of({}));
-  for (size_t k = 1500; k < 5000; k += 500) steps[k].wall_x = steps[k].wall_force = steps[k].error_rms = not_known;
+  for (size_t k = 1500; k < 5000; k += 500)
+    steps[k].wall_x = steps[k].wall_force = steps[k].error_rms = not_known;
   const RunSummary summary = summarise(steps, facts_of({}));
   CHECK(summary.rise.mean == Approx(clean.rise.mean).epsilon(1e-2));
   CHECK(summary.error_mean_relative == Approx(clean.error_mean_relative).epsilon(1e-2));

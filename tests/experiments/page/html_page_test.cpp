@@ -14,7 +14,9 @@ using Catch::Matchers::Contains;
 TEST_CASE("text from outside is escaped") {
   CHECK(escaped("<b a=\"1\">&'").markup == "&lt;b a=&quot;1&quot;&gt;&amp;&#39;");
   CHECK(escaped("λ ≤ 1 µm").markup == "λ ≤ 1 µm");
-  CHECK(escaped(std::string("a\0b\x1b", 4)).markup == "a\xef\xbf\xbd" "b\xef\xbf\xbd");
+  CHECK(escaped(std::string("a\0b\x1b", 4)).markup ==
+        "a\xef\xbf\xbd"
+        "b\xef\xbf\xbd");
   // cut, overlong, surrogate, beyond Unicode, a lone continuation
   for (const char* broken : {"\xe2\x82", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\x80"}) {
     const std::string markup = escaped(std::string(broken) + "<").markup;
@@ -49,14 +51,19 @@ TEST_CASE("verdicts") {
 
 TEST_CASE("an inlined SVG has ids of its own and nothing that points outside") {
   const std::string svg =
-      "<?xml version=\"1.0\"?>\n<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\"><title>gnuplot</title><desc>made by http://elsewhere</desc><!-- see http://there -->"
-      "<path id='gpPt0' stroke='rgb(  0, 114, 178)'/><g id=\"b\"/><use xlink:href='#gpPt0'/><g filter='url(#b)'/></svg>";
+      "<?xml version=\"1.0\"?>\n<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" "
+      "\"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\"><title>gnuplot</title><desc>made by "
+      "http://elsewhere</desc><!-- see http://there -->"
+      "<path id='gpPt0' stroke='rgb(  0, 114, 178)'/><g id=\"b\"/><use xlink:href='#gpPt0'/><g "
+      "filter='url(#b)'/></svg>";
   const std::string markup = inline_svg(svg, "fig03", "x < y & t").markup;
-  CHECK_THAT(markup, !Contains("<?xml") && !Contains("DOCTYPE") && !Contains("elsewhere") && !Contains("there"));
-  CHECK_THAT(markup, Contains("id='fig03-gpPt0'") && Contains("id=\"fig03-b\"") && Contains("href='#fig03-gpPt0'") &&
-                         Contains("url(#fig03-b)"));
-  CHECK_THAT(markup, Contains("rgb(0,114,178)") && Contains("<title>x &lt; y &amp; t</title>") && Contains("role=\"img\""));
+  CHECK_THAT(markup, !Contains("<?xml") && !Contains("DOCTYPE") && !Contains("elsewhere") &&
+                         !Contains("there"));
+  CHECK_THAT(markup, Contains("id='fig03-gpPt0'") && Contains("id=\"fig03-b\"") &&
+                         Contains("href='#fig03-gpPt0'") && Contains("url(#fig03-b)"));
+  CHECK_THAT(markup, Contains("rgb(0,114,178)") && Contains("<title>x &lt; y &amp; t</title>") &&
+                         Contains("role=\"img\""));
 }
 
 TEST_CASE("tables") {
@@ -64,7 +71,8 @@ TEST_CASE("tables") {
   table.head = {{"what"}, {"m"}};
   table.rows = {{escaped("a<b"), number(2.0)}};
   table.is_number = {false, true};
-  CHECK_THAT(to_html(table).markup, Contains("<th>what</th>") && Contains("<td>a&lt;b</td><td class=\"n\">2.00</td>"));
+  CHECK_THAT(to_html(table).markup,
+             Contains("<th>what</th>") && Contains("<td>a&lt;b</td><td class=\"n\">2.00</td>"));
 }
 
 TEST_CASE("words for a shell") {

@@ -3,10 +3,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "platform/atomic_file.hpp"
-#include "platform/program.hpp"
 #include "experiments/measure/curve_fit.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/program.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/environment_guard.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 
-Curve curve(std::vector<double> x, std::vector<double> y, const std::string& title, Mark mark = Mark::line) {
+Curve curve(std::vector<double> x, std::vector<double> y, const std::string& title,
+            Mark mark = Mark::line) {
   Curve result;
   result.x = std::move(x);
   result.y = std::move(y);
@@ -50,7 +51,8 @@ TEST_CASE("a figure becomes an SVG, and a script that makes it again") {
   const std::string svg = render_svg(simple_figure(), figures);
   CHECK_THAT(svg, Contains("<svg") && Contains("a title") && Contains("(mm)"));
   CHECK(read_whole_file(figures / "simple.svg") == svg);
-  const ProgramResult again = run_child("gnuplot", {"-d", (figures / "simple.gnuplot").string()}, 30.0);
+  const ProgramResult again =
+      run_child("gnuplot", {"-d", (figures / "simple.gnuplot").string()}, 30.0);
   CHECK(again.output == svg);
   CHECK(std::distance(fs::directory_iterator(figures), fs::directory_iterator()) == 2);
 }
@@ -71,13 +73,15 @@ TEST_CASE("every kind of mark, logarithms, references, several panels with diffe
   figure.panels[1].x_label = "another axis";
   const TemporaryFolder folder;
   const std::string svg = render_svg(figure, folder.path());
-  CHECK_THAT(svg, Contains("bound") && Contains("there") && Contains("another axis") && Contains("bare points"));
+  CHECK_THAT(svg, Contains("bound") && Contains("there") && Contains("another axis") &&
+                      Contains("bare points"));
 }
 
 TEST_CASE("labels cannot run commands or end their string") {
   const TemporaryFolder folder;
   const fs::path trap = folder.path() / "trap";
-  const std::string hostile = "it's `touch " + trap.string() + "`'; system('touch " + trap.string() + "') #\n!touch " + trap.string();
+  const std::string hostile = "it's `touch " + trap.string() + "`'; system('touch " +
+                              trap.string() + "') #\n!touch " + trap.string();
   Figure figure = simple_figure(plain_text(hostile));
   figure.panels[0].curves[0].title = hostile;
   figure.panels[0].lines = {{2.0, hostile, false, Ink::grey}};
@@ -116,8 +120,9 @@ TEST_CASE("a failing gnuplot is one clear error, and no stale figure stays") {
   folder.write("simple.svg", "an older one");
   const EnvironmentGuard guard("PATH", path.path().string() + ":/bin:/usr/bin");
   write_false_gnuplot(path, "echo 'line 3: out of ink' >&2; exit 3");
-  CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path()),
-                    Contains("figure simple") && Contains("(3)") && Contains("out of ink") && !Contains("\n"));
+  CHECK_THROWS_WITH(
+      render_svg(simple_figure(), folder.path()),
+      Contains("figure simple") && Contains("(3)") && Contains("out of ink") && !Contains("\n"));
   CHECK_FALSE(fs::exists(folder.path() / "simple.svg"));
   write_false_gnuplot(path, "echo '<svg>'");
   CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path()), Contains("incomplete"));
@@ -131,7 +136,8 @@ TEST_CASE("a gnuplot that hangs is ended") {
   SECTION("silent") { write_false_gnuplot(path, "exec sleep 60"); }
   SECTION("with its outputs closed") { write_false_gnuplot(path, "exec sleep 60 >&- 2>&-"); }
   const auto begin = std::chrono::steady_clock::now();
-  CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path(), 0.3), Contains("figure simple") && Contains("was ended"));
+  CHECK_THROWS_WITH(render_svg(simple_figure(), folder.path(), 0.3),
+                    Contains("figure simple") && Contains("was ended"));
   CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
 }
 

@@ -57,7 +57,8 @@ TEST_CASE("f_max stays the same in newtons where gravity is varied") {
     if (point.sweep != Sweep::gravity) continue;
     const PlannedRun& run = campaign.runs[point.run].planned;
     const Scene scene = read_scene(find_scene(run.scene), run.overrides);
-    CHECK(scene.drive.f_max_over_weight * scene.gravity.norm() == Approx(base_force * base_gravity));
+    CHECK(scene.drive.f_max_over_weight * scene.gravity.norm() ==
+          Approx(base_force * base_gravity));
     CHECK(scene.gravity.norm() == Approx(point.value));
   }
 }
@@ -77,5 +78,6 @@ TEST_CASE("each figure asks for its own runs, all for all of them") {
     }
     CHECK(runs == runs_for(campaign, target).size());
   }
-  CHECK_THROWS_WITH(runs_for(campaign, "fig2"), Catch::Contains("'fig2'") && Catch::Contains("fig13"));
+  CHECK_THROWS_WITH(runs_for(campaign, "fig2"),
+                    Catch::Contains("'fig2'") && Catch::Contains("fig13"));
 }

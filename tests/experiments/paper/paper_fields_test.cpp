@@ -46,7 +46,8 @@ void add_box(MechanicalSystem& system, MotionState& state, const Vec3& size) {
   }
 }
 
-ContactPoint contact(int a, int b, std::uint64_t feature, const Vec3& normal, const Vec3& position) {
+ContactPoint contact(int a, int b, std::uint64_t feature, const Vec3& normal,
+                     const Vec3& position) {
   return {a, b, feature, normal, position, 0.0};
 }
 
@@ -66,8 +67,9 @@ WallModel loose_packing() {
 
 TEST_CASE("points of one pair are one contact with the sum of their forces") {
   const Vec3 n = Vec3::UnitX();
-  const std::vector<ContactPoint> contacts{contact(0, 1, 1, n, Vec3(0, 0, 0)), contact(0, 1, 2, n, Vec3(0, 0, 1)),
-                                           contact(0, 2, 1, n, Vec3::Zero()), contact(1, 2, 7, n, Vec3::Zero())};
+  const std::vector<ContactPoint> contacts{
+      contact(0, 1, 1, n, Vec3(0, 0, 0)), contact(0, 1, 2, n, Vec3(0, 0, 1)),
+      contact(0, 2, 1, n, Vec3::Zero()), contact(1, 2, 7, n, Vec3::Zero())};
   const std::vector<Vec3> impulses{Vec3(1, 0.5, 0), Vec3(3, 0, 0), Vec3::Zero(), Vec3(2, 0, 0)};
   const auto pairs = pair_forces(contacts, impulses, 0.5);
   REQUIRE(pairs.size() == 2);  // the open one is left out
@@ -87,8 +89,10 @@ TEST_CASE("stress of a two-grain chain between two walls") {
   const std::vector<ContactPoint> contacts{contact(0, 1, 1, Vec3::UnitX(), Vec3(2, 1, 1)),
                                            contact(left, 0, 1, Vec3::UnitX(), Vec3(0, 1, 1)),
                                            contact(right, 1, 1, -Vec3::UnitX(), Vec3(4, 1, 1))};
-  const std::vector<Vec3> impulses{Vec3(force * h, 0, 0), Vec3(force * h, 0, 0), Vec3(-force * h, 0, 0)};
-  const Mat3 stress = stress_tensor(system, state, pair_forces(contacts, impulses, h), box_volume(system, state));
+  const std::vector<Vec3> impulses{Vec3(force * h, 0, 0), Vec3(force * h, 0, 0),
+                                   Vec3(-force * h, 0, 0)};
+  const Mat3 stress =
+      stress_tensor(system, state, pair_forces(contacts, impulses, h), box_volume(system, state));
   // a force of 10 N through the section of 4 m^2 everywhere
   CHECK(stress(0, 0) == Approx(2.5));
   CHECK((stress - 2.5 * Vec3::UnitX() * Vec3::UnitX().transpose()).norm() < 1e-12);
@@ -108,10 +112,13 @@ TEST_CASE("the major direction is found at every angle, and has no sign") {
   }
 }
 
-TEST_CASE("vorticity of a rigid rotation is twice its angular velocity, of a drift and a shear what they are") {
+TEST_CASE(
+    "vorticity of a rigid rotation is twice its angular velocity, of a drift and a shear what they "
+    "are") {
   Random random(11);
   std::vector<Vec3> places;
-  for (int k = 0; k < 50; ++k) places.emplace_back(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+  for (int k = 0; k < 50; ++k)
+    places.emplace_back(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
   MotionState state;
   const MechanicalSystem system = points_at(places, state);
   const Vec3 spin(0.3, 1.5, -0.7), drift(1, 2, 3);
@@ -125,7 +132,8 @@ TEST_CASE("vorticity of a rigid rotation is twice its angular velocity, of a dri
 TEST_CASE("coordination, rattlers, sliding and anisotropy of a small chain") {
   // three grains in a row between the walls carry the force, a fourth hangs on one contact
   MotionState state;
-  MechanicalSystem system = points_at({Vec3(1, 1, 1), Vec3(2, 1, 1), Vec3(3, 1, 1), Vec3(2, 1, 1.5)}, state);
+  MechanicalSystem system =
+      points_at({Vec3(1, 1, 1), Vec3(2, 1, 1), Vec3(3, 1, 1), Vec3(2, 1, 1.5)}, state);
   add_box(system, state, Vec3(4, 2, 2));
   const int left = 4 + wall_x_min, right = 4 + wall_x_max;
   const Vec3 x = Vec3::UnitX();
@@ -157,19 +165,23 @@ TEST_CASE("Eq. 2 with a constant force of the packing has the motion that can be
   model.wall_mass = 50.0;
   model.load = {0.0, 1000.0, 5.0};
   const ModelMotion motion = integrate(model);
-  // m x'' = F - A + A sin wt from rest at t0 (A sin wt0 = A - F): v = ((F - A)(t - t0) - A (cos wt - cos wt0)/w)/m
-  const double force = 100.0, half = 500.0, w = 10.0 * std::numbers::pi, t0 = std::asin((half - force) / half) / w;
+  // m x'' = F - A + A sin wt from rest at t0 (A sin wt0 = A - F): v = ((F - A)(t - t0) - A (cos wt
+  // - cos wt0)/w)/m
+  const double force = 100.0, half = 500.0, w = 10.0 * std::numbers::pi,
+               t0 = std::asin((half - force) / half) / w;
   double worst = 0.0;
   int compared = 0;
   for (size_t k = 0; k < motion.time.size() && !(motion.x[k] < 0.0); ++k) {
     const double t = motion.time[k];
     if (t < t0 || (compared > 10 && motion.x[k] <= 0.0)) continue;
     const double dt = t - t0, cosine = std::cos(w * t0);
-    const double v = ((force - half) * dt - half / w * (std::cos(w * t) - cosine)) / model.wall_mass;
-    const double x =
-        ((force - half) * 0.5 * dt * dt - half / w * ((std::sin(w * t) - std::sin(w * t0)) / w - cosine * dt)) /
-        model.wall_mass;
-    worst = std::max({worst, std::abs(motion.x[k] - x) / motion.rise, std::abs(motion.v[k] - v) / motion.speed_in});
+    const double v =
+        ((force - half) * dt - half / w * (std::cos(w * t) - cosine)) / model.wall_mass;
+    const double x = ((force - half) * 0.5 * dt * dt -
+                      half / w * ((std::sin(w * t) - std::sin(w * t0)) / w - cosine * dt)) /
+                     model.wall_mass;
+    worst = std::max({worst, std::abs(motion.x[k] - x) / motion.rise,
+                      std::abs(motion.v[k] - v) / motion.speed_in});
     ++compared;
   }
   CHECK(compared > 1000);
@@ -182,8 +194,9 @@ TEST_CASE("Eq. 2 with a constant force of the packing has the motion that can be
 TEST_CASE("a motion taken up on its way goes on as the whole one does") {
   const WallModel model = loose_packing();
   const ModelMotion whole = integrate(model);
-  const auto k = static_cast<size_t>(std::find_if(whole.v.begin(), whole.v.end(), [&](double v) { return v > 0.01; }) -
-                                     whole.v.begin());
+  const auto k = static_cast<size_t>(
+      std::find_if(whole.v.begin(), whole.v.end(), [&](double v) { return v > 0.01; }) -
+      whole.v.begin());
   REQUIRE(k < whole.v.size());
   const ModelMotion part = integrate(model, ModelStart{whole.time[k], whole.x[k], whole.v[k]});
   CHECK(part.time.front() == Approx(whole.time[k]));

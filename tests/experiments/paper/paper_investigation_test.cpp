@@ -4,10 +4,10 @@
 #include <set>
 
 #include "experiments/paper/investigation.hpp"
+#include "experiments/paper/make_campaign.hpp"
 #include "experiments/paper/sections.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "experiments/paper/make_campaign.hpp"
 
 using namespace ballast;
 
@@ -30,10 +30,11 @@ Campaign written_campaign(const std::filesystem::path& results) {
   const std::set<double> frequencies{5.0, 7.0, 10.0, 15.0, 20.0, 60.0};
   for (const CampaignPoint& point : campaign.points) {
     using enum Sweep;
-    const bool is_wanted = (point.sweep == frequency && frequencies.contains(point.value)) || point.sweep == force ||
-                           point.sweep == gravity || point.sweep == rough_frequency ||
-                           (point.sweep == size && point.seed == 1) ||
-                           ((point.sweep == iterations || point.sweep == iterations_fast) && point.value <= 20.0);
+    const bool is_wanted =
+        (point.sweep == frequency && frequencies.contains(point.value)) || point.sweep == force ||
+        point.sweep == gravity || point.sweep == rough_frequency ||
+        (point.sweep == size && point.seed == 1) ||
+        ((point.sweep == iterations || point.sweep == iterations_fast) && point.value <= 20.0);
     const PlannedRun& run = campaign.runs[point.run].planned;
     if (is_wanted && !is_finished(results, run)) write_run(results, run, known_law());
   }
@@ -62,7 +63,8 @@ SweepValue value_of(double value, std::vector<int> seeds, const std::vector<doub
 
 TEST_CASE("exponents between two values compare every sample with itself") {
   // ten times the displacement in the second sample: no error of the exponent
-  const SweepValue a = value_of(5.0, {1, 2, 3}, {4.0, 40.0, 7.0}), b = value_of(10.0, {1, 2}, {1.0, 10.0});
+  const SweepValue a = value_of(5.0, {1, 2, 3}, {4.0, 40.0, 7.0}),
+                   b = value_of(10.0, {1, 2}, {1.0, 10.0});
   const SampleMean exponent = exponent_between(a, b, &Observation::rise);
   CHECK(exponent.samples == 2);
   CHECK(exponent.mean == Approx(-2.0));
@@ -72,7 +74,8 @@ TEST_CASE("exponents between two values compare every sample with itself") {
   CHECK(std::isnan(exponent_between(a, value_of(10.0, {4}, {1.0}), &Observation::rise).mean));
 }
 
-TEST_CASE("the investigation finds exponents, the cause that mends them, and what similarity demands") {
+TEST_CASE(
+    "the investigation finds exponents, the cause that mends them, and what similarity demands") {
   const TemporaryFolder folder;
   PaperData data(written_campaign(folder.path()), folder.path());
   const std::vector<Variant> variants = variants_of(data);
@@ -82,20 +85,25 @@ TEST_CASE("the investigation finds exponents, the cause that mends them, and wha
     REQUIRE(variant.at(60.0));
     return exponent_between(*variant.at(10.0), *variant.at(60.0), quantity).mean;
   };
-  CHECK(exponent("nothing (mean over samples)", &Observation::rise) == Approx(-2.0 + excess).margin(0.01));
-  CHECK(exponent("nothing (mean over samples)", &Observation::speed_in) == Approx(-1.0 + excess).margin(0.01));
+  CHECK(exponent("nothing (mean over samples)", &Observation::rise) ==
+        Approx(-2.0 + excess).margin(0.01));
+  CHECK(exponent("nothing (mean over samples)", &Observation::speed_in) ==
+        Approx(-1.0 + excess).margin(0.01));
   CHECK(exponent("friction 0.8", &Observation::rise) == Approx(-2.0).margin(0.01));
   CHECK(exponent("20 iterations a step", &Observation::rise) == Approx(-2.0 + excess).margin(0.01));
   CHECK(variant_of(variants, "friction 0.8").reference == 1);
 
-  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency), sizes = data.sweep(Sweep::size);
+  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency),
+                                sizes = data.sweep(Sweep::size);
   REQUIRE(frequencies.size() == 6);
   for (size_t k = 1; k < frequencies.size(); ++k)
     CHECK(exponent_between(frequencies[k - 1], frequencies[k], &Observation::rise).mean ==
           Approx(-2.0 + excess).margin(0.02));
-  const double full = interpolated(frequencies[1], frequencies[2], 10.0 * std::sqrt(0.5), &Observation::rise).mean;
+  const double full =
+      interpolated(frequencies[1], frequencies[2], 10.0 * std::sqrt(0.5), &Observation::rise).mean;
   REQUIRE(sizes.size() == 3);
-  for (const size_t half : {1, 2}) CHECK(sizes[half].mean(&Observation::rise).mean == Approx(0.5 * full).epsilon(0.01));
+  for (const size_t half : {1, 2})
+    CHECK(sizes[half].mean(&Observation::rise).mean == Approx(0.5 * full).epsilon(0.01));
 
   const std::vector<PaperSection> sections = make_sections(data, "investigation");
   REQUIRE(sections.size() == 1);
@@ -109,7 +117,9 @@ TEST_CASE("the investigation finds exponents, the cause that mends them, and wha
              Catch::StartsWith("−α/2 − β = 1.90") && Catch::Contains("measured: 1.90"));
   CHECK_THAT(row_of(sections, "compaction fastest near 10 Hz").ballast,
              Catch::Contains("at 10 Hz in the paper’s window"));
-  CHECK_THAT(row_of(sections, "half-scale box = full box at ν/√2 (similarity), with the lid’s 1 cm as it is").ballast,
+  CHECK_THAT(row_of(sections,
+                    "half-scale box = full box at ν/√2 (similarity), with the lid’s 1 cm as it is")
+                 .ballast,
              Catch::Contains("Δx_max") && Catch::Contains("v_max"));
 }
 
@@ -118,7 +128,8 @@ TEST_CASE("the investigation has its own target, and the looser deposit stands i
   std::set<size_t> runs;
   for (const size_t run : runs_for(campaign, "investigation")) runs.insert(run);
   for (const CampaignPoint& point : campaign.points)
-    if (point.sweep == Sweep::loose_frequency || point.sweep == Sweep::time_step_fast) CHECK(runs.contains(point.run));
+    if (point.sweep == Sweep::loose_frequency || point.sweep == Sweep::time_step_fast)
+      CHECK(runs.contains(point.run));
   CHECK(runs.size() < campaign.runs.size());
 }
 
@@ -126,7 +137,8 @@ TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
   const std::vector<double> x{1, 2, 4, 8}, on{1, 0.25, 0.0625, 1.0 / 64.0};
   const auto shifted = [&](double by) {
     std::vector<double> y;
-    for (size_t k = 0; k < x.size(); ++k) y.push_back(on[k] * std::exp(k == 0 || k == 3 ? by : -by));
+    for (size_t k = 0; k < x.size(); ++k)
+      y.push_back(on[k] * std::exp(k == 0 || k == 3 ? by : -by));
     return y;
   };
   const auto chi2 = [&](const std::vector<double>& y, double relative) {
@@ -135,7 +147,8 @@ TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
     return reduced_chi2(fit_power(x, y), x, y, error);
   };
   CHECK(chi2(on, 0.1) == Approx(0.0).margin(1e-12));
-  CHECK(chi2(shifted(0.1), 0.1) == Approx(2.0));  // four residuals of one error each over two degrees of freedom
+  CHECK(chi2(shifted(0.1), 0.1) ==
+        Approx(2.0));  // four residuals of one error each over two degrees of freedom
   CHECK(chi2(shifted(0.1), 0.01) == Approx(200.0));
   CHECK(std::isnan(chi2(on, not_known)));
   CHECK(std::isnan(reduced_chi2(fit_power(x, on), x, on, std::vector<double>{0.1, 0.1})));

@@ -1,13 +1,13 @@
-// `ballast paper`, stopped by its time limit and killed with -9 at random moments: the same records, stored states and
-// report as an undisturbed one.
+// `ballast paper`, stopped by its time limit and killed with -9 at random moments: the same
+// records, stored states and report as an undisturbed one.
 
 #include <map>
 #include <sstream>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/paper/make_campaign.hpp"
 #include "experiments/run/run.hpp"
 #include "geometry/shape/random.hpp"
+#include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/killed_program.hpp"
 #include "tests/support/same_bits.hpp"
@@ -18,11 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One sample of a few grains: 5000 steps of Fig. 3's run, whose whole states are kept at record.state_rate.
+/// One sample of a few grains: 5000 steps of Fig. 3's run, whose whole states are kept at
+/// record.state_rate.
 CampaignSettings small_campaign() {
   CampaignSettings settings;
   settings.scene = "vibrated_box_small";
-  settings.overrides = {"grains.count=20", "box.length=0.14", "box.width=0.14", "record.checkpoint_seconds=0.02"};
+  settings.overrides = {"grains.count=20", "box.length=0.14", "box.width=0.14",
+                        "record.checkpoint_seconds=0.02"};
   settings.seeds = 1;
   settings.iterations = 5;
   return settings;
@@ -65,9 +67,12 @@ std::string report_of(const fs::path& results) {
 
 }  // namespace
 
-TEST_CASE("`ballast paper` stopped by its time limit and killed at random ends with the same records and report") {
+TEST_CASE(
+    "`ballast paper` stopped by its time limit and killed at random ends with the same records and "
+    "report") {
   const TemporaryFolder folder;
-  const fs::path whole = folder.path() / "whole", killed = folder.path() / "killed", log = folder.path() / "log";
+  const fs::path whole = folder.path() / "whole", killed = folder.path() / "killed",
+                 log = folder.path() / "log";
   const Campaign campaign = make_campaign(small_campaign());
   const PlannedRun& run = campaign.runs[campaign.motion.front()].planned;
   const auto begin = Clock::now();
@@ -76,7 +81,8 @@ TEST_CASE("`ballast paper` stopped by its time limit and killed at random ends w
   const auto states = stored_states(folder_of(whole, run));
   REQUIRE(states.size() > 90);  // 1 s at 100 Hz
 
-  const int limited = run_and_kill(200.0, fig3(killed, {"--max-seconds", std::to_string(0.3 * undisturbed)}), log);
+  const int limited =
+      run_and_kill(200.0, fig3(killed, {"--max-seconds", std::to_string(0.3 * undisturbed)}), log);
   CHECK((limited == static_cast<int>(ExitCode::time_limit) || limited == 0));
   CHECK(fs::exists(killed / "report" / "README.md"));
   Random random(11);

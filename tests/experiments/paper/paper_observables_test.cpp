@@ -30,7 +30,8 @@ TEST_CASE("a power law's interval covers the truth as often as it says") {
   CHECK(covered < 0.98 * trials);
 }
 
-TEST_CASE("an exact power law is found exactly, and points that cannot have a logarithm are left out") {
+TEST_CASE(
+    "an exact power law is found exactly, and points that cannot have a logarithm are left out") {
   const std::vector<double> x{1, 2, 4, 8, 0, 3}, y{3, 0.75, 0.1875, 3.0 / 64.0, 5, -1};
   const PowerFit fit = fit_power(x, y);
   CHECK(fit.samples == 4);
@@ -73,7 +74,8 @@ TEST_CASE("Eq. 5 is found again, with an interval around its corner") {
   Random random(5);
   const double gain = 0.0025, critical = 9.0;
   for (const double f : nu)
-    rate.push_back((f < critical ? gain * f : gain * critical * critical / f) * (1.0 + random.uniform(-0.03, 0.03)));
+    rate.push_back((f < critical ? gain * f : gain * critical * critical / f) *
+                   (1.0 + random.uniform(-0.03, 0.03)));
   const PeakedRate fit = fit_peaked_rate(nu, rate);
   CHECK(fit.gain == Approx(gain).epsilon(0.04));
   CHECK(fit.critical == Approx(critical).epsilon(0.05));
@@ -115,7 +117,8 @@ TEST_CASE("observables of a record made from formulas") {
   CHECK(seen.speed_in == Approx(in).epsilon(0.02));
   CHECK(seen.eq3() == Approx(0.5 * box.grain_mass * 9.81 / box.f_max * 9.81 / 25.0));
   const double one = box.grain_mass / 100.0;
-  CHECK(seen.eq3_one_grain() == Approx(one / (one + box.wall_mass) * one * 9.81 / box.f_max * 9.81 / 25.0));
+  CHECK(seen.eq3_one_grain() ==
+        Approx(one / (one + box.wall_mass) * one * 9.81 / box.f_max * 9.81 / 25.0));
 }
 
 TEST_CASE("a window cuts periods that end after it, and what is too short is not known") {

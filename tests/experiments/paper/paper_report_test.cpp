@@ -1,14 +1,14 @@
-// From folders of finished runs to the report: records with known exponents, and partial data, which are said and never
-// an error.
+// From folders of finished runs to the report: records with known exponents, and partial data,
+// which are said and never an error.
 
 #include <cmath>
 #include <fstream>
 
+#include "experiments/paper/make_campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "experiments/paper/make_campaign.hpp"
 
 using namespace ballast;
 
@@ -19,19 +19,21 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
   const Campaign campaign = make_campaign(settings);
   for (const char* target : {"fig11", "fig13"})
     for (const size_t run : runs_for(campaign, target))
-      if (!is_finished(folder.path(), campaign.runs[run].planned)) write_run(folder.path(), campaign.runs[run].planned);
+      if (!is_finished(folder.path(), campaign.runs[run].planned))
+        write_run(folder.path(), campaign.runs[run].planned);
   PaperData data(campaign, folder.path());
   std::vector<PaperSection> sections;
   for (const char* target : {"fig9", "fig10", "fig11", "fig13"})
     sections.push_back(make_sections(data, target).front());
   for (const PaperSection& section : sections) CHECK(section.notes.empty());
-  for (const char* claim :
-       {"Δx_max ~ ν^−2", "v_max ~ ν^−1", "Δx_max ~ f_max^−1", "Δx_max ~ g^2", "Δx_max ~ m/(m + m_w)",
-        "one line through all sweeps", "maximum at ν_c ~ 10 Hz", "Δρ_max/ρ₀ ~ 0.0025"})
+  for (const char* claim : {"Δx_max ~ ν^−2", "v_max ~ ν^−1", "Δx_max ~ f_max^−1", "Δx_max ~ g^2",
+                            "Δx_max ~ m/(m + m_w)", "one line through all sweeps",
+                            "maximum at ν_c ~ 10 Hz", "Δρ_max/ρ₀ ~ 0.0025"})
     CHECK(row_of(sections, claim).agreement == Agreement::agrees);
   CHECK_THAT(row_of(sections, "Δx_max ~ ν^−2").ballast, Catch::StartsWith("−2.0"));
   CHECK_THAT(row_of(sections, "Δx_max ~ g^2").ballast, Catch::StartsWith("2.0"));
-  CHECK_THAT(row_of(sections, "C ~ 0.01").ballast, Catch::StartsWith("C = 0.0") && Catch::Contains("m all grains"));
+  CHECK_THAT(row_of(sections, "C ~ 0.01").ballast,
+             Catch::StartsWith("C = 0.0") && Catch::Contains("m all grains"));
   const auto values = data.sweep(Sweep::frequency);
   for (const SweepValue& value : values)
     CHECK(value.samples.front().rise / value.samples.front().eq3() ==
@@ -52,7 +54,9 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
   }
   int written = 0;
   for (const CampaignPoint& point : campaign.points) {
-    if (point.sweep != Sweep::frequency || point.value < 5.0 || point.value > 10.0 || point.seed > 2) continue;
+    if (point.sweep != Sweep::frequency || point.value < 5.0 || point.value > 10.0 ||
+        point.seed > 2)
+      continue;
     write_run(folder.path(), campaign.runs[point.run].planned);
     ++written;
   }
@@ -72,9 +76,11 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
   const std::string markdown = text("README.md"), html = text("paper.html");
   CHECK_THAT(markdown, Catch::Contains("**PARTIAL: 3 of 10 frequencies, 6 of 30 runs.**") &&
                            Catch::Contains("figures/fig09.svg") &&
-                           Catch::Contains("6 of " + std::to_string(campaign.runs.size()) + " runs are finished"));
+                           Catch::Contains("6 of " + std::to_string(campaign.runs.size()) +
+                                           " runs are finished"));
   CHECK_THAT(html, Catch::Contains("PARTIAL: 3 of 10 frequencies"));
-  CHECK_THAT(text("data/fig09.csv"), Catch::StartsWith("panel,y_label,curve,x_label,x,y,y_error,y_low\n"));
+  CHECK_THAT(text("data/fig09.csv"),
+             Catch::StartsWith("panel,y_label,curve,x_label,x,y,y_error,y_low\n"));
 }
 
 TEST_CASE("numbers are written as a person writes them") {

@@ -1,5 +1,6 @@
 #pragma once
-// Folders of finished runs whose walls follow Eq. 3, or another law that is known: what the sections must find again.
+// Folders of finished runs whose walls follow Eq. 3, or another law that is known: what the
+// sections must find again.
 
 #include <cmath>
 #include <filesystem>
@@ -9,28 +10,29 @@
 #include <string>
 #include <vector>
 
-#include "experiments/run/manifest.hpp"
 #include "experiments/paper/section.hpp"
-#include "experiments/run/run_folder.hpp"
 #include "experiments/plans/plan.hpp"
+#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/synthetic_run.hpp"
 
 namespace ballast {
 
-/// Delta x_max = C m/(m + m_w) m g/f_max g/nu^2 (L nu^2/g)^(excess/2), L the box's length: what rigid grains may do.
-/// Exponents are -2 + excess of nu and 2 - excess/2 of g at constant f_max; of v_max -1 + excess of nu.
+/// Delta x_max = C m/(m + m_w) m g/f_max g/nu^2 (L nu^2/g)^(excess/2), L the box's length: what
+/// rigid grains may do. Exponents are -2 + excess of nu and 2 - excess/2 of g at constant f_max; of
+/// v_max -1 + excess of nu.
 struct PaperLaw {
   double prefactor = 0.02;
   std::function<double(const Scene&)> excess = [](const Scene&) { return 0.0; };
 };
 
-/// A wall that goes out by the law in every period and back, jammed for half of it; solid fraction with a gain per
-/// period as Eq. 5 has it. The grains weigh 200 kg.
+/// A wall that goes out by the law in every period and back, jammed for half of it; solid fraction
+/// with a gain per period as Eq. 5 has it. The grains weigh 200 kg.
 inline std::vector<StepRecord> scaled_record(const Scene& scene, const PaperLaw& law) {
-  const double nu = scene.drive.frequency, g = scene.gravity.norm(), wall = scene.drive.wall_mass_over_grains,
-               h = scene.step, excess = law.excess(scene);
+  const double nu = scene.drive.frequency, g = scene.gravity.norm(),
+               wall = scene.drive.wall_mass_over_grains, h = scene.step, excess = law.excess(scene);
   const double rise = law.prefactor / (1.0 + wall) / scene.drive.f_max_over_weight * g / (nu * nu) *
                       std::pow(scene.box.length * nu * nu / g, 0.5 * excess);
   const double gain = 0.0025 * 0.52 * (nu < 10.0 ? 1.0 : 100.0 / (nu * nu));
@@ -38,10 +40,14 @@ inline std::vector<StepRecord> scaled_record(const Scene& scene, const PaperLaw&
   for (long k = 1; k <= std::lround(scene.duration / h); ++k) {
     StepRecord s;
     s.time = static_cast<double>(k) * h;
-    const double turns = s.time * nu, phase = turns - std::floor(turns), inside = std::min(1.0, 2.0 * phase);
-    s.load = 200.0 * g * scene.drive.f_max_over_weight * 0.5 * (1.0 - std::sin(2.0 * std::numbers::pi * turns));
+    const double turns = s.time * nu, phase = turns - std::floor(turns),
+                 inside = std::min(1.0, 2.0 * phase);
+    s.load = 200.0 * g * scene.drive.f_max_over_weight * 0.5 *
+             (1.0 - std::sin(2.0 * std::numbers::pi * turns));
     s.wall_x = 0.5 * rise * (1.0 - std::cos(2.0 * std::numbers::pi * inside)) - 1e-6 * turns;
-    s.wall_v = inside < 1.0 ? rise * 2.0 * std::numbers::pi * nu * std::sin(2.0 * std::numbers::pi * inside) : 0.0;
+    s.wall_v = inside < 1.0
+                   ? rise * 2.0 * std::numbers::pi * nu * std::sin(2.0 * std::numbers::pi * inside)
+                   : 0.0;
     s.wall_force = s.load;
     s.solid_fraction = s.time < 0.2 ? 0.50 + 0.1 * s.time : 0.52 + gain * nu * (s.time - 0.2);
     s.error_rms = 1e-6;
@@ -52,7 +58,8 @@ inline std::vector<StepRecord> scaled_record(const Scene& scene, const PaperLaw&
 }
 
 /// As a finished run leaves its folder, as far as the report looks at it.
-inline void write_run(const std::filesystem::path& results, const PlannedRun& run, const PaperLaw& law = {}) {
+inline void write_run(const std::filesystem::path& results, const PlannedRun& run,
+                      const PaperLaw& law = {}) {
   const double mass = 200.0;
   const std::filesystem::path folder = folder_of(results, run);
   std::filesystem::create_directories(folder);
@@ -75,7 +82,8 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
 }
 
 /// The first row of this claim.
-inline const AgreementRow& row_of(const std::vector<PaperSection>& sections, const std::string& paper) {
+inline const AgreementRow& row_of(const std::vector<PaperSection>& sections,
+                                  const std::string& paper) {
   for (const PaperSection& section : sections)
     for (const AgreementRow& row : section.rows)
       if (row.paper == paper) return row;

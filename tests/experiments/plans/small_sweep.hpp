@@ -10,7 +10,8 @@
 
 namespace ballast {
 
-/// Two packings, two frequencies each. Checkpoints often, so that little is lost whenever it is killed.
+/// Two packings, two frequencies each. Checkpoints often, so that little is lost whenever it is
+/// killed.
 inline const char* small_sweep = R"(
 name = "small"
 scene = "vibrated_box_small"

@@ -4,32 +4,37 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/atomic_file.hpp"
 #include "experiments/plans/plan.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/worker.hpp"
 #include "tests/catch.hpp"
-#include "tests/support/program.hpp"
 #include "tests/experiments/plans/small_sweep.hpp"
+#include "tests/support/program.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
 
 namespace {
 
-ProgramResult sweep(const fs::path& plan, const fs::path& results, std::vector<std::string> more = {}) {
+ProgramResult sweep(const fs::path& plan, const fs::path& results,
+                    std::vector<std::string> more = {}) {
   more.insert(more.begin(), {"sweep", plan.string(), "--output", results.string()});
   return ballast_program(more);
 }
 
-long entries(const fs::path& folder) { return std::distance(fs::directory_iterator(folder), fs::directory_iterator()); }
+long entries(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
 
 }  // namespace
 
 TEST_CASE("two processes give the bits of one, and what is finished is not run again") {
   const TemporaryFolder folder;
-  const fs::path file = folder.write("plan.toml", small_sweep), one = folder.path() / "one", two = folder.path() / "two";
+  const fs::path file = folder.write("plan.toml", small_sweep), one = folder.path() / "one",
+                 two = folder.path() / "two";
   const Plan plan = read_plan(file);
-  CHECK_THAT(sweep(file, one, {"--dry-run"}).output, Catch::Contains("waiting") && Catch::Contains("to deposit"));
+  CHECK_THAT(sweep(file, one, {"--dry-run"}).output,
+             Catch::Contains("waiting") && Catch::Contains("to deposit"));
   CHECK_FALSE(fs::exists(one));
 
   const ProgramResult first = sweep(file, one, {"--jobs", "1"});
@@ -48,10 +53,12 @@ TEST_CASE("two processes give the bits of one, and what is finished is not run a
   const auto written = fs::last_write_time(manifest);
   CHECK_THAT(sweep(file, one).output, Catch::Contains("4 runs: 4 finished (4 of them before)"));
   CHECK(fs::last_write_time(manifest) == written);
-  CHECK_THAT(sweep(file, one, {"--dry-run"}).output, Catch::Contains("finished") && !Catch::Contains("waiting"));
+  CHECK_THAT(sweep(file, one, {"--dry-run"}).output,
+             Catch::Contains("finished") && !Catch::Contains("waiting"));
   const std::string index = read_whole_file(one / "index.csv");
   CHECK(std::count(index.begin(), index.end(), '\n') == 5);
-  CHECK_THAT(index, Catch::Contains("small,nu-drive.frequency=20-grains.seed=1," + run_key(plan.runs[0]) + ",finished,300,300,"));
+  CHECK_THAT(index, Catch::Contains("small,nu-drive.frequency=20-grains.seed=1," +
+                                    run_key(plan.runs[0]) + ",finished,300,300,"));
   CHECK_THAT(read_whole_file(one / "plans" / "small.json"), Catch::Contains("drive.frequency=50"));
 }
 
@@ -61,7 +68,11 @@ TEST_CASE("another plan in the same results shares runs and stands in the same i
   const std::string scene = "scene = \"incline\"\nset = [\"scene.duration=0.01\"]\n";
   REQUIRE(sweep(folder.write("a.toml", scene + "[[run]]\nname = \"x\"\n"), results).succeeded());
   const ProgramResult other = sweep(
-      folder.write("b.toml", scene + "[[run]]\nname = \"y\"\n[[run]]\nname = \"z\"\nset = [\"contact.friction=0.1\"]\n"), results);
+      folder.write(
+          "b.toml",
+          scene +
+              "[[run]]\nname = \"y\"\n[[run]]\nname = \"z\"\nset = [\"contact.friction=0.1\"]\n"),
+      results);
   CHECK_THAT(other.output, Catch::Contains("2 runs: 2 finished (1 of them before)"));
   CHECK(entries(results / "runs") == 2);
   const std::string index = read_whole_file(results / "index.csv");
@@ -87,11 +98,14 @@ set = ["drive.frequency=30"]
   const ProgramResult result = sweep(file, results, {"--jobs", "2"});
   CAPTURE(result.output, result.errors);
   CHECK(result.status == static_cast<int>(ExitCode::failure));
-  CHECK_THAT(result.output, Catch::Contains("FAILED    packing of restless: deposit: after deposit.max_time"));
+  CHECK_THAT(result.output,
+             Catch::Contains("FAILED    packing of restless: deposit: after deposit.max_time"));
   CHECK_THAT(result.output, Catch::Contains("FAILED    restless: packing of restless failed"));
-  CHECK_THAT(result.output, Catch::Contains("FAILED    taken: ") && Catch::Contains("holds a run of other settings"));
+  CHECK_THAT(result.output, Catch::Contains("FAILED    taken: ") &&
+                                Catch::Contains("holds a run of other settings"));
   CHECK_THAT(result.output, Catch::Contains("6 runs: 4 finished (0 of them before), 2 failed"));
-  CHECK_THAT(read_whole_file(results / "index.csv"), Catch::Contains("restless," + run_key(restless) + ",failed"));
+  CHECK_THAT(read_whole_file(results / "index.csv"),
+             Catch::Contains("restless," + run_key(restless) + ",failed"));
 
   fs::remove_all(folder_of(results, taken));  // mended: tried again
   const ProgramResult again = sweep(file, results, {"--only", "taken"});
@@ -118,11 +132,16 @@ TEST_CASE("the time limit stops a sweep with checkpoints, and the same command g
 TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else sweeps there") {
   const TemporaryFolder folder;
   const fs::path results = folder.path() / "results", log = folder.path() / "log";
-  const fs::path file = folder.write(
-      "plan.toml", std::string(small_sweep) + "[[run]]\nname = \"long\"\nset = [\"scene.duration=100\", \"record.checkpoint_seconds=1000\"]\n");
+  const fs::path file =
+      folder.write("plan.toml", std::string(small_sweep) +
+                                    "[[run]]\nname = \"long\"\nset = [\"scene.duration=100\", "
+                                    "\"record.checkpoint_seconds=1000\"]\n");
   const fs::path run = folder_of(results, read_plan(file).runs[0]);
-  Worker long_sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string(), "--only", "long"}, log);
-  for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_sweep.has_ended(); ++k) usleep(10'000);
+  Worker long_sweep(BALLAST_PROGRAM,
+                    {"sweep", file.string(), "--output", results.string(), "--only", "long"}, log);
+  for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_sweep.has_ended();
+       ++k)
+    usleep(10'000);
   REQUIRE(fs::exists(run / "log" / "steps.bin"));
   check_failure(sweep(file, results), ExitCode::failure, {results.string(), "is sweeping there"});
   CHECK_FALSE(fs::exists(run / "checkpoint.bin"));
@@ -136,7 +155,8 @@ TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else swee
 
 TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is run") {
   const TemporaryFolder folder;
-  const fs::path results = folder.path() / "results", jobs = folder.path() / "jobs", file = folder.write("plan.toml", small_sweep);
+  const fs::path results = folder.path() / "results", jobs = folder.path() / "jobs",
+                 file = folder.write("plan.toml", small_sweep);
   REQUIRE(sweep(file, results, {"--snakemake", jobs.string()}).succeeded());
   CHECK(fs::is_empty(results / "runs"));
   const auto list = nlohmann::json::parse(read_whole_file(jobs / "runs.json"));
@@ -149,13 +169,16 @@ TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is 
     REQUIRE(list["runs"].contains(key));
     std::vector<std::string> words = list["runs"][key]["arguments"];
     CHECK(fs::path(words[1]).is_absolute());
-    CHECK(std::find(words.begin(), words.end(), folder_of(results, plan.runs[k]).string()) != words.end());
+    CHECK(std::find(words.begin(), words.end(), folder_of(results, plan.runs[k]).string()) !=
+          words.end());
     if (k > 0) continue;
     REQUIRE(ballast_program(words).succeeded());  // as a job would
     CHECK(is_finished(results, plan.runs[k]));
   }
-  CHECK((fs::status(jobs / "slurm" / "status.sh").permissions() & fs::perms::owner_exec) != fs::perms::none);
-  check_failure(sweep(file, results, {"--snakemake", (folder.path() / "with blank").string()}), ExitCode::failure, {"with blank"});
+  CHECK((fs::status(jobs / "slurm" / "status.sh").permissions() & fs::perms::owner_exec) !=
+        fs::perms::none);
+  check_failure(sweep(file, results, {"--snakemake", (folder.path() / "with blank").string()}),
+                ExitCode::failure, {"with blank"});
 }
 
 TEST_CASE("a sweep's command line and plan are checked before anything is written") {
@@ -164,6 +187,7 @@ TEST_CASE("a sweep's command line and plan are checked before anything is writte
   check_failure(sweep(folder.path() / "none.toml", results), ExitCode::failure, {"none.toml"});
   check_failure(sweep(file, results, {"--jobs", "0"}), ExitCode::usage, {"--jobs"});
   check_failure(sweep(file, results, {"--max-seconds", "-1"}), ExitCode::usage, {"--max-seconds"});
-  check_failure(sweep(file, results, {"--only", "mu*"}), ExitCode::failure, {"no run is named like mu*"});
+  check_failure(sweep(file, results, {"--only", "mu*"}), ExitCode::failure,
+                {"no run is named like mu*"});
   CHECK_FALSE(fs::exists(results));
 }

@@ -3,8 +3,8 @@
 #include "experiments/plans/plan.hpp"
 #include "geometry/shape/random.hpp"
 #include "tests/catch.hpp"
-#include "tests/support/killed_program.hpp"
 #include "tests/experiments/plans/small_sweep.hpp"
+#include "tests/support/killed_program.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
@@ -13,7 +13,8 @@ namespace {
 
 /// Sweeps, and kills the sweep after `seconds`. Its exit code, or -1 when it was killed.
 int sweep_for(double seconds, const fs::path& plan, const fs::path& results) {
-  return run_and_kill(seconds, {"sweep", plan.string(), "--jobs", "2", "--output", results.string()},
+  return run_and_kill(seconds,
+                      {"sweep", plan.string(), "--jobs", "2", "--output", results.string()},
                       results.string() + ".log");
 }
 
@@ -37,7 +38,8 @@ TEST_CASE("a sweep killed with -9 twenty times at random ends with the same bits
   const std::vector<std::string> bits = bits_of(plan, whole);
   REQUIRE(bits[0] != bits[1]);
 
-  // sweep after sweep until there were twenty deaths, spread over deposits and drives, on a fast machine and on a slow one
+  // sweep after sweep until there were twenty deaths, spread over deposits and drives, on a fast
+  // machine and on a slow one
   Random random(20);
   int kills = 0, in_deposit = 0, in_drive = 0, elsewhere = 0;
   for (int sweeps = 0; kills < 20 || in_deposit < 5 || in_drive < 5; ++sweeps) {
@@ -49,13 +51,18 @@ TEST_CASE("a sweep killed with -9 twenty times at random ends with the same bits
       REQUIRE((code == -1 || code == 0));
       if (code == 0) break;
       REQUIRE(++kills < 200);
-      if (files_in(results / "packings", ".bin") < 2) ++in_deposit;
-      else if (files_in(results / "runs", "checkpoint.bin") > 0 && files_in(results / "runs", "steps.csv") < 4) ++in_drive;
-      else ++elsewhere;
+      if (files_in(results / "packings", ".bin") < 2)
+        ++in_deposit;
+      else if (files_in(results / "runs", "checkpoint.bin") > 0 &&
+               files_in(results / "runs", "steps.csv") < 4)
+        ++in_drive;
+      else
+        ++elsewhere;
     }
     CHECK(bits_of(plan, results) == bits);
   }
-  INFO(kills << " kills, " << in_deposit << " while depositing, " << in_drive << " while driving; undisturbed " << undisturbed << " s");
+  INFO(kills << " kills, " << in_deposit << " while depositing, " << in_drive
+             << " while driving; undisturbed " << undisturbed << " s");
   CHECK(kills == in_deposit + in_drive + elsewhere);
 }
 
@@ -63,20 +70,23 @@ TEST_CASE("children die with a sweep that is killed") {
   const TemporaryFolder folder;
   // long: whoever survived would still be running
   const fs::path file = folder.write(
-      "plan.toml", "scene = \"vibrated_box_small\"\n[[run]]\nname = \"long\"\nset = [\"scene.duration=100\"]\n");
+      "plan.toml",
+      "scene = \"vibrated_box_small\"\n[[run]]\nname = \"long\"\nset = [\"scene.duration=100\"]\n");
   const fs::path results = folder.path() / "results";
   const PlannedRun run = read_plan(file).runs[0];
   const fs::path log = results / "logs" / (run_key(run) + ".log");
   Clock::time_point begin = Clock::now();
   {
-    Worker sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string()}, folder.path() / "log");
+    Worker sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string()},
+                 folder.path() / "log");
     while (!fs::exists(log) && seconds_since(begin) < 60.0 && !sweep.has_ended()) usleep(2000);
     REQUIRE(fs::exists(log));
   }
   // the folder can be had again: nobody holds its lock
   Worker next(BALLAST_PROGRAM,
-              {"run", run.scene, "--set", run.overrides[0], "--output", folder_of(results, run).string(), "--packing-cache",
-               (results / "packings").string(), "--continue", "--no-report", "--max-seconds", "0.2"},
+              {"run", run.scene, "--set", run.overrides[0], "--output",
+               folder_of(results, run).string(), "--packing-cache", (results / "packings").string(),
+               "--continue", "--no-report", "--max-seconds", "0.2"},
               folder.path() / "next.log");
   begin = Clock::now();
   while (!next.has_ended() && seconds_since(begin) < 30.0) usleep(2000);

@@ -27,7 +27,9 @@ std::string error_of(const std::string& text) {
   return "";
 }
 
-PlannedRun run_with(std::vector<std::string> overrides) { return {"run", "vibrated_box_small", std::move(overrides)}; }
+PlannedRun run_with(std::vector<std::string> overrides) {
+  return {"run", "vibrated_box_small", std::move(overrides)};
+}
 
 }  // namespace
 
@@ -57,11 +59,13 @@ set = ["scene.duration=1"]
 )"));
   CHECK(plan.name == "two");
   REQUIRE(plan.runs.size() == 6);
-  CHECK(plan.runs[0].overrides == std::vector<std::string>{"solver.max_iterations=300", "drive.frequency=10"});
+  CHECK(plan.runs[0].overrides ==
+        std::vector<std::string>{"solver.max_iterations=300", "drive.frequency=10"});
   CHECK(plan.runs[1].scene == "incline");
   CHECK(plan.runs[2].name == "nu-drive.frequency=1-solver.name=nncg");
-  CHECK(plan.runs[2].overrides == std::vector<std::string>{"solver.max_iterations=300", "scene.duration=0.2",
-                                                            "drive.frequency=1", "solver.name=\"nncg\"", "scene.duration=1"});
+  CHECK(plan.runs[2].overrides ==
+        std::vector<std::string>{"solver.max_iterations=300", "scene.duration=0.2",
+                                 "drive.frequency=1", "solver.name=\"nncg\"", "scene.duration=1"});
   CHECK(plan.runs[5].name == "nu-drive.frequency=2.5-solver.name=pgs");
   CHECK(plan.runs[5].overrides.back() == "solver.name=\"pgs\"");
   CHECK(select(plan, "nu-*name=pgs").size() == 2);
@@ -82,7 +86,8 @@ set = ["scene.duration=1"]
 TEST_CASE("a scene's file is looked for beside the plan") {
   const TemporaryFolder folder;
   fs::copy_file(find_scene("incline"), folder.path() / "mine.toml");
-  const Plan plan = read_plan(folder.write("plan.toml", "scene = \"mine.toml\"\n[[run]]\nname = \"a\"\n"));
+  const Plan plan =
+      read_plan(folder.write("plan.toml", "scene = \"mine.toml\"\n[[run]]\nname = \"a\"\n"));
   CHECK(fs::equivalent(find_scene(plan.runs[0].scene), folder.path() / "mine.toml"));
 }
 
@@ -91,31 +96,38 @@ TEST_CASE("what is wrong with a plan is said with file, key and value") {
   CHECK_THAT(error_of("[[run"), Catch::Contains("not valid TOML"));
   CHECK_THAT(error_of(head), Catch::Contains("no runs in it"));
   CHECK_THAT(error_of("[[run]]\nname = \"a\"\n"), Catch::Contains("run.0.scene is missing"));
-  CHECK_THAT(error_of(head + "[[run]]\nscene = \"incline\"\n"), Catch::Contains("run.0.name is missing"));
+  CHECK_THAT(error_of(head + "[[run]]\nscene = \"incline\"\n"),
+             Catch::Contains("run.0.name is missing"));
   CHECK_THAT(error_of(head + "[[runs]]\nname = \"a\"\n"), Catch::Contains("did you mean \"run\"?"));
   CHECK_THAT(error_of(head + "[[run]]\nname = \"a b\"\n"), Catch::Contains("\"a b\""));
-  CHECK_THAT(error_of(head + "[[run]]\nname = \"a\"\n[[run]]\nname = \"a\"\n"), Catch::Contains("stands twice"));
+  CHECK_THAT(error_of(head + "[[run]]\nname = \"a\"\n[[run]]\nname = \"a\"\n"),
+             Catch::Contains("stands twice"));
   CHECK_THAT(error_of(head + "[[run]]\nname = \"a\"\nset = [\"drive.frequency=-1\"]\n"),
              Catch::Contains("run a: ") && Catch::Contains("drive.frequency = -1"));
-  CHECK_THAT(error_of(head + "[[run]]\nname = \"a\"\nset = \"drive.frequency=1\"\n"), Catch::Contains("list of texts"));
-  CHECK_THAT(error_of("scene = \"nowhere\"\n[[run]]\nname = \"a\"\n"), Catch::Contains("no scene of this name"));
+  CHECK_THAT(error_of(head + "[[run]]\nname = \"a\"\nset = \"drive.frequency=1\"\n"),
+             Catch::Contains("list of texts"));
+  CHECK_THAT(error_of("scene = \"nowhere\"\n[[run]]\nname = \"a\"\n"),
+             Catch::Contains("no scene of this name"));
 
   const std::string sweep = head + "[[sweep]]\nname = \"s\"\n";
   CHECK_THAT(error_of(sweep), Catch::Contains("nothing varied"));
   CHECK_THAT(error_of(sweep + "vary = 3\n"), Catch::Contains("sweep.0.vary = 3"));
   CHECK_THAT(error_of(sweep + "vary.\"drive.frequency\" = []\n"), Catch::Contains("no values"));
-  CHECK_THAT(error_of(sweep + "vary.\"drive.frequence\" = [1]\n"), Catch::Contains("drive.frequence = 1"));
+  CHECK_THAT(error_of(sweep + "vary.\"drive.frequence\" = [1]\n"),
+             Catch::Contains("drive.frequence = 1"));
   const std::string varied = sweep + "vary.\"drive.frequency\" = [1, 2]\n[[sweep.where]]\n";
   CHECK_THAT(error_of(varied), Catch::Contains("no condition"));
-  CHECK_THAT(error_of(varied + "when.\"grains.seed\" = 1\n"), Catch::Contains("grains.seed is not varied"));
+  CHECK_THAT(error_of(varied + "when.\"grains.seed\" = 1\n"),
+             Catch::Contains("grains.seed is not varied"));
   CHECK_THAT(error_of(varied + "when.\"drive.frequency\" = 3\n"), Catch::Contains("never is 3"));
-  CHECK_THAT(error_of(varied + "when.\"drive.frequency\" = 1\nsett = []\n"), Catch::Contains("did you mean \"set\"?"));
+  CHECK_THAT(error_of(varied + "when.\"drive.frequency\" = 1\nsett = []\n"),
+             Catch::Contains("did you mean \"set\"?"));
 }
 
 TEST_CASE("a run is known by what it computes") {
   const std::string key = run_key(run_with({}));
   CHECK(key.size() == 16);
-  CHECK(run_key(run_with({"drive.frequency=20"})) == key);    // what the scene says anyway
+  CHECK(run_key(run_with({"drive.frequency=20"})) == key);  // what the scene says anyway
   CHECK(run_key(run_with({"drive.frequency=20.0"})) == key);
   CHECK(run_key(run_with({"drive.frequency=7", "drive.frequency=20"})) == key);
   CHECK(run_key(run_with({"drive.frequency=21"})) != key);

@@ -14,8 +14,8 @@ Checkpoint sample_checkpoint(int contacts) {
   checkpoint.phase = "drive";
   checkpoint.state = sample_state(sample_system(), 77);
   for (int c = 0; c < contacts; ++c) {
-    checkpoint.contacts.push_back(
-        {c, c + 1, random.next(), random.unit_vector(), random.unit_vector(), random.uniform(-1e-4, 1e-4)});
+    checkpoint.contacts.push_back({c, c + 1, random.next(), random.unit_vector(),
+                                   random.unit_vector(), random.uniform(-1e-4, 1e-4)});
     checkpoint.impulses.push_back(random.unit_vector());
   }
   checkpoint.numbers = {1.5, -0.0, std::numeric_limits<double>::infinity()};
@@ -34,7 +34,8 @@ void check_equal(const Checkpoint& a, const Checkpoint& b) {
   for (size_t c = 0; c < a.contacts.size(); ++c) {
     const ContactPoint &p = a.contacts[c], &q = b.contacts[c];
     CHECK((p.body_a == q.body_a && p.body_b == q.body_b && p.feature == q.feature));
-    CHECK((same_bits(p.normal, q.normal) && same_bits(p.position, q.position) && same_bits(p.gap, q.gap)));
+    CHECK((same_bits(p.normal, q.normal) && same_bits(p.position, q.position) &&
+           same_bits(p.gap, q.gap)));
   }
   CHECK(same_bits(a.impulses, b.impulses));
   CHECK(same_bits(a.numbers, b.numbers));
@@ -76,7 +77,8 @@ TEST_CASE("a checkpoint cut at any byte is refused") {
   for (size_t length = 0; length < whole.size(); ++length) {
     put_bytes(file, std::string_view(whole).substr(0, length));
     const std::string message = refusal(file);
-    const bool says_so = message.find(length == 0 ? "is empty" : "is truncated") != std::string::npos;
+    const bool says_so =
+        message.find(length == 0 ? "is empty" : "is truncated") != std::string::npos;
     if (!says_so) FAIL_CHECK(length << " bytes: " << message);
   }
 }
@@ -136,6 +138,8 @@ TEST_CASE("a checkpoint that cannot be written leaves the old one") {
   check_equal(read_checkpoint(file), sample_checkpoint(1));
   CHECK_FALSE(fs::exists(file.string() + ".tmp"));
   const fs::path nowhere = folder.path() / "no" / "checkpoint.bin";
-  CHECK_THAT(run_error([&] { write_checkpoint(nowhere, {}); }), Contains(nowhere.string()) && Contains("No such file"));
-  CHECK_THAT(run_error([&] { write_checkpoint(folder.path(), {}); }), Contains("not a regular file"));
+  CHECK_THAT(run_error([&] { write_checkpoint(nowhere, {}); }),
+             Contains(nowhere.string()) && Contains("No such file"));
+  CHECK_THAT(run_error([&] { write_checkpoint(folder.path(), {}); }),
+             Contains("not a regular file"));
 }

@@ -19,8 +19,9 @@ TEST_CASE("a killed and resumed run leaves the same files as one that went throu
     }
   });
   CHECK(read_steps(folder.path()).size() >= 12);
-  CHECK(fs::file_size(steps_log(folder.path())) > 13 * 28 * 8);  // something was written after the checkpoint
-  for (int life = 0; life < 2; ++life) {                         // dies twice at the same place
+  CHECK(fs::file_size(steps_log(folder.path())) >
+        13 * 28 * 8);                     // something was written after the checkpoint
+  for (int life = 0; life < 2; ++life) {  // dies twice at the same place
     killed([&] {
       Recorder recorder(folder.path(), system, 12);
       record(recorder, system, 13, 14);
@@ -53,7 +54,8 @@ TEST_CASE("a log torn in the middle of a row is read up to there") {
   for (size_t cut = 0; cut < 3 * row; ++cut) {
     put_bytes(steps_log(folder.path()), std::string_view(torn).substr(0, torn.size() - cut));
     const auto rows = read_steps(folder.path());
-    CHECK((rows.size() >= flushed && (cut == 0 || rows.size() == previous || rows.size() + 1 == previous)));
+    CHECK((rows.size() >= flushed &&
+           (cut == 0 || rows.size() == previous || rows.size() + 1 == previous)));
     previous = rows.size();
   }
   SECTION("and damage after what was flushed ends it") {
@@ -78,8 +80,10 @@ TEST_CASE("logs that do not fit the checkpoint or the system are refused") {
   const auto refusal = [&](const MechanicalSystem& other, long last_step) {
     return run_error([&] { Recorder(folder.path(), other, last_step); });
   };
-  const std::string steps = steps_log(folder.path()).string(), poses = poses_log(folder.path()).string();
-  CHECK_THAT(refusal(system, 11), Contains(steps) && Contains("has 10 steps, the checkpoint is at step 11"));
+  const std::string steps = steps_log(folder.path()).string(),
+                    poses = poses_log(folder.path()).string();
+  CHECK_THAT(refusal(system, 11),
+             Contains(steps) && Contains("has 10 steps, the checkpoint is at step 11"));
   MechanicalSystem other = sample_system();
   other.bodies[1].mass *= 1.0 + 1e-15;
   CHECK_THAT(refusal(other, 10), Contains(steps) && Contains("another system"));

@@ -29,7 +29,8 @@ TEST_CASE("steps.csv has a line of names and then numbers that round trip") {
   recorder.finish("", "");
   std::istringstream lines(file_bytes(folder.path() / "steps.csv"));
   std::string line, names;
-  for (const StepColumn& column : step_columns()) names.append(names.empty() ? "" : ",").append(column.name);
+  for (const StepColumn& column : step_columns())
+    names.append(names.empty() ? "" : ",").append(column.name);
   REQUIRE(std::getline(lines, line));
   CHECK(line == names);
   for (long step = 1; step <= 4; ++step) {
@@ -50,7 +51,8 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
   const MechanicalSystem system = sample_system();
   Recorder recorder(folder.path(), system, 0);
   record(recorder, system, 1, 10);
-  const std::string scene(100000, 's'), manifest = "{\"µ\": 1}";  // longer than a compact attribute may be
+  const std::string scene(100000, 's'),
+      manifest = "{\"µ\": 1}";  // longer than a compact attribute may be
   recorder.finish(scene, manifest);
   const Hdf5Reader file(folder.path() / "record.h5");
   CHECK(file.read_text("/", "scene") == scene);
@@ -72,16 +74,18 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
   CHECK(file.read("bodies/inertia")[4] == system.bodies[1].inertia.y());
   CHECK(file.read("bodies/wall_normal")[3 * 6] == -1.0);
   const auto vertices = file.read("shapes/vertices"), triangles = file.read("shapes/triangles");
-  const auto vertex_begin = file.read("shapes/vertex_begin"), triangle_begin = file.read("shapes/triangle_begin");
+  const auto vertex_begin = file.read("shapes/vertex_begin"),
+             triangle_begin = file.read("shapes/triangle_begin");
   REQUIRE((vertex_begin.size() == 3 && triangle_begin.size() == 3));
   REQUIRE(file.shape("shapes/vertices") == Hdf5Shape{static_cast<hsize_t>(vertex_begin[2]), 3});
   REQUIRE(file.shape("shapes/triangles") == Hdf5Shape{static_cast<hsize_t>(triangle_begin[2]), 3});
   for (int k = 0; k < 2; ++k) {
     CHECK(vertex_begin[k + 1] - vertex_begin[k] == system.shapes[k]->vertex_count());
-    // the volume by the divergence theorem: vertices, triangles and their orientation all have to be right
+    // the volume by the divergence theorem: vertices, triangles and their orientation all have to
+    // be right
     double volume = 0.0;
-    for (size_t t = 3 * static_cast<size_t>(triangle_begin[k]); t < 3 * static_cast<size_t>(triangle_begin[k + 1]);
-         t += 3) {
+    for (size_t t = 3 * static_cast<size_t>(triangle_begin[k]);
+         t < 3 * static_cast<size_t>(triangle_begin[k + 1]); t += 3) {
       const auto vertex = [&](size_t i) {
         return Vec3(vertices.data() + 3 * static_cast<size_t>(vertex_begin[k] + triangles[t + i]));
       };
@@ -115,12 +119,14 @@ TEST_CASE("a full disk is an error that names the file, and spoils nothing") {
   }
   SECTION("steps.csv") {
     fs::create_symlink("/dev/full", folder.path() / "steps.csv.tmp");
-    CHECK_THAT(run_error([&] { recorder.finish("", ""); }), Contains("steps.csv") && Contains("No space left"));
+    CHECK_THAT(run_error([&] { recorder.finish("", ""); }),
+               Contains("steps.csv") && Contains("No space left"));
     CHECK_FALSE(fs::exists(folder.path() / "steps.csv"));
   }
   SECTION("record.h5") {
     fs::create_symlink("/dev/full", folder.path() / "record.h5.tmp");
-    CHECK_THAT(run_error([&] { recorder.finish("", ""); }), Contains("record.h5") && Contains("No space left"));
+    CHECK_THAT(run_error([&] { recorder.finish("", ""); }),
+               Contains("record.h5") && Contains("No space left"));
     CHECK_FALSE(fs::exists(folder.path() / "record.h5"));
   }
   CHECK_FALSE(fs::exists(folder.path() / "record.h5.tmp"));

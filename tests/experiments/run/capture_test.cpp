@@ -22,7 +22,9 @@ namespace {
 /// Steps a scene as run() does.
 struct Stepping {
   explicit Stepping(const char* name)
-      : scene(read_scene(find_scene(name))), system(make_system(scene, state)), settings(step_settings(scene)),
+      : scene(read_scene(find_scene(name))),
+        system(make_system(scene, state)),
+        settings(step_settings(scene)),
         stepper(system, settings, -1) {}
   StepRecord step() { return stepper.step(state, memory); }
 
@@ -68,7 +70,8 @@ TEST_CASE("Which steps are captured") {
 TEST_CASE("A captured step comes back as the solver saw it") {
   const TemporaryFolder folder;
   Stepping run("sliding_cube");
-  StepCapture capture(CaptureSettings::parse("from=20,to=21"), folder.path(), run.settings.h, run.scene.gravity.norm());
+  StepCapture capture(CaptureSettings::parse("from=20,to=21"), folder.path(), run.settings.h,
+                      run.scene.gravity.norm());
   Impulses solution_before;
   for (int k = 0; k < 21; ++k) {
     const StepRecord record = run.step();
@@ -102,10 +105,12 @@ TEST_CASE("A captured step comes back as the solver saw it") {
     CHECK(back.id_b[c] == contact.body_b);
     CHECK(back.gap[c] == contact.gap);
     CHECK(Vec3(back.frame[9 * c], back.frame[9 * c + 1], back.frame[9 * c + 2]) == contact.normal);
-    CHECK(Vec3(back.position[3 * c], back.position[3 * c + 1], back.position[3 * c + 2]) == contact.position);
+    CHECK(Vec3(back.position[3 * c], back.position[3 * c + 1], back.position[3 * c + 2]) ==
+          contact.position);
   }
   // through the general door too, and the run's own error with it
-  CHECK(contact_error(read_problem(file), back.solution).natural_map_rms == run.stepper.error().natural_map_rms);
+  CHECK(contact_error(read_problem(file), back.solution).natural_map_rms ==
+        run.stepper.error().natural_map_rms);
   // the pair is consecutive: the warm start is the solution before, where contacts stayed
   const CapturedProblem before = read_captured(folder.path() / "step_0000020.hdf5");
   REQUIRE(before.key == back.key);
@@ -124,7 +129,8 @@ TEST_CASE("A broken side group is refused with its name") {
   CapturedProblem captured = read_captured(good);
   captured.gap.pop_back();
   write_captured(bad, captured);
-  CHECK_THROWS_WITH(read_captured(bad), Catch::Contains("bad.hdf5") && Catch::Contains("/ballast/gap has"));
+  CHECK_THROWS_WITH(read_captured(bad),
+                    Catch::Contains("bad.hdf5") && Catch::Contains("/ballast/gap has"));
   std::ofstream(bad) << "no HDF5";
   CHECK_FALSE(is_captured(bad));
   CHECK_FALSE(is_captured(folder.path() / "missing.hdf5"));

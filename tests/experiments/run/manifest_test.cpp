@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/run/build_info.hpp"
 #include "experiments/record/progress.hpp"
+#include "experiments/run/build_info.hpp"
 #include "tests/support/sample_run.hpp"
 
 using namespace ballast;
@@ -13,12 +13,14 @@ TEST_CASE("the build knows what it is") {
   const BuildInfo& info = build_info();
   CHECK(std::count(info.version.begin(), info.version.end(), '.') == 2);
   CHECK((info.commit == "unknown" ||
-         (info.commit.size() == 40 && info.commit.find_first_not_of("0123456789abcdef") == std::string::npos)));
+         (info.commit.size() == 40 &&
+          info.commit.find_first_not_of("0123456789abcdef") == std::string::npos)));
   CHECK_THAT(info.flags, Contains("-ffp-contract=off"));
   CHECK_FALSE(info.compiler.empty());
   for (const auto& [name, version] : info.libraries) {
     INFO(name << " " << version);
-    CHECK((!name.empty() && !version.empty() && version.find_first_not_of("0123456789.") == std::string::npos));
+    CHECK((!name.empty() && !version.empty() &&
+           version.find_first_not_of("0123456789.") == std::string::npos));
   }
   CHECK_THAT(build_line(), Contains(info.version) && Contains(info.commit.substr(0, 12)));
 }
@@ -95,7 +97,9 @@ std::string told(Progress::Style style, int steps, double seconds_per_step) {
 
 }  // namespace
 
-TEST_CASE("progress: quiet says nothing") { CHECK(told(Progress::Style::quiet, 1000, 0.05).empty()); }
+TEST_CASE("progress: quiet says nothing") {
+  CHECK(told(Progress::Style::quiet, 1000, 0.05).empty());
+}
 
 TEST_CASE("progress: one plain line every ten seconds and one at the end") {
   const std::string text = told(Progress::Style::lines, 1000, 0.05);  // 50 s
@@ -108,11 +112,13 @@ TEST_CASE("progress: one plain line every ten seconds and one at the end") {
     INFO(line);
     CHECK_THAT(line, Contains("drive ") && Contains(" 50.0 ms/step") && Contains("error 2.0e-06") &&
                          Contains("6312 contacts"));
-    CHECK_THAT(line, Contains(std::to_string(20 * k) + " %") && Contains(std::to_string(50 - 10 * k) + " s left"));
+    CHECK_THAT(line, Contains(std::to_string(20 * k) + " %") &&
+                         Contains(std::to_string(50 - 10 * k) + " s left"));
   }
   REQUIRE(std::getline(lines, line));
   CHECK_THAT(line, Contains("100 %") && !Contains("left"));
-  CHECK(told(Progress::Style::lines, 10, 0.01).find('\n') == told(Progress::Style::lines, 10, 0.01).size() - 1);
+  CHECK(told(Progress::Style::lines, 10, 0.01).find('\n') ==
+        told(Progress::Style::lines, 10, 0.01).size() - 1);
 }
 
 TEST_CASE("progress: a bar rewrites its line, at most ten times a second, and ends it") {
@@ -139,11 +145,14 @@ TEST_CASE("progress: phases, resumed runs and silence") {
     progress.finish();  // nothing shown yet
     CHECK(out.str().empty());
     StepRecord record;
-    for (int step = 1; step <= 30; ++step) progress.show("rain", 0.01 * step, 3.0, record, 0.5), now += 1.0;
+    for (int step = 1; step <= 30; ++step)
+      progress.show("rain", 0.01 * step, 3.0, record, 0.5), now += 1.0;
     progress.restart();
     out.str("");
     // a phase that is entered in its middle: the rate counts from there
-    for (int step = 1; step <= 12; ++step) progress.show("drive", 0.5 + 0.01 * step, 1.0, record), now += 1.0;
+    for (int step = 1; step <= 12; ++step)
+      progress.show("drive", 0.5 + 0.01 * step, 1.0, record), now += 1.0;
   }
-  CHECK_THAT(out.str(), Contains("drive ") && Contains("39 s left") && Contains("1000.0 ms/step") && !Contains("rms"));
+  CHECK_THAT(out.str(), Contains("drive ") && Contains("39 s left") && Contains("1000.0 ms/step") &&
+                            !Contains("rms"));
 }

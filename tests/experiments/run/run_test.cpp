@@ -39,7 +39,8 @@ class Workplace {
 RunOptions small_run(const fs::path& output, const fs::path& packings) {
   RunOptions options;
   options.scene = "vibrated_box_small";
-  options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=0.05", "solver.max_iterations=2000"};
+  options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=0.05",
+                       "solver.max_iterations=2000"};
   options.output = output;
   options.packing_cache = packings;
   return options;
@@ -62,9 +63,11 @@ bool killed_after(const RunOptions& options, int milliseconds) {
 
 }  // namespace
 
-TEST_CASE("the same input gives the same bits: deposit, drive, and whatever stopped it in between") {
+TEST_CASE(
+    "the same input gives the same bits: deposit, drive, and whatever stopped it in between") {
   const Workplace place;
-  const fs::path once = place.folder / "once", again = place.folder / "again", stopped = place.folder / "stopped";
+  const fs::path once = place.folder / "once", again = place.folder / "again",
+                 stopped = place.folder / "stopped";
   REQUIRE(run(small_run(once, place.folder / "p1")).code == ExitCode::ok);
   const std::string physics = physics_of(once), state = state_of(once);
   REQUIRE(read_steps(once).size() == 200);
@@ -102,18 +105,21 @@ TEST_CASE("the same input gives the same bits: deposit, drive, and whatever stop
   }
 }
 
-TEST_CASE("the same bits where contact points are held on to, whatever stopped the run in between") {
+TEST_CASE(
+    "the same bits where contact points are held on to, whatever stopped the run in between") {
   const Workplace place;
   const auto holding = [&](const char* name, bool holds) {
     RunOptions options = small_run(place.folder / name, place.folder / "packings");
-    options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=1e-3", "solver.max_iterations=300"};
+    options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=1e-3",
+                         "solver.max_iterations=300"};
     if (holds) options.overrides.push_back("detection.reuse_motion=1e-3");
     if (holds) options.overrides.push_back("detection.refresh_steps=7");
     return options;
   };
   REQUIRE(run(holding("exact", false)).code == ExitCode::ok);
   REQUIRE(run(holding("whole", true)).code == ExitCode::ok);
-  const std::string physics = physics_of(place.folder / "whole"), state = state_of(place.folder / "whole");
+  const std::string physics = physics_of(place.folder / "whole"),
+                    state = state_of(place.folder / "whole");
   CHECK(physics != physics_of(place.folder / "exact"));  // it does something
   RunOptions options = holding("stopped", true);
   options.max_seconds = 0.02;
@@ -158,7 +164,8 @@ TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is"
   options.deposit_only = true;
   REQUIRE(run(options).code == ExitCode::ok);
   CHECK_FALSE(fs::exists(folder));
-  CHECK(std::distance(fs::directory_iterator(place.folder / "p"), fs::directory_iterator()) == 1);  // no lock, no part left
+  CHECK(std::distance(fs::directory_iterator(place.folder / "p"), fs::directory_iterator()) ==
+        1);  // no lock, no part left
   options.deposit_only = false;
   options.begin_or_resume = true;
   options.max_seconds = 0.1;

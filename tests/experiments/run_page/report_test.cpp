@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/measure/run_data.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "experiments/measure/run_data.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/environment_guard.hpp"
@@ -23,7 +23,11 @@ namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 
 nlohmann::ordered_json manifest_of_box() {
-  return {{"ballast", {{"version", "0.1.0"}, {"commit", "0123456789abcdef0123"}, {"modified", true}, {"libraries", {{"Eigen", "3.4.0"}}}}},
+  return {{"ballast",
+           {{"version", "0.1.0"},
+            {"commit", "0123456789abcdef0123"},
+            {"modified", true},
+            {"libraries", {{"Eigen", "3.4.0"}}}}},
           {"machine", {{"cpu", "a processor"}, {"cores", 2}}},
           {"scene", "vibrated_box"},
           {"overrides", {"drive.frequency=5", "scene.title=it's"}},
@@ -54,14 +58,16 @@ TEST_CASE("the box's page has every figure, opens offline and is well-formed") {
   const TemporaryFolder folder;
   write_box(folder);
   const std::string page = page_of(folder);
-  for (const char* name : {"fig03", "fig04", "fig12", "jammed", "error", "penetration", "effort", "cost", "energy"}) {
+  for (const char* name :
+       {"fig03", "fig04", "fig12", "jammed", "error", "penetration", "effort", "cost", "energy"}) {
     CHECK_THAT(page, Contains("<figure id=\"" + std::string(name) + "\">"));
     CHECK(fs::exists(folder.path() / "figures" / (std::string(name) + ".svg")));
     CHECK(fs::exists(folder.path() / "figures" / (std::string(name) + ".gnuplot")));
   }
   check_page(page);
   CHECK(ids_in(page).size() > 20);
-  for (const auto& entry : fs::recursive_directory_iterator(folder.path())) CHECK(entry.path().extension() != ".tmp");
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    CHECK(entry.path().extension() != ".tmp");
 }
 
 TEST_CASE("the box's page says the numbers beside what is asked and what the paper has") {
@@ -69,12 +75,16 @@ TEST_CASE("the box's page says the numbers beside what is asked and what the pap
   write_box(folder);
   const std::string page = page_of(folder);
   CHECK_THAT(page, Contains("6.00&#8239;mm") || Contains("6.05&#8239;mm"));  // first contraction
-  CHECK_THAT(page, Contains(">0.5010<") && Contains(">0.50<") && Contains(">0.5190<") && Contains(">0.52<"));
-  CHECK_THAT(page, Contains("✓ met") && Contains("≤&nbsp;250&#8239;µm") && Contains("≤&nbsp;0.001"));
+  CHECK_THAT(page, Contains(">0.5010<") && Contains(">0.50<") && Contains(">0.5190<") &&
+                       Contains(">0.52<"));
+  CHECK_THAT(page,
+             Contains("✓ met") && Contains("≤&nbsp;250&#8239;µm") && Contains("≤&nbsp;0.001"));
   CHECK_THAT(page, Contains("4 of 4 periods"));
-  for (const char* next : {"paper fig12", "sweep my_sweep.toml", "compare --live", "run vibrated_box --set"})
+  for (const char* next :
+       {"paper fig12", "sweep my_sweep.toml", "compare --live", "run vibrated_box --set"})
     CHECK_THAT(page.substr(page.find("What next")), Contains(next));
-  CHECK_THAT(page, Contains("git checkout 0123456789abcdef0123") && Contains("./run.sh vibrated_box --set drive.frequency=5 --set "));
+  CHECK_THAT(page, Contains("git checkout 0123456789abcdef0123") &&
+                       Contains("./run.sh vibrated_box --set drive.frequency=5 --set "));
   CHECK_THAT(page, Contains("Eigen 3.4.0") && Contains("a processor") && Contains("not committed"));
   CHECK_THAT(page, Contains("scene.toml is missing"));
 }
@@ -110,9 +120,12 @@ TEST_CASE("a sliding cube has no wall and no packing on its page") {
   const TemporaryFolder folder;
   write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
   const std::string page = page_of(folder);
-  for (const char* name : {"error", "effort", "cost", "energy"}) CHECK_THAT(page, Contains("<figure id=\"" + std::string(name) + "\">"));
-  for (const char* name : {"fig03", "fig04", "fig12", "jammed"}) CHECK_THAT(page, !Contains("<figure id=\"" + std::string(name) + "\">"));
-  CHECK_THAT(page, !Contains("Solid fraction") && !Contains("Motion of the wall") && Contains("manifest.json is missing"));
+  for (const char* name : {"error", "effort", "cost", "energy"})
+    CHECK_THAT(page, Contains("<figure id=\"" + std::string(name) + "\">"));
+  for (const char* name : {"fig03", "fig04", "fig12", "jammed"})
+    CHECK_THAT(page, !Contains("<figure id=\"" + std::string(name) + "\">"));
+  CHECK_THAT(page, !Contains("Solid fraction") && !Contains("Motion of the wall") &&
+                       Contains("manifest.json is missing"));
   CHECK_THAT(page, Contains("errors are given in m/s"));
   CHECK(nesting_fault(page) == "");
 }
@@ -122,7 +135,8 @@ TEST_CASE("every column but time may be missing, one by one") {
     if (std::string(column.name) == "time") continue;
     const TemporaryFolder folder, empty;
     write_box(folder, {column.name});
-    const EnvironmentGuard guard("PATH", empty.path().string());  // the numbers alone: no figures, 26 times faster
+    const EnvironmentGuard guard(
+        "PATH", empty.path().string());  // the numbers alone: no figures, 26 times faster
     INFO(column.name);
     const std::string page = page_of(folder);
     CHECK_THAT(page, Contains("steps.csv has no column " + std::string(column.name)));
@@ -133,9 +147,11 @@ TEST_CASE("every column but time may be missing, one by one") {
 
 TEST_CASE("figures that lack their column are named, the others are drawn") {
   const TemporaryFolder folder;
-  write_box(folder, {"wall_force", "penetration_max", "penetration_mean", "error_rms", "error_max", "iterations", "kinetic_energy"});
+  write_box(folder, {"wall_force", "penetration_max", "penetration_mean", "error_rms", "error_max",
+                     "iterations", "kinetic_energy"});
   const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("<figure id=\"fig03\">") && Contains("<figure id=\"fig12\">") && Contains("<figure id=\"cost\">"));
+  CHECK_THAT(page, Contains("<figure id=\"fig03\">") && Contains("<figure id=\"fig12\">") &&
+                       Contains("<figure id=\"cost\">"));
   CHECK_THAT(page, Contains("figure fig04: nothing to draw") && !Contains("<figure id=\"fig04\">"));
   CHECK_FALSE(fs::exists(folder.path() / "figures" / "fig04.svg"));
 }
@@ -176,7 +192,8 @@ TEST_CASE("no record, no report: the error names the file and the place") {
   folder.write("steps.csv", "wall_x,wall_v\n1,2\n");
   CHECK_THROWS_WITH(write_report(folder.path()), Contains("the column \"time\" is missing"));
   folder.write("steps.csv", "time,wall_x\n1,2\n2,abc\n");
-  CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv:3: wall_x is not a number: \"abc\""));
+  CHECK_THROWS_WITH(write_report(folder.path()),
+                    Contains("steps.csv:3: wall_x is not a number: \"abc\""));
   folder.write("steps.csv", "time,wall_x\n1,2\n2\n");
   CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv:3: 1 fields, expected 2"));
   folder.write("steps.csv", "time,wall_x\n1,2\n1,2\n");
@@ -189,8 +206,12 @@ TEST_CASE("no record, no report: the error names the file and the place") {
 TEST_CASE("broken manifests and scenes are noticed, not fatal") {
   const TemporaryFolder folder;
   write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
-  folder.write("manifest.json", GENERATE("{\"scene\": ", "[1, 2]", "{\"summary\": 3, \"ballast\": [], \"overrides\": {}, \"resumed\": 1}",
-                                         "{\"summary\": {\"frequency_Hz\": \"five\", \"deep\": {\"er\": [1, {\"a\": null}]}}}"));
+  folder.write(
+      "manifest.json",
+      GENERATE(
+          "{\"scene\": ", "[1, 2]",
+          "{\"summary\": 3, \"ballast\": [], \"overrides\": {}, \"resumed\": 1}",
+          "{\"summary\": {\"frequency_Hz\": \"five\", \"deep\": {\"er\": [1, {\"a\": null}]}}}"));
   folder.write("scene.toml", "[scene]\nname = 3\n");
   const std::string page = page_of(folder);
   CHECK_THAT(page, Contains("scene.toml cannot be used: "));
@@ -202,7 +223,8 @@ TEST_CASE("the scene's parameters are on the page") {
   write_box(folder);
   fs::copy_file(find_scene("vibrated_box"), folder.path() / "scene.toml");
   const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("<h1>The paper&#39;s vibrated box") && Contains("2700&#8239;kg/m³") && Contains("The whole scene (scene.toml)"));
+  CHECK_THAT(page, Contains("<h1>The paper&#39;s vibrated box") && Contains("2700&#8239;kg/m³") &&
+                       Contains("The whole scene (scene.toml)"));
   CHECK_THAT(page, !Contains("To be known before reading"));
 }
 
@@ -211,20 +233,23 @@ TEST_CASE("without gnuplot the page has its tables and says why there is no figu
   write_box(folder);
   const EnvironmentGuard guard("PATH", empty.path().string());
   const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("gnuplot was not found") && !Contains("<figure") && Contains("The run in numbers") && Contains("≤&nbsp;0.001"));
+  CHECK_THAT(page, Contains("gnuplot was not found") && !Contains("<figure") &&
+                       Contains("The run in numbers") && Contains("≤&nbsp;0.001"));
 }
 
 TEST_CASE("a failing gnuplot costs its figures, not the page") {
   const TemporaryFolder folder, path;
   write_box(folder);
   // answers --version, fails on Fig. 4, otherwise draws an empty picture
-  const fs::path program = path.write("gnuplot",
-                                      "#!/bin/sh\ncase \"$2\" in *fig04*) echo 'no ink' >&2; exit 1;; esac\n"
-                                      "echo '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>'\n");
+  const fs::path program =
+      path.write("gnuplot",
+                 "#!/bin/sh\ncase \"$2\" in *fig04*) echo 'no ink' >&2; exit 1;; esac\n"
+                 "echo '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>'\n");
   fs::permissions(program, fs::perms::owner_all);
   const EnvironmentGuard guard("PATH", path.path().string());
   const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("figure fig04: gnuplot failed (1): no ink") && !Contains("<figure id=\"fig04\">"));
+  CHECK_THAT(page, Contains("figure fig04: gnuplot failed (1): no ink") &&
+                       !Contains("<figure id=\"fig04\">"));
   CHECK_THAT(page, Contains("<figure id=\"fig03\">") && Contains("<figure id=\"energy\">"));
 }
 

@@ -1,18 +1,18 @@
-// Islands at rest that are not solved at all: sleep on = off within the tolerance, who wakes, and the same bits after a
-// stop.
+// Islands at rest that are not solved at all: sleep on = off within the tolerance, who wakes, and
+// the same bits after a stop.
 
 #include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "tests/experiments/step/stacks.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "platform/error.hpp"
 
 using namespace ballast;
 
 namespace {
 
-/// Stacks, and a cube that falls flat on the first one after 0.32 s (320 steps). Struck by a corner the stack would
-/// have several answers in the step of the blow (52000 sweeps of the same problem), and which one is found depends on
-/// everything.
+/// Stacks, and a cube that falls flat on the first one after 0.32 s (320 steps). Struck by a corner
+/// the stack would have several answers in the step of the blow (52000 sweeps of the same problem),
+/// and which one is found depends on everything.
 Scene hit_stacks(int count) {
   Scene scene = stacks(count);
   BodySpec stone = cube("stone", 0.06, 0.5, Vec3(0.02, 0.01, 0.3 + 0.03 + 0.5));
@@ -32,7 +32,8 @@ TEST_CASE("sleep: a stack left alone sleeps, keeps its contacts, and is not solv
   CHECK(on.sleepers() == 6);
   const StepMemory kept = on.memory;
   const MotionState frozen = on.state;
-  for (int b = 0; b < 6; ++b) CHECK((on.state.velocity[b].isZero(0.0) && on.state.spin[b].isZero(0.0)));
+  for (int b = 0; b < 6; ++b)
+    CHECK((on.state.velocity[b].isZero(0.0) && on.state.spin[b].isZero(0.0)));
   double weight = 0.0;
   for (size_t c = 0; c < kept.contacts.size(); ++c)
     if (kept.contacts[c].body_a == 6) weight += kept.impulses[c].z() / scene.step;
@@ -57,7 +58,9 @@ TEST_CASE("sleep: a stack left alone sleeps, keeps its contacts, and is not solv
   CHECK(largest_distance(on.state, off.state) < 1e-6);
 }
 
-TEST_CASE("sleep: what a falling stone touches wakes, the rest sleeps on, and momentum is as without sleep") {
+TEST_CASE(
+    "sleep: what a falling stone touches wakes, the rest sleeps on, and momentum is as without "
+    "sleep") {
   Scene scene = hit_stacks(2);
   scene.solver.tolerance = 1e-6;
   scene.solver.max_iterations = 100000;
@@ -114,7 +117,8 @@ TEST_CASE("sleep: a wall that starts to move wakes what stands on it") {
   CHECK(on.sleepers() == 0);
 }
 
-TEST_CASE("sleep: a wall that comes from afar wakes what it reaches, and pushes it as without sleep") {
+TEST_CASE(
+    "sleep: a wall that comes from afar wakes what it reaches, and pushes it as without sleep") {
   Scene scene = stacks(1);
   scene.bodies.resize(1);
   WallSpec paddle;
@@ -156,7 +160,9 @@ TEST_CASE("sleep: a force that changes wakes the whole stack") {
   CHECK(weight == Approx(2.0 * 3.3 * 9.81 + 1.0).epsilon(1e-3));
 }
 
-TEST_CASE("sleep: not for what a varying force, a driven or a shaken wall acts on, nor for what stands on nothing") {
+TEST_CASE(
+    "sleep: not for what a varying force, a driven or a shaken wall acts on, nor for what stands "
+    "on nothing") {
   Scene scene = stacks(1);
   SECTION("a varying force") {
     scene.bodies[0].force.amplitude = Vec3(1e-3, 0.0, 0.0);

@@ -37,7 +37,8 @@ inline Scene stacks(int count) {
 /// A scene being stepped.
 struct Stepped {
   explicit Stepped(const Scene& given) : scene(given), system(make_system(scene, state)) {
-    stepper = std::make_unique<TimeStepper>(system, step_settings(scene), system.first_driven_wall());
+    stepper =
+        std::make_unique<TimeStepper>(system, step_settings(scene), system.first_driven_wall());
   }
   StepRecord step() { return stepper->step(state, memory); }
   void run(int steps) {
@@ -49,9 +50,12 @@ struct Stepped {
     Checkpoint checkpoint = read_checkpoint(file);
     memory = memory_of(checkpoint, file);
     state = checkpoint.state;
-    stepper = std::make_unique<TimeStepper>(system, step_settings(scene), system.first_driven_wall());
+    stepper =
+        std::make_unique<TimeStepper>(system, step_settings(scene), system.first_driven_wall());
   }
-  bool asleep(int body) const { return !memory.rest.empty() && memory.rest[body] == StepMemory::asleep; }
+  bool asleep(int body) const {
+    return !memory.rest.empty() && memory.rest[body] == StepMemory::asleep;
+  }
   int sleepers() const {
     return static_cast<int>(std::count(memory.rest.begin(), memory.rest.end(), StepMemory::asleep));
   }

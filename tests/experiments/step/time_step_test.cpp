@@ -10,7 +10,8 @@ using namespace ballast;
 TEST_CASE("the mid-point rule keeps energy and angular momentum of a tumbling body") {
   const Vec3 inertia(1.0, 2.0, 2.5);
   Vec3 spin(0.1, 5.0, 0.2);
-  const double energy = spin.dot(inertia.cwiseProduct(spin)), momentum = inertia.cwiseProduct(spin).norm();
+  const double energy = spin.dot(inertia.cwiseProduct(spin)),
+               momentum = inertia.cwiseProduct(spin).norm();
   for (int k = 0; k < 10000; ++k) spin = free_spin(inertia, spin, 1e-3);
   CHECK(spin.dot(inertia.cwiseProduct(spin)) == Approx(energy).epsilon(1e-12));
   CHECK(inertia.cwiseProduct(spin).norm() == Approx(momentum).epsilon(1e-12));
@@ -23,7 +24,8 @@ TEST_CASE("the intermediate axis flips over (Dzhanibekov), to second order in h"
     return spin;
   };
   const Vec3 reference = spin_at(1e-5);
-  const double coarse = (spin_at(2e-3) - reference).norm(), fine = (spin_at(1e-3) - reference).norm();
+  const double coarse = (spin_at(2e-3) - reference).norm(),
+               fine = (spin_at(1e-3) - reference).norm();
   CHECK(reference.y() < 4.0);  // it has left the unstable axis
   CHECK(coarse / fine == Approx(4.0).margin(0.1));
 }
@@ -42,11 +44,14 @@ TEST_CASE("free fall is exact at every step") {
     CHECK(std::abs(record.energy_residual) < 1e-12);
   }
   const double t = 1.0;
-  CHECK((state.pose[0].position - (Vec3(0, 0, 10) + t * Vec3(1, -2, 3) + 0.5 * t * t * scene.gravity)).norm() < 1e-11);
+  CHECK(
+      (state.pose[0].position - (Vec3(0, 0, 10) + t * Vec3(1, -2, 3) + 0.5 * t * t * scene.gravity))
+          .norm() < 1e-11);
   CHECK(std::abs(state.pose[0].rotation.norm() - 1.0) < 1e-15);
 }
 
-TEST_CASE("a dropped cube comes to rest on the floor without sinking in, and the energy account closes") {
+TEST_CASE(
+    "a dropped cube comes to rest on the floor without sinking in, and the energy account closes") {
   Scene scene = empty_scene();
   scene.walls.push_back(floor_at_zero(0.4));
   scene.bodies.push_back(cube("body", 0.1, 2.0, Vec3(0, 0, 0.07)));

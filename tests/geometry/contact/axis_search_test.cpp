@@ -25,8 +25,8 @@ AxisFeature random_feature(const ShapePair& pair, Random& random) {
 }
 
 bool same_bits(const SeparatingAxis& p, const SeparatingAxis& q) {
-  return p.feature == q.feature && p.support == q.support && p.separation == q.separation && p.normal == q.normal &&
-         p.inside == q.inside && p.clearance == q.clearance;
+  return p.feature == q.feature && p.support == q.support && p.separation == q.separation &&
+         p.normal == q.normal && p.inside == q.inside && p.clearance == q.clearance;
 }
 
 }  // namespace
@@ -44,27 +44,34 @@ TEST_CASE("the separation is the oracle's, over all placements") {
       SeparatingAxis axis;
       search.find(c.pair(), 1e9, hint, axis);
       const BruteForce oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a);
-      // apart, cross products that are no facets may see a larger gap, up to the distance; overlapping, none does
+      // apart, cross products that are no facets may see a larger gap, up to the distance;
+      // overlapping, none does
       double error = std::abs(axis.separation - oracle.facets);
       if (oracle.all <= 0.0) error = std::max(error, std::abs(axis.separation - oracle.all));
       overlapping += oracle.all <= 0.0;
       faces += axis.feature.kind != AxisKind::edges;
       worst = std::max(worst, error / c.size());
       if (error > 1e-12 * c.size())
-        FAIL_CHECK(name(placement) << " case " << i << ": shapes " << c.a << ", " << c.b << " " << axis.separation
-                                   << " instead of " << oracle.facets << " / " << oracle.all);
+        FAIL_CHECK(name(placement)
+                   << " case " << i << ": shapes " << c.a << ", " << c.b << " " << axis.separation
+                   << " instead of " << oracle.facets << " / " << oracle.all);
       if (std::abs(oracle.all) > 1e-12 * c.size() && (oracle.all > 0.0) != (axis.separation > 0.0))
         FAIL_CHECK(name(placement) << " case " << i << ": wrong sign");
     }
-    INFO(name(placement) << ": overlapping " << overlapping << ", faces " << faces << " of " << count);
+    INFO(name(placement) << ": overlapping " << overlapping << ", faces " << faces << " of "
+                         << count);
     CHECK(worst <= 1e-12);
-    if (placement == Placement::near_touching) CHECK((overlapping > count / 4 && overlapping < 3 * count / 4));
-    if (placement == Placement::near_touching) CHECK((faces > count / 10 && faces < 9 * count / 10));
-    if (placement == Placement::deep || placement == Placement::inside) CHECK(overlapping > count / 2);
+    if (placement == Placement::near_touching)
+      CHECK((overlapping > count / 4 && overlapping < 3 * count / 4));
+    if (placement == Placement::near_touching)
+      CHECK((faces > count / 10 && faces < 9 * count / 10));
+    if (placement == Placement::deep || placement == Placement::inside)
+      CHECK(overlapping > count / 2);
   }
 }
 
-TEST_CASE("edges closer to parallel than the threshold cost no more than the sliver they leave out") {
+TEST_CASE(
+    "edges closer to parallel than the threshold cost no more than the sliver they leave out") {
   // the facet left out is kParallelSine of an edge wide; an axis beside it is that much off
   AxisSearch search(collision_pool());
   Random random(4);
@@ -75,7 +82,8 @@ TEST_CASE("edges closer to parallel than the threshold cost no more than the sli
     SeparatingAxis axis;
     search.find(c.pair(), 1e9, hint, axis);
     const BruteForce oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a);
-    if (oracle.all > 1e-7 * c.size()) continue;  // apart: cross products that are no facets see more
+    if (oracle.all > 1e-7 * c.size())
+      continue;  // apart: cross products that are no facets see more
     worst = std::max(worst, std::abs(oracle.all - axis.separation) / c.size());
   }
   CHECK(worst <= 1e-7);
@@ -99,8 +107,8 @@ TEST_CASE("outcome and axis do not depend on the hint") {
       if (k == 0) proved += outcome == AxisOutcome::proved_by_hint;
       by_hint += outcome == AxisOutcome::separated_by_hint;
       if (is_separated(outcome) != apart || (!apart && !same_bits(axis, reference))) {
-        FAIL_CHECK("case " << i << ", hint " << k << ": " << axis.separation << " instead of " << reference.separation
-                           << ", shapes " << c.a << " and " << c.b);
+        FAIL_CHECK("case " << i << ", hint " << k << ": " << axis.separation << " instead of "
+                           << reference.separation << ", shapes " << c.a << " and " << c.b);
       }
     }
   }
@@ -118,7 +126,8 @@ TEST_CASE("a search that stops at the alert distance agrees with one that does n
     SeparatingAxis full, axis;
     search.find(c.pair(), 1e9, none, full);
     const double delta = random_scale(random, 2, 10);
-    if (delta == 0.0) continue;  // within the tie tolerance another axis may be just above the alert distance
+    if (delta == 0.0)
+      continue;  // within the tie tolerance another axis may be just above the alert distance
     const double alert = full.separation + delta;
     const AxisOutcome outcome = search.find(c.pair(), alert, hint, axis);
     apart += is_separated(outcome);
@@ -127,7 +136,8 @@ TEST_CASE("a search that stops at the alert distance agrees with one that does n
       // the feature handed back separates
       Heights heights(256);
       const auto evaluated = evaluate_axis(c.pair(), hint, heights);
-      if (!evaluated || !(evaluated->separation > alert)) FAIL_CHECK("case " << i << ": no separating feature");
+      if (!evaluated || !(evaluated->separation > alert))
+        FAIL_CHECK("case " << i << ": no separating feature");
     }
   }
   CHECK(apart > 5000);
@@ -142,7 +152,8 @@ TEST_CASE("equal axes: faces before edges, a before b, the smaller index") {
   AxisFeature hint;
   SeparatingAxis axis;
   // two aligned cubes: the top face of a and the bottom face of b tie
-  cubes.find(ShapePair(shapes[0], shapes[0], {Mat3::Identity(), Vec3(0.1, 0.2, 1.9)}), 1.0, hint, axis);
+  cubes.find(ShapePair(shapes[0], shapes[0], {Mat3::Identity(), Vec3(0.1, 0.2, 1.9)}), 1.0, hint,
+             axis);
   CHECK(axis.feature.kind == AxisKind::face_of_a);
   CHECK(axis.normal.isApprox(Vec3(0, 0, 1), 1e-15));
   CHECK(axis.separation == Approx(-0.1).epsilon(1e-14));

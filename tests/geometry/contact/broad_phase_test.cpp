@@ -17,9 +17,12 @@ struct World {
     for (int i = 0; i < count; ++i) {
       const bool plane = i % 11 == 5;
       bodies.push_back(
-          {plane ? nullptr : &collision_pool()[random.below(static_cast<int>(collision_pool().size()))], i % 7 == 3});
+          {plane ? nullptr
+                 : &collision_pool()[random.below(static_cast<int>(collision_pool().size()))],
+           i % 7 == 3});
       Pose pose;
-      pose.position = Vec3(random.uniform(0.0, 0.4), random.uniform(0.0, 0.3), random.uniform(0.0, 0.3));
+      pose.position =
+          Vec3(random.uniform(0.0, 0.4), random.uniform(0.0, 0.3), random.uniform(0.0, 0.3));
       pose.rotation = random.rotation();
       poses.push_back(pose);
       reach.push_back(1e-4 * random.uniform());
@@ -66,12 +69,15 @@ void check_list(BroadPhase& broad_phase, const World& world) {
   CHECK(sorted);
   CHECK(allowed);
   for (int a = 0; a < static_cast<int>(world.bodies.size()); ++a) {
-    for (int k = broad_phase.first(a); k < broad_phase.first(a + 1); ++k) allowed &= broad_phase.pairs()[k].a == a;
+    for (int k = broad_phase.first(a); k < broad_phase.first(a + 1); ++k)
+      allowed &= broad_phase.pairs()[k].a == a;
   }
   CHECK(allowed);
-  CHECK(broad_phase.first(static_cast<int>(world.bodies.size())) == static_cast<int>(broad_phase.pairs().size()));
+  CHECK(broad_phase.first(static_cast<int>(world.bodies.size())) ==
+        static_cast<int>(broad_phase.pairs().size()));
   const auto required = world.required();
-  if (!std::includes(listed.begin(), listed.end(), required.begin(), required.end())) FAIL_CHECK("a pair is missing");
+  if (!std::includes(listed.begin(), listed.end(), required.begin(), required.end()))
+    FAIL_CHECK("a pair is missing");
 }
 
 }  // namespace
@@ -101,7 +107,8 @@ TEST_CASE("the list holds every pair within reach, under motion, teleports and c
       for (size_t i = 0; i < world.poses.size(); ++i) {
         if (world.bodies[i].fixed) continue;
         world.poses[i].position += speed * world.random.unit_vector();
-        world.poses[i].rotation = world.poses[i].rotation * rotation_by(10.0 * speed * world.random.unit_vector());
+        world.poses[i].rotation =
+            world.poses[i].rotation * rotation_by(10.0 * speed * world.random.unit_vector());
       }
       const int some = world.random.below(static_cast<int>(world.poses.size()));
       if (step % 9 == 4) world.poses[some].position = 0.3 * world.random.unit_vector();

@@ -41,8 +41,10 @@ TEST_CASE("tables agree with the polyhedron they come from") {
     for (int f = 0; f < shape.faces().count(); ++f) {
       const Vec3 normal = shape.faces().xyz(f);
       CHECK(normal.norm() == Approx(1.0).epsilon(1e-14));
-      CHECK(-shape.faces().w(f) == Approx(normal.dot(polyhedron.vertex(polyhedron.support(normal)))).epsilon(1e-13));
-      CHECK(normal.dot(shape.bounds().ball_centre) + shape.faces().w(f) <= -shape.bounds().ball_radius + small);
+      CHECK(-shape.faces().w(f) ==
+            Approx(normal.dot(polyhedron.vertex(polyhedron.support(normal)))).epsilon(1e-13));
+      CHECK(normal.dot(shape.bounds().ball_centre) + shape.faces().w(f) <=
+            -shape.bounds().ball_radius + small);
       for (int k = 0; k < shape.face(f).corner_count; ++k) {
         const int corner = shape.corners(f)[k].vertex,
                   next = shape.corners(f)[(k + 1) % shape.face(f).corner_count].vertex;
@@ -79,7 +81,8 @@ TEST_CASE("coplanar triangles become one face") {
   std::vector<Vec3> vertices;
   for (const Vec3& p : upright.vertices()) vertices.push_back(rotation * p);
   std::vector<std::vector<int>> faces;
-  for (int f = 0; f < upright.face_count(); ++f) faces.emplace_back(upright.face(f).begin(), upright.face(f).end());
+  for (int f = 0; f < upright.face_count(); ++f)
+    faces.emplace_back(upright.face(f).begin(), upright.face(f).end());
   CHECK(CollisionShape(Polyhedron(vertices, faces)).faces().count() == 6);
 
   // bent along the diagonal by more than the threshold: stays two
@@ -93,7 +96,8 @@ TEST_CASE("the ball lies inside also when the origin does not") {
   const Polyhedron box = make_box(Vec3(1, 1, 1));
   for (const Vec3& p : box.vertices()) far.push_back(p + Vec3(5, 0, 0));
   std::vector<std::vector<int>> faces;
-  for (int f = 0; f < box.face_count(); ++f) faces.emplace_back(box.face(f).begin(), box.face(f).end());
+  for (int f = 0; f < box.face_count(); ++f)
+    faces.emplace_back(box.face(f).begin(), box.face(f).end());
   const CollisionShape shape(Polyhedron(far, faces));
   CHECK(shape.bounds().ball_radius == Approx(0.5));
   CHECK(shape.bounds().ball_centre.isApprox(Vec3(5, 0, 0)));

@@ -17,7 +17,8 @@ using namespace ballast::testing;
 TEST_CASE("contacts depend on poses and reaches only: with and without cache, bit by bit") {
   for (double step : {1e-6, 1e-5, 1e-4, 1e-3}) {
     Packing packing(70, step < 5e-4 ? 0.28 : 0.25, 1);
-    if (step < 5e-4) packing.relax();  // otherwise deep overlaps, many of them equal in depth along several axes
+    if (step < 5e-4)
+      packing.relax();  // otherwise deep overlaps, many of them equal in depth along several axes
     DetectionSettings fresh;
     fresh.use_cache = false;
     ContactDetector cached(packing.shapes, {}), from_scratch(packing.shapes, fresh);
@@ -36,7 +37,8 @@ TEST_CASE("contacts depend on poses and reaches only: with and without cache, bi
       if (k % 30 == 0) {  // a detector that has never seen the past
         ContactDetector newborn(packing.shapes, {});
         newborn.detect(packing.poses, packing.reach, contacts);
-        if (!same_bits(contacts, expected)) FAIL_CHECK("newborn at step " << k << " of size " << step);
+        if (!same_bits(contacts, expected))
+          FAIL_CHECK("newborn at step " << k << " of size " << step);
       }
       CHECK(contacts.size() > 50);
     }
@@ -53,7 +55,8 @@ TEST_CASE("all pairs by brute force: who touches, and how deep") {
   int touching = 0, apart = 0, beside = 0;
   for (int k = 0; k < 12; ++k) {
     packing.move(0.005);
-    for (double& reach : packing.reach) reach = k % 3 == 0 ? 0.0 : std::pow(10.0, -packing.random.uniform(2.5, 7.0));
+    for (double& reach : packing.reach)
+      reach = k % 3 == 0 ? 0.0 : std::pow(10.0, -packing.random.uniform(2.5, 7.0));
     detector.detect(packing.poses, packing.reach, contacts);
     std::map<std::pair<int, int>, double> least;
     for (const ContactPoint& c : contacts) {
@@ -112,9 +115,10 @@ TEST_CASE("planes: every vertex within reach, by definition") {
         const double gap = normal.dot(p - packing.poses[a].position);
         if (gap > packing.reach[a] + packing.reach[b]) continue;
         ++expected;
-        const auto found = std::find_if(contacts.begin(), contacts.end(), [&](const ContactPoint& c) {
-          return c.body_a == a && c.body_b == b && c.feature == static_cast<std::uint64_t>(v);
-        });
+        const auto found =
+            std::find_if(contacts.begin(), contacts.end(), [&](const ContactPoint& c) {
+              return c.body_a == a && c.body_b == b && c.feature == static_cast<std::uint64_t>(v);
+            });
         REQUIRE(found != contacts.end());
         CHECK(found->gap == Approx(gap).margin(1e-15));
         CHECK((found->normal - normal).norm() <= 1e-15);
@@ -122,8 +126,9 @@ TEST_CASE("planes: every vertex within reach, by definition") {
       }
     }
   }
-  const auto with_plane = std::count_if(contacts.begin(), contacts.end(),
-                                        [&](const ContactPoint& c) { return !packing.shapes[c.body_a].polyhedron; });
+  const auto with_plane =
+      std::count_if(contacts.begin(), contacts.end(),
+                    [&](const ContactPoint& c) { return !packing.shapes[c.body_a].polyhedron; });
   CHECK(static_cast<size_t>(with_plane) == expected);
   CHECK(expected > 50);
 }
@@ -139,7 +144,8 @@ TEST_CASE("contacts are sorted, unique, with unit normals from a to b") {
       const ContactPoint& c = contacts[i];
       if (i > 0) {
         const ContactPoint& before = contacts[i - 1];
-        CHECK(std::tie(before.body_a, before.body_b, before.feature) < std::tie(c.body_a, c.body_b, c.feature));
+        CHECK(std::tie(before.body_a, before.body_b, before.feature) <
+              std::tie(c.body_a, c.body_b, c.feature));
       }
       CHECK(c.normal.norm() == Approx(1.0).epsilon(1e-14));
       const bool plane = !packing.shapes[c.body_a].polyhedron;
@@ -213,10 +219,12 @@ TEST_CASE("what is not a number, or not as many, is refused by name") {
   std::vector<ContactPoint> contacts;
   auto poses = packing.poses;
   poses[4].position.y() = NAN;
-  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts), Catch::Matchers::Contains("body 4"));
+  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts),
+                    Catch::Matchers::Contains("body 4"));
   poses = packing.poses;
   poses[2].rotation.w() = INFINITY;
-  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts), Catch::Matchers::Contains("body 2"));
+  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts),
+                    Catch::Matchers::Contains("body 2"));
   auto reach = packing.reach;
   reach[1] = NAN;
   CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);

@@ -31,7 +31,8 @@ Found find(const ShapePair& pair, double alert, int max_points) {
   return found;
 }
 
-/// Signed distance of a point of a's frame to the surface of body `which`, by its faces' planes (negative inside).
+/// Signed distance of a point of a's frame to the surface of body `which`, by its faces' planes
+/// (negative inside).
 double height_over(const ShapePair& pair, int which, const Vec3& in_a) {
   const Vec3 p = which == 0 ? in_a : pair.other[1] * in_a;
   const AffineRows& faces = pair.shape[which]->faces();
@@ -44,7 +45,8 @@ std::uint64_t mirrored_key(std::uint64_t key) {
   const std::uint64_t mask = 0x7fffffff, a = key >> 31 & mask, b = key & mask, kind = key >> 62;
   if (kind == 0) return feature_key(PointKind::vertex_of_a, static_cast<int>(b), 0);
   if (kind == 1) return feature_key(PointKind::vertex_of_b, 0, static_cast<int>(a));
-  return feature_key(kind == 2 ? PointKind::edges : PointKind::sides, static_cast<int>(b), static_cast<int>(a));
+  return feature_key(kind == 2 ? PointKind::edges : PointKind::sides, static_cast<int>(b),
+                     static_cast<int>(a));
 }
 
 /// Area of the convex hull of points on a plane, by the fan over all triangles of a sorted polygon.
@@ -53,7 +55,8 @@ double hull_area(std::vector<Vec3> points, const Vec3& normal) {
   for (const Vec3& p : points) centre += p / static_cast<double>(points.size());
   const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
   std::sort(points.begin(), points.end(), [&](const Vec3& p, const Vec3& q) {
-    return std::atan2(v.dot(p - centre), u.dot(p - centre)) < std::atan2(v.dot(q - centre), u.dot(q - centre));
+    return std::atan2(v.dot(p - centre), u.dot(p - centre)) <
+           std::atan2(v.dot(q - centre), u.dot(q - centre));
   });
   double area = 0.0;
   for (size_t k = 2; k < points.size(); ++k)
@@ -63,7 +66,9 @@ double hull_area(std::vector<Vec3> points, const Vec3& normal) {
 
 }  // namespace
 
-TEST_CASE("every manifold: not empty, deepest point kept, points on both surfaces, keys sorted and unique") {
+TEST_CASE(
+    "every manifold: not empty, deepest point kept, points on both surfaces, keys sorted and "
+    "unique") {
   int several = 0, fallbacks = 0, edge_pairs = 0, total = 0;
   for (const Placement placement : kPlacements) {
     Random random(31 + static_cast<int>(placement));
@@ -97,22 +102,27 @@ TEST_CASE("every manifold: not empty, deepest point kept, points on both surface
         const double over_b = height_over(pair, 1, p.position + 0.5 * p.gap * found.axis.normal);
         if (found.axis.feature.kind == AxisKind::edges) {
           ++edge_pairs;
-          near_surfaces &= found.axis.inside < 0.0 || (std::abs(over_a) <= small && std::abs(over_b) <= small);
+          near_surfaces &=
+              found.axis.inside < 0.0 || (std::abs(over_a) <= small && std::abs(over_b) <= small);
         } else {
-          // on the incident body's surface always, within the reference face unless it is the touching vertex
+          // on the incident body's surface always, within the reference face unless it is the
+          // touching vertex
           const bool a_is_reference = found.axis.feature.kind == AxisKind::face_of_a;
-          const double reference = a_is_reference ? over_a : over_b, incident = a_is_reference ? over_b : over_a;
+          const double reference = a_is_reference ? over_a : over_b,
+                       incident = a_is_reference ? over_b : over_a;
           const bool fallback = reference > small;
           const auto touching = static_cast<std::uint64_t>(found.axis.support);
           fallbacks += fallback;
           near_surfaces &= std::abs(incident) <= small;
-          near_surfaces &= !fallback || p.key == (a_is_reference ? touching : (touching << 31 | 1ull << 62));
+          near_surfaces &=
+              !fallback || p.key == (a_is_reference ? touching : (touching << 31 | 1ull << 62));
         }
       }
       const bool deepest = std::abs(least - found.axis.separation) <= 1e-12 * c.size();
       if (!sorted || !near_surfaces || !within_reach || !deepest)
-        FAIL_CHECK(name(placement) << " case " << i << ": sorted " << sorted << ", on surfaces " << near_surfaces
-                                   << ", within reach " << within_reach << ", deepest " << deepest);
+        FAIL_CHECK(name(placement)
+                   << " case " << i << ": sorted " << sorted << ", on surfaces " << near_surfaces
+                   << ", within reach " << within_reach << ", deepest " << deepest);
     }
   }
   CHECK(total > 8000);
@@ -126,11 +136,14 @@ TEST_CASE("the short cut for one vertex on a face returns what clipping returns"
   FaceClipper clipper;
   int single = 0;
   for (int i = 0; i < 20000; ++i) {
-    const PairCase c = random_case(i % 2 ? Placement::near_touching : Placement::parallel_faces, random);
+    const PairCase c =
+        random_case(i % 2 ? Placement::near_touching : Placement::parallel_faces, random);
     const ShapePair pair = c.pair();
     const double alert = 1e-4;
     const Found found = find(pair, alert, kAll);
-    if (found.points.empty() || found.axis.feature.kind == AxisKind::edges || found.axis.inside < 0.0) continue;
+    if (found.points.empty() || found.axis.feature.kind == AxisKind::edges ||
+        found.axis.inside < 0.0)
+      continue;
     const int reference = found.axis.feature.kind == AxisKind::face_of_a ? 0 : 1;
     const int face = reference == 0 ? found.axis.feature.a : found.axis.feature.b;
     // all incident faces at the touching vertex together see all that comes near the reference face
@@ -148,7 +161,8 @@ TEST_CASE("the short cut for one vertex on a face returns what clipping returns"
     } else if (found.points.size() == 1 && found.axis.clearance > 2.0 * alert) {
       // the incident face alone may see one point only; never fewer than it does
       const double slope = found.axis.clearance / (2.0 * pair.shape[1 - reference]->circumradius());
-      if (found.axis.separation + slope * found.axis.inside > alert + 1e-8) FAIL_CHECK("case " << i << ": point lost");
+      if (found.axis.separation + slope * found.axis.inside > alert + 1e-8)
+        FAIL_CHECK("case " << i << ": point lost");
     }
   }
   CHECK(single > 2000);
@@ -162,24 +176,29 @@ TEST_CASE("swapping the bodies mirrors the manifold") {
     const PairCase c = random_case(placement, random);
     const ShapePair pair = c.pair(), swapped(*pair.shape[1], *pair.shape[0], c.b_in_a.inverse());
     const Found found = find(pair, 1e-4, kAll), other = find(swapped, 1e-4, kAll);
-    if (found.points.empty() != other.points.empty()) FAIL_CHECK("case " << i << ": one of them is empty");
+    if (found.points.empty() != other.points.empty())
+      FAIL_CHECK("case " << i << ": one of them is empty");
     if (found.points.empty()) continue;
     CHECK(std::abs(found.axis.separation - other.axis.separation) <= 1e-12 * c.size());
     // equal axes: the rule prefers a, which is the other body now
     if ((found.axis.normal + c.b_in_a.rotation * other.axis.normal).norm() > 1e-12 ||
-        (found.axis.feature.kind == AxisKind::face_of_a) != (other.axis.feature.kind == AxisKind::face_of_b)) {
+        (found.axis.feature.kind == AxisKind::face_of_a) !=
+            (other.axis.feature.kind == AxisKind::face_of_b)) {
       ++ties;
       continue;
     }
     ++compared;
-    // corners on one another within the clipping thickness bear the incident body's name, which is the other one now
+    // corners on one another within the clipping thickness bear the incident body's name, which is
+    // the other one now
     if (placement == Placement::offset_copy) continue;
     // where nearly parallel lines are closest is known to rounding / sine
-    const double small = placement == Placement::parallel_edges ? 1e-8 * c.size() : 1e-10 * c.size();
+    const double small =
+        placement == Placement::parallel_edges ? 1e-8 * c.size() : 1e-10 * c.size();
     bool same = found.points.size() == other.points.size();
     for (const ManifoldPoint& p : found.points) {
-      const auto it = std::find_if(other.points.begin(), other.points.end(),
-                                   [&](const ManifoldPoint& q) { return q.key == mirrored_key(p.key); });
+      const auto it =
+          std::find_if(other.points.begin(), other.points.end(),
+                       [&](const ManifoldPoint& q) { return q.key == mirrored_key(p.key); });
       same = same && it != other.points.end() && std::abs(it->gap - p.gap) <= 1e-12 * c.size() &&
              (c.b_in_a * it->position - p.position).norm() <= small;
     }
@@ -249,7 +268,8 @@ TEST_CASE("reduction keeps the deepest point and most of the area") {
       for (const ManifoldPoint& p : all.points) all_corners.push_back(p.position);
       CHECK(least == Approx(few.axis.separation).margin(1e-15));
       if (max_points < 3) continue;
-      const double share = hull_area(corners, few.axis.normal) / hull_area(all_corners, few.axis.normal);
+      const double share =
+          hull_area(corners, few.axis.normal) / hull_area(all_corners, few.axis.normal);
       CHECK(share >= before - 1e-9);
       before = share;
       if (max_points == 4) CHECK(share > 0.5);
@@ -262,12 +282,14 @@ TEST_CASE("crossed edges touch at one point, midway") {
   const Mat3 on_edge = Eigen::AngleAxisd(0.25 * std::acos(-1.0), Vec3::UnitX()).toRotationMatrix();
   const Mat3 cross = Eigen::AngleAxisd(1.0, Vec3::UnitZ()).toRotationMatrix();
   const Vec3 offset(0.7, 0.4, std::sqrt(2.0) - 0.02);
-  const ShapePair pair(rod, rod, {on_edge.transpose() * cross * on_edge, on_edge.transpose() * offset});
+  const ShapePair pair(rod, rod,
+                       {on_edge.transpose() * cross * on_edge, on_edge.transpose() * offset});
   const Found found = find(pair, 0.0, 4);
   REQUIRE(found.points.size() == 1);
   CHECK(found.points[0].gap == Approx(-0.02).epsilon(1e-12));
   const Vec3 upright = on_edge * found.points[0].position;
-  // the lower rod's edge runs along x through y = 0, the upper one's along the turned x through the offset
+  // the lower rod's edge runs along x through y = 0, the upper one's along the turned x through the
+  // offset
   CHECK(upright.y() == Approx(0.0).margin(1e-14));
   CHECK(upright.x() == Approx(0.7 - 0.4 / std::tan(1.0)));
   CHECK(upright.z() == Approx(std::sqrt(0.5) - 0.01));

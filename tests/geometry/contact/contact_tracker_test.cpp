@@ -17,7 +17,8 @@ std::vector<ContactPoint> random_contacts(Random& random, int pairs, int feature
   std::set<std::tuple<int, int, std::uint64_t>> used;
   for (int i = 0; i < 3 * pairs; ++i) {
     const int a = random.below(pairs), b = a + 1 + random.below(2);
-    const std::uint64_t feature = static_cast<std::uint64_t>(random.below(features)) << (random.below(2) ? 0 : 40);
+    const std::uint64_t feature = static_cast<std::uint64_t>(random.below(features))
+                                  << (random.below(2) ? 0 : 40);
     if (!used.emplace(a, b, feature).second) continue;
     contacts.push_back({a, b, feature, random.unit_vector(), random.unit_vector(), 0.0});
   }
@@ -27,7 +28,9 @@ std::vector<ContactPoint> random_contacts(Random& random, int pairs, int feature
   return contacts;
 }
 
-bool same_pair(const ContactPoint& p, const ContactPoint& q) { return p.body_a == q.body_a && p.body_b == q.body_b; }
+bool same_pair(const ContactPoint& p, const ContactPoint& q) {
+  return p.body_a == q.body_a && p.body_b == q.body_b;
+}
 
 /// The header's words, point by point.
 std::vector<Vec3> carried_by_definition(const std::vector<ContactPoint>& old_contacts,
@@ -35,8 +38,9 @@ std::vector<Vec3> carried_by_definition(const std::vector<ContactPoint>& old_con
                                         const std::vector<ContactPoint>& new_contacts) {
   std::vector<Vec3> carried(new_contacts.size(), Vec3::Zero());
   const auto matched = [](const ContactPoint& p, const std::vector<ContactPoint>& list) {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const ContactPoint& q) { return same_pair(p, q) && p.feature == q.feature; });
+    return std::any_of(list.begin(), list.end(), [&](const ContactPoint& q) {
+      return same_pair(p, q) && p.feature == q.feature;
+    });
   };
   for (size_t i = 0; i < old_contacts.size(); ++i) {
     int target = -1;
@@ -48,7 +52,9 @@ std::vector<Vec3> carried_by_definition(const std::vector<ContactPoint>& old_con
         break;
       }
       const bool is_free = !matched(new_contacts[j], old_contacts);
-      const auto distance = [&](int k) { return (new_contacts[k].position - old_contacts[i].position).norm(); };
+      const auto distance = [&](int k) {
+        return (new_contacts[k].position - old_contacts[i].position).norm();
+      };
       if (target < 0 || (is_free && !target_free) ||
           (is_free == target_free && distance(static_cast<int>(j)) < distance(target))) {
         target = static_cast<int>(j);
@@ -125,17 +131,20 @@ TEST_CASE("same contacts, same impulses, bit by bit; nothing to nothing") {
 
 TEST_CASE("a renamed point hands over to its nearest newcomer") {
   const Vec3 n = Vec3::UnitZ();
-  const std::vector<ContactPoint> old_contacts{{0, 1, 10, n, Vec3(0, 0, 0), 0.0}, {0, 1, 11, n, Vec3(1, 0, 0), 0.0}};
-  const std::vector<ContactPoint> new_contacts{{0, 1, 10, n, Vec3(1.1, 0, 0), 0.0},  // nearest, but known by name
-                                               {0, 1, 20, n, Vec3(5, 0, 0), 0.0},
-                                               {0, 1, 21, n, Vec3(1.2, 0, 0), 0.0}};
+  const std::vector<ContactPoint> old_contacts{{0, 1, 10, n, Vec3(0, 0, 0), 0.0},
+                                               {0, 1, 11, n, Vec3(1, 0, 0), 0.0}};
+  const std::vector<ContactPoint> new_contacts{
+      {0, 1, 10, n, Vec3(1.1, 0, 0), 0.0},  // nearest, but known by name
+      {0, 1, 20, n, Vec3(5, 0, 0), 0.0},
+      {0, 1, 21, n, Vec3(1.2, 0, 0), 0.0}};
   std::vector<Vec3> carried;
-  carry_impulses(old_contacts, std::vector<Vec3>{Vec3(1, 0, 0), Vec3(0, 2, 0)}, new_contacts, carried);
+  carry_impulses(old_contacts, std::vector<Vec3>{Vec3(1, 0, 0), Vec3(0, 2, 0)}, new_contacts,
+                 carried);
   CHECK(carried[0] == Vec3(1, 0, 0));
   CHECK(carried[1] == Vec3::Zero());
   CHECK(carried[2] == Vec3(0, 2, 0));
   // all new points are known: the nearest of them takes it
-  carry_impulses(old_contacts, std::vector<Vec3>{Vec3(1, 0, 0), Vec3(0, 2, 0)}, std::span(new_contacts).first(1),
-                 carried);
+  carry_impulses(old_contacts, std::vector<Vec3>{Vec3(1, 0, 0), Vec3(0, 2, 0)},
+                 std::span(new_contacts).first(1), carried);
   CHECK(carried[0] == Vec3(1, 2, 0));
 }

@@ -27,7 +27,8 @@ TEST_CASE("detection in parts finds the same contacts, bit by bit, and counts th
   for (const double step : {1e-5, 1e-3}) {
     Packing packing(70, step < 5e-4 ? 0.28 : 0.25, 1);
     if (step < 5e-4) packing.relax();
-    ContactDetector whole(packing.shapes, {}), threads(packing.shapes, {}), many(packing.shapes, {});
+    ContactDetector whole(packing.shapes, {}), threads(packing.shapes, {}),
+        many(packing.shapes, {});
     threads.run_parts_by(on_threads_of_their_own, 3);
     many.run_parts_by(backwards, 200);  // more than bodies: some parts have nothing to do
     std::vector<ContactPoint> expected, contacts;
@@ -43,7 +44,8 @@ TEST_CASE("detection in parts finds the same contacts, bit by bit, and counts th
         REQUIRE(contacts.size() == expected.size());
         CHECK(b.candidate_pairs == a.candidate_pairs);
         CHECK(b.cached_separations == a.cached_separations);
-        CHECK(b.proved_axes == a.proved_axes);  // what was remembered of pairs followed them to their new parts
+        CHECK(b.proved_axes ==
+              a.proved_axes);  // what was remembered of pairs followed them to their new parts
         CHECK(b.full_tests == a.full_tests);
         CHECK(b.manifolds == a.manifolds);
         CHECK(b.broad_phase_rebuilds == a.broad_phase_rebuilds);

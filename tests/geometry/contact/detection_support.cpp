@@ -17,7 +17,8 @@ std::vector<Polyhedron> make_pool() {
   Random random(7);
   for (int i = 0; i < 4; ++i) {
     std::vector<Vec3> corners;
-    for (int k = 0; k < 4; ++k) corners.push_back(random.uniform(0.02, 0.05) * random.unit_vector());
+    for (int k = 0; k < 4; ++k)
+      corners.push_back(random.uniform(0.02, 0.05) * random.unit_vector());
     Vec3 mean = Vec3::Zero();
     for (const Vec3& p : corners) mean += 0.25 * p;
     for (Vec3& p : corners) p -= mean;
@@ -43,7 +44,8 @@ std::vector<Polyhedron> make_pool() {
 struct Cloud {
   using Column = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, 64, 1>;
   template <class Map>
-  Cloud(std::span<const Vec3> points, const Map& map) : x(points.size()), y(points.size()), z(points.size()) {
+  Cloud(std::span<const Vec3> points, const Map& map)
+      : x(points.size()), y(points.size()), z(points.size()) {
     for (size_t i = 0; i < points.size(); ++i) {
       const Vec3 p = map(points[i]);
       x[i] = p.x();
@@ -66,7 +68,9 @@ Vec3 unit_cross(const Vec3& u, const Vec3& v) {
   return (n / n.norm()).cast<double>();
 }
 
-RelativePose turned(const Quat& rotation, const Vec3& position) { return {rotation.toRotationMatrix(), position}; }
+RelativePose turned(const Quat& rotation, const Vec3& position) {
+  return {rotation.toRotationMatrix(), position};
+}
 
 /// Moves b along the best axis until the separation is `gap`.
 void set_gap(PairCase& c, double gap) {
@@ -82,14 +86,17 @@ void set_gap(PairCase& c, double gap) {
 PairCase faces_together(PairCase c, Random& random) {
   const Polyhedron &a = shape_pool()[c.a], &b = shape_pool()[c.b];
   const int f = random.below(a.face_count()), g = random.below(b.face_count());
-  const Quat spin(Eigen::AngleAxisd(random.below(3) == 0 ? 0.0 : random.uniform(0.0, 6.28), a.normal(f)));
+  const Quat spin(
+      Eigen::AngleAxisd(random.below(3) == 0 ? 0.0 : random.uniform(0.0, 6.28), a.normal(f)));
   const Quat rotation = spin * Quat::FromTwoVectors(b.normal(g), -a.normal(f));
   Vec3 centre_a = Vec3::Zero(), centre_b = Vec3::Zero();
   for (int v : a.face(f)) centre_a += a.vertex(v) / static_cast<double>(a.face(f).size());
   for (int v : b.face(g)) centre_b += b.vertex(v) / static_cast<double>(b.face(g).size());
-  Vec3 shift = random.below(3) == 0 ? Vec3(Vec3::Zero()) : Vec3(random.uniform(0.0, 0.03) * random.unit_vector());
+  Vec3 shift = random.below(3) == 0 ? Vec3(Vec3::Zero())
+                                    : Vec3(random.uniform(0.0, 0.03) * random.unit_vector());
   shift -= shift.dot(a.normal(f)) * a.normal(f);
-  c.b_in_a = turned(rotation, centre_a - rotation * centre_b + shift + random_scale(random, 3, 12) * a.normal(f));
+  c.b_in_a = turned(
+      rotation, centre_a - rotation * centre_b + shift + random_scale(random, 3, 12) * a.normal(f));
   return c;
 }
 
@@ -145,7 +152,8 @@ BruteForce brute_force(const Polyhedron& a, const Polyhedron& b, const RelativeP
     best.all = separation;
     best.normal = n;
   };
-  for (const Vec3& n : a.normals()) take(n, points_b.extent(n).first - points_a.extent(n).second, true);
+  for (const Vec3& n : a.normals())
+    take(n, points_b.extent(n).first - points_a.extent(n).second, true);
   for (const Vec3& n_b : b.normals()) {
     const Vec3 n = -(b_in_a.rotation * n_b);
     take(n, points_b.extent(n).first - points_a.extent(n).second, true);
@@ -157,13 +165,16 @@ BruteForce brute_force(const Polyhedron& a, const Polyhedron& b, const RelativeP
       const double sine = along_a.cross(along_b).norm() / (along_a.norm() * along_b.norm());
       if (sine < kParallelSine) continue;
       if (sine < 1e-4) best.near_parallel = true;
-      const Vec3 n = sine < 1e-4 ? unit_cross(along_a, along_b) : along_a.cross(along_b).normalized();
+      const Vec3 n =
+          sine < 1e-4 ? unit_cross(along_a, along_b) : along_a.cross(along_b).normalized();
       const auto [low_a, high_a] = points_a.extent(n);
       const auto [low_b, high_b] = points_b.extent(n);
       const double a0 = points_a.height(ea.tail, n), a1 = points_a.height(ea.head, n);
       const double b0 = points_b.height(eb.tail, n), b1 = points_b.height(eb.head, n);
-      take(n, low_b - high_a, std::min(a0, a1) >= high_a - exact && std::max(b0, b1) <= low_b + exact);
-      take(-n, low_a - high_b, std::max(a0, a1) <= low_a + exact && std::min(b0, b1) >= high_b - exact);
+      take(n, low_b - high_a,
+           std::min(a0, a1) >= high_a - exact && std::max(b0, b1) <= low_b + exact);
+      take(-n, low_a - high_b,
+           std::max(a0, a1) <= low_a + exact && std::min(b0, b1) >= high_b - exact);
     }
   }
   return best;
@@ -201,7 +212,8 @@ PairCase edges_together(double angle, Random& random) {
   const Polyhedron &a = shape_pool()[c.a], &b = shape_pool()[c.b];
   const Polyhedron::Edge& ea = a.edges()[random.below(a.edge_count())];
   const Polyhedron::Edge& eb = b.edges()[random.below(b.edge_count())];
-  const Vec3 along_a = a.vertex(ea.head) - a.vertex(ea.tail), along_b = b.vertex(eb.head) - b.vertex(eb.tail);
+  const Vec3 along_a = a.vertex(ea.head) - a.vertex(ea.tail),
+             along_b = b.vertex(eb.head) - b.vertex(eb.tail);
   const Vec3 out_a = (a.normal(ea.left) + a.normal(ea.right)).normalized();
   const Vec3 out_b = (b.normal(eb.left) + b.normal(eb.right)).normalized();
   // frames (edge, outward) of both onto each other, then a small turn around the outward direction
@@ -236,7 +248,8 @@ PairCase random_case(Placement placement, Random& random) {
     case Placement::offset_copy: {
       c.b = c.a;
       const Vec3 turn = random_scale(random, 2, 14) * random.unit_vector();
-      c.b_in_a = turned(rotation_by(turn), size * random_scale(random, 2, 14) * random.unit_vector());
+      c.b_in_a =
+          turned(rotation_by(turn), size * random_scale(random, 2, 14) * random.unit_vector());
       return c;
     }
     case Placement::inside:

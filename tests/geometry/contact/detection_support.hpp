@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "geometry/shape/random.hpp"
 #include "geometry/contact/separating_axis.hpp"
+#include "geometry/shape/random.hpp"
 
 namespace ballast::testing {
 
-/// Tetrahedra, boxes (also as 12 triangles), prisms, plates, needles, grains, polyhedral spheres; sizes 1 to 10 cm.
+/// Tetrahedra, boxes (also as 12 triangles), prisms, plates, needles, grains, polyhedral spheres;
+/// sizes 1 to 10 cm.
 const std::vector<Polyhedron>& shape_pool();
 /// The same shapes laid out for detection, in the same order.
 const std::vector<CollisionShape>& collision_pool();
@@ -18,12 +19,13 @@ Polyhedron prism(int sides, double radius, double height);
 /// A box whose sides are split into two triangles each.
 Polyhedron triangulated_box(const Vec3& size);
 
-/// Separation of two polyhedra by all face normals and all cross products of edges (but parallel ones), each with the
-/// full support functions of both.
+/// Separation of two polyhedra by all face normals and all cross products of edges (but parallel
+/// ones), each with the full support functions of both.
 struct BruteForce {
-  double facets;       ///< largest over face normals and those cross products at which both edges are supports
-  double all;          ///< largest over every axis
-  Vec3 normal;         ///< of `all`: world frame, from a to b
+  double facets;  ///< largest over face normals and those cross products at which both edges are
+                  ///< supports
+  double all;     ///< largest over every axis
+  Vec3 normal;    ///< of `all`: world frame, from a to b
   bool near_parallel;  ///< some pair of edges is nearly but not quite parallel
 };
 BruteForce brute_force(const Polyhedron& a, const Polyhedron& b, const RelativePose& b_in_a);
@@ -32,14 +34,16 @@ BruteForce brute_force(const Polyhedron& a, const Polyhedron& b, const RelativeP
 enum class Placement {
   near_touching,   ///< random orientation, gap +-1e-12 .. +-1e-3 m or about zero
   deep,            ///< centres close
-  parallel_faces,  ///< a face of one on a face of the other, random shift in the plane, gap as near_touching
+  parallel_faces,  ///< a face of one on a face of the other, random shift in the plane, gap as
+                   ///< near_touching
   parallel_edges,  ///< an edge of each parallel or at an angle of 3e-7 .. 1e-2, near touching
   offset_copy,     ///< the same shape twice, moved and turned by 0 or 1e-14 .. 1e-2
   inside,          ///< one within the other
   apart            ///< up to a few diameters
 };
-constexpr Placement kPlacements[] = {Placement::near_touching,  Placement::deep,        Placement::parallel_faces,
-                                     Placement::parallel_edges, Placement::offset_copy, Placement::inside,
+constexpr Placement kPlacements[] = {Placement::near_touching,  Placement::deep,
+                                     Placement::parallel_faces, Placement::parallel_edges,
+                                     Placement::offset_copy,    Placement::inside,
                                      Placement::apart};
 std::string name(Placement placement);
 

@@ -12,41 +12,48 @@ using namespace ballast::testing;
 
 namespace {
 
-/// Corners of the clipped face by definition, each kind on its own: corners of the incident face inside all sides;
-/// crossings of its edges with sides; corners of the reference face, dropped on the incident plane, inside the incident
-/// face. `clear`: nothing is close to a boundary, so that all methods must agree on what is in.
-std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int reference, int face, int incident,
-                                                    bool& clear) {
+/// Corners of the clipped face by definition, each kind on its own: corners of the incident face
+/// inside all sides; crossings of its edges with sides; corners of the reference face, dropped on
+/// the incident plane, inside the incident face. `clear`: nothing is close to a boundary, so that
+/// all methods must agree on what is in.
+std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int reference, int face,
+                                                    int incident, bool& clear) {
   const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
   const RelativePose& pose = pair.other[reference];
   const double doubtful = 1e-7 * pair.size();
   const auto inside_sides = [&](const Vec3& p, int except) {
     double worst = -1.0;
     for (int k = 0; k < own.face(face).corner_count; ++k)
-      if (k != except) worst = std::max(worst, own.sides(face)[k].outward.dot(p) - own.sides(face)[k].offset);
+      if (k != except)
+        worst = std::max(worst, own.sides(face)[k].outward.dot(p) - own.sides(face)[k].offset);
     clear &= std::abs(worst) > doubtful;
     return worst < 0.0;
   };
   const auto key = [&](PointKind of_own, int own_index, int other_index) {
     if (of_own == PointKind::edges)
-      return reference == 0 ? feature_key(of_own, own_index, other_index) : feature_key(of_own, other_index, own_index);
+      return reference == 0 ? feature_key(of_own, own_index, other_index)
+                            : feature_key(of_own, other_index, own_index);
     const bool is_a = (reference == 0) == (own_index >= 0);
     const int index = own_index >= 0 ? own_index : other_index;
-    return is_a ? feature_key(PointKind::vertex_of_a, index, 0) : feature_key(PointKind::vertex_of_b, 0, index);
+    return is_a ? feature_key(PointKind::vertex_of_a, index, 0)
+                : feature_key(PointKind::vertex_of_b, 0, index);
   };
   std::map<std::uint64_t, Vec3> points;
   const int count = other.face(incident).corner_count;
   for (int i = 0; i < count; ++i) {
     const Vec3 p = pose * other.vertices().xyz(other.corners(incident)[i].vertex);
     const Vec3 q = pose * other.vertices().xyz(other.corners(incident)[(i + 1) % count].vertex);
-    if (inside_sides(p, -1)) points[key(PointKind::vertex_of_b, -1, other.corners(incident)[i].vertex)] = p;
+    if (inside_sides(p, -1))
+      points[key(PointKind::vertex_of_b, -1, other.corners(incident)[i].vertex)] = p;
     for (int k = 0; k < own.face(face).corner_count; ++k) {
       const CollisionShape::Side& side = own.sides(face)[k];
-      const double at_p = side.outward.dot(p) - side.offset, at_q = side.outward.dot(q) - side.offset;
+      const double at_p = side.outward.dot(p) - side.offset,
+                   at_q = side.outward.dot(q) - side.offset;
       if (at_p * at_q >= 0.0) continue;
       const Vec3 crossing = p + at_p / (at_p - at_q) * (q - p);
       if (inside_sides(crossing, k))
-        points[key(PointKind::edges, own.corners(face)[k].edge, other.corners(incident)[i].edge)] = crossing;
+        points[key(PointKind::edges, own.corners(face)[k].edge, other.corners(incident)[i].edge)] =
+            crossing;
     }
   }
   const Vec3 up = own.faces().xyz(face), n = pose.rotation * other.faces().xyz(incident);
@@ -56,7 +63,8 @@ std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int r
     const Vec3 p = corner + up * (n.dot(on_plane - corner) / n.dot(up));
     double worst = -1.0;
     for (const CollisionShape::Side& side : other.sides(incident))
-      worst = std::max(worst, side.outward.dot(pose.rotation.transpose() * (p - pose.position)) - side.offset);
+      worst = std::max(
+          worst, side.outward.dot(pose.rotation.transpose() * (p - pose.position)) - side.offset);
     clear &= std::abs(worst) > doubtful;
     if (worst < 0.0) points[key(PointKind::vertex_of_a, v, -1)] = p;
   }
@@ -70,7 +78,8 @@ TEST_CASE("clipping finds the corners that the definition names, under the same 
   Random random(21);
   int compared = 0, corners = 0, empty = 0;
   for (int i = 0; i < 20000; ++i) {
-    const PairCase c = random_case(i % 2 ? Placement::parallel_faces : Placement::near_touching, random);
+    const PairCase c =
+        random_case(i % 2 ? Placement::parallel_faces : Placement::near_touching, random);
     const ShapePair pair = c.pair();
     const int reference = i / 2 % 2;
     const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
@@ -79,7 +88,8 @@ TEST_CASE("clipping finds the corners that the definition names, under the same 
     const Vec3 direction = pair.other[reference].rotation.transpose() * own.faces().xyz(face);
     int incident = 0;
     for (int f = 0; f < other.faces().count(); ++f)
-      if (other.faces().xyz(f).dot(direction) < other.faces().xyz(incident).dot(direction)) incident = f;
+      if (other.faces().xyz(f).dot(direction) < other.faces().xyz(incident).dot(direction))
+        incident = f;
     if (other.faces().xyz(incident).dot(direction) > -0.05) continue;
     bool clear = true;
     const auto expected = clipped_by_definition(pair, reference, face, incident, clear);
@@ -92,9 +102,11 @@ TEST_CASE("clipping finds the corners that the definition names, under the same 
     for (const ClippedPoint& p : found) {
       const auto it = expected.find(p.key);
       same = same && it != expected.end() && (it->second - p.position).norm() <= 1e-9 * c.size() &&
-             std::abs(p.height - (own.faces().xyz(face).dot(p.position) + own.faces().w(face))) <= 1e-15;
+             std::abs(p.height - (own.faces().xyz(face).dot(p.position) + own.faces().w(face))) <=
+                 1e-15;
     }
-    if (!same) FAIL_CHECK("case " << i << ": " << found.size() << " corners, expected " << expected.size());
+    if (!same)
+      FAIL_CHECK("case " << i << ": " << found.size() << " corners, expected " << expected.size());
   }
   CHECK(compared > 8000);
   CHECK(corners > compared);
@@ -112,7 +124,8 @@ TEST_CASE("corners on a side stay corners: equal boxes") {
   Random random(5);
   for (double noise : {0.0, 1e-15, 1e-10}) {
     const Vec3 shift(noise * random.uniform(-1, 1), noise * random.uniform(-1, 1), 1.0);
-    const auto points = clipper.clip(ShapePair(box, box, {Mat3::Identity(), shift}), 0, top, bottom, 1e-9);
+    const auto points =
+        clipper.clip(ShapePair(box, box, {Mat3::Identity(), shift}), 0, top, bottom, 1e-9);
     REQUIRE(points.size() == 4);
     for (const ClippedPoint& p : points) {
       CHECK(p.key < 8);  // vertices of b
@@ -123,7 +136,8 @@ TEST_CASE("corners on a side stay corners: equal boxes") {
 
 TEST_CASE("keys of different places differ") {
   std::vector<std::uint64_t> keys;
-  for (PointKind kind : {PointKind::vertex_of_a, PointKind::vertex_of_b, PointKind::edges, PointKind::sides}) {
+  for (PointKind kind :
+       {PointKind::vertex_of_a, PointKind::vertex_of_b, PointKind::edges, PointKind::sides}) {
     for (int a : {0, 1, 2, 70000, 0x7fffffff}) {
       for (int b : {0, 1, 2, 70000, 0x7fffffff}) keys.push_back(feature_key(kind, a, b));
     }

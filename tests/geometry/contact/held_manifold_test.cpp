@@ -1,4 +1,5 @@
-// Points held on to: near what detection from scratch finds, and the same bits from every refresh on.
+// Points held on to: near what detection from scratch finds, and the same bits from every refresh
+// on.
 
 #include "geometry/contact/held_manifold.hpp"
 
@@ -21,7 +22,8 @@ DetectionSettings holding(double motion) {
 using Pair = std::pair<int, int>;
 
 /// The smallest gap of each pair of polyhedra.
-std::map<Pair, double> smallest_gaps(const std::vector<ContactPoint>& contacts, const Packing& packing) {
+std::map<Pair, double> smallest_gaps(const std::vector<ContactPoint>& contacts,
+                                     const Packing& packing) {
   std::map<Pair, double> gaps;
   for (const ContactPoint& c : contacts) {
     if (!packing.shapes[c.body_a].polyhedron) continue;
@@ -39,10 +41,13 @@ TEST_CASE("held points keep their features' exact gaps while the features stay")
     const std::vector<ContactShape> shapes{{&box, {}, false}, {&box, {}, false}};
     std::vector<Pose> poses(2);
     // a corner over a face; or two edges crossing at right angles
-    poses[0].rotation = crossed ? Quat(Eigen::AngleAxisd(0.25 * M_PI, Vec3::UnitX())) : Quat::Identity();
-    poses[1].rotation = crossed ? Quat(Eigen::AngleAxisd(0.25 * M_PI, Vec3::UnitY()))
-                                : Quat(Eigen::AngleAxisd(std::atan(std::sqrt(2.0)), Vec3(1, -1, 0).normalized()));
-    poses[1].position = Vec3(0.01, 0.02, crossed ? 0.2 * std::sqrt(2.0) : 0.1 + 0.1 * std::sqrt(3.0));
+    poses[0].rotation =
+        crossed ? Quat(Eigen::AngleAxisd(0.25 * M_PI, Vec3::UnitX())) : Quat::Identity();
+    poses[1].rotation =
+        crossed ? Quat(Eigen::AngleAxisd(0.25 * M_PI, Vec3::UnitY()))
+                : Quat(Eigen::AngleAxisd(std::atan(std::sqrt(2.0)), Vec3(1, -1, 0).normalized()));
+    poses[1].position =
+        Vec3(0.01, 0.02, crossed ? 0.2 * std::sqrt(2.0) : 0.1 + 0.1 * std::sqrt(3.0));
     const std::vector<double> reach(2, 1e-5);
     ContactDetector held(shapes, holding(1e-2)), fresh(shapes, {});
     std::vector<ContactPoint> contacts, expected;
@@ -56,9 +61,11 @@ TEST_CASE("held points keep their features' exact gaps while the features stay")
       CHECK(contacts[0].feature == expected[0].feature);
       CHECK(contacts[0].gap == Approx(expected[0].gap).margin(1e-15));
       CHECK((contacts[0].normal - expected[0].normal).norm() < 1e-14);
-      const double slid = k * 2e-5 * (Vec3(1, 0.5, -0.05).norm() + 0.2 * Vec3(0.3, -1.0, 2.0).norm());
+      const double slid =
+          k * 2e-5 * (Vec3(1, 0.5, -0.05).norm() + 0.2 * Vec3(0.3, -1.0, 2.0).norm());
       CHECK((contacts[0].position - expected[0].position).norm() <= (crossed ? slid : 0.0) + 1e-14);
-      poses[1] = moved(poses[1], Vec3(1, 0.5, -0.05), Vec3(0.3, -1.0, 2.0), 2e-5);  // slides, sinks and turns
+      poses[1] = moved(poses[1], Vec3(1, 0.5, -0.05), Vec3(0.3, -1.0, 2.0),
+                       2e-5);  // slides, sinks and turns
     }
     CHECK(expected[0].gap < -1e-6);
   }
@@ -77,7 +84,8 @@ TEST_CASE("held points lie near those from scratch, and no contact is lost by ho
     fresh.detect(packing.poses, packing.reach, expected);
     reused += held.counters().reused;
     rebuilds = held.counters().broad_phase_rebuilds;
-    const std::map<Pair, double> got = smallest_gaps(contacts, packing), want = smallest_gaps(expected, packing);
+    const std::map<Pair, double> got = smallest_gaps(contacts, packing),
+                                 want = smallest_gaps(expected, packing);
     pairs += static_cast<long>(want.size());
     for (const auto& [pair, gap] : want) {
       CAPTURE(k, pair.first, pair.second, gap);
@@ -90,7 +98,8 @@ TEST_CASE("held points lie near those from scratch, and no contact is lost by ho
       else
         CHECK(std::abs(found->second - gap) <= 2.0 * motion * size);
     }
-    for (const ContactPoint& c : contacts) CHECK(c.gap <= packing.reach[c.body_a] + packing.reach[c.body_b]);
+    for (const ContactPoint& c : contacts)
+      CHECK(c.gap <= packing.reach[c.body_a] + packing.reach[c.body_b]);
   }
   CHECK(reused > 0.7 * pairs);
   CHECK(rebuilds > 1);  // what is held survives a new list

@@ -25,7 +25,8 @@ struct Packing {
     for (int i = 0; i < count; ++i) {
       shapes.push_back({&shape_pool()[random.below(pool)], {}, i % 9 == 4});
       Pose pose;
-      pose.position = Vec3(random.uniform(0.0, side), random.uniform(0.0, side), random.uniform(0.0, side));
+      pose.position =
+          Vec3(random.uniform(0.0, side), random.uniform(0.0, side), random.uniform(0.0, side));
       pose.rotation = random.rotation();
       poses.push_back(pose);
     }
@@ -36,7 +37,8 @@ struct Packing {
       reach.push_back(1e-5 + 1e-4 * random.uniform());
     }
   }
-  /// Moves bodies apart along their contacts until they hardly overlap: a packing as a simulation has it.
+  /// Moves bodies apart along their contacts until they hardly overlap: a packing as a simulation
+  /// has it.
   void relax() {
     ContactDetector detector(shapes, {});
     std::vector<ContactPoint> contacts;
@@ -44,7 +46,8 @@ struct Packing {
       detector.detect(poses, reach, contacts);
       for (const ContactPoint& c : contacts) {
         const double depth = std::max(0.0, -c.gap);
-        if (shapes[c.body_a].polyhedron && !shapes[c.body_a].fixed) poses[c.body_a].position -= 0.2 * depth * c.normal;
+        if (shapes[c.body_a].polyhedron && !shapes[c.body_a].fixed)
+          poses[c.body_a].position -= 0.2 * depth * c.normal;
         if (!shapes[c.body_b].fixed) poses[c.body_b].position += 0.2 * depth * c.normal;
       }
     }
@@ -67,10 +70,11 @@ struct Packing {
 };
 
 inline bool same_bits(const std::vector<ContactPoint>& p, const std::vector<ContactPoint>& q) {
-  return std::equal(p.begin(), p.end(), q.begin(), q.end(), [](const ContactPoint& a, const ContactPoint& b) {
-    return a.body_a == b.body_a && a.body_b == b.body_b && a.feature == b.feature && a.normal == b.normal &&
-           a.position == b.position && a.gap == b.gap;
-  });
+  return std::equal(
+      p.begin(), p.end(), q.begin(), q.end(), [](const ContactPoint& a, const ContactPoint& b) {
+        return a.body_a == b.body_a && a.body_b == b.body_b && a.feature == b.feature &&
+               a.normal == b.normal && a.position == b.position && a.gap == b.gap;
+      });
 }
 
 }  // namespace ballast::testing

@@ -96,14 +96,18 @@ TEST_CASE("two edges form a facet exactly if both are supports along their commo
         double worst_margin = -1.0;  // how well supported, over the two directions
         for (double sign : {1.0, -1.0}) {
           const Vec3 n = sign * cross.normalized(), n_b = -(c.b_in_a.rotation.transpose() * n);
-          const double lacks_a = n.dot(poly_a.vertex(poly_a.support(n)) - a.vertices().xyz(a.edges()[ea].tail));
-          const double lacks_b = n_b.dot(poly_b.vertex(poly_b.support(n_b)) - b.vertices().xyz(b.edges()[eb].tail));
+          const double lacks_a =
+              n.dot(poly_a.vertex(poly_a.support(n)) - a.vertices().xyz(a.edges()[ea].tail));
+          const double lacks_b =
+              n_b.dot(poly_b.vertex(poly_b.support(n_b)) - b.vertices().xyz(b.edges()[eb].tail));
           worst_margin = std::max(worst_margin, -std::max(lacks_a, lacks_b));
         }
         if (std::abs(worst_margin) < 1e-10 && worst_margin < -1e-15) continue;  // too close to tell
-        const bool is_facet = edge_separation(pair, static_cast<int>(ea), static_cast<int>(eb), heights).has_value();
+        const bool is_facet =
+            edge_separation(pair, static_cast<int>(ea), static_cast<int>(eb), heights).has_value();
         facets += is_facet;
-        if (is_facet != (worst_margin > -1e-12)) FAIL_CHECK("case " << i << ", edges " << ea << ", " << eb);
+        if (is_facet != (worst_margin > -1e-12))
+          FAIL_CHECK("case " << i << ", edges " << ea << ", " << eb);
       }
     }
   }
@@ -119,7 +123,8 @@ TEST_CASE("seen from the other body every axis is the same") {
     const ShapePair swapped(*pair.shape[1], *pair.shape[0], c.b_in_a.inverse());
     const AxisFeature feature =
         i % 2 ? AxisFeature{AxisKind::face_of_a, random.below(pair.shape[0]->faces().count()), -1}
-              : AxisFeature{AxisKind::edges, random.below(static_cast<int>(pair.shape[0]->edges().size())),
+              : AxisFeature{AxisKind::edges,
+                            random.below(static_cast<int>(pair.shape[0]->edges().size())),
                             random.below(static_cast<int>(pair.shape[1]->edges().size()))};
     const auto axis = evaluate_axis(pair, feature, heights);
     const auto other = evaluate_axis(swapped, mirrored(feature), heights);
@@ -127,7 +132,8 @@ TEST_CASE("seen from the other body every axis is the same") {
     const double small = 1e-12 * c.size();
     CHECK(std::abs(axis->separation - other->separation) <= small);
     CHECK((c.b_in_a.rotation * other->normal + axis->normal).norm() <= 1e-12);
-    CHECK(std::abs(axis->inside - other->inside) <= 1e3 * small);  // ill-conditioned for nearly parallel edges
+    CHECK(std::abs(axis->inside - other->inside) <=
+          1e3 * small);  // ill-conditioned for nearly parallel edges
     CHECK(std::abs(axis->clearance - other->clearance) <= 1e3 * small);
   }
 }
@@ -145,11 +151,13 @@ TEST_CASE("an axis proved to be the best is the best") {
     const auto check = [&](const AxisFeature& feature) {
       const auto axis = evaluate_axis(pair, feature, heights);
       if (!axis || !is_proved_best(pair, face_isolation(pair, axis->feature), *axis)) return;
-      if (std::isnan(oracle)) oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a).facets;
+      if (std::isnan(oracle))
+        oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a).facets;
       ++proved;
       best_proved = true;
       if (std::abs(axis->separation - oracle) > 1e-12 * c.size())
-        FAIL_CHECK(name(placement) << " case " << i << ": " << axis->separation << " is not " << oracle);
+        FAIL_CHECK(name(placement)
+                   << " case " << i << ": " << axis->separation << " is not " << oracle);
     };
     for (int f = 0; f < pair.shape[0]->faces().count(); ++f) check({AxisKind::face_of_a, f, -1});
     for (int f = 0; f < pair.shape[1]->faces().count(); ++f) check({AxisKind::face_of_b, -1, f});

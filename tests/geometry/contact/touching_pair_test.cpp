@@ -1,7 +1,8 @@
-// What is remembered of a touching pair against the shapes' tables, and the proof of a lone crossing against clipping.
+// What is remembered of a touching pair against the shapes' tables, and the proof of a lone
+// crossing against clipping.
 
-#include "geometry/contact/axis_search.hpp"
 #include "geometry/contact/touching_pair.hpp"
+#include "geometry/contact/axis_search.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/contact/detection_support.hpp"
 
@@ -13,10 +14,12 @@ namespace {
 constexpr double alert = 1e-4;
 constexpr int all_points = 1 << 20;
 
-/// A small turn and shift, of 10^-7 .. 10^-3 rad and as many metres. `chord` bounds the turn as the detector does.
+/// A small turn and shift, of 10^-7 .. 10^-3 rad and as many metres. `chord` bounds the turn as the
+/// detector does.
 RelativePose jiggled(const RelativePose& pose, Random& random, double& chord) {
   const double angle = std::abs(random_scale(random, 7.0, 3.0));
-  const Vec3 axis = random.rotation() * Vec3::UnitX(), shift = random_scale(random, 7.0, 3.0) * axis;
+  const Vec3 axis = random.rotation() * Vec3::UnitX(),
+             shift = random_scale(random, 7.0, 3.0) * axis;
   chord = angle;
   return {Eigen::AngleAxisd(angle, axis).toRotationMatrix() * pose.rotation, pose.position + shift};
 }
@@ -63,13 +66,15 @@ TEST_CASE("a remembered pair says what the tables say, bit for bit, or nothing")
       ++undecided;
     } else if (look == TouchingPair::Look::apart) {
       ++apart;
-      if (after.outcome != AxisOutcome::separated_by_hint || after.axis.separation != axis.separation)
+      if (after.outcome != AxisOutcome::separated_by_hint ||
+          after.axis.separation != axis.separation)
         FAIL_CHECK("case " << i << ": not apart");
     } else {
       ++touching[static_cast<int>(before.axis.feature.kind)];
       for (const Known& known : {after, fresh}) {
-        const bool same = !is_separated(known.outcome) && known.points.size() == 1 && same_bits(known.points[0], point) &&
-                          known.axis.normal == axis.normal && known.axis.feature == axis.feature &&
+        const bool same = !is_separated(known.outcome) && known.points.size() == 1 &&
+                          same_bits(known.points[0], point) && known.axis.normal == axis.normal &&
+                          known.axis.feature == axis.feature &&
                           axis.clearance <= known.axis.clearance * (1.0 + 1e-12);
         if (!same) FAIL_CHECK("case " << i << ": another manifold");
       }
@@ -93,18 +98,22 @@ TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their cr
     const Known known = ask_tables(pair, {});
     if (is_separated(known.outcome) || known.axis.feature.kind != AxisKind::edges) continue;
     const AxisFeature feature = known.axis.feature;
-    const CollisionShape::Edge &a = pair.shape[0]->edges()[feature.a], &b = pair.shape[1]->edges()[feature.b];
+    const CollisionShape::Edge &a = pair.shape[0]->edges()[feature.a],
+                               &b = pair.shape[1]->edges()[feature.b];
     const EdgeCrossing edges(pair, known.axis, a, b);
     if (edges.is_sharp()) continue;
     const int reference = edges.flat_on_a ? 0 : 1;
-    const Vec3 direction = reference == 0 ? known.axis.normal : Vec3(-(pair.other[1].rotation * known.axis.normal));
-    const auto corners = clipper.clip_along(pair, reference, reference == 0 ? edges.face_a : edges.face_b,
-                                            reference == 0 ? edges.face_b : edges.face_a, direction, 1e-9 * c.size());
+    const Vec3 direction =
+        reference == 0 ? known.axis.normal : Vec3(-(pair.other[1].rotation * known.axis.normal));
+    const auto corners = clipper.clip_along(
+        pair, reference, reference == 0 ? edges.face_a : edges.face_b,
+        reference == 0 ? edges.face_b : edges.face_a, direction, 1e-9 * c.size());
     const auto crossing = feature_key(PointKind::edges, feature.a, feature.b);
     int others = 0;
     for (const ClippedPoint& p : corners) others += p.key != crossing && p.height <= alert;
     alone += others == 0;
-    if (!edges.rises_out_of_reach(pair, known.axis, a, b, sides_beside(*pair.shape[0], edges.face_a, feature.a),
+    if (!edges.rises_out_of_reach(pair, known.axis, a, b,
+                                  sides_beside(*pair.shape[0], edges.face_a, feature.a),
                                   sides_beside(*pair.shape[1], edges.face_b, feature.b), alert))
       continue;
     ++proved;

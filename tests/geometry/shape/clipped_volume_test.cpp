@@ -18,7 +18,8 @@ struct HalfSpace {
   double offset;  // inside: normal.x <= offset
 };
 
-std::vector<HalfSpace> half_spaces(const Polyhedron& polyhedron, const Pose& pose, const Vec3& lo, const Vec3& hi) {
+std::vector<HalfSpace> half_spaces(const Polyhedron& polyhedron, const Pose& pose, const Vec3& lo,
+                                   const Vec3& hi) {
   std::vector<HalfSpace> planes;
   for (int f = 0; f < polyhedron.face_count(); ++f) {
     const Vec3 normal = pose.rotation * polyhedron.normal(f);
@@ -38,11 +39,14 @@ double hull_volume(const std::vector<HalfSpace>& planes, double size) {
     for (size_t j = i + 1; j < planes.size(); ++j)
       for (size_t k = j + 1; k < planes.size(); ++k) {
         Mat3 normals;
-        normals << planes[i].normal.transpose(), planes[j].normal.transpose(), planes[k].normal.transpose();
+        normals << planes[i].normal.transpose(), planes[j].normal.transpose(),
+            planes[k].normal.transpose();
         if (std::abs(normals.determinant()) < 1e-9) continue;
-        const Vec3 x = normals.inverse() * Vec3(planes[i].offset, planes[j].offset, planes[k].offset);
+        const Vec3 x =
+            normals.inverse() * Vec3(planes[i].offset, planes[j].offset, planes[k].offset);
         bool inside = true;
-        for (const HalfSpace& plane : planes) inside = inside && plane.normal.dot(x) - plane.offset < 1e-10 * size;
+        for (const HalfSpace& plane : planes)
+          inside = inside && plane.normal.dot(x) - plane.offset < 1e-10 * size;
         if (inside) points.push_back(x);
       }
   if (points.size() < 4) return 0.0;
@@ -54,7 +58,8 @@ double hull_volume(const std::vector<HalfSpace>& planes, double size) {
 }
 
 Vec3 uniform_point(Random& random, double low, double high) {
-  const double x = random.uniform(low, high), y = random.uniform(low, high), z = random.uniform(low, high);
+  const double x = random.uniform(low, high), y = random.uniform(low, high),
+               z = random.uniform(low, high);
   return Vec3(x, y, z);
 }
 
@@ -71,7 +76,8 @@ TEST_CASE("a box in a box: products of overlaps") {
   CHECK(inside(Vec3::Zero(), Vec3(0, 0, -9), Vec3(9, 9, 0.5)) == Approx(1.5).epsilon(1e-14));
   CHECK(inside(Vec3(5, 0, 0), Vec3(4.5, -9, -9), Vec3(5.25, 9, 9)) == Approx(3.0).epsilon(1e-14));
   // the small box lies wholly in the cube: all six planes cut
-  CHECK(inside(Vec3(1, 2, 3), Vec3(0.5, 1.5, 2.5), Vec3(1, 2.25, 3.5)) == Approx(0.375).epsilon(1e-13));
+  CHECK(inside(Vec3(1, 2, 3), Vec3(0.5, 1.5, 2.5), Vec3(1, 2.25, 3.5)) ==
+        Approx(0.375).epsilon(1e-13));
   // planes that touch faces of the cube
   CHECK(inside(Vec3::Zero(), Vec3(-1, -1, -1), Vec3(1, 1, 1)) == 8.0);
   CHECK(inside(Vec3::Zero(), Vec3(1, -9, -9), Vec3(9, 9, 9)) == 0.0);
@@ -88,10 +94,13 @@ TEST_CASE("a cube on its edge, cut through vertices") {
   const Polyhedron cube = make_box(Vec3(1, 1, 1));
   const Pose pose{Vec3(3, 4, 5), rotation_by(std::numbers::pi / 4 * Vec3::UnitZ())};
   const double d = std::sqrt(0.5);
-  CHECK(clipper.volume(cube, pose, Vec3(3, 0, 0), Vec3(9, 9, 9), 1.0) == Approx(0.5).epsilon(1e-14));
-  CHECK(clipper.volume(cube, pose, Vec3(3, 4, 5), Vec3(9, 9, 9), 1.0) == Approx(0.125).epsilon(1e-14));
+  CHECK(clipper.volume(cube, pose, Vec3(3, 0, 0), Vec3(9, 9, 9), 1.0) ==
+        Approx(0.5).epsilon(1e-14));
+  CHECK(clipper.volume(cube, pose, Vec3(3, 4, 5), Vec3(9, 9, 9), 1.0) ==
+        Approx(0.125).epsilon(1e-14));
   // the corner prism beyond x = 3 + d/2: a right triangle of height d/2 and base d
-  CHECK(clipper.volume(cube, pose, Vec3(3 + d / 2, 0, 0), Vec3(9, 9, 9), 1.0) == Approx(d * d / 4).epsilon(1e-13));
+  CHECK(clipper.volume(cube, pose, Vec3(3 + d / 2, 0, 0), Vec3(9, 9, 9), 1.0) ==
+        Approx(d * d / 4).epsilon(1e-13));
 }
 
 TEST_CASE("grains against the hull of all points where three planes meet") {
@@ -129,15 +138,17 @@ TEST_CASE("the pieces of a partition sum to the whole") {
     for (int axis = 0; axis < 3; ++axis) {
       ticks[axis][0] = -1.0;
       ticks[axis][4] = 1.0;
-      for (int k = 1; k < 4; ++k) ticks[axis][k] = pose.position[axis] + random.uniform(-0.05, 0.05);
+      for (int k = 1; k < 4; ++k)
+        ticks[axis][k] = pose.position[axis] + random.uniform(-0.05, 0.05);
       std::sort(ticks[axis] + 1, ticks[axis] + 4);
     }
     double sum = 0.0;
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)
         for (int k = 0; k < 4; ++k)
-          sum += clipper.volume(grain.shape, pose, Vec3(ticks[0][i], ticks[1][j], ticks[2][k]),
-                                Vec3(ticks[0][i + 1], ticks[1][j + 1], ticks[2][k + 1]), grain.volume);
+          sum +=
+              clipper.volume(grain.shape, pose, Vec3(ticks[0][i], ticks[1][j], ticks[2][k]),
+                             Vec3(ticks[0][i + 1], ticks[1][j + 1], ticks[2][k + 1]), grain.volume);
     CHECK(sum == Approx(grain.volume).epsilon(1e-11));
   }
 }
@@ -157,8 +168,10 @@ TEST_CASE("a count of random points agrees") {
     for (const HalfSpace& plane : planes) inside = inside && plane.normal.dot(x) < plane.offset;
     hits += inside;
   }
-  const double estimate = 27.0 * hits / count, deviation = 27.0 * std::sqrt(static_cast<double>(hits)) / count;
-  CHECK(std::abs(clipper.volume(grain.shape, pose, lo, hi, grain.volume) - estimate) < 5.0 * deviation);
+  const double estimate = 27.0 * hits / count,
+               deviation = 27.0 * std::sqrt(static_cast<double>(hits)) / count;
+  CHECK(std::abs(clipper.volume(grain.shape, pose, lo, hi, grain.volume) - estimate) <
+        5.0 * deviation);
 }
 
 TEST_CASE("a used workspace gives the same bits as a new one") {

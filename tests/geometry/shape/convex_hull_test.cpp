@@ -26,7 +26,8 @@ std::string complaint(const std::vector<Vec3>& points) {
   }
 }
 
-/// Vertex sets of the faces, by definition: planes through three points with all others on one side.
+/// Vertex sets of the faces, by definition: planes through three points with all others on one
+/// side.
 std::set<std::set<int>> faces_by_definition(const std::vector<Vec3>& points) {
   const int n = static_cast<int>(points.size());
   std::set<std::set<int>> faces;
@@ -51,7 +52,8 @@ std::set<std::set<int>> faces_by_definition(const std::vector<Vec3>& points) {
 
 std::set<std::set<int>> faces_of(const Polyhedron& p) {
   std::set<std::set<int>> faces;
-  for (int f = 0; f < p.face_count(); ++f) faces.insert(std::set<int>(p.face(f).begin(), p.face(f).end()));
+  for (int f = 0; f < p.face_count(); ++f)
+    faces.insert(std::set<int>(p.face(f).begin(), p.face(f).end()));
   return faces;
 }
 
@@ -128,7 +130,8 @@ TEST_CASE("faces agree with the definition of a hull") {
     std::vector<Vec3> points;
     // every third set from a lattice: many coplanar points
     for (int i = 0; i < 14; ++i)
-      points.push_back(trial % 3 ? random.unit_vector() : Vec3(random.below(3), random.below(3), random.below(3)));
+      points.push_back(trial % 3 ? random.unit_vector()
+                                 : Vec3(random.below(3), random.below(3), random.below(3)));
     if (trial % 3 == 0) {
       std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
         return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
@@ -176,7 +179,8 @@ TEST_CASE("cubes and lattices with noise of any size have a hull that holds ever
     for (int x = 0; x < n; ++x)
       for (int y = 0; y < n; ++y)
         for (int z = 0; z < n; ++z)
-          points.push_back(turn * Vec3(x, y, z) + noise * Vec3(random.normal(), random.normal(), random.normal()));
+          points.push_back(turn * Vec3(x, y, z) +
+                           noise * Vec3(random.normal(), random.normal(), random.normal()));
     CAPTURE(trial, noise, n);
     REQUIRE(complaint(points) == "");
     const Polyhedron hull = convex_hull(points);
@@ -204,15 +208,17 @@ TEST_CASE("sets without a hull say why, and qhull stays silent") {
   };
   expect({}, "at least 4 points are needed, got 0");
   expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, "at least 4 points are needed, got 3");
-  expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, std::nan(""), 1}}, "point 3 has a coordinate that is NaN");
-  expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::infinity()}}, "NaN or infinite");
+  expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, std::nan(""), 1}},
+         "point 3 has a coordinate that is NaN");
+  expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::infinity()}},
+         "NaN or infinite");
   expect(std::vector<Vec3>(9, Vec3(1, 2, 3)), "all points coincide");
   expect({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}, {-1, -1, -1}}, "lie on one line");
   expect({{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 2}, {3, 1, 4}}, "lie in one plane");
   expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-12}}, "lie in one plane");
   expect({{0, 0, 0}, {1e200, 0, 0}, {0, 1, 0}, {1, 1, 1}}, "overflows");
-  // points along the diagonals of a cube with noise of qhull's merging radius, at seeds where qhull 2020.2 gives up and
-  // wants to say so; the second attempt resolves the points
+  // points along the diagonals of a cube with noise of qhull's merging radius, at seeds where qhull
+  // 2020.2 gives up and wants to say so; the second attempt resolves the points
   for (const int seed : {5459, 5625, 9887, 53207}) {
     Random random(seed);
     const double noise = random.uniform(4e-10, 1e-9);

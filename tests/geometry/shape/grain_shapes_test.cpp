@@ -13,9 +13,10 @@ using namespace ballast;
 namespace {
 
 bool same_bits(const PrincipalShape& a, const PrincipalShape& b) {
-  return std::equal(a.shape.vertices().begin(), a.shape.vertices().end(), b.shape.vertices().begin(),
-                    b.shape.vertices().end()) &&
-         a.volume == b.volume && a.inertia == b.inertia && a.shape.face_count() == b.shape.face_count();
+  return std::equal(a.shape.vertices().begin(), a.shape.vertices().end(),
+                    b.shape.vertices().begin(), b.shape.vertices().end()) &&
+         a.volume == b.volume && a.inertia == b.inertia &&
+         a.shape.face_count() == b.shape.face_count();
 }
 
 /// Extents along the principal axes, longest first.
@@ -32,7 +33,8 @@ std::array<double, 3> extents(const Polyhedron& p) {
 TEST_CASE("splitmix64 gives the published numbers") {
   std::uint64_t state = 1234567;
   for (const std::uint64_t expected :
-       {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u, 16408922859458223821u})
+       {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u,
+        16408922859458223821u})
     CHECK(Random::splitmix(state) == expected);
 }
 
@@ -117,7 +119,8 @@ TEST_CASE("same seed, same grain; another seed, another grain") {
 TEST_CASE("settings narrow the grains, and impossible ones are refused") {
   GrainShapeSettings narrow;
   narrow.min_vertices = narrow.max_vertices = 12;
-  for (int seed = 0; seed < 30; ++seed) CHECK(make_grain(narrow, 1.0, seed).shape.face_count() == 20);
+  for (int seed = 0; seed < 30; ++seed)
+    CHECK(make_grain(narrow, 1.0, seed).shape.face_count() == 20);
   GrainShapeSettings bad;
   bad.min_vertices = 3;
   CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
@@ -167,7 +170,8 @@ TEST_CASE("a sample has the paper's classes, mixed") {
 
   const auto again = make_grains(1200, paper_size_distribution(), SizeConvention::diameter, {}, 7);
   CHECK(std::equal(grains.begin(), grains.end(), again.begin(), same_bits));
-  CHECK_FALSE(same_bits(make_grains(1, paper_size_distribution(), SizeConvention::diameter, {}, 8)[0], grains[0]));
+  CHECK_FALSE(same_bits(
+      make_grains(1, paper_size_distribution(), SizeConvention::diameter, {}, 8)[0], grains[0]));
 
   const auto large = make_grains(10, paper_size_distribution(), SizeConvention::radius, {}, 7);
   CHECK(count_of(large, 0.025) == 5);
@@ -177,10 +181,13 @@ TEST_CASE("a sample has the paper's classes, mixed") {
 }
 
 TEST_CASE("distributions that make no sense are refused") {
-  const auto make = [](const std::vector<SizeClass>& d) { return make_grains(3, d, SizeConvention::radius, {}, 1); };
+  const auto make = [](const std::vector<SizeClass>& d) {
+    return make_grains(3, d, SizeConvention::radius, {}, 1);
+  };
   CHECK_THROWS_AS(make({{0.02, 0.5}}), std::invalid_argument);
   CHECK_THROWS_AS(make({}), std::invalid_argument);
   CHECK_THROWS_AS(make({{0.02, 1.5}, {0.03, -0.5}}), std::invalid_argument);
   CHECK_THROWS_AS(make({{-0.02, 1.0}}), std::invalid_argument);
-  CHECK_THROWS_AS(make_grains(-1, paper_size_distribution(), SizeConvention::radius, {}, 1), std::invalid_argument);
+  CHECK_THROWS_AS(make_grains(-1, paper_size_distribution(), SizeConvention::radius, {}, 1),
+                  std::invalid_argument);
 }

@@ -19,7 +19,8 @@ Polyhedron moved_copy(const Polyhedron& p, const Pose& pose, double scale = 1.0)
   return Polyhedron(vertices, faces);
 }
 
-/// The part of a convex polyhedron with normal.x <= offset: hull of the vertices there and of the cut edges' points.
+/// The part of a convex polyhedron with normal.x <= offset: hull of the vertices there and of the
+/// cut edges' points.
 Polyhedron cut(const Polyhedron& p, const Vec3& normal, double offset) {
   std::vector<Vec3> points;
   for (const Vec3& x : p.vertices())
@@ -36,7 +37,9 @@ Mat3 parallel_axis(double mass, const Vec3& d) {
   return mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
 }
 
-double off_diagonal(const Mat3& m) { return std::max({std::abs(m(0, 1)), std::abs(m(0, 2)), std::abs(m(1, 2))}); }
+double off_diagonal(const Mat3& m) {
+  return std::max({std::abs(m(0, 1)), std::abs(m(0, 2)), std::abs(m(1, 2))});
+}
 
 }  // namespace
 
@@ -51,14 +54,15 @@ TEST_CASE("a box") {
 TEST_CASE("a tetrahedron against Tonon's formulas") {
   // corner at the origin with legs a, b, c: integral of x^2 is V a^2 / 10, of xy V ab / 20
   const double a = 2.0, b = 3.0, c = 5.0, V = a * b * c / 6.0;
-  const Polyhedron p({{0, 0, 0}, {a, 0, 0}, {0, b, 0}, {0, 0, c}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  const Polyhedron p({{0, 0, 0}, {a, 0, 0}, {0, b, 0}, {0, 0, c}},
+                     {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
   const MassProperties got = mass_properties(p);
   CHECK(got.volume == Approx(V).epsilon(1e-14));
   const Vec3 centre = Vec3(a, b, c) / 4.0;
   CHECK((got.centre - centre).norm() < 1e-14);
   Mat3 about_corner;
-  about_corner << b * b + c * c, -a * b / 2, -a * c / 2, -a * b / 2, a * a + c * c, -b * c / 2, -a * c / 2, -b * c / 2,
-      a * a + b * b;
+  about_corner << b * b + c * c, -a * b / 2, -a * c / 2, -a * b / 2, a * a + c * c, -b * c / 2,
+      -a * c / 2, -b * c / 2, a * a + b * b;
   about_corner *= V / 10.0;
   const Mat3 expected = about_corner - parallel_axis(V, centre);
   CHECK((got.inertia - expected).norm() < 1e-13 * expected.norm());
@@ -67,14 +71,16 @@ TEST_CASE("a tetrahedron against Tonon's formulas") {
 TEST_CASE("rotation, translation and scale follow their laws") {
   Random random(1);
   for (int seed = 0; seed < 50; ++seed) {
-    const Polyhedron grain = moved_copy(make_grain({}, 1.0, seed).shape, {{0.1, 0.2, 0.3}, random.rotation()});
+    const Polyhedron grain =
+        moved_copy(make_grain({}, 1.0, seed).shape, {{0.1, 0.2, 0.3}, random.rotation()});
     const MassProperties before = mass_properties(grain);
     const Pose pose{3.0 * random.unit_vector(), random.rotation()};
     const MassProperties after = mass_properties(moved_copy(grain, pose, 2.0));
     const Mat3 R = pose.rotation.toRotationMatrix();
     CHECK(after.volume == Approx(8.0 * before.volume).epsilon(1e-13));
     CHECK((after.centre - (pose * Vec3(2.0 * before.centre))).norm() < 1e-13);
-    CHECK((after.inertia - 32.0 * R * before.inertia * R.transpose()).norm() < 1e-12 * after.inertia.norm());
+    CHECK((after.inertia - 32.0 * R * before.inertia * R.transpose()).norm() <
+          1e-12 * after.inertia.norm());
   }
 }
 
@@ -90,7 +96,8 @@ TEST_CASE("the two pieces of a cut grain add up to the whole") {
     CHECK(a.volume > 0.05 * whole.volume);
     CHECK(b.volume > 0.05 * whole.volume);
     CHECK(a.volume + b.volume == Approx(whole.volume).epsilon(1e-9));
-    CHECK((a.volume * a.centre + b.volume * b.centre - whole.volume * whole.centre).norm() < 1e-9 * whole.volume);
+    CHECK((a.volume * a.centre + b.volume * b.centre - whole.volume * whole.centre).norm() <
+          1e-9 * whole.volume);
     const Mat3 sum = a.inertia + parallel_axis(a.volume, a.centre - whole.centre) + b.inertia +
                      parallel_axis(b.volume, b.centre - whole.centre);
     CHECK((sum - whole.inertia).norm() < 1e-9 * whole.inertia.norm());
@@ -98,7 +105,8 @@ TEST_CASE("the two pieces of a cut grain add up to the whole") {
 }
 
 TEST_CASE("an upright box stays upright in its principal frame") {
-  const PrincipalShape p = to_principal_frame(moved_copy(make_box({3.0, 1.0, 2.0}), {{5, 6, 7}, Quat::Identity()}));
+  const PrincipalShape p =
+      to_principal_frame(moved_copy(make_box({3.0, 1.0, 2.0}), {{5, 6, 7}, Quat::Identity()}));
   CHECK(p.pose.rotation.coeffs() == Quat::Identity().coeffs());
   CHECK((p.pose.position - Vec3(5, 6, 7)).norm() < 1e-14);
   for (int f = 0; f < 6; ++f) CHECK(p.shape.normal(f).cwiseAbs().maxCoeff() == 1.0);
@@ -109,8 +117,8 @@ TEST_CASE("the principal frame of grains anywhere") {
   Random random(3);
   for (int seed = 0; seed < 200; ++seed) {
     const double distance = seed % 2 ? 100.0 : 0.1;
-    const Polyhedron given =
-        moved_copy(make_grain({}, 1.0, seed).shape, {distance * random.unit_vector(), random.rotation()});
+    const Polyhedron given = moved_copy(make_grain({}, 1.0, seed).shape,
+                                        {distance * random.unit_vector(), random.rotation()});
     const PrincipalShape p = to_principal_frame(given);
     const MassProperties again = mass_properties(p.shape);
     CHECK(again.volume == p.volume);
@@ -131,7 +139,8 @@ TEST_CASE("solids without distinct axes have a principal frame too") {
   Random random(4);
   for (int trial = 0; trial < 20; ++trial) {
     const Pose pose{random.unit_vector(), random.rotation()};
-    for (const Polyhedron& solid : {make_box({2, 2, 2}), make_box({2, 2, 1}), make_sphere(1.0, 2)}) {
+    for (const Polyhedron& solid :
+         {make_box({2, 2, 2}), make_box({2, 2, 1}), make_sphere(1.0, 2)}) {
       const PrincipalShape p = to_principal_frame(moved_copy(solid, pose));
       const MassProperties again = mass_properties(p.shape);
       CHECK(off_diagonal(again.inertia) < 1e-12 * p.inertia.maxCoeff());

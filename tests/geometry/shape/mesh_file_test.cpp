@@ -17,12 +17,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Faces as lists of corner positions, each from its smallest corner on, sorted: independent of the numbering.
+/// Faces as lists of corner positions, each from its smallest corner on, sorted: independent of the
+/// numbering.
 std::set<std::vector<std::array<double, 3>>> solid(const Polyhedron& p) {
   std::set<std::vector<std::array<double, 3>>> faces;
   for (int f = 0; f < p.face_count(); ++f) {
     std::vector<std::array<double, 3>> corners;
-    for (const int v : p.face(f)) corners.push_back({p.vertex(v).x(), p.vertex(v).y(), p.vertex(v).z()});
+    for (const int v : p.face(f))
+      corners.push_back({p.vertex(v).x(), p.vertex(v).y(), p.vertex(v).z()});
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     faces.insert(corners);
   }
@@ -39,7 +41,8 @@ TEST_CASE("OBJ gives back the same polyhedron, bit for bit") {
     write_mesh(file, p);
     const Polyhedron q = read_mesh(file);
     REQUIRE(q.face_count() == p.face_count());
-    CHECK(std::equal(p.vertices().begin(), p.vertices().end(), q.vertices().begin(), q.vertices().end()));
+    CHECK(std::equal(p.vertices().begin(), p.vertices().end(), q.vertices().begin(),
+                     q.vertices().end()));
     for (int f = 0; f < p.face_count(); ++f)
       CHECK(std::equal(p.face(f).begin(), p.face(f).end(), q.face(f).begin(), q.face(f).end()));
   }
@@ -88,10 +91,13 @@ TEST_CASE("OBJ as other programs write it") {
            with(text, "f 1 5 7 3", "f 1 5 7 3 # left");
   }
   SECTION("texture and normal indices") {
-    text = "vt 0 0\nvn 0 0 1\n" + with(with(with(text, "1 5 7 3", "1/1 5/1 7/1 3/1"), "2 4 8 6", "2//1 4//1 8//1 6//1"),
-                                       "3 7 8 4", "3/1/1 7/1/1 8/1/1 4/1/1");
+    text = "vt 0 0\nvn 0 0 1\n" +
+           with(with(with(text, "1 5 7 3", "1/1 5/1 7/1 3/1"), "2 4 8 6", "2//1 4//1 8//1 6//1"),
+                "3 7 8 4", "3/1/1 7/1/1 8/1/1 4/1/1");
   }
-  SECTION("negative indices") { text = with(with(text, "1 5 7 3", "-8 -4 -2 -6"), "5 6 8 7", "5 -3 8 -2"); }
+  SECTION("negative indices") {
+    text = with(with(text, "1 5 7 3", "-8 -4 -2 -6"), "5 6 8 7", "5 -3 8 -2");
+  }
   SECTION("DOS line ends and tabs") {
     std::string dos;
     for (const char c : text) dos += c == '\n' ? "\r\n" : std::string(1, c);
@@ -100,7 +106,9 @@ TEST_CASE("OBJ as other programs write it") {
   SECTION("exponents, signs, weights, colours") {
     text = with(with(text, "v 1 0 0", "v +1.0e0 -0 0.0 1.0"), "v 0 1 0", "v 0 10E-1 0 0.5 0.5 0.5");
   }
-  SECTION("faces before vertices") { text = text.substr(text.find('f')) + text.substr(0, text.find('f')); }
+  SECTION("faces before vertices") {
+    text = text.substr(text.find('f')) + text.substr(0, text.find('f'));
+  }
   SECTION("no newline at the end") { text.pop_back(); }
   SECTION("triangles: coplanar neighbours become one face again") {
     text = with(text, "f 1 5 7 3", "f 1 5 7\nf 1 7 3");
@@ -119,9 +127,15 @@ TEST_CASE("text STL as other programs write it") {
     for (char& c : text)
       if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   }
-  SECTION("a name of several words") { text = with(text, "solid ballast", "  solid facet of a crusher"); }
-  SECTION("no name") { text = with(with(text, "solid ballast", "solid"), "endsolid ballast", "endsolid"); }
-  SECTION("normals that are no numbers") { text = with(text, "normal -1 0 0", "normal nan -nan(ind) x"); }
+  SECTION("a name of several words") {
+    text = with(text, "solid ballast", "  solid facet of a crusher");
+  }
+  SECTION("no name") {
+    text = with(with(text, "solid ballast", "solid"), "endsolid ballast", "endsolid");
+  }
+  SECTION("normals that are no numbers") {
+    text = with(text, "normal -1 0 0", "normal nan -nan(ind) x");
+  }
   SECTION("corners that agree to seven digits only") {
     text = with(text, "vertex -0.5 -1 -1.5", "vertex -0.5 -1 -1.4999999");
   }
@@ -137,14 +151,16 @@ TEST_CASE("the scale multiplies coordinates") {
   CHECK(mass_properties(read_mesh(folder.path / "cube.obj", 0.001)).volume == Approx(1e-9));
   CHECK(mass_properties(read_mesh_hull(folder.path / "cube.obj", 2.0)).volume == Approx(8.0));
   for (const double scale : {0.0, -1.0, std::nan("")})
-    CHECK(complaint([&] { read_mesh(folder.path / "cube.obj", scale); }).find("scale must be positive") !=
-          std::string::npos);
+    CHECK(complaint([&] {
+            read_mesh(folder.path / "cube.obj", scale);
+          }).find("scale must be positive") != std::string::npos);
 }
 
 TEST_CASE("scanned grains: the hull of whatever the vertices are") {
   const Folder folder;
   const fs::path file = folder.path / "scan.obj";
-  save(file, with(kCube, "f 1 5 7 3\n", "") + "v 0.5 0.5 0.5\n");  // open, with a stray vertex inside
+  save(file,
+       with(kCube, "f 1 5 7 3\n", "") + "v 0.5 0.5 0.5\n");  // open, with a stray vertex inside
   CHECK(complaint([&] { read_mesh(file); }) != "");
   CHECK(read_mesh_hull(file).face_count() == 6);
   save(file, kCube.substr(0, kCube.find('f')));  // a point cloud
@@ -157,7 +173,9 @@ TEST_CASE("scanned grains: the hull of whatever the vertices are") {
 TEST_CASE("writing that fails names the file and the reason, and leaves the old file") {
   const Folder folder;
   const Polyhedron box = make_box({1, 2, 3});
-  const auto said_of = [&](const fs::path& file) { return complaint([&] { write_mesh(file, box); }); };
+  const auto said_of = [&](const fs::path& file) {
+    return complaint([&] { write_mesh(file, box); });
+  };
 
   const fs::path nowhere = folder.path / "no" / "box.obj";
   CHECK(said_of(nowhere) == nowhere.string() + ": cannot write: No such file or directory");

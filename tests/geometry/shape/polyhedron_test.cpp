@@ -16,7 +16,9 @@ namespace {
 
 using Faces = std::vector<std::vector<int>>;
 
-std::vector<Vec3> vertices_of(const Polyhedron& p) { return {p.vertices().begin(), p.vertices().end()}; }
+std::vector<Vec3> vertices_of(const Polyhedron& p) {
+  return {p.vertices().begin(), p.vertices().end()};
+}
 
 Faces faces_of(const Polyhedron& p) {
   Faces faces;
@@ -34,7 +36,9 @@ std::string complaint(const std::vector<Vec3>& vertices, const Faces& faces) {
   }
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 const std::vector<Vec3> kTetrahedron = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const Faces kTetrahedronFaces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
@@ -70,8 +74,8 @@ void check_topology(const Polyhedron& p) {
   REQUIRE(directed.size() == 2 * p.edges().size());
   for (const auto& edge : p.edges()) {
     CHECK(edge.tail < edge.head);
-    for (const auto& [face, from, to] :
-         {std::tuple(edge.left, edge.tail, edge.head), std::tuple(edge.right, edge.head, edge.tail)}) {
+    for (const auto& [face, from, to] : {std::tuple(edge.left, edge.tail, edge.head),
+                                         std::tuple(edge.right, edge.head, edge.tail)}) {
       const auto loop = p.face(face);
       const auto at = std::find(loop.begin(), loop.end(), from) - loop.begin();
       CHECK(loop[(at + 1) % loop.size()] == to);
@@ -81,7 +85,8 @@ void check_topology(const Polyhedron& p) {
     const auto neighbours = p.vertex_neighbours(v), faces = p.vertex_faces(v);
     CHECK(std::vector<int>(neighbours.begin(), neighbours.end()) ==
           std::vector<int>(around[v].begin(), around[v].end()));
-    CHECK(std::vector<int>(faces.begin(), faces.end()) == std::vector<int>(touching[v].begin(), touching[v].end()));
+    CHECK(std::vector<int>(faces.begin(), faces.end()) ==
+          std::vector<int>(touching[v].begin(), touching[v].end()));
   }
 }
 
@@ -147,21 +152,29 @@ TEST_CASE("walking uphill along edges ends at the support vertex") {
   }
 }
 
-TEST_CASE("the tetrahedron of the defect table is sound") { CHECK(complaint(kTetrahedron, kTetrahedronFaces) == ""); }
+TEST_CASE("the tetrahedron of the defect table is sound") {
+  CHECK(complaint(kTetrahedron, kTetrahedronFaces) == "");
+}
 
 TEST_CASE("defects of faces and vertices are named") {
   std::vector<Vec3> v = kTetrahedron;
   Faces f = kTetrahedronFaces;
   std::string expected;
   SECTION("NaN") { v[2].y() = std::nan(""), expected = "vertex 2 has a coordinate that is NaN"; }
-  SECTION("infinity") { v[3].z() = std::numeric_limits<double>::infinity(), expected = "vertex 3 has a coordinate"; }
+  SECTION("infinity") {
+    v[3].z() = std::numeric_limits<double>::infinity(), expected = "vertex 3 has a coordinate";
+  }
   SECTION("overflow") { v[3].z() = 1e200, expected = "too large"; }
-  SECTION("three vertices") { v.pop_back(), f = {{0, 1, 2}, {2, 1, 0}}, expected = "at least 4 vertices, got 3"; }
+  SECTION("three vertices") {
+    v.pop_back(), f = {{0, 1, 2}, {2, 1, 0}}, expected = "at least 4 vertices, got 3";
+  }
   SECTION("one point") { v.assign(4, Vec3(1, 1, 1)), expected = "all vertices coincide"; }
   SECTION("index too large") { f[1][1] = 4, expected = "face 1 names vertex 4 of 4"; }
   SECTION("index negative") { f[2][0] = -1, expected = "face 2 names vertex -1"; }
   SECTION("face of two") { f[3].pop_back(), expected = "face 3 has 2 vertices"; }
-  SECTION("vertex twice in a face") { f[0][1] = 0, expected = "face 0 passes through vertex 0 twice"; }
+  SECTION("vertex twice in a face") {
+    f[0][1] = 0, expected = "face 0 passes through vertex 0 twice";
+  }
   SECTION("unused vertex") { v.push_back({5, 5, 5}), expected = "vertex 4 belongs to no face"; }
   SECTION("no faces") { f.clear(), expected = "vertex 0 belongs to no face"; }
   SECTION("vertices coincide") {
@@ -190,7 +203,9 @@ TEST_CASE("defects of the surface are named") {
     for (auto& face : f) std::reverse(face.begin(), face.end());
     expected = "turned inward";
   }
-  SECTION("two pieces") { append(v, f, Polyhedron(v, f), {3, 0, 0}), expected = "several pieces: face 4 "; }
+  SECTION("two pieces") {
+    append(v, f, Polyhedron(v, f), {3, 0, 0}), expected = "several pieces: face 4 ";
+  }
   SECTION("two tetrahedra at one vertex") {
     v = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     f = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 4, 5}, {0, 6, 4}, {4, 6, 5}, {0, 5, 6}};
@@ -202,12 +217,15 @@ TEST_CASE("defects of the surface are named") {
     f.clear();
     for (const double z : {0.0, 1.0})
       for (const double r : {1.0, 3.0})
-        for (int k = 0; k < 3; ++k) v.push_back({r * std::cos(2.0943951 * k), r * std::sin(2.0943951 * k), z});
+        for (int k = 0; k < 3; ++k)
+          v.push_back({r * std::cos(2.0943951 * k), r * std::sin(2.0943951 * k), z});
     for (int k = 0; k < 3; ++k) {
-      const int n = (k + 1) % 3;  // inner bottom 0-2, outer bottom 3-5, inner top 6-8, outer top 9-11
-      f.insert(
-          f.end(),
-          {{3 + k, 3 + n, 9 + n, 9 + k}, {k, 6 + k, 6 + n, n}, {6 + k, 9 + k, 9 + n, 6 + n}, {k, n, 3 + n, 3 + k}});
+      const int n =
+          (k + 1) % 3;  // inner bottom 0-2, outer bottom 3-5, inner top 6-8, outer top 9-11
+      f.insert(f.end(), {{3 + k, 3 + n, 9 + n, 9 + k},
+                         {k, 6 + k, 6 + n, n},
+                         {6 + k, 9 + k, 9 + n, 6 + n},
+                         {k, n, 3 + n, 3 + k}});
     }
     expected = "vertices - edges + faces = 0 instead of 2";
   }
@@ -237,7 +255,8 @@ TEST_CASE("defects of the shape are named") {
   SECTION("star-shaped face") {
     v.clear();
     for (const double z : {-1.0, 1.0})
-      for (int k = 0; k < 5; ++k) v.push_back({std::cos(1.2566370614359172 * k), std::sin(1.2566370614359172 * k), z});
+      for (int k = 0; k < 5; ++k)
+        v.push_back({std::cos(1.2566370614359172 * k), std::sin(1.2566370614359172 * k), z});
     f = {{0, 3, 1, 4, 2}, {5, 7, 9, 6, 8}};
     for (int k = 0; k < 5; ++k) f.push_back({k, (k + 2) % 5, 5 + (k + 2) % 5, 5 + k});
     expected = "winds around itself";

@@ -2,10 +2,10 @@
 
 #include <limits>
 
+#include "platform/seeded_random.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/known_solutions.hpp"
-#include "platform/seeded_random.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
 
@@ -29,7 +29,8 @@ ContactError dense_error(const FrictionProblem& p, const Impulses& r) {
     Eigen::Vector3d hat = uc;
     hat[0] += p.friction[c] * std::hypot(uc[1], uc[2]);
     const Eigen::MatrixXd block = w.block(first, first, rows, rows);
-    const double lambda = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block).eigenvalues().maxCoeff();
+    const double lambda =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block).eigenvalues().maxCoeff();
     if (lambda > 0.0) {
       const double value = lambda * (rc - project_cone(rc - hat / lambda, p.friction[c])).norm();
       sum += value * value;
@@ -67,7 +68,8 @@ void check_same(const ContactError& a, const ContactError& b) {
 
 TEST_CASE("the judge agrees with dense matrices") {
   KnownSolutionSettings settings;
-  const FrictionProblem problems[] = {oracle::mixed_problem(), make_known_solution(settings).problem};
+  const FrictionProblem problems[] = {oracle::mixed_problem(),
+                                      make_known_solution(settings).problem};
   SeededRandom random(31);
   for (const FrictionProblem& problem : problems) {
     Impulses r(problem.row_count());
@@ -82,7 +84,8 @@ TEST_CASE("the judge agrees with dense matrices") {
     stored.has_dynamics = false;
     ContactError from_w = contact_error(stored, r);
     CHECK(from_w.momentum_residual == 0.0);
-    CHECK(from_w.power == Approx(error.power + r.dot(problem.dynamics.bias)));  // W and q know of no bias
+    CHECK(from_w.power ==
+          Approx(error.power + r.dot(problem.dynamics.bias)));  // W and q know of no bias
     from_w.power = error.power;
     check_same(from_w, error);
   }
@@ -160,7 +163,8 @@ TEST_CASE("the judge leaves the bodies' velocities, with contacts and without") 
 
 TEST_CASE("impulses that are not numbers make every measure infinite") {
   const FrictionProblem problem = oracle::mixed_problem();
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Impulses r = Impulses::Zero(problem.row_count());
     r[4] = bad;
     const ContactError error = contact_error(problem, r);
@@ -175,7 +179,8 @@ TEST_CASE("the scaled natural map does not depend on the units") {
   KnownSolution known = make_known_solution({});
   const Impulses r = 0.9 * known.r;
   const double value = contact_error(known.problem, r).natural_map_rms;
-  FrictionProblem heavy = known.problem;  // tonnes become grams: impulses scale with the masses, velocities do not
+  FrictionProblem heavy =
+      known.problem;  // tonnes become grams: impulses scale with the masses, velocities do not
   for (double& m : heavy.dynamics.mass) m *= 1e6;
   CHECK(contact_error(heavy, 1e6 * r).natural_map_rms == Approx(value).epsilon(1e-7));
 }

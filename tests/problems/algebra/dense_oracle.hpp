@@ -1,5 +1,6 @@
 #pragma once
-// The slow obvious way: every operator as a dense matrix, written from the header's definitions alone.
+// The slow obvious way: every operator as a dense matrix, written from the header's definitions
+// alone.
 
 #include <Eigen/Dense>
 
@@ -13,7 +14,8 @@ inline Eigen::MatrixXd dense_mass(const FrictionProblem& problem) {
   for (int b = 0; b < d.body_count(); ++b) {
     const int n = d.dof_begin[b + 1] - d.dof_begin[b];
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) mass(d.dof_begin[b] + i, d.dof_begin[b] + j) = d.mass[d.mass_begin[b] + j * n + i];
+      for (int i = 0; i < n; ++i)
+        mass(d.dof_begin[b] + i, d.dof_begin[b] + j) = d.mass[d.mass_begin[b] + j * n + i];
   }
   return mass;
 }
@@ -26,7 +28,8 @@ inline Eigen::MatrixXd dense_h(const FrictionProblem& problem) {
     for (const int body : {d.body_a[c], d.body_b[c]}) {
       if (body < 0) continue;
       for (int k = d.dof_begin[body]; k < d.dof_begin[body + 1]; ++k)
-        for (int i = problem.row_begin[c]; i < problem.row_begin[c + 1]; ++i) h(i, k) = d.h[entry++];
+        for (int i = problem.row_begin[c]; i < problem.row_begin[c + 1]; ++i)
+          h(i, k) = d.h[entry++];
     }
   }
   return h;
@@ -41,8 +44,8 @@ inline Eigen::VectorXd dense_q(const FrictionProblem& problem) {
   return dense_h(problem) * problem.dynamics.v_free + problem.dynamics.bias;
 }
 
-/// Three bodies with 6, 3 and 1 unknowns; contacts of every kind: two bodies, one body on either side, none, one row,
-/// three.
+/// Three bodies with 6, 3 and 1 unknowns; contacts of every kind: two bodies, one body on either
+/// side, none, one row, three.
 inline FrictionProblem mixed_problem() {
   FrictionProblem p;
   p.has_dynamics = true;
@@ -57,7 +60,8 @@ inline FrictionProblem mixed_problem() {
     d.dof_begin.push_back(d.dof_begin.back() + dofs);
     d.mass_begin.push_back(static_cast<int>(d.mass.size()));
   }
-  const int a[] = {0, -1, 1, 2, -1, 0, -1}, b[] = {1, 0, 2, -1, -1, 2, 1}, rows[] = {3, 3, 1, 3, 3, 3, 1};
+  const int a[] = {0, -1, 1, 2, -1, 0, -1}, b[] = {1, 0, 2, -1, -1, 2, 1},
+            rows[] = {3, 3, 1, 3, 3, 3, 1};
   for (int c = 0; c < 7; ++c) {
     d.body_a.push_back(a[c]);
     d.body_b.push_back(b[c]);

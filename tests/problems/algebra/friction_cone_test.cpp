@@ -45,8 +45,10 @@ TEST_CASE("no sampled point of the cone is nearer than the projection") {
     const Vector3d x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const double distance = (x - project_cone(x, mu)).norm();
     for (int sample = 0; sample < 500; ++sample) {
-      const double n = random.uniform(0, 2), t = mu * n * random.uniform(), angle = random.uniform(0, 6.2831853);
-      REQUIRE((x - Vector3d(n, t * std::cos(angle), t * std::sin(angle))).norm() >= distance - 1e-14);
+      const double n = random.uniform(0, 2), t = mu * n * random.uniform(),
+                   angle = random.uniform(0, 6.2831853);
+      REQUIRE((x - Vector3d(n, t * std::cos(angle), t * std::sin(angle))).norm() >=
+              distance - 1e-14);
     }
   }
 }
@@ -56,7 +58,8 @@ TEST_CASE("Moreau: a point is its projection on the cone minus that of its oppos
   for (int k = 0; k < 100000; ++k) {
     const double mu = random_mu(random);
     const Vector3d x = random_point(random);
-    REQUIRE((x - (project_cone(x, mu) - project_dual_cone(-x, mu))).norm() <= 1e-14 * (1 + mu) * x.norm());
+    REQUIRE((x - (project_cone(x, mu) - project_dual_cone(-x, mu))).norm() <=
+            1e-14 * (1 + mu) * x.norm());
     const Vector3d d = project_dual_cone(x, mu);
     REQUIRE(d[0] >= mu * std::hypot(d[1], d[2]) * (1 - 1e-14));
   }
@@ -78,11 +81,13 @@ TEST_CASE("the Jacobian is the derivative wherever there is one") {
     const double mu = random.uniform(0.0, 3.0), h = 1e-6;
     const Vector3d x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const double t = std::hypot(x[1], x[2]);
-    if (std::abs(t - mu * x[0]) < 1e-2 || std::abs(mu * t + x[0]) < 1e-2 || t < 1e-2) continue;  // near a kink
+    if (std::abs(t - mu * x[0]) < 1e-2 || std::abs(mu * t + x[0]) < 1e-2 || t < 1e-2)
+      continue;  // near a kink
     const Eigen::Matrix3d jacobian = project_cone_jacobian(x, mu);
     for (int j = 0; j < 3; ++j) {
       const Vector3d step = h * Vector3d::Unit(j);
-      const Vector3d difference = (project_cone(x + step, mu) - project_cone(x - step, mu)) / (2 * h);
+      const Vector3d difference =
+          (project_cone(x + step, mu) - project_cone(x - step, mu)) / (2 * h);
       REQUIRE((jacobian.col(j) - difference).norm() < 1e-8);
     }
     REQUIRE((jacobian - jacobian.transpose()).norm() < 1e-14);
@@ -94,14 +99,15 @@ TEST_CASE("the Jacobian is the derivative wherever there is one") {
 TEST_CASE("the natural map vanishes exactly on the law, for every rho") {
   const double mu = 0.5;
   for (const double rho : {1e-3, 1.0, 1e3}) {
-    CHECK(natural_map({0, 0, 0}, {0.3, 2, 1}, mu, rho).norm() == 0.0);                          // open
-    CHECK(natural_map({2, 0.6, 0.7}, {0, 0, 0}, mu, rho).norm() == 0.0);                        // stick
-    CHECK(natural_map({2, 0.6, 0.8}, {0, -3, -4}, mu, rho).norm() <= 1e-15 * 4 * rho + 1e-15);  // slip
-    CHECK(natural_map({2, 0.6, 0.8}, {0, 3, 4}, mu, rho).norm() > 1e-4);                        // friction that pushes
-    CHECK(natural_map({2, 0.1, 0.1}, {0, -3, -4}, mu, rho).norm() > 1e-4);                      // slips inside the cone
-    CHECK(natural_map({2, 0, 0}, {0.1, 0, 0}, mu, rho).norm() > 1e-5);                          // pushes while it opens
-    CHECK(natural_map({0, 0, 0}, {-0.1, 0, 0}, mu, rho).norm() > 1e-5);                         // sinks in
-    CHECK(natural_map({2, 1.2, 1.6}, {0, -3, -4}, mu, rho).norm() > 1e-4);                      // outside the cone
+    CHECK(natural_map({0, 0, 0}, {0.3, 2, 1}, mu, rho).norm() == 0.0);    // open
+    CHECK(natural_map({2, 0.6, 0.7}, {0, 0, 0}, mu, rho).norm() == 0.0);  // stick
+    CHECK(natural_map({2, 0.6, 0.8}, {0, -3, -4}, mu, rho).norm() <=
+          1e-15 * 4 * rho + 1e-15);                                         // slip
+    CHECK(natural_map({2, 0.6, 0.8}, {0, 3, 4}, mu, rho).norm() > 1e-4);    // friction that pushes
+    CHECK(natural_map({2, 0.1, 0.1}, {0, -3, -4}, mu, rho).norm() > 1e-4);  // slips inside the cone
+    CHECK(natural_map({2, 0, 0}, {0.1, 0, 0}, mu, rho).norm() > 1e-5);      // pushes while it opens
+    CHECK(natural_map({0, 0, 0}, {-0.1, 0, 0}, mu, rho).norm() > 1e-5);     // sinks in
+    CHECK(natural_map({2, 1.2, 1.6}, {0, -3, -4}, mu, rho).norm() > 1e-4);  // outside the cone
   }
   CHECK(modified_velocity({1, 3, 4}, 0.5) == Vector3d(3.5, 3, 4));
 }

@@ -14,7 +14,8 @@ Eigen::VectorXd some_impulses(int rows) { return Eigen::VectorXd::LinSpaced(rows
 
 TEST_CASE("velocities agree with dense matrices") {
   KnownSolutionSettings settings;
-  const FrictionProblem problems[] = {oracle::mixed_problem(), make_known_solution(settings).problem};
+  const FrictionProblem problems[] = {oracle::mixed_problem(),
+                                      make_known_solution(settings).problem};
   for (const FrictionProblem& problem : problems) {
     const Impulses r = some_impulses(problem.row_count());
     const Eigen::MatrixXd h = oracle::dense_h(problem), mass = oracle::dense_mass(problem);
@@ -52,8 +53,10 @@ TEST_CASE("velocities from the stored Delassus form") {
 TEST_CASE("impulses of the wrong size are refused") {
   const FrictionProblem problem = oracle::mixed_problem();
   Eigen::VectorXd u;
-  CHECK_THROWS_AS(contact_velocity(problem, Impulses::Zero(problem.row_count() + 1), u), InvalidProblem);
-  CHECK_THROWS_AS(body_velocity(problem.dynamics, problem.row_begin, Impulses::Zero(2), u), InvalidProblem);
+  CHECK_THROWS_AS(contact_velocity(problem, Impulses::Zero(problem.row_count() + 1), u),
+                  InvalidProblem);
+  CHECK_THROWS_AS(body_velocity(problem.dynamics, problem.row_begin, Impulses::Zero(2), u),
+                  InvalidProblem);
 }
 
 TEST_CASE("a cleared problem is empty and keeps its storage") {

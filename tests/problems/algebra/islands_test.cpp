@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "problems/algebra/known_solutions.hpp"
 #include "platform/seeded_random.hpp"
+#include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -21,7 +21,8 @@ FrictionProblem random_problem(int bodies, int contacts, std::uint64_t seed) {
   return make_known_solution(settings).problem;
 }
 
-/// The slow obvious way: every body takes the smaller label of its neighbours until nothing changes.
+/// The slow obvious way: every body takes the smaller label of its neighbours until nothing
+/// changes.
 std::vector<int> labels_of(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   std::vector<int> label(dynamics.body_count());
@@ -98,8 +99,9 @@ TEST_CASE("islands are the ones that the slow obvious search finds, each body an
             if (label[other] == label[body]) CHECK(island_of[other] == island_of[body]);
     }
     for (int b = 0; b < bodies; ++b) {
-      const bool touched = std::find(dynamics.body_a.begin(), dynamics.body_a.end(), b) != dynamics.body_a.end() ||
-                           std::find(dynamics.body_b.begin(), dynamics.body_b.end(), b) != dynamics.body_b.end();
+      const bool touched =
+          std::find(dynamics.body_a.begin(), dynamics.body_a.end(), b) != dynamics.body_a.end() ||
+          std::find(dynamics.body_b.begin(), dynamics.body_b.end(), b) != dynamics.body_b.end();
       CHECK((island_of[b] >= 0) == touched);
     }
     several += islands.count() > 1;
@@ -130,6 +132,7 @@ TEST_CASE("an island is a valid problem, and its velocities are the whole proble
     }
     for (int c = 0; c < problem.contact_count(); ++c)
       if (problem.dynamics.body_a[c] >= 0 || problem.dynamics.body_b[c] >= 0)
-        for (int k = problem.row_begin[c]; k < problem.row_begin[c + 1]; ++k) CHECK(back[k] == r[k]);
+        for (int k = problem.row_begin[c]; k < problem.row_begin[c + 1]; ++k)
+          CHECK(back[k] == r[k]);
   }
 }

@@ -39,7 +39,8 @@ TEST_CASE("the mass root agrees with a dense Cholesky factor") {
         REQUIRE(root.diagonal == (diagonal || dofs == 1));
         const Eigen::MatrixXd l = mass.llt().matrixL();
 
-        Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(dofs, 0.5, 2.0), lower = x, upper = x, product = x;
+        Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(dofs, 0.5, 2.0), lower = x, upper = x,
+                        product = x;
         root.solve_lower(lower.data());
         root.solve_upper(upper.data());
         root.multiply_upper(product.data());
@@ -47,7 +48,8 @@ TEST_CASE("the mass root agrees with a dense Cholesky factor") {
         REQUIRE((l.transpose() * upper - x).norm() < 1e-13);
         REQUIRE((product - l.transpose() * x).norm() < 1e-13);
 
-        const Eigen::MatrixXd h = Eigen::MatrixXd::NullaryExpr(3, dofs, [&] { return random.uniform(-1, 1); });
+        const Eigen::MatrixXd h =
+            Eigen::MatrixXd::NullaryExpr(3, dofs, [&] { return random.uniform(-1, 1); });
         REQUIRE((scaled<3>(root, h) * l.transpose() - h).norm() < 1e-13);
         const Eigen::MatrixXd row = h.row(0);
         REQUIRE((scaled<1>(root, row) * l.transpose() - row).norm() < 1e-13);
@@ -56,8 +58,8 @@ TEST_CASE("the mass root agrees with a dense Cholesky factor") {
 
 TEST_CASE("what is not positive definite has no root") {
   MassRoot root;
-  const double indefinite[] = {1, 2, 2, 1}, zero[] = {0}, negative[] = {1, 0, 0, -1}, nan[] = {std::nan("")},
-               infinite[] = {HUGE_VAL};
+  const double indefinite[] = {1, 2, 2, 1}, zero[] = {0}, negative[] = {1, 0, 0, -1},
+               nan[] = {std::nan("")}, infinite[] = {HUGE_VAL};
   CHECK_FALSE(root.factor(indefinite, 2));
   CHECK_FALSE(root.factor(zero, 1));
   CHECK_FALSE(root.factor(negative, 2));

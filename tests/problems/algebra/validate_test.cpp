@@ -69,7 +69,8 @@ TEST_CASE("bad bodies are named") {
   check_all({
       {"dynamics.dof_begin is empty", [](auto& p) { p.dynamics.dof_begin.clear(); }},
       {"dynamics.dof_begin[0] = -1", [](auto& p) { p.dynamics.dof_begin[0] = -1; }},
-      {"dynamics.dof_begin[2] = 6 gives body 1 0 unknowns", [](auto& p) { p.dynamics.dof_begin[2] = 6; }},
+      {"dynamics.dof_begin[2] = 6 gives body 1 0 unknowns",
+       [](auto& p) { p.dynamics.dof_begin[2] = 6; }},
       {"dynamics.dof_begin[2] = 5", [](auto& p) { p.dynamics.dof_begin[2] = 5; }},
       {"dynamics.dof_begin[3] = 17", [](auto& p) { p.dynamics.dof_begin[3] = 17; }},
       {"dynamics.mass_begin has 3", [](auto& p) { p.dynamics.mass_begin.pop_back(); }},
@@ -77,8 +78,9 @@ TEST_CASE("bad bodies are named") {
       {"dynamics.mass has 45 entries", [](auto& p) { p.dynamics.mass.pop_back(); }},
       {"dynamics.mass[38] = inf", [](auto& p) { p.dynamics.mass[38] = infinity; }},
       {"dynamics.mass[45] = 0: the block of body 2", [](auto& p) { p.dynamics.mass[45] = 0.0; }},
-      {"dynamics.mass[36] = ", [](auto& p) { p.dynamics.mass[37] = p.dynamics.mass[39] = 50.0; }},  // indefinite
-      {"dynamics.mass[39] = ", [](auto& p) { p.dynamics.mass[39] += 1e-6; }},                       // not symmetric
+      {"dynamics.mass[36] = ",
+       [](auto& p) { p.dynamics.mass[37] = p.dynamics.mass[39] = 50.0; }},     // indefinite
+      {"dynamics.mass[39] = ", [](auto& p) { p.dynamics.mass[39] += 1e-6; }},  // not symmetric
       {"dynamics.v_free has 9", [](auto& p) { p.dynamics.v_free.conservativeResize(9); }},
       {"dynamics.v_free[3] = nan", [](auto& p) { p.dynamics.v_free[3] = not_a_number; }},
   });
@@ -89,7 +91,8 @@ TEST_CASE("bad blocks of H are named") {
       {"dynamics.body_a has 6", [](auto& p) { p.dynamics.body_a.pop_back(); }},
       {"dynamics.body_a[2] = 3 is not one of the 3", [](auto& p) { p.dynamics.body_a[2] = 3; }},
       {"dynamics.body_b[2] = -2", [](auto& p) { p.dynamics.body_b[2] = -2; }},
-      {"dynamics.body_b[0] = 0: body_a and body_b are the same", [](auto& p) { p.dynamics.body_b[0] = 0; }},
+      {"dynamics.body_b[0] = 0: body_a and body_b are the same",
+       [](auto& p) { p.dynamics.body_b[0] = 0; }},
       {"dynamics.h_begin has 7", [](auto& p) { p.dynamics.h_begin.pop_back(); }},
       {"dynamics.h_begin[1] = 26", [](auto& p) { p.dynamics.h_begin[1] = 26; }},
       {"dynamics.h has", [](auto& p) { p.dynamics.h.push_back(0.0); }},
@@ -107,8 +110,10 @@ TEST_CASE("a bad Delassus form is named") {
       {"delassus.w columns has 18", [](auto& p) { p.delassus.w.conservativeResize(17, 18); }},
       {"delassus.w(0, 4) = nan", [](auto& p) { p.delassus.w.coeffRef(0, 4) = not_a_number; }},
       {"delassus.w(4, 4) = -1 is negative", [](auto& p) { p.delassus.w.coeffRef(4, 4) = -1.0; }},
-      {"delassus.w(1, 0) = ", [](auto& p) { p.delassus.w.coeffRef(1, 0) += 0.5 * p.delassus.w.coeff(0, 0); }},
-      {"delassus.w(1, 0) = 1000", [](auto& p) { p.delassus.w.coeffRef(1, 0) = p.delassus.w.coeffRef(0, 1) = 1000; }},
+      {"delassus.w(1, 0) = ",
+       [](auto& p) { p.delassus.w.coeffRef(1, 0) += 0.5 * p.delassus.w.coeff(0, 0); }},
+      {"delassus.w(1, 0) = 1000",
+       [](auto& p) { p.delassus.w.coeffRef(1, 0) = p.delassus.w.coeffRef(0, 1) = 1000; }},
       {"delassus.w(0, 0) = 1: the block of contact 0 is not positive semidefinite (det",
        [](auto& p) {  // every 2 x 2 minor is positive, the determinant is not
          const double block[3][3] = {{1, 0.9, -0.9}, {0.9, 1, 0.9}, {-0.9, 0.9, 1}};
@@ -117,7 +122,8 @@ TEST_CASE("a bad Delassus form is named") {
        }},
       {"delassus.w row 0 has column 17",
        [](auto& p) { p.delassus.w.innerIndexPtr()[p.delassus.w.outerIndexPtr()[1] - 1] = 17; }},
-      {"delassus.w row 0 has column 0 after 0", [](auto& p) { p.delassus.w.innerIndexPtr()[1] = 0; }},
+      {"delassus.w row 0 has column 0 after 0",
+       [](auto& p) { p.delassus.w.innerIndexPtr()[1] = 0; }},
   });
 }
 

@@ -17,11 +17,15 @@ TEST_CASE("each broken local file is refused with one line that says where") {
       {"not an HDF5 file", [](const fs::path& f) { write_text(f, "not a problem"); }},
       {"not an HDF5 file", [](const fs::path& f) { write_text(f, ""); }},
       {"no such file", [](const fs::path& f) { fs::remove(f); }},
-      {"damaged or truncated HDF5 file", [](const fs::path& f) { fs::resize_file(f, fs::file_size(f) / 2); }},
-      {"has neither /fclib_local nor /fclib_global", [](const fs::path& f) { remove(f, "/fclib_local"); }},
-      {"/fclib_local/W/p: no such dataset", [](const fs::path& f) { remove(f, "/fclib_local/W/p"); }},
+      {"damaged or truncated HDF5 file",
+       [](const fs::path& f) { fs::resize_file(f, fs::file_size(f) / 2); }},
+      {"has neither /fclib_local nor /fclib_global",
+       [](const fs::path& f) { remove(f, "/fclib_local"); }},
+      {"/fclib_local/W/p: no such dataset",
+       [](const fs::path& f) { remove(f, "/fclib_local/W/p"); }},
       {"/fclib_local/W/m: no such dataset", [](const fs::path& f) { remove(f, "/fclib_local/W"); }},
-      {"/fclib_local/vectors/q: no such dataset", [](const fs::path& f) { remove(f, "/fclib_local/vectors"); }},
+      {"/fclib_local/vectors/q: no such dataset",
+       [](const fs::path& f) { remove(f, "/fclib_local/vectors"); }},
       {"/fclib_local/spacedim = 2: only 3 is supported",
        [](const fs::path& f) { replace(f, "/fclib_local/spacedim", std::vector<int>{2}); }},
       {"/fclib_local/spacedim has 0 entries",
@@ -40,8 +44,10 @@ TEST_CASE("each broken local file is refused with one line that says where") {
        [](const fs::path& f) { replace(f, "/fclib_local/W/m", std::vector<int>{17}); }},
       {"/fclib_local/W is 18 x 15, must be 18 x 18",
        [](const fs::path& f) { replace(f, "/fclib_local/W/n", std::vector<int>{15}); }},
-      {"/fclib_local/W: -3 x 18", [](const fs::path& f) { replace(f, "/fclib_local/W/m", std::vector<int>{-3}); }},
-      {"/fclib_local/W/nz = -5", [](const fs::path& f) { replace(f, "/fclib_local/W/nz", std::vector<int>{-5}); }},
+      {"/fclib_local/W: -3 x 18",
+       [](const fs::path& f) { replace(f, "/fclib_local/W/m", std::vector<int>{-3}); }},
+      {"/fclib_local/W/nz = -5",
+       [](const fs::path& f) { replace(f, "/fclib_local/W/nz", std::vector<int>{-5}); }},
       {"/fclib_local/W/p has 2 entries, must have 19",
        [](const fs::path& f) {
          replace(f, "/fclib_local/W/p", std::vector<int>{0, 0});
@@ -55,7 +61,8 @@ TEST_CASE("each broken local file is refused with one line that says where") {
          remove(f, "/fclib_local/W/x");
          const hid_t id = H5Fopen(f.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), type = H5Tcopy(H5T_C_S1);
          const hid_t space = H5Screate(H5S_SCALAR);
-         H5Dclose(H5Dcreate2(id, "/fclib_local/W/x", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+         H5Dclose(H5Dcreate2(id, "/fclib_local/W/x", type, space, H5P_DEFAULT, H5P_DEFAULT,
+                             H5P_DEFAULT));
          H5Sclose(space);
          H5Tclose(type);
          H5Fclose(id);
@@ -109,13 +116,19 @@ TEST_CASE("each broken global file is refused") {
     replace(file, path, values);
     return complaint(file);
   };
-  CHECK(broken("/fclib_global/H/m", std::vector<int>{23}).rfind("/fclib_global/H is 23 x 18, must be 24 x 18", 0) == 0);
-  CHECK(broken("/fclib_global/H/n", std::vector<int>{17}).rfind("/fclib_global/H has 17 contact rows", 0) == 0);
-  CHECK(broken("/fclib_global/M/n", std::vector<int>{23}).rfind("/fclib_global/M is 24 x 23", 0) == 0);
-  CHECK(broken("/fclib_global/vectors/f", std::vector<double>(23)).rfind("/fclib_global/vectors/f has 23", 0) == 0);
-  CHECK(broken("/fclib_global/vectors/w", std::vector<double>(3)).rfind("/fclib_global/vectors/w has 3", 0) == 0);
+  CHECK(broken("/fclib_global/H/m", std::vector<int>{23})
+            .rfind("/fclib_global/H is 23 x 18, must be 24 x 18", 0) == 0);
+  CHECK(broken("/fclib_global/H/n", std::vector<int>{17})
+            .rfind("/fclib_global/H has 17 contact rows", 0) == 0);
+  CHECK(broken("/fclib_global/M/n", std::vector<int>{23}).rfind("/fclib_global/M is 24 x 23", 0) ==
+        0);
+  CHECK(broken("/fclib_global/vectors/f", std::vector<double>(23))
+            .rfind("/fclib_global/vectors/f has 23", 0) == 0);
+  CHECK(broken("/fclib_global/vectors/w", std::vector<double>(3))
+            .rfind("/fclib_global/vectors/w has 3", 0) == 0);
   write_problem(file, small().problem);
-  std::vector<double> x = Hdf5Arrays(file, Hdf5Arrays::Mode::read).read_doubles("/fclib_global/M/x");
+  std::vector<double> x =
+      Hdf5Arrays(file, Hdf5Arrays::Mode::read).read_doubles("/fclib_global/M/x");
   x[0] = -1.0;
   CHECK(broken("/fclib_global/M/x", x).rfind("M(0, 0) = -1", 0) == 0);
 }

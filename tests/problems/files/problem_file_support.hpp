@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 /// A folder of its own that goes with the test.
 struct Folder {
-  fs::path path = fs::temp_directory_path() / ("ballast_problem_file_" + std::to_string(::getpid()));
+  fs::path path =
+      fs::temp_directory_path() / ("ballast_problem_file_" + std::to_string(::getpid()));
   Folder() { fs::create_directories(path); }
   ~Folder() { fs::remove_all(path); }
   fs::path operator/(const std::string& name) const { return path / name; }
@@ -52,7 +53,9 @@ inline std::string complaint(const fs::path& file) {
   return "";
 }
 
-inline void write_text(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+inline void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
 
 /// The dataset replaced by other numbers, or removed when `values` is null.
 template <typename Value>
@@ -72,8 +75,12 @@ void replace(const fs::path& file, const char* path, const std::vector<Value>* v
   H5Fclose(id);
 }
 
-inline void replace(const fs::path& file, const char* path, std::vector<int> values) { replace(file, path, &values); }
-inline void replace(const fs::path& file, const char* path, std::vector<double> values) { replace(file, path, &values); }
+inline void replace(const fs::path& file, const char* path, std::vector<int> values) {
+  replace(file, path, &values);
+}
+inline void replace(const fs::path& file, const char* path, std::vector<double> values) {
+  replace(file, path, &values);
+}
 inline void remove(const fs::path& file, const char* path) { replace<int>(file, path, nullptr); }
 
 inline const double not_a_number = std::numeric_limits<double>::quiet_NaN();

@@ -50,7 +50,8 @@ TEST_CASE("one-row contacts become frictionless ones of three rows") {
     }
     Eigen::VectorXd wide_u;
     contact_velocity(back, wide, wide_u);
-    for (int c = 0; c < 6; ++c) CHECK(std::abs(wide_u[3 * c] - u[known.problem.row_begin[c]]) < 1e-13);
+    for (int c = 0; c < 6; ++c)
+      CHECK(std::abs(wide_u[3 * c] - u[known.problem.row_begin[c]]) < 1e-13);
     CHECK(contact_error(back, wide).natural_map_max < 1e-12);
   }
 }
@@ -104,7 +105,8 @@ TEST_CASE("triplets have the column in p and the row in i; longer arrays than nz
 
 TEST_CASE("a file that cannot be written leaves the old one, and no litter") {
   const Folder folder;
-  CHECK_THROWS_AS(write_problem(folder.path / "absent" / "p.hdf5", small().problem), ProblemFileError);
+  CHECK_THROWS_AS(write_problem(folder.path / "absent" / "p.hdf5", small().problem),
+                  ProblemFileError);
   FrictionProblem broken = small().problem;
   write_problem(folder / "p.hdf5", broken);
   broken.friction[0] = -1.0;

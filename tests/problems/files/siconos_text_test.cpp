@@ -14,7 +14,8 @@ namespace {
 
 /// One file, gone with the test.
 struct TextFile {
-  fs::path path = fs::temp_directory_path() / ("ballast_text_" + std::to_string(::getpid()) + ".dat");
+  fs::path path =
+      fs::temp_directory_path() / ("ballast_text_" + std::to_string(::getpid()) + ".dat");
   explicit TextFile(const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
   ~TextFile() { fs::remove(path); }
 };
@@ -35,12 +36,14 @@ std::string complaint(const std::string& text) {
 }
 
 /// W is unsymmetric where the layout must show.
-const Eigen::Matrix3d one_contact = (Eigen::Matrix3d() << 2, 0.25, 0, 0.26, 3, 0, 0, 0, 4).finished();
+const Eigen::Matrix3d one_contact =
+    (Eigen::Matrix3d() << 2, 0.25, 0, 0.26, 3, 0, 0, 0, 4).finished();
 
 }  // namespace
 
 TEST_CASE("dense matrices, column by column") {
-  const LocalProblem local = read_local("3\n1\n0\n3\n3\n3\t3\n2 0.26 0\n0.25 3 0\n0 0 4\n-1 0.5 +1e-1\n0.7\n");
+  const LocalProblem local =
+      read_local("3\n1\n0\n3\n3\n3\t3\n2 0.26 0\n0.25 3 0\n0 0 4\n-1 0.5 +1e-1\n0.7\n");
   CHECK((Eigen::MatrixXd(local.w) - one_contact).norm() == 0.0);
   CHECK(local.q == Eigen::Vector3d(-1, 0.5, 0.1));
   CHECK(local.mu == std::vector<double>{0.7});
@@ -63,18 +66,22 @@ TEST_CASE("matrices by blocks, with what may follow the problem") {
 }
 
 TEST_CASE("sparse matrices as CSparse prints them") {
-  const std::string version = "CSparse Version 3.1.4, Oct 10, 2014.  Copyright (c) Timothy A. Davis\n";
+  const std::string version =
+      "CSparse Version 3.1.4, Oct 10, 2014.  Copyright (c) Timothy A. Davis\n";
   const std::string tail = "-1 0 0\n0.5\n";
-  const std::string columns = "3\n1\n2\n3\n3\n2\n" + version + "3-by-3, nzmax: 5 nnz: 5, 1-norm: 4\n" +
+  const std::string columns = "3\n1\n2\n3\n3\n2\n" + version +
+                              "3-by-3, nzmax: 5 nnz: 5, 1-norm: 4\n" +
                               "    col 0 : locations 0 to 1\n      0 : 2\n      1 : 0.26\n" +
                               "    col 1 : locations 2 to 3\n      0 : 0.25\n      1 : 3\n" +
                               "    col 2 : locations 4 to 4\n      2 : 4\n";
-  const std::string rows = "3\n1\n2\n3\n3\n3\n" + version + "csr: 3-by-3, nzmax: 5 nnz: 5, 1-norm: 4\n" +
+  const std::string rows = "3\n1\n2\n3\n3\n3\n" + version +
+                           "csr: 3-by-3, nzmax: 5 nnz: 5, 1-norm: 4\n" +
                            "    row 0 : locations 0 to 1\n      0 : 2\n      1 : 0.25\n" +
                            "    row 1 : locations 2 to 3\n      0 : 0.26\n      1 : 3\n" +
                            "    row 2 : locations 4 to 4\n      2 : 4\n";
-  const std::string triplets = "3\n1\n2\n3\n3\n1\n" + version + "triplet: 3-by-3, nzmax: 5 nnz: 5\n" +
-                               "    0 0 : 2\n    1 0 : 0.26\n    0 1 : 0.25\n    1 1 : 3\n    2 2 : 4\n";
+  const std::string triplets =
+      "3\n1\n2\n3\n3\n1\n" + version + "triplet: 3-by-3, nzmax: 5 nnz: 5\n" +
+      "    0 0 : 2\n    1 0 : 0.26\n    0 1 : 0.25\n    1 1 : 3\n    2 2 : 4\n";
   for (const std::string& matrix : {columns, rows, triplets}) {
     const LocalProblem local = read_local(matrix + tail);
     CHECK((Eigen::MatrixXd(local.w) - one_contact).norm() == 0.0);
@@ -114,18 +121,23 @@ TEST_CASE("each broken text is refused, with its line") {
   CHECK(complaint("3\n-1\n") == "line 2: the number of contacts = -1 is negative");
   CHECK(complaint("3\nmany\n") == "line 2: the number of contacts: 'many' is not a number");
   CHECK(complaint("3\n1\n7\n3 3\n").rfind("line 4: storage 7 is none of", 0) == 0);
-  CHECK(complaint("3\n1\n0\n3 3\n3 4\n").rfind("line 5: the matrix states two different sizes", 0) == 0);
-  CHECK(complaint("3\n1\n0\n3 3\n3 3\n2 0 0 nan 3 0 0 0 4\n1 1 1\n").rfind("line 6: a dense matrix = nan", 0) == 0);
+  CHECK(
+      complaint("3\n1\n0\n3 3\n3 4\n").rfind("line 5: the matrix states two different sizes", 0) ==
+      0);
+  CHECK(complaint("3\n1\n0\n3 3\n3 3\n2 0 0 nan 3 0 0 0 4\n1 1 1\n")
+            .rfind("line 6: a dense matrix = nan", 0) == 0);
   CHECK(complaint(sound.substr(0, sound.size() - 5)) == "line 8: the file ends within mu");
   CHECK(complaint(sound.substr(0, 25)).find("the file ends within") != std::string::npos);
-  CHECK(complaint("3\n1000000\n0\n3000000 3000000\n3000000 3000000\n1 2\n").find("ends within") != std::string::npos);
+  CHECK(complaint("3\n1000000\n0\n3000000 3000000\n3000000 3000000\n1 2\n").find("ends within") !=
+        std::string::npos);
   CHECK(complaint("3\n1\n2\n3 3\n4\n").rfind("line 5: sparse origin 4 is not supported", 0) == 0);
-  CHECK(complaint("3\n1\n0\n4 4\n4 4\n1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n0\n3 3\n3 3\n1 0 0 0 1 0 0 0 1\n")
+  CHECK(complaint(
+            "3\n1\n0\n4 4\n4 4\n1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n0\n3 3\n3 3\n1 0 0 0 1 0 0 0 1\n")
             .find("H is 3 x 3, must be 4 x 3") != std::string::npos);
-  CHECK(complaint("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n0\n5\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n").find("not in order") !=
-        std::string::npos);
-  CHECK(complaint("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n4\n0\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n").find("outside") !=
-        std::string::npos);
+  CHECK(complaint("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n0\n5\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n")
+            .find("not in order") != std::string::npos);
+  CHECK(complaint("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n4\n0\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n")
+            .find("outside") != std::string::npos);
   CHECK(complaint("3\n1\n0\n3\n3\n3 3\n-2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n")
             .rfind("delassus.w(0, 0) = -2 is negative", 0) == 0);
 }

@@ -1,4 +1,5 @@
-// Assembly against its definition: H v is the velocity of b's material point against a's, seen in the contact frame.
+// Assembly against its definition: H v is the velocity of b's material point against a's, seen in
+// the contact frame.
 
 #include "problems/mechanics/assemble.hpp"
 
@@ -9,7 +10,8 @@ using namespace ballast;
 
 namespace {
 
-/// Two free cubes, one that only slides along x and z, a driven wall and a fixed one, all at odd poses and velocities.
+/// Two free cubes, one that only slides along x and z, a driven wall and a fixed one, all at odd
+/// poses and velocities.
 struct Fixture {
   MechanicalSystem system;
   MotionState state;
@@ -47,7 +49,8 @@ struct Fixture {
     system.friction = 0.4;
     state.velocity[3] = -0.7 * driven.normal;
     for (auto [a, b] : {std::pair{0, 1}, {1, 2}, {3, 0}, {4, 1}, {3, 2}})
-      contacts.push_back({a, b, 0, random.unit_vector(), Vec3(random.normal(), random.normal(), random.normal()), 0.0});
+      contacts.push_back({a, b, 0, random.unit_vector(),
+                          Vec3(random.normal(), random.normal(), random.normal()), 0.0});
   }
 
   Vec3 material_velocity(int b, const Vec3& point) const {
@@ -74,8 +77,9 @@ TEST_CASE("H v is the relative velocity in the contact frame") {
   free_contact_velocity(problem, u);
   for (int c = 0; c < problem.contact_count(); ++c) {
     const ContactPoint& contact = f.contacts[c];
-    const Vec3 expected = assembler.frames()[c] * (f.material_velocity(contact.body_b, contact.position) -
-                                                   f.material_velocity(contact.body_a, contact.position));
+    const Vec3 expected =
+        assembler.frames()[c] * (f.material_velocity(contact.body_b, contact.position) -
+                                 f.material_velocity(contact.body_a, contact.position));
     for (int row = 0; row < problem.contact_rows(c); ++row)
       CHECK(u[problem.row_begin[c] + row] == Approx(expected[row]).margin(1e-14));
   }
@@ -122,7 +126,8 @@ TEST_CASE("restitution leaves open points out and turns the approach round") {
   problem.dynamics.bias.setZero();
   free_contact_velocity(problem, u);  // H v before the step
   for (int c = 0; c < 4; ++c)
-    CHECK(bias[problem.row_begin[c]] == Approx(0.5 * std::min(0.0, u[problem.row_begin[c]])).margin(1e-14));
+    CHECK(bias[problem.row_begin[c]] ==
+          Approx(0.5 * std::min(0.0, u[problem.row_begin[c]])).margin(1e-14));
 }
 
 TEST_CASE("world impulses and rows are inverse to each other in the frame") {
@@ -146,7 +151,8 @@ TEST_CASE("contact frames are right-handed and orthonormal for every normal") {
     CHECK((frame * frame.transpose() - Mat3::Identity()).norm() < 1e-14);
     CHECK(frame.determinant() == Approx(1.0));
   }
-  for (int axis = 0; axis < 3; ++axis) CHECK(contact_frame(Vec3::Unit(axis)).determinant() == Approx(1.0));
+  for (int axis = 0; axis < 3; ++axis)
+    CHECK(contact_frame(Vec3::Unit(axis)).determinant() == Approx(1.0));
 }
 
 TEST_CASE("a team assembles with the bits of one thread") {
@@ -165,7 +171,8 @@ TEST_CASE("a team assembles with the bits of one thread") {
   Eigen::VectorXd v;
   alone.pack(f.state, v);
   FrictionProblem expected, problem;
-  for (const size_t count : {f.contacts.size(), few.size(), f.contacts.size()}) {  // into the same buffers
+  for (const size_t count :
+       {f.contacts.size(), few.size(), f.contacts.size()}) {  // into the same buffers
     const std::span<const ContactPoint> contacts(f.contacts.data(), count);
     alone.assemble(f.state, v, 1e-3, 1e-3, contacts, expected);
     shared.assemble(f.state, v, 1e-3, 1e-3, contacts, problem);
@@ -173,6 +180,7 @@ TEST_CASE("a team assembles with the bits of one thread") {
     CHECK(problem.dynamics.h == expected.dynamics.h);
     CHECK(problem.dynamics.h_begin == expected.dynamics.h_begin);
     CHECK(problem.row_begin == expected.row_begin);
-    CHECK(std::equal(shared.frames().begin(), shared.frames().end(), alone.frames().begin(), alone.frames().end()));
+    CHECK(std::equal(shared.frames().begin(), shared.frames().end(), alone.frames().begin(),
+                     alone.frames().end()));
   }
 }

@@ -31,7 +31,8 @@ MechanicalSystem cubes(const std::vector<Vec3>& places, MotionState& state) {
 
 TEST_CASE("solid fraction: whole, cut and outer grains") {
   MotionState state;
-  const MechanicalSystem system = cubes({Vec3(1, 1, 1), Vec3(4, 2, 2), Vec3(0, 0, 3), Vec3(9, 9, 9)}, state);
+  const MechanicalSystem system =
+      cubes({Vec3(1, 1, 1), Vec3(4, 2, 2), Vec3(0, 0, 3), Vec3(9, 9, 9)}, state);
   ControlVolume volume(Vec3(0, 0, 0), Vec3(4, 4, 4));
   // 1 + 1/2 + 1/4 + 0 of 64
   CHECK(volume.solid_fraction(system, state) == Approx(1.75 / 64.0).epsilon(1e-14));

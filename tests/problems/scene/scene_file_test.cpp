@@ -65,15 +65,18 @@ TEST_CASE("the vibrated box names the paper's values, and its chosen ones are th
   CHECK(scene.grains->distribution[1].size == 0.0375);
   CHECK(scene.grains->distribution[1].fraction == 0.34);
 
-  // a file that names only what has no default must mean the same: defaults of scene.hpp and the file can't drift apart
+  // a file that names only what has no default must mean the same: defaults of scene.hpp and the
+  // file can't drift apart
   const TemporaryFolder folder;
-  const auto bare = folder.write("vibrated_box.toml", "[grains]\ncount = 1200\n[box]\nlength = 0.54\nwidth = 0.54\n");
+  const auto bare = folder.write("vibrated_box.toml",
+                                 "[grains]\ncount = 1200\n[box]\nlength = 0.54\nwidth = 0.54\n");
   const std::vector<std::string> same_title = {"scene.title=\"" + scene.title + "\""};
   CHECK(resolved_scene_text(bare, same_title) == resolved_scene_text(find_scene("vibrated_box")));
 }
 
 TEST_CASE("bodies rest on their walls without gap or overlap at the start") {
-  for (const char* name : {"incline", "stick_slip", "shaken_plate", "tipping_box", "sliding_cube", "rolling_sphere"}) {
+  for (const char* name :
+       {"incline", "stick_slip", "shaken_plate", "tipping_box", "sliding_cube", "rolling_sphere"}) {
     INFO(name);
     const Scene scene = read_scene(find_scene(name));
     CHECK(gap(scene.bodies.at(0), scene.walls.at(0)) == 0.0);
@@ -123,7 +126,8 @@ TEST_CASE("a mesh is placed by its own frame, scaled, and found beside the scene
   const Polyhedron centred = make_box(Vec3(1, 2, 3));
   std::vector<Vec3> corners(centred.vertices().begin(), centred.vertices().end());
   std::vector<std::vector<int>> faces;
-  for (int f = 0; f < centred.face_count(); ++f) faces.emplace_back(centred.face(f).begin(), centred.face(f).end());
+  for (int f = 0; f < centred.face_count(); ++f)
+    faces.emplace_back(centred.face(f).begin(), centred.face(f).end());
   for (Vec3& corner : corners) corner += Vec3(0.5, 1, 1.5);
   write_mesh(folder.path() / "corner.obj", Polyhedron(corners, faces));
   const Scene scene = read_text(folder, R"(
@@ -182,19 +186,19 @@ TEST_CASE("overrides reach every value, and are read as TOML or as a bare word")
   CHECK(scene.duration == 2.0);
   CHECK(resolved_scene_text(file, overrides) != resolved_scene_text(file));
 
-  const Scene grains =
-      read_scene(find_scene("vibrated_box"), std::vector<std::string>{"grains.distribution.2.size=0.06"});
+  const Scene grains = read_scene(find_scene("vibrated_box"),
+                                  std::vector<std::string>{"grains.distribution.2.size=0.06"});
   CHECK(grains.grains->distribution[2].size == 0.06);
 }
 
 TEST_CASE("the resolved text keeps every bit and any text") {
   const TemporaryFolder folder;
   const std::string title = "quote \\\" backslash \\\\ tab \\t bell \\u0007 \xc3\xa9";
-  const auto file =
-      folder.write("odd.toml", one_wall +
-                                   "offset = 0.1000000000000000055511151231257827\n[scene]\nstep = 5e-324\n"
-                                   "duration = 4e-312\ntitle = \"" +
-                                   title + "\"\n[contact]\nfriction = 3\n");
+  const auto file = folder.write(
+      "odd.toml", one_wall +
+                      "offset = 0.1000000000000000055511151231257827\n[scene]\nstep = 5e-324\n"
+                      "duration = 4e-312\ntitle = \"" +
+                      title + "\"\n[contact]\nfriction = 3\n");
   const Scene first = read_scene(file);
   const Scene again = read_scene(folder.write("again.toml", resolved_scene_text(file)));
   CHECK(again.step == first.step);
@@ -204,10 +208,13 @@ TEST_CASE("the resolved text keeps every bit and any text") {
   CHECK(again.friction == 3.0);
 }
 
-TEST_CASE("what is skipped stands in the resolved text only where it was given: older runs keep their key") {
+TEST_CASE(
+    "what is skipped stands in the resolved text only where it was given: older runs keep their "
+    "key") {
   const TemporaryFolder folder;
   const auto bare = folder.write("bare.toml", one_wall),
-             skipping = folder.write("skipping.toml", one_wall + "[solver]\nislands = true\n[sleep]\nsteps = 7\n");
+             skipping = folder.write("skipping.toml",
+                                     one_wall + "[solver]\nislands = true\n[sleep]\nsteps = 7\n");
   CHECK_FALSE(read_scene(bare).solver.islands);
   CHECK_FALSE(read_scene(bare).sleep.enabled);
   const std::string text = resolved_scene_text(bare);
@@ -215,11 +222,13 @@ TEST_CASE("what is skipped stands in the resolved text only where it was given: 
 
   CHECK(read_scene(skipping).solver.islands);
   const std::string given = resolved_scene_text(skipping);
-  for (const char* line : {"islands = true", "[sleep]", "enabled = false", "steps = 7", "velocity = 0.1"})
+  for (const char* line :
+       {"islands = true", "[sleep]", "enabled = false", "steps = 7", "velocity = 0.1"})
     CHECK_THAT(given, Catch::Contains(line));
   CHECK(resolved_scene_text(folder.write("skipping.toml", given)) == given);
 
-  const Scene awake = read_scene(bare, std::vector<std::string>{"sleep.enabled=true", "sleep.velocity=0.3"});
+  const Scene awake =
+      read_scene(bare, std::vector<std::string>{"sleep.enabled=true", "sleep.velocity=0.3"});
   CHECK((awake.sleep.enabled && awake.sleep.velocity == 0.3 && awake.sleep.steps == 100));
 }
 
@@ -238,20 +247,24 @@ TEST_CASE("scenes are found by path, by name, and in the folder that BALLAST_SCE
 
 TEST_CASE("docs/scenes.md describes every key that a scene can have") {
   std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/scenes.md");
-  const std::string docs((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::string docs((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
   REQUIRE(docs.size() > 1000);
   int keys = 0;
-  for (const char* name : {"vibrated_box", "rolling_sphere", "shaken_plate", "empty_driven_wall", "overhang"}) {
+  for (const char* name :
+       {"vibrated_box", "rolling_sphere", "shaken_plate", "empty_driven_wall", "overhang"}) {
     std::istringstream resolved(resolved_scene_text(find_scene(name)));
     std::string section;
     for (std::string line; std::getline(resolved, line);) {
       if (line.starts_with('['))
-        section = line.substr(line.find_last_of("[.") + 1, line.find(']') - line.find_last_of("[.") - 1);
+        section =
+            line.substr(line.find_last_of("[.") + 1, line.find(']') - line.find_last_of("[.") - 1);
       if (line.find(" = ") == std::string::npos) continue;
       ++keys;
       const std::string key = line.substr(0, line.find(" = "));
       INFO(name << ": " << section << "." << key);
-      // written `section.key`, or `key` alone in the tables of bodies and walls and in pairs of keys
+      // written `section.key`, or `key` alone in the tables of bodies and walls and in pairs of
+      // keys
       CHECK((docs.find(section + "." + key + "`") != std::string::npos ||
              docs.find("`" + key + "`") != std::string::npos));
     }

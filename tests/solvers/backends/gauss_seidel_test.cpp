@@ -16,8 +16,8 @@ using namespace ballast;
 namespace {
 
 /// The textbook's sweep: dense W, one contact after the other in the given order.
-void slow_sweep(const FrictionProblem& problem, const std::vector<int>& order, const Eigen::MatrixXd& w,
-                const Eigen::VectorXd& q, Impulses& r) {
+void slow_sweep(const FrictionProblem& problem, const std::vector<int>& order,
+                const Eigen::MatrixXd& w, const Eigen::VectorXd& q, Impulses& r) {
   for (const int c : order) {
     const int first = problem.row_begin[c], rows = problem.contact_rows(c);
     const Eigen::MatrixXd block = w.block(first, first, rows, rows);
@@ -130,7 +130,8 @@ TEST_CASE("the settings decide when the error is looked at") {
   const Budget budget{.tolerance = 0.0, .max_iterations = 20, .keep_history = true};
   const auto solver = make_gauss_seidel({.first_check = 5, .check_growth = 2.0});
   solver->prepare(known.problem);
-  const Solved solved = solver->solve(known.problem, Impulses::Zero(known.problem.row_count()), budget);
+  const Solved solved =
+      solver->solve(known.problem, Impulses::Zero(known.problem.row_count()), budget);
   std::vector<int> looked;
   for (const HistoryPoint& point : solved.history) looked.push_back(point.iteration);
   CHECK(looked == std::vector<int>{0, 5, 10, 20});

@@ -14,14 +14,17 @@ InteriorPointSettings alone() { return {.polish_from = 0.0}; }
 
 }  // namespace
 
-TEST_CASE("the interior point alone solves frictionless problems in few factorisations, in both forms") {
+TEST_CASE(
+    "the interior point alone solves frictionless problems in few factorisations, in both forms") {
   for (const std::uint64_t seed : {1, 2, 3}) {
     FrictionProblem problem =
-        make_known_solution({.bodies = 40, .contacts = 60, .friction_max = 0.0, .seed = seed}).problem;
+        make_known_solution({.bodies = 40, .contacts = 60, .friction_max = 0.0, .seed = seed})
+            .problem;
     for (const bool stored : {false, true}) {
       if (stored) add_delassus_form(problem);
       problem.has_dynamics = !stored;
-      const SolverRun run = SolverRunner().run(*make_interior_point(alone()), problem, {}, {.tolerance = 1e-9});
+      const SolverRun run =
+          SolverRunner().run(*make_interior_point(alone()), problem, {}, {.tolerance = 1e-9});
       CAPTURE(seed, stored, name_of(run.solved.reason), run.error.natural_map_rms);
       CHECK(run.success);
       CHECK(run.solved.iterations < 40);

@@ -16,7 +16,8 @@ const ContactEquation equations[] = {ContactEquation::natural_map, ContactEquati
                                      ContactEquation::fischer_burmeister};
 
 Vector3d random_vector(Random& random, double size) {
-  return Vector3d(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
+  return Vector3d(random.uniform(-size, size), random.uniform(-size, size),
+                  random.uniform(-size, size));
 }
 
 /// A pair that obeys the law: open, sticking or slipping by turns.
@@ -38,10 +39,12 @@ TEST_CASE("every contact equation vanishes exactly where the law holds") {
   Random random(5);
   for (const ContactEquation equation : equations)
     for (int i = 0; i < 3000; ++i) {
-      const double mu = i % 5 == 0 ? 0.0 : random.uniform(0.05, 2.0), rho = random.uniform(0.1, 10.0);
+      const double mu = i % 5 == 0 ? 0.0 : random.uniform(0.05, 2.0),
+                   rho = random.uniform(0.1, 10.0);
       Vector3d r, u;
       lawful(random, mu, i % 3, r, u);
-      CHECK(contact_equation(equation, r, u, mu, rho).norm() < 1e-7);  // FB: a square root of rounding
+      CHECK(contact_equation(equation, r, u, mu, rho).norm() <
+            1e-7);  // FB: a square root of rounding
       r += random_vector(random, 0.5);
       u += random_vector(random, 0.5);
       const double natural = natural_map(r, u, mu, 1.0).norm();
@@ -65,12 +68,15 @@ TEST_CASE("derivatives of the contact equations, by differences") {
       Matrix3d by_r, by_u;
       for (int k = 0; k < 3; ++k) {
         const Vector3d e = step * Vector3d::Unit(k);
-        by_r.col(k) = (contact_equation(equation, r + e, u, mu, rho) - contact_equation(equation, r - e, u, mu, rho)) /
+        by_r.col(k) = (contact_equation(equation, r + e, u, mu, rho) -
+                       contact_equation(equation, r - e, u, mu, rho)) /
                       (2.0 * step);
-        by_u.col(k) = (contact_equation(equation, r, u + e, mu, rho) - contact_equation(equation, r, u - e, mu, rho)) /
+        by_u.col(k) = (contact_equation(equation, r, u + e, mu, rho) -
+                       contact_equation(equation, r, u - e, mu, rho)) /
                       (2.0 * step);
       }
-      rough += (by_r - l.by_r).norm() > 1e-4 * (1.0 + by_r.norm()) || (by_u - l.by_u).norm() > 1e-4 * (1.0 + by_u.norm());
+      rough += (by_r - l.by_r).norm() > 1e-4 * (1.0 + by_r.norm()) ||
+               (by_u - l.by_u).norm() > 1e-4 * (1.0 + by_u.norm());
     }
     CHECK(rough <= 5);
   }
@@ -87,7 +93,8 @@ TEST_CASE("the proximal Newton solves rank-deficient problems of unequal masses,
     const KnownSolution known = make_known_solution(settings);
     const auto solver = make_proximal_newton();
     const SolverRun run =
-        SolverRunner().run(*solver, known.problem, {}, {.tolerance = 1e-8, .max_iterations = 400, .max_seconds = 20.0});
+        SolverRunner().run(*solver, known.problem, {},
+                           {.tolerance = 1e-8, .max_iterations = 400, .max_seconds = 20.0});
     CAPTURE(seed, run.solved.iterations, run.error.natural_map_rms);
     CHECK(run.error.natural_map_rms < 1e-4);
     CHECK(run.success == (run.solved.reason == StopReason::reached_tolerance));

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "problems/algebra/known_solutions.hpp"
 #include "platform/seeded_random.hpp"
+#include "problems/algebra/known_solutions.hpp"
 #include "solvers/parts/lemke.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
@@ -53,7 +53,8 @@ TEST_CASE("lemke: positive semidefinite problems of any rank, degenerate ones to
         const Eigen::MatrixXd other = random_matrix(n, n, random);
         m += other - other.transpose();  // monotone, not symmetric
         // Feasible by construction: w = m z + q >= 0 at a chosen z >= 0.
-        Eigen::VectorXd z = random_matrix(n, 1, random).cwiseMax(0.0), w = random_matrix(n, 1, random).cwiseMax(0.0);
+        Eigen::VectorXd z = random_matrix(n, 1, random).cwiseMax(0.0),
+                        w = random_matrix(n, 1, random).cwiseMax(0.0);
         if (degenerate) {
           m = m.array().round();
           z.setZero();
@@ -82,17 +83,21 @@ TEST_CASE("pyramid: along one of its directions it is Coulomb's law, between the
     for (const double turn : {0.0, 0.5}) {  // 0: along a direction, 1/2: half-way to the next
       const double half = M_PI / sides;
       const auto solver = make_pyramid_lemke({.sides = sides});
-      const SolverRun run = SolverRunner().run(*solver, sliding_block(turn * 2.0 * half), {}, budget);
+      const SolverRun run =
+          SolverRunner().run(*solver, sliding_block(turn * 2.0 * half), {}, budget);
       CAPTURE(sides, turn, run.error.natural_map_rms);
       CHECK(run.solved.own_residual < 1e-12);
       CHECK(run.success == (turn == 0.0));
       // Opposite to the motion the hull of the directions reaches mu r_N cos(pi / sides).
       const Eigen::Vector2d motion(std::cos(turn * 2.0 * half), std::sin(turn * 2.0 * half));
-      CHECK(-run.solved.impulses.tail<2>().dot(motion) == Approx(0.4 * 0.1 * std::cos(2.0 * turn * half)));
+      CHECK(-run.solved.impulses.tail<2>().dot(motion) ==
+            Approx(0.4 * 0.1 * std::cos(2.0 * turn * half)));
     }
 }
 
-TEST_CASE("pyramid: its own law is solved on rank-deficient problems, and more sides come nearer to the cone") {
+TEST_CASE(
+    "pyramid: its own law is solved on rank-deficient problems, and more sides come nearer to the "
+    "cone") {
   double last = 1e30;
   for (const int sides : {4, 8, 16}) {
     KnownSolutionSettings settings;
@@ -100,7 +105,8 @@ TEST_CASE("pyramid: its own law is solved on rank-deficient problems, and more s
     settings.bodies = 8;
     settings.friction_min = 0.3;
     const auto solver = make_pyramid_lemke({.sides = sides});
-    const SolverRun run = SolverRunner().run(*solver, make_known_solution(settings).problem, {}, Budget{});
+    const SolverRun run =
+        SolverRunner().run(*solver, make_known_solution(settings).problem, {}, Budget{});
     CAPTURE(sides, run.solved.iterations, run.solved.own_residual, run.error.natural_map_rms);
     CHECK(run.solved.own_residual < 1e-9);
     CHECK(run.solved.reason == StopReason::stalled);

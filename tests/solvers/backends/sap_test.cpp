@@ -10,16 +10,19 @@ using namespace ballast;
 
 namespace {
 
-FrictionProblem rank_deficient() { return make_known_solution({.bodies = 20, .contacts = 40}).problem; }
+FrictionProblem rank_deficient() {
+  return make_known_solution({.bodies = 20, .contacts = 40}).problem;
+}
 
 }  // namespace
 
 TEST_CASE("the regularised problem's impulses are those of its own compliance") {
   const FrictionProblem problem = rank_deficient();
   const SapSettings settings{.regularisation = 1e-2, .proximal = false};
-  const SolverRun run =
-      SolverRunner().run(*make_sap(settings), problem, {}, {.tolerance = 1e-9, .max_iterations = 200});
-  CHECK(run.solved.reason == StopReason::stalled);  // it has solved its problem, which is not Coulomb's
+  const SolverRun run = SolverRunner().run(*make_sap(settings), problem, {},
+                                           {.tolerance = 1e-9, .max_iterations = 200});
+  CHECK(run.solved.reason ==
+        StopReason::stalled);  // it has solved its problem, which is not Coulomb's
   CHECK(run.solved.iterations < 60);
   ContactOperator w;
   w.prepare(problem);
@@ -33,9 +36,12 @@ TEST_CASE("the regularised problem's impulses are those of its own compliance") 
   }
 }
 
-TEST_CASE("proximal steps take the regularisation away: the convex law is met, Coulomb's is not claimed") {
+TEST_CASE(
+    "proximal steps take the regularisation away: the convex law is met, Coulomb's is not "
+    "claimed") {
   const FrictionProblem problem = rank_deficient();
-  const SolverRun run = SolverRunner().run(*make_sap(), problem, {}, {.tolerance = 1e-8, .max_iterations = 2000});
+  const SolverRun run =
+      SolverRunner().run(*make_sap(), problem, {}, {.tolerance = 1e-8, .max_iterations = 2000});
   CHECK(run.solved.reason == StopReason::stalled);
   CHECK(run.solved.own_residual <= 1e-8);
   CHECK(run.error.natural_map_rms > 1e-3);

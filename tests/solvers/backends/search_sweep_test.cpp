@@ -1,4 +1,5 @@
-// The sweep along a search direction against its twin: the whole iterate moved as a vector, then a plain sweep.
+// The sweep along a search direction against its twin: the whole iterate moved as a vector, then a
+// plain sweep.
 
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"
@@ -32,7 +33,9 @@ class Twin {
 
 }  // namespace
 
-TEST_CASE("a sweep along a search direction moves impulses and velocities by the same step, then sweeps") {
+TEST_CASE(
+    "a sweep along a search direction moves impulses and velocities by the same step, then "
+    "sweeps") {
   KnownSolutionSettings settings;
   settings.bodies = 60;
   settings.contacts = 200;
@@ -55,8 +58,10 @@ TEST_CASE("a sweep along a search direction moves impulses and velocities by the
   slow.impulse_weights(weights);
   Twin twin(slow_state.size());
 
-  for (const SearchStep step : {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.3, 1.0}, {0.0, 1.0}, {0.9, 1.0}}) {
-    const double fast_square = fast.sweep(search, step), slow_square = twin.sweep(slow, step, weights.size());
+  for (const SearchStep step :
+       {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.3, 1.0}, {0.0, 1.0}, {0.9, 1.0}}) {
+    const double fast_square = fast.sweep(search, step),
+                 slow_square = twin.sweep(slow, step, weights.size());
     CHECK(fast_square == Approx(slow_square).epsilon(1e-12));
     fast.save(fast_state);
     slow.save(slow_state);

@@ -4,19 +4,20 @@
 #include <atomic>
 #include <set>
 
-#include "problems/algebra/known_solutions.hpp"
 #include "platform/seeded_random.hpp"
 #include "platform/worker_team.hpp"
-#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/backends/nncg.hpp"
+#include "solvers/gauss_seidel/body_sweep.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
 
 namespace {
 
-/// A long box of bodies, each in contact with some of those near by: slabs can be cut. Contacts with a fixed wall, and frictionless ones.
+/// A long box of bodies, each in contact with some of those near by: slabs can be cut. Contacts
+/// with a fixed wall, and frictionless ones.
 FrictionProblem long_box(int bodies, std::uint64_t seed) {
   KnownSolutionSettings settings;
   settings.bodies = bodies;
@@ -35,15 +36,18 @@ FrictionProblem long_box(int bodies, std::uint64_t seed) {
   return problem;
 }
 
-std::set<int> bodies_of(const FrictionProblem& problem, const SweepPlan& plan, const SweepPlan::Part& part) {
+std::set<int> bodies_of(const FrictionProblem& problem, const SweepPlan& plan,
+                        const SweepPlan::Part& part) {
   std::set<int> bodies;
   for (int i = part.begin; i < part.end; ++i)
-    for (const int body : {problem.dynamics.body_a[plan.contacts()[i]], problem.dynamics.body_b[plan.contacts()[i]]})
+    for (const int body :
+         {problem.dynamics.body_a[plan.contacts()[i]], problem.dynamics.body_b[plan.contacts()[i]]})
       if (body >= 0) bodies.insert(body);
   return bodies;
 }
 
-void check_disjoint(const FrictionProblem& problem, const SweepPlan& plan, const std::vector<SweepPlan::Part>& parts) {
+void check_disjoint(const FrictionProblem& problem, const SweepPlan& plan,
+                    const std::vector<SweepPlan::Part>& parts) {
   std::set<int> all;
   size_t sum = 0;
   for (const SweepPlan::Part& part : parts) {
@@ -59,8 +63,9 @@ void check_disjoint(const FrictionProblem& problem, const SweepPlan& plan, const
 TEST_CASE("a sweep's plan: every contact once, and nothing that runs side by side shares a body") {
   SweepPlan plan;
   for (const int bodies : {1, 30, 600, 1200, 4000, 4000}) {
-    const FrictionProblem problem = bodies < 100 ? make_known_solution({.bodies = bodies, .contacts = bodies}).problem
-                                                 : long_box(bodies, static_cast<std::uint64_t>(bodies));
+    const FrictionProblem problem =
+        bodies < 100 ? make_known_solution({.bodies = bodies, .contacts = bodies}).problem
+                     : long_box(bodies, static_cast<std::uint64_t>(bodies));
     CAPTURE(bodies);
     plan.prepare(problem);
     std::vector<int> sorted = plan.contacts();
@@ -90,7 +95,8 @@ TEST_CASE("a sweep's plan: every contact once, and nothing that runs side by sid
     CHECK(std::count(slab_of.begin(), slab_of.end(), -1) == 0);
     for (int slab = 0; slab < slabs; ++slab)
       for (int i = plan.interiors()[slab].begin; i < plan.interiors()[slab].end; ++i)
-        for (const int body : {problem.dynamics.body_a[plan.contacts()[i]], problem.dynamics.body_b[plan.contacts()[i]]})
+        for (const int body : {problem.dynamics.body_a[plan.contacts()[i]],
+                               problem.dynamics.body_b[plan.contacts()[i]]})
           if (body >= 0) REQUIRE(slab_of[body] == slab);
   }
 }
@@ -115,8 +121,8 @@ TEST_CASE("the same bits whatever the number of threads") {
       const auto solver = accelerated ? make_nncg() : make_gauss_seidel({});
       solver->use_threads(threads);
       solver->prepare(problem);
-      const Solved solved =
-          solver->solve(problem, Impulses::Zero(problem.row_count()), {.tolerance = 0.0, .max_iterations = 40});
+      const Solved solved = solver->solve(problem, Impulses::Zero(problem.row_count()),
+                                          {.tolerance = 0.0, .max_iterations = 40});
       if (threads == 1) first = solved.impulses;
       CAPTURE(accelerated, threads);
       CHECK(solved.impulses == first);

@@ -26,11 +26,14 @@ std::vector<int> in_order(const FrictionProblem& problem) {
 
 /// The plain sweep's own order.
 std::vector<int> order_of(const BodySweep& sweep, const FrictionProblem&) { return sweep.order(); }
-std::vector<int> order_of(const DelassusSweep&, const FrictionProblem& problem) { return in_order(problem); }
+std::vector<int> order_of(const DelassusSweep&, const FrictionProblem& problem) {
+  return in_order(problem);
+}
 
 /// Three sweeps by `variant` against three plain ones.
 template <typename Sweep>
-void check_same_as_plain(const FrictionProblem& problem, const SweepVariant& variant, double accuracy) {
+void check_same_as_plain(const FrictionProblem& problem, const SweepVariant& variant,
+                         double accuracy) {
   Sweep plain, other;
   Impulses start = Impulses::Constant(problem.row_count(), 0.1), fast = start, slow = start;
   plain.prepare(problem);
@@ -49,7 +52,9 @@ void check_same_as_plain(const FrictionProblem& problem, const SweepVariant& var
 
 }  // namespace
 
-TEST_CASE("the slow loop with the plain settings is the plain sweep, and Newton finds what the exact solution is") {
+TEST_CASE(
+    "the slow loop with the plain settings is the plain sweep, and Newton finds what the exact "
+    "solution is") {
   for (const FrictionProblem& problem : problems()) {
     FrictionProblem stored = problem;
     add_delassus_form(stored);
@@ -75,7 +80,8 @@ TEST_CASE("a solution is what no variant leaves") {
   }
 }
 
-TEST_CASE("orders: every contact once, backward after forward, shuffled the same for the same seed") {
+TEST_CASE(
+    "orders: every contact once, backward after forward, shuffled the same for the same seed") {
   ContactOrder order, again;
   order.begin({.order = SweepOrder::symmetric}, 5);
   CHECK(order.next() == std::vector<int>{0, 1, 2, 3, 4});

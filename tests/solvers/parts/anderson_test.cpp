@@ -29,7 +29,8 @@ TEST_CASE("a linear fixed point of n unknowns is found in n + 1 combinations") {
 }
 
 TEST_CASE("entries that are not compared are combined all the same") {
-  // x1 halves its distance to 2; the second entry is a linear function of the first, which mixing must preserve.
+  // x1 halves its distance to 2; the second entry is a linear function of the first, which mixing
+  // must preserve.
   Eigen::VectorXd x(2), image(2);
   x << 0.0, 1.0;
   Anderson mixing;
@@ -44,7 +45,8 @@ TEST_CASE("entries that are not compared are combined all the same") {
 }
 
 TEST_CASE("mixing makes Gauss-Seidel take fewer sweeps on a problem where it crawls") {
-  const FrictionProblem problem = make_known_solution({.bodies = 30, .contacts = 60, .mass_ratio = 30.0}).problem;
+  const FrictionProblem problem =
+      make_known_solution({.bodies = 30, .contacts = 60, .mass_ratio = 30.0}).problem;
   const Budget budget{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 20.0};
   SolverRunner runner;
   const SolverRun plain = runner.run(*make_gauss_seidel(), problem, {}, budget);

@@ -12,7 +12,8 @@ namespace {
 
 /// Both forms of a problem with contacts and bodies of every kind, and of a rank-deficient one.
 std::vector<FrictionProblem> problems() {
-  std::vector<FrictionProblem> all{oracle::mixed_problem(), make_known_solution({.contacts = 80}).problem};
+  std::vector<FrictionProblem> all{oracle::mixed_problem(),
+                                   make_known_solution({.contacts = 80}).problem};
   for (int k = 0; k < 2; ++k) {
     FrictionProblem stored = all[k];
     add_delassus_form(stored);
@@ -71,8 +72,10 @@ TEST_CASE("the power iteration comes close to the largest eigenvalue, from below
   Eigen::VectorXd rho(problem.row_count());
   for (int c = 0; c < problem.contact_count(); ++c)
     rho.segment(problem.row_begin[c], problem.contact_rows(c)).setConstant(std::sqrt(op.rho()[c]));
-  const Eigen::MatrixXd scaled = rho.asDiagonal() * oracle::dense_delassus(problem) * rho.asDiagonal();
-  const double exact = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues().maxCoeff();
+  const Eigen::MatrixXd scaled =
+      rho.asDiagonal() * oracle::dense_delassus(problem) * rho.asDiagonal();
+  const double exact =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues().maxCoeff();
   const double estimate = largest_scaled_eigenvalue(op);
   CHECK(estimate > 0.8 * exact);
   CHECK(estimate < 1.2 * exact);

@@ -52,7 +52,8 @@ TEST_CASE("the longest step ends on the cone's side, or at its limit") {
   int ended = 0;
   for (int k = 0; k < 200; ++k) {
     const Vector x = inside(random, 0.3);
-    const Vector d = x.norm() * Vector(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const Vector d =
+        x.norm() * Vector(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const double t = lorentz::longest_step(x, d, 2.0);
     CHECK(t > 0.0);
     for (const double part : {0.25, 0.5, 0.999}) CHECK(lorentz::depth(x + part * t * d) > 0.0);

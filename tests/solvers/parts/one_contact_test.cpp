@@ -1,7 +1,7 @@
 #include "solvers/parts/one_contact.hpp"
 
-#include "problems/algebra/contact_error.hpp"
 #include "platform/seeded_random.hpp"
+#include "problems/algebra/contact_error.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -9,7 +9,8 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 
 namespace {
 
-/// Symmetric positive definite, turned at random, eigenvalues `scale`, something between, and scale / condition.
+/// Symmetric positive definite, turned at random, eigenvalues `scale`, something between, and scale
+/// / condition.
 Matrix3d random_w(double condition, double scale, SeededRandom& random) {
   Matrix3d a;
   for (double& x : a.reshaped()) x = random.uniform(-1, 1);
@@ -35,10 +36,12 @@ double random_mu(SeededRandom& random) {
   return kind < 0.7 ? random.uniform() : random.uniform(0.0, 10.0);
 }
 
-/// Scaled natural map over what the rounding of u = W r + q leaves to be seen: |q| + lambda_max |r|.
+/// Scaled natural map over what the rounding of u = W r + q leaves to be seen: |q| + lambda_max
+/// |r|.
 double relative_error(const Matrix3d& w, const Vector3d& q, double mu, const Vector3d& r) {
   const double lambda_max = largest_eigenvalue(w);
-  return ContactJudge::scaled_natural_map(r, w * r + q, mu, lambda_max) / (q.norm() + lambda_max * r.norm());
+  return ContactJudge::scaled_natural_map(r, w * r + q, mu, lambda_max) /
+         (q.norm() + lambda_max * r.norm());
 }
 
 }  // namespace
@@ -132,7 +135,8 @@ TEST_CASE("what nothing can move is left alone") {
   CHECK(solve_one_contact(Matrix3d::Zero(), {-1, 2, 3}, 0.5, r, lambda) == ContactStatus::open);
   CHECK(r == Vector3d::Zero());
   // No motion along the normal: whatever the tangents do, no impulse obeys the law but zero.
-  CHECK(solve_one_contact(Vector3d(0, 1, 2).asDiagonal(), {0, 1, 1}, 0.5, r, lambda) == ContactStatus::open);
+  CHECK(solve_one_contact(Vector3d(0, 1, 2).asDiagonal(), {0, 1, 1}, 0.5, r, lambda) ==
+        ContactStatus::open);
   CHECK(r == Vector3d::Zero());
 }
 
@@ -169,7 +173,8 @@ TEST_CASE("the principal coordinates make W diagonal") {
     elimination(1, 0) = -contact.c1;
     elimination(2, 0) = -contact.c2;
     const Matrix3d a = elimination * rotation;
-    const Matrix3d expected = Vector3d(1.0 / contact.inverse_normal, contact.s1, contact.s2).asDiagonal();
+    const Matrix3d expected =
+        Vector3d(1.0 / contact.inverse_normal, contact.s1, contact.s2).asDiagonal();
     REQUIRE((a * w * a.transpose() - expected).norm() <= 1e-13 * (1.0 + contact.coupling_square()));
     REQUIRE(contact.s1 <= contact.s2);
     double t1 = 0.3, t2 = -0.7;

@@ -16,7 +16,8 @@ std::vector<Eigen::Matrix3d> blocks(const FrictionProblem& problem, double sprea
   std::vector<Eigen::Matrix3d> sigma(problem.contact_count());
   for (int c = 0; c < problem.contact_count(); ++c) {
     const Eigen::Vector3d v(1.0, std::sin(c), std::cos(2.0 * c));
-    sigma[c] = std::pow(spread, std::sin(3.0 * c)) * (v * v.transpose() + 0.1 * Eigen::Matrix3d::Identity());
+    sigma[c] = std::pow(spread, std::sin(3.0 * c)) *
+               (v * v.transpose() + 0.1 * Eigen::Matrix3d::Identity());
     if (problem.contact_rows(c) == 1) sigma[c] = sigma[c](0, 0) * Eigen::Matrix3d::Identity();
   }
   return sigma;
@@ -27,7 +28,8 @@ std::vector<Eigen::Matrix3d> inverses(std::vector<Eigen::Matrix3d> blocks) {
   return blocks;
 }
 
-Eigen::MatrixXd shifted(const FrictionProblem& problem, Eigen::MatrixXd w, const std::vector<Eigen::Matrix3d>& sigma) {
+Eigen::MatrixXd shifted(const FrictionProblem& problem, Eigen::MatrixXd w,
+                        const std::vector<Eigen::Matrix3d>& sigma) {
   for (int c = 0; c < problem.contact_count(); ++c) {
     const int first = problem.row_begin[c], rows = problem.contact_rows(c);
     w.block(first, first, rows, rows) += sigma[c].topLeftCorner(rows, rows).inverse();
@@ -44,13 +46,15 @@ Eigen::VectorXd sample(int rows) {
 }  // namespace
 
 TEST_CASE("the shifted system is solved in both forms, singular W or not") {
-  for (const FrictionProblem& dynamics : {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
+  for (const FrictionProblem& dynamics :
+       {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
     FrictionProblem stored = dynamics;
     add_delassus_form(stored);
     stored.has_dynamics = false;
     const auto sigma = blocks(dynamics, 100.0);
     const Eigen::VectorXd b = sample(dynamics.row_count());
-    const Eigen::VectorXd exact = shifted(dynamics, oracle::dense_delassus(dynamics), sigma).partialPivLu().solve(b);
+    const Eigen::VectorXd exact =
+        shifted(dynamics, oracle::dense_delassus(dynamics), sigma).partialPivLu().solve(b);
     for (const FrictionProblem* problem : {&std::as_const(dynamics), &std::as_const(stored)}) {
       ContactOperator w;
       w.prepare(*problem);
@@ -62,7 +66,8 @@ TEST_CASE("the shifted system is solved in both forms, singular W or not") {
       CHECK((x - exact).norm() <= 1e-9 * exact.norm());
       system.solve(b, x, 2);
       CHECK((x - exact).norm() <= 1e-11 * exact.norm());
-      REQUIRE(system.factor(blocks(dynamics, 2.0), inverses(blocks(dynamics, 2.0))));  // the same pattern again
+      REQUIRE(system.factor(blocks(dynamics, 2.0),
+                            inverses(blocks(dynamics, 2.0))));  // the same pattern again
       CHECK(system.factorisations() == 2);
     }
   }

@@ -14,7 +14,8 @@ void solve_convex(ContactOperator& w, const SlipShift& shift, Impulses& r, Eigen
   for (int k = 0; k < 20000; ++k) {
     w.velocity(r, u);
     const Impulses before = r;
-    for (int c = 0; c < w.contact_count(); ++c) w.put(r, c, w.at(r, c) - step * w.rho()[c] * shift.shifted(w, u, c));
+    for (int c = 0; c < w.contact_count(); ++c)
+      w.put(r, c, w.at(r, c) - step * w.rho()[c] * shift.shifted(w, u, c));
     w.project(r);
     if ((r - before).norm() <= 1e-15 * r.norm()) break;
   }
@@ -23,7 +24,9 @@ void solve_convex(ContactOperator& w, const SlipShift& shift, Impulses& r, Eigen
 
 }  // namespace
 
-TEST_CASE("at a solution of Coulomb's law s is its own image, and the convex problem has the same solution") {
+TEST_CASE(
+    "at a solution of Coulomb's law s is its own image, and the convex problem has the same "
+    "solution") {
   const KnownSolution known = make_known_solution({.bodies = 20, .contacts = 15});
   ContactOperator w;
   w.prepare(known.problem);
@@ -47,7 +50,8 @@ TEST_CASE("convex solves with improved s reach Coulomb's law") {
   Impulses r = Impulses::Zero(known.problem.row_count());
   Eigen::VectorXd u;
   solve_convex(w, shift, r, u);
-  CHECK(contact_error(known.problem, r).natural_map_rms > 1e-3);  // the convex relaxation is another law
+  CHECK(contact_error(known.problem, r).natural_map_rms >
+        1e-3);  // the convex relaxation is another law
   int outer = 0;
   while (shift.improve(w, u) > 1e-10 && ++outer < 60) solve_convex(w, shift, r, u);
   CHECK(outer < 60);

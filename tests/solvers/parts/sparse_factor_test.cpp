@@ -13,7 +13,8 @@ SparseColumns random_matrix(int n, double diagonal, bool symmetric, std::uint64_
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal);
   for (int k = 0; k < 4 * n; ++k) {
-    const int i = static_cast<int>(random.uniform() * n), j = static_cast<int>(random.uniform() * n);
+    const int i = static_cast<int>(random.uniform() * n),
+              j = static_cast<int>(random.uniform() * n);
     if (i == j) continue;
     const double value = random.uniform() - 0.5;
     entries.emplace_back(i, j, value);

@@ -1,4 +1,5 @@
-// A backend island by island: each island gets the bits that it has alone, and what that makes of the whole.
+// A backend island by island: each island gets the bits that it has alone, and what that makes of
+// the whole.
 
 #include "solvers/seam/island_solver.hpp"
 
@@ -12,7 +13,9 @@ using namespace ballast;
 
 namespace {
 
-std::unique_ptr<Solver> by_islands(const char* name) { return make_island_solver(make_solver(name)); }
+std::unique_ptr<Solver> by_islands(const char* name) {
+  return make_island_solver(make_solver(name));
+}
 
 /// Problems side by side: bodies and contacts of one after those of the other.
 FrictionProblem beside(const std::vector<FrictionProblem>& problems) {
@@ -23,8 +26,10 @@ FrictionProblem beside(const std::vector<FrictionProblem>& problems) {
     const DynamicsForm& from = problem.dynamics;
     const int bodies = to.body_count(), dofs = to.dof_count(), rows = all.row_count();
     const int masses = to.mass_begin.back(), entries = to.h_begin.back();
-    for (size_t b = 1; b < from.dof_begin.size(); ++b) to.dof_begin.push_back(dofs + from.dof_begin[b]);
-    for (size_t b = 1; b < from.mass_begin.size(); ++b) to.mass_begin.push_back(masses + from.mass_begin[b]);
+    for (size_t b = 1; b < from.dof_begin.size(); ++b)
+      to.dof_begin.push_back(dofs + from.dof_begin[b]);
+    for (size_t b = 1; b < from.mass_begin.size(); ++b)
+      to.mass_begin.push_back(masses + from.mass_begin[b]);
     to.mass.insert(to.mass.end(), from.mass.begin(), from.mass.end());
     for (int c = 0; c < problem.contact_count(); ++c) {
       to.body_a.push_back(from.body_a[c] < 0 ? -1 : bodies + from.body_a[c]);
@@ -43,7 +48,8 @@ FrictionProblem beside(const std::vector<FrictionProblem>& problems) {
 }
 
 const FrictionProblem easy = mass_stack({1, 1, 1}, 3).problem,
-                      hard = mass_stack(std::vector<double>(12, 1.0), 3).problem, chain = jammed_chain(8, 50.0).problem;
+                      hard = mass_stack(std::vector<double>(12, 1.0), 3).problem,
+                      chain = jammed_chain(8, 50.0).problem;
 
 }  // namespace
 
@@ -61,7 +67,8 @@ TEST_CASE("one island: the same bits, iterations and reason as without") {
   }
 }
 
-TEST_CASE("several islands: each has the bits that it has alone, and all together meet the tolerance") {
+TEST_CASE(
+    "several islands: each has the bits that it has alone, and all together meet the tolerance") {
   const FrictionProblem all = beside({easy, hard, chain});
   for (const char* name : {"nncg", "pgs", "apgd"}) {
     INFO(name);
@@ -89,10 +96,12 @@ TEST_CASE("islands are begun from their own part of the start") {
   const FrictionProblem all = beside({easy, hard});
   const Budget budget{.tolerance = 1e-6, .max_iterations = 100000};
   const SolverRun first = SolverRunner().run(*by_islands("nncg"), all, {}, budget);
-  const SolverRun second = SolverRunner().run(*by_islands("nncg"), all, first.solved.impulses, budget);
+  const SolverRun second =
+      SolverRunner().run(*by_islands("nncg"), all, first.solved.impulses, budget);
   CHECK(first.solved.iterations > 0);
   CHECK(second.solved.iterations == 0);
-  CHECK((second.solved.impulses - first.solved.impulses).norm() <= 1e-12 * first.solved.impulses.norm());
+  CHECK((second.solved.impulses - first.solved.impulses).norm() <=
+        1e-12 * first.solved.impulses.norm());
 }
 
 TEST_CASE("the reason of several islands is the worst of theirs") {
@@ -115,8 +124,8 @@ TEST_CASE("contacts between bodies that cannot move get no impulse") {
   all.dynamics.h_begin.push_back(all.dynamics.h_begin.back());
   all.dynamics.bias.conservativeResize(all.row_count());
   all.dynamics.bias[all.row_count() - 1] = 0.0;
-  const SolverRun run =
-      SolverRunner().run(*by_islands("nncg"), all, Impulses::Ones(all.row_count()), {.tolerance = 1e-6});
+  const SolverRun run = SolverRunner().run(*by_islands("nncg"), all,
+                                           Impulses::Ones(all.row_count()), {.tolerance = 1e-6});
   CHECK(run.success);
   CHECK(run.solved.impulses[all.row_count() - 1] == 0.0);
 }
@@ -128,7 +137,8 @@ TEST_CASE("a backend that refuses, fails or returns nothing says so through the 
     Solved solve(const FrictionProblem&, Impulses, const Budget&) override { return {}; }
   };
   const FrictionProblem all = beside({easy, chain});
-  const SolverRun nothing = SolverRunner().run(*make_island_solver(std::make_unique<Failing>()), all, {}, {});
+  const SolverRun nothing =
+      SolverRunner().run(*make_island_solver(std::make_unique<Failing>()), all, {}, {});
   CHECK(nothing.solved.reason == StopReason::numerical_failure);
   CHECK(nothing.solved.impulses.isZero(0.0));
   CHECK_FALSE(nothing.success);

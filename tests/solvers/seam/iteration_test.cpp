@@ -42,7 +42,8 @@ TEST_CASE("the error is looked at by schedule, and at the limit") {
 }
 
 TEST_CASE("far from the tolerance the error is looked at more seldom") {
-  const Solved solved = run({.tolerance = 1e-2, .keep_history = true}, {4, 1.5, 2.0}, [](int n) { return 1.0 / (n + 1); });
+  const Solved solved = run({.tolerance = 1e-2, .keep_history = true}, {4, 1.5, 2.0},
+                            [](int n) { return 1.0 / (n + 1); });
   std::vector<int> looked;
   for (const HistoryPoint& point : solved.history) looked.push_back(point.iteration);
   CHECK(looked == std::vector<int>{0, 4, 8, 16, 24, 36, 54, 81, 122});
@@ -62,11 +63,13 @@ TEST_CASE("no iteration at all when none is allowed") {
 TEST_CASE("the tolerance stops the loop at the first look that meets it") {
   const Solved solved = run({.tolerance = 0.1}, {1, 1.0}, [](int n) { return 1.0 / (n + 1); });
   CHECK(solved.reason == StopReason::reached_tolerance);
-  CHECK(solved.iterations == 10);  // 1/11; 1/10 is within the margin that is left to the judge's rounding
+  CHECK(solved.iterations ==
+        10);  // 1/11; 1/10 is within the margin that is left to the judge's rounding
 }
 
 TEST_CASE("numbers that are none stop the loop") {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Solved solved = run({}, {1, 1.0}, [bad](int n) { return n < 3 ? 1.0 + n : bad; });
     CHECK(solved.reason == StopReason::numerical_failure);
     CHECK(solved.iterations == 3);
@@ -74,18 +77,19 @@ TEST_CASE("numbers that are none stop the loop") {
 }
 
 TEST_CASE("an error that no longer changes in any digit is a stall, after a long time") {
-  const Solved solved = run({.tolerance = 0.0}, {1, 1.1}, [](int n) { return n < 100 ? 1.0 / (n + 1) : 0.5; });
+  const Solved solved =
+      run({.tolerance = 0.0}, {1, 1.1}, [](int n) { return n < 100 ? 1.0 / (n + 1) : 0.5; });
   CHECK(solved.reason == StopReason::stalled);
   CHECK(solved.iterations >= 100 + Iteration::stalled_after);
   CHECK(solved.iterations < 2000);
 }
 
 TEST_CASE("time runs out") {
-  const Solved solved =
-      run({.tolerance = 0.0, .max_iterations = 1 << 30, .max_seconds = 0.02}, {1 << 30, 2.0}, [](int n) {
-        if (n == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        return 1.0;
-      });
+  const Solved solved = run({.tolerance = 0.0, .max_iterations = 1 << 30, .max_seconds = 0.02},
+                            {1 << 30, 2.0}, [](int n) {
+                              if (n == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                              return 1.0;
+                            });
   CHECK(solved.reason == StopReason::time_limit);
   CHECK(solved.iterations > 1);
 }

@@ -91,11 +91,12 @@ TEST_CASE("a backend that throws, or returns rubbish, has failed; one that decli
   run = runner.run(puppet, known.problem, {}, {});
   CHECK(run.solved.reason == StopReason::numerical_failure);
   CHECK_FALSE(run.success);
-  puppet.answer = {Impulses::Constant(known.problem.row_count(), std::numeric_limits<double>::quiet_NaN()),
-                   StopReason::reached_tolerance,
-                   1,
-                   0.0,
-                   {}};
+  puppet.answer = {
+      Impulses::Constant(known.problem.row_count(), std::numeric_limits<double>::quiet_NaN()),
+      StopReason::reached_tolerance,
+      1,
+      0.0,
+      {}};
   run = runner.run(puppet, known.problem, {}, {});
   CHECK_FALSE(run.error.finite);
   CHECK_FALSE(run.success);
@@ -113,7 +114,8 @@ TEST_CASE("one runner and one solver serve a sequence of problems") {
     const SolverRun run = runner.run(*solver, problem, {}, {});
     CHECK(run.success);
     const auto fresh = make_gauss_seidel();
-    CHECK(SolverRunner().run(*fresh, problem, {}, {}).solved.impulses == run.solved.impulses);  // nothing left over
+    CHECK(SolverRunner().run(*fresh, problem, {}, {}).solved.impulses ==
+          run.solved.impulses);  // nothing left over
     CHECK(run.prepare_seconds >= 0.0);
     CHECK(run.solve_seconds > 0.0);
   }
