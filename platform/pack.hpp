@@ -1,0 +1,125 @@
+#pragma once
+// Values <-> bytes, for files and for answers of child processes. One list of members, a template
+// on the carrier, serves both ways, so that what is read is what was written:
+//
+//   template <class Carrier, class State>
+//   void carry(Carrier& carrier, State& state) {
+//     carrier.number(state.time);
+//     carrier.text(state.name);
+//     carrier.list(state.spin, [&](auto& spin) { carrier.fixed(spin); });
+//   }
+//
+//   Packer packer;                                Unpacker unpacker(bytes, file + ": checkpoint");
+//   carry(packer, state);                         carry(unpacker, state);
+//   write_whole_file(file, packer.bytes());       unpacker.finish();
+//
+// Numbers have this machine's size and byte order. Texts and lists are led by their length, 64
+// bits.
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "platform/error.hpp"
+
+namespace ballast {
+
+class Packer {
+ public:
+  /// Any arithmetic type or enum.
+  template <class Number>
+  void number(const Number& value) {
+    static_assert(std::is_arithmetic_v<Number> || std::is_enum_v<Number>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void text(const std::string& value) {
+    length(value.size());
+    bytes_ += value;
+  }
+  /// Numbers whose count both sides know: a vector of three, an array.
+  template <class Numbers>
+  void fixed(const Numbers& values) {
+    for (const auto& value : values) number(value);
+  }
+  /// Numbers whose count is packed too: std::vector or Eigen::VectorXd.
+  template <class Numbers>
+  void list(const Numbers& values) {
+    length(static_cast<std::size_t>(values.size()));
+    fixed(values);
+  }
+  /// A list whose entries `each(entry)` carries.
+  template <class List, class Each>
+  void list(const List& values, Each&& each) {
+    length(values.size());
+    for (const auto& value : values) each(value);
+  }
+
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void length(std::size_t count) { number(std::uint64_t{count}); }
+
+  std::string bytes_;
+};
+
+/// Takes from `bytes`, which outlive it, in the order in which they were packed. Nothing is read or
+/// allocated beyond what is there: where bytes are missing it throws Error
+/// "<origin> is inconsistent: a list has a wrong length".
+class Unpacker {
+ public:
+  Unpacker(std::string_view bytes, std::string origin) : rest_(bytes), origin_(std::move(origin)) {}
+
+  template <class Number>
+  void number(Number& value) {
+    static_assert(std::is_arithmetic_v<Number> || std::is_enum_v<Number>);
+    if constexpr (std::is_same_v<Number, bool>)
+      value = *take(1).data() != 0;
+    else
+      std::memcpy(&value, take(sizeof value).data(), sizeof value);
+  }
+  void text(std::string& value) { value = take(length(1)); }
+  template <class Numbers>
+  void fixed(Numbers& values) {
+    for (auto& value : values) number(value);
+  }
+  template <class Numbers>
+  void list(Numbers& values) {
+    values.resize(static_cast<decltype(values.size())>(length(sizeof(*values.data()))));
+    fixed(values);
+  }
+  template <class List, class Each>
+  void list(List& values, Each&& each) {
+    values.clear();
+    for (std::size_t count = length(1); count > 0; --count) each(values.emplace_back());
+  }
+
+  /// What the reader knows of the values besides: throws the same Error when it does not hold.
+  void require(bool consistent) const {
+    if (!consistent) throw Error(origin_ + " is inconsistent: a list has a wrong length");
+  }
+  /// Nothing is left over.
+  void finish() const { require(rest_.empty()); }
+
+ private:
+  /// Of a list whose entries take `least` bytes or more.
+  std::size_t length(std::size_t least) {
+    std::uint64_t count = 0;
+    number(count);
+    require(count <= rest_.size() / least);
+    return static_cast<std::size_t>(count);
+  }
+  std::string_view take(std::size_t count) {
+    require(count <= rest_.size());
+    const std::string_view taken = rest_.substr(0, count);
+    rest_.remove_prefix(count);
+    return taken;
+  }
+
+  std::string_view rest_;
+  std::string origin_;
+};
+
+}  // namespace ballast

@@ -1,0 +1,63 @@
+#include "platform/sealed_file.hpp"
+
+#include "platform/atomic_file.hpp"
+#include "platform/content_key.hpp"
+#include "platform/error.hpp"
+#include "platform/pack.hpp"
+
+namespace ballast {
+namespace {
+
+constexpr std::uint32_t this_byte_order = 0x01020304;
+constexpr size_t head_bytes = 24, checksum_bytes = 8;
+
+}  // namespace
+
+void write_sealed_file(const std::filesystem::path& file, const SealedKind& kind,
+                       std::string_view body) {
+  Packer head;
+  head.fixed(kind.magic);
+  head.number(kind.format);
+  head.number(this_byte_order);
+  head.number(std::uint64_t{body.size()});
+  std::string bytes = head.bytes();
+  bytes += body;
+  Packer checksum;
+  checksum.number(fnv1a(bytes));
+  write_whole_file(file, bytes + checksum.bytes());
+}
+
+SealedBody read_sealed_file(const std::filesystem::path& file, const SealedKind& kind) {
+  const std::string bytes = read_whole_file(file);
+  const std::string name(kind.name);
+  const auto refuse = [&](const std::string& why) { throw Error(file.string() + ": " + why); };
+  // A file that is cut off within its magic is truncated; it is not one of another kind.
+  if (bytes.empty()) refuse(name + " is empty");
+  if (bytes.compare(0, kind.magic.size(), kind.magic.substr(0, bytes.size())) != 0)
+    refuse("is not a " + name);
+  if (bytes.size() < head_bytes)
+    refuse(name + " is truncated in its first " + std::to_string(head_bytes) + " bytes");
+  const std::string_view all(bytes);
+  Unpacker head(all.substr(kind.magic.size()), file.string() + ": " + name);
+  std::uint32_t format = 0, byte_order = 0;
+  std::uint64_t body = 0, checksum = 0;
+  head.number(format);
+  head.number(byte_order);
+  head.number(body);
+  if (byte_order != this_byte_order)
+    refuse(name + " was written on a machine of another byte order");
+  if (format < kind.oldest || format > kind.format)
+    refuse(name + " has format " + std::to_string(format) + ", this program reads format " +
+           std::to_string(kind.format));
+  const std::uint64_t rest = bytes.size() - head_bytes;
+  if (rest < checksum_bytes || body > rest - checksum_bytes)
+    refuse(name + " is truncated: " + std::to_string(bytes.size()) + " bytes are there");
+  if (body < rest - checksum_bytes) refuse(name + " is damaged: bytes follow its end");
+  Unpacker end(all.substr(bytes.size() - checksum_bytes), file.string() + ": " + name);
+  end.number(checksum);
+  if (checksum != fnv1a(all.substr(0, bytes.size() - checksum_bytes)))
+    refuse(name + " is damaged: its checksum is wrong");
+  return {format, bytes.substr(head_bytes, body)};
+}
+
+}  // namespace ballast
