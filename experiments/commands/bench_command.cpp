@@ -6,12 +6,11 @@
 #include <memory>
 
 #include "experiments/bench/accuracy_bench.hpp"
-#include "experiments/bench/bench_words.hpp"
 #include "experiments/bench/kernels.hpp"
 #include "experiments/bench/scaling_bench.hpp"
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/commands/command.hpp"
-#include "experiments/compare/bench_options.hpp"
+#include "experiments/compare/compare_options.hpp"
 #include "platform/interrupt.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -46,7 +45,7 @@ auto usage(const char* option, const Work& work) {
 }
 
 std::vector<int> ints_of(const char* option, const std::string& list, long most) {
-  const std::vector<long> numbers = usage(option, [&] { return whole_numbers(list, most); });
+  const std::vector<long> numbers = usage(option, [&] { return parse_counts(list, most); });
   return {numbers.begin(), numbers.end()};
 }
 
@@ -103,7 +102,7 @@ ExitCode bench_step(const BenchWords& words) {
 
 ExitCode bench_scaling(const BenchWords& words) {
   ScalingOptions options;
-  options.grains = usage("--grains", [&] { return whole_numbers(words.grains, 100'000'000); });
+  options.grains = usage("--grains", [&] { return parse_counts(words.grains, 100'000'000); });
   options.threads = ints_of("--threads", words.threads, 256);
   options.steps = static_cast<int>(words.steps);
   options.warm_up = static_cast<int>(words.warm_up);
@@ -112,7 +111,8 @@ ExitCode bench_scaling(const BenchWords& words) {
   options.cold_start = words.cold_start;
   if (!(options.tolerance > 0.0)) throw UsageError("bench: --tolerance: expected a number > 0");
   options.solvers.clear();
-  for (const BenchSolver& solver : usage("--solvers", [&] { return bench_solvers(words.solvers); }))
+  for (const ComparedSolver& solver :
+       usage("--solvers", [&] { return parse_solvers(words.solvers); }))
     options.solvers.push_back(solver.name);
   const DepositedBox box = deposited_box(words.scene, words.overrides, words.packing_cache);
   const MachineFacts facts = measure_machine();
@@ -141,11 +141,11 @@ ExitCode bench_accuracy(const BenchWords& words) {
   options.live.duration = words.duration;
   if (!(words.duration > 0.0)) throw UsageError("bench: --duration: expected a number > 0");
   if (!(words.from >= 0.0)) throw UsageError("bench: --from: expected a number >= 0");
-  options.live.solvers = usage("--solvers", [&] { return bench_solvers(words.solvers); });
+  options.live.solvers = usage("--solvers", [&] { return parse_solvers(words.solvers); });
   options.live.tolerances.clear();
   if (words.tolerances != "none")
     options.live.tolerances =
-        usage("--tolerances", [&] { return bench_tolerances(words.tolerances); });
+        usage("--tolerances", [&] { return parse_tolerances(words.tolerances); });
   options.live.packing_cache = words.packing_cache;
   options.live.folder = words.output / "live";
   options.iterations = ints_of("--iterations", words.iterations, 1'000'000'000);

@@ -11,8 +11,8 @@
 #include <memory>
 
 #include "experiments/commands/command.hpp"
-#include "experiments/compare/bench_options.hpp"
-#include "experiments/compare/bench_report.hpp"
+#include "experiments/compare/compare_options.hpp"
+#include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/run/manifest.hpp"
@@ -25,12 +25,12 @@
 namespace ballast {
 namespace {
 
-struct CompareOptions {
+struct CompareWords {
   LiveOptions live;
   std::vector<std::string> cases;
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
   std::filesystem::path output = "results/compare", reference;
-  BenchOptions bench;
+  CompareOptions comparison;
   bool report = true;
 };
 
@@ -59,7 +59,7 @@ void become_single_threaded(std::vector<std::string> words) {
   throw Error("cannot start anew with OPENBLAS_NUM_THREADS=1");
 }
 
-bool show(const BenchRow& row, bool was_there, size_t done, size_t count) {
+bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
   char text[200];
   std::snprintf(text, sizeof text,
                 "%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done, count,
@@ -72,7 +72,7 @@ bool show(const BenchRow& row, bool was_there, size_t done, size_t count) {
 
 /// What is wrong with the words; std::invalid_argument from the parsers gets its option's name
 /// here.
-void parse(CompareOptions& options) {
+void parse(CompareWords& options) {
   const auto with_name = [](const char* option, const auto& work) {
     try {
       work();
@@ -82,11 +82,11 @@ void parse(CompareOptions& options) {
       throw UsageError(error.what());
     }
   };
-  BenchOptions& bench = options.bench;
-  with_name("--solvers", [&] { bench.solvers = bench_solvers(options.solvers); });
-  with_name("--tolerances", [&] { bench.tolerances = bench_tolerances(options.tolerances); });
-  with_name("--starts", [&] { bench.starts = bench_starts(options.starts); });
-  with_name("--measure", [&] { bench.measure = measure_of(options.measure); });
+  CompareOptions& comparison = options.comparison;
+  with_name("--solvers", [&] { comparison.solvers = parse_solvers(options.solvers); });
+  with_name("--tolerances", [&] { comparison.tolerances = parse_tolerances(options.tolerances); });
+  with_name("--starts", [&] { comparison.starts = parse_starts(options.starts); });
+  with_name("--measure", [&] { comparison.measure = measure_of(options.measure); });
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError("compare: expected cases, or --live SCENE");
   if (!(options.live.start >= 0.0)) throw UsageError("compare: --from: expected a number >= 0");
@@ -94,9 +94,10 @@ void parse(CompareOptions& options) {
     throw UsageError("compare: --duration: expected a number > 0");
   if (!(options.live.trajectory_seconds > 0.0))
     throw UsageError("compare: --trajectory-seconds: expected a number > 0");
-  if (bench.repeats < 1) throw UsageError("compare: --repeats: expected a number >= 1");
-  if (!(bench.max_seconds > 0.0)) throw UsageError("compare: --max-seconds: expected a number > 0");
-  if (!(bench.limits.memory_MB >= 0.0))
+  if (comparison.repeats < 1) throw UsageError("compare: --repeats: expected a number >= 1");
+  if (!(comparison.max_seconds > 0.0))
+    throw UsageError("compare: --max-seconds: expected a number > 0");
+  if (!(comparison.limits.memory_MB >= 0.0))
     throw UsageError("compare: --memory: expected a number >= 0");
 }
 
@@ -113,18 +114,18 @@ bool show_trajectory(const Trajectory& trajectory) {
 }
 
 /// The closed loop under each backend.
-ExitCode compare_live(const CompareOptions& options) {
+ExitCode compare_live(const CompareWords& options) {
   LiveOptions live = options.live;
-  live.solvers = options.bench.solvers;
-  live.tolerances = options.bench.tolerances;
-  live.max_seconds = options.bench.max_seconds;
+  live.solvers = options.comparison.solvers;
+  live.tolerances = options.comparison.tolerances;
+  live.max_seconds = options.comparison.max_seconds;
   live.folder = options.output;
   const LiveComparison comparison = run_live(live, show_trajectory);
   if (InterruptGuard::requested()) return interrupted();
-  Manifest manifest("compare --live " + live.scene, {options.bench.command}, binary_key());
+  Manifest manifest("compare --live " + live.scene, {options.comparison.command}, binary_key());
   manifest.summary("blas", loaded_blas());
   manifest.write(options.output / "manifest.json");
-  write_live_report(options.output, comparison);
+  write_live_page(options.output, comparison);
   std::cout << "\nresults in " << options.output.string()
             << "\n  live.html   figures and the table: open it in a browser\n"
             << "  live.csv    one row per trajectory; steps-*.csv: every step's scalars"
@@ -132,24 +133,25 @@ ExitCode compare_live(const CompareOptions& options) {
   return ExitCode::ok;
 }
 
-ExitCode compare(CompareOptions options) {
+ExitCode compare(CompareWords options) {
   parse(options);
   const std::vector<std::string> words = own_words();
   become_single_threaded(words);
-  options.bench.folder = options.output;
+  options.comparison.folder = options.output;
   for (const std::string& word : words)
-    options.bench.command += (options.bench.command.empty() ? "" : " ") +
-                             shell_word(&word == &words[0] ? "ballast" : word);
+    options.comparison.command += (options.comparison.command.empty() ? "" : " ") +
+                                  shell_word(&word == &words[0] ? "ballast" : word);
   if (!options.live.scene.empty()) return compare_live(options);
   std::vector<ReferenceTimes> reference;
   if (!options.reference.empty()) reference = read_reference_times(options.reference);
-  const std::vector<BenchCase> cases = bench_cases(options.cases);
+  const std::vector<CompareCase> cases = compare_cases(options.cases);
   InterruptGuard guard;
-  const std::vector<BenchRow> rows = run_bench(cases, options.bench, show);
+  const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, show);
   if (InterruptGuard::requested()) return interrupted();
-  if (options.report) write_bench_report(options.output, rows, reference);
+  if (options.report) write_compare_page(options.output, rows, reference);
   std::cout << '\n'
-            << bench_summary(rows, reference) << "\nresults in " << options.output.string() << "\n"
+            << compare_summary(rows, reference) << "\nresults in " << options.output.string()
+            << "\n"
             << (options.report ? "  compare.html  figures and tables: open it in a browser\n" : "")
             << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
             << "  manifest.json program, machine, BLAS, options" << std::endl;
@@ -185,8 +187,8 @@ Examples:
 void add_compare_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "compare", "Backends on identical problems: accuracy against cost, figures, a page");
-  auto options = std::make_shared<CompareOptions>();
-  BenchOptions& bench = options->bench;
+  auto options = std::make_shared<CompareWords>();
+  CompareOptions& comparison = options->comparison;
   command->add_option("cases", options->cases,
                       "Problem files, folders, patterns, known:..., stress:...");
   command->add_option("--solvers", options->solvers, "Names, separated by commas, or all")
@@ -198,13 +200,14 @@ void add_compare_command(CLI::App& program, Action& action) {
                    "cold, warm or cold,warm; warm where a case has a warm start")
       ->capture_default_str();
   command->add_option("--measure", options->measure, "natural_map or fclib")->capture_default_str();
-  command->add_option("--repeats", bench.repeats, "Interleaved; tables show the median")
+  command->add_option("--repeats", comparison.repeats, "Interleaved; tables show the median")
       ->capture_default_str();
   command
-      ->add_option("--max-seconds", bench.max_seconds, "Wall clock of one solve, prepare included")
+      ->add_option("--max-seconds", comparison.max_seconds,
+                   "Wall clock of one solve, prepare included")
       ->capture_default_str();
   command
-      ->add_option("--memory", bench.limits.memory_MB,
+      ->add_option("--memory", comparison.limits.memory_MB,
                    "Address space of one child in MB; 0: no limit")
       ->capture_default_str();
   command

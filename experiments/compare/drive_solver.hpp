@@ -1,8 +1,8 @@
 #pragma once
-// One solve as a bench wants it: to a tolerance in either measure, timed outside the judge, with
-// its history.
+// One solve as a comparison wants it: to a tolerance in either measure, timed outside the judge,
+// with its history.
 
-#include "experiments/compare/bench_row.hpp"
+#include "experiments/compare/compare_row.hpp"
 #include "solvers/seam/run_solver.hpp"
 
 namespace ballast {

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/compare/bench_figures.hpp"
+#include "experiments/compare/compare_figures.hpp"
 
 namespace ballast {
 namespace {
 
-std::vector<std::string> solvers_of(std::span<const BenchRow> rows) {
+std::vector<std::string> solvers_of(std::span<const CompareRow> rows) {
   std::vector<std::string> names;
-  for (const BenchRow& row : rows)
+  for (const CompareRow& row : rows)
     if (std::find(names.begin(), names.end(), row.solver) == names.end())
       names.push_back(row.solver);
   return names;
@@ -19,19 +19,19 @@ std::vector<std::string> solvers_of(std::span<const BenchRow> rows) {
 
 /// Rows of the first repeat, from `start`.
 template <typename Test>
-std::vector<const BenchRow*> selected(std::span<const BenchRow> rows, StartKind start,
-                                      Test&& test) {
-  std::vector<const BenchRow*> found;
-  for (const BenchRow& row : rows)
+std::vector<const CompareRow*> selected(std::span<const CompareRow> rows, StartKind start,
+                                        Test&& test) {
+  std::vector<const CompareRow*> found;
+  for (const CompareRow& row : rows)
     if (row.start == start && row.repeat == 0 && test(row)) found.push_back(&row);
   return found;
 }
 
 /// The history to the tightest tolerance that has one.
-const BenchRow* longest_history(const std::vector<const BenchRow*>& rows,
-                                const std::string& solver) {
-  const BenchRow* best = nullptr;
-  for (const BenchRow* row : rows)
+const CompareRow* longest_history(const std::vector<const CompareRow*>& rows,
+                                  const std::string& solver) {
+  const CompareRow* best = nullptr;
+  for (const CompareRow* row : rows)
     if (row->solver == solver && !row->history.empty() &&
         (!best || row->tolerance < best->tolerance))
       best = row;
@@ -39,11 +39,11 @@ const BenchRow* longest_history(const std::vector<const BenchRow*>& rows,
 }
 
 /// Where a solver arrived: one point per tolerance that it solved.
-Curve arrivals(const std::vector<const BenchRow*>& rows, const std::string& solver, Curve curve) {
+Curve arrivals(const std::vector<const CompareRow*>& rows, const std::string& solver, Curve curve) {
   curve.mark = Mark::points;
   curve.width = 2.4;
   curve.title.clear();
-  for (const BenchRow* row : rows) {
+  for (const CompareRow* row : rows) {
     if (row->solver != solver || row->outcome != Outcome::solved || !(row->natural_map_rms > 0.0))
       continue;
     curve.x.push_back(row->seconds());
@@ -60,10 +60,10 @@ Panel error_panel() {
   return panel;
 }
 
-void mark_tolerances(const std::vector<const BenchRow*>& rows, Panel& panel) {
+void mark_tolerances(const std::vector<const CompareRow*>& rows, Panel& panel) {
   if (rows.empty() || rows[0]->measure != Measure::natural_map) return;
   std::set<double> tolerances;
-  for (const BenchRow* row : rows) tolerances.insert(row->tolerance);
+  for (const CompareRow* row : rows) tolerances.insert(row->tolerance);
   for (const double tolerance : tolerances)
     panel.lines.push_back({tolerance, "", false, Ink::grey});
 }
@@ -73,7 +73,10 @@ void bound_errors(Panel& panel) {
   double least = infinity, most = 0.0;
   for (const Curve& curve : panel.curves)
     for (const double y : curve.y)
-      if (y > 0.0 && std::isfinite(y)) least = std::min(least, y), most = std::max(most, y);
+      if (y > 0.0 && std::isfinite(y)) {
+        least = std::min(least, y);
+        most = std::max(most, y);
+      }
   if (least < 1e-16 && most > 1e-16) panel.y_min = 1e-16;
 }
 
@@ -91,16 +94,16 @@ Figure figure_of(const std::string& name, const std::string& title, Panel panel)
 
 }  // namespace
 
-ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::string& case_name,
+ReportFigure work_precision_figure(std::span<const CompareRow> rows, const std::string& case_name,
                                    StartKind start) {
-  const std::vector<const BenchRow*> mine =
-      selected(rows, start, [&](const BenchRow& row) { return row.case_name == case_name; });
+  const std::vector<const CompareRow*> mine =
+      selected(rows, start, [&](const CompareRow& row) { return row.case_name == case_name; });
   const std::vector<std::string> solvers = solvers_of(rows);
   Panel panel = error_panel();
   for (size_t s = 0; s < solvers.size(); ++s) {
     const Curve style = styled(s, solvers[s]);
     bool is_drawn = false;
-    if (const BenchRow* row = longest_history(mine, solvers[s])) {
+    if (const CompareRow* row = longest_history(mine, solvers[s])) {
       StepCurve best = best_so_far(*row);
       thin_out(best.x, best.y, 200);
       if (best.x.size() > 1) {
@@ -127,28 +130,31 @@ ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::st
           std::move(caption)};
 }
 
-ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family,
+ReportFigure family_figure(std::span<const CompareRow> rows, const std::string& family,
                            StartKind start) {
-  const std::vector<const BenchRow*> mine =
-      selected(rows, start, [&](const BenchRow& row) { return row.family == family; });
+  const std::vector<const CompareRow*> mine =
+      selected(rows, start, [&](const CompareRow& row) { return row.family == family; });
   std::set<std::string> cases;
-  for (const BenchRow* row : mine) cases.insert(row->case_name);
+  for (const CompareRow* row : mine) cases.insert(row->case_name);
   const std::vector<std::string> solvers = solvers_of(rows);
   Panel panel = error_panel();
   for (size_t s = 0; cases.size() > 1 && s < solvers.size(); ++s) {
     std::vector<StepCurve> curves;
     for (const std::string& name : cases) {
-      std::vector<const BenchRow*> of_case;
-      for (const BenchRow* row : mine)
+      std::vector<const CompareRow*> of_case;
+      for (const CompareRow* row : mine)
         if (row->case_name == name) of_case.push_back(row);
-      if (const BenchRow* row = longest_history(of_case, solvers[s]))
+      if (const CompareRow* row = longest_history(of_case, solvers[s]))
         curves.push_back(best_so_far(*row));
     }
     if (curves.size() < cases.size()) continue;  // a mean over other cases would not compare
     double first = infinity, last = 0.0;
     for (const StepCurve& curve : curves)
       for (const double x : curve.x)
-        if (x > 0.0) first = std::min(first, x), last = std::max(last, x);
+        if (x > 0.0) {
+          first = std::min(first, x);
+          last = std::max(last, x);
+        }
     if (!(last > first)) continue;
     Curve curve = styled(s, solvers[s]);
     constexpr int samples = 160;

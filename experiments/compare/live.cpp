@@ -98,7 +98,7 @@ Start read_start(const LiveOptions& options, const Scene& scene) {
 
 /// What the child does: steps until the end, or the time is over.
 Ended step_on(const LiveOptions& options, const Scene& scene, Start start,
-              const BenchSolver& solver, double tolerance, std::vector<double>& rows,
+              const ComparedSolver& solver, double tolerance, std::vector<double>& rows,
               std::vector<double>& frames, std::string& why) {
   StepSettings settings = step_settings(scene);
   settings.solver.name = solver.name;
@@ -134,7 +134,7 @@ Ended step_on(const LiveOptions& options, const Scene& scene, Start start,
 }
 
 std::vector<double> in_child(const LiveOptions& options, const Scene& scene, const Start& start,
-                             const BenchSolver& solver, double tolerance) {
+                             const ComparedSolver& solver, double tolerance) {
   const double most = options.trajectory_seconds + 1.25 * options.max_seconds + 5.0;
   const ChildResult child = run_in_child(most, [&](std::vector<double>& record) {
     std::vector<double> rows, frames;
@@ -189,7 +189,8 @@ std::vector<double> read_doubles(const fs::path& file) {
 }
 
 Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start,
-                         const std::string& binary, const BenchSolver& solver, double tolerance) {
+                         const std::string& binary, const ComparedSolver& solver,
+                         double tolerance) {
   char numbers[160];
   std::snprintf(numbers, sizeof numbers, "|%.17g %.17g %.17g %.17g %d", tolerance, options.duration,
                 options.max_seconds, options.trajectory_seconds, options.max_iterations);
@@ -255,7 +256,7 @@ LiveComparison run_live(const LiveOptions& options,
   const std::string binary = binary_key();
   bool goes_on = true;
   for (const double tolerance : options.tolerances)
-    for (const BenchSolver& solver : options.solvers) {
+    for (const ComparedSolver& solver : options.solvers) {
       if (!goes_on || InterruptGuard::requested()) break;
       comparison.trajectories.push_back(
           trajectory_of(options, comparison.scene, start, binary, solver, tolerance));

@@ -10,7 +10,7 @@
 
 #include <Eigen/Dense>
 
-#include "experiments/compare/bench.hpp"
+#include "experiments/compare/comparison.hpp"
 #include "experiments/step/step_record.hpp"
 #include "problems/scene/scene.hpp"
 
@@ -19,7 +19,7 @@ namespace ballast {
 struct LiveOptions {
   std::string scene;                   ///< name or path
   std::vector<std::string> overrides;  ///< "dotted.key=value"
-  std::vector<BenchSolver> solvers;
+  std::vector<ComparedSolver> solvers;
   std::vector<double> tolerances{1e-2, 1e-3,
                                  1e-4};  ///< natural map rms, in g h (in m/s without gravity)
   double start = 0.0;     ///< simulated time up to which the scene's own solver goes, once for all
@@ -66,6 +66,6 @@ LiveComparison run_live(const LiveOptions& options,
 
 /// live.csv (one row per trajectory), trajectories as steps-<solver>-<tolerance>.csv,
 /// figures/*.svg, *.pdf and live.html.
-void write_live_report(const std::filesystem::path& folder, const LiveComparison& comparison);
+void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison);
 
 }  // namespace ballast

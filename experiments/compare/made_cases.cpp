@@ -1,5 +1,5 @@
-// Problems of a bench that are made on the spot: manufactured ones with known solutions, and those
-// that break solvers.
+// Problems of a comparison that are made on the spot: manufactured ones with known solutions, and
+// those that break solvers.
 
 #include <algorithm>
 #include <charconv>
@@ -7,7 +7,8 @@
 #include <cstdio>
 #include <map>
 
-#include "experiments/compare/bench_case.hpp"
+#include "experiments/compare/compare_case.hpp"
+#include "platform/error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/stress_problems.hpp"
 
@@ -51,9 +52,7 @@ class MadeWord {
     if (!values_.empty())
       fail(values_.begin()->first + ": no such setting; see ballast compare --help");
   }
-  [[noreturn]] void fail(const std::string& what) const {
-    throw BenchCaseError(word_ + ": " + what);
-  }
+  [[noreturn]] void fail(const std::string& what) const { throw Error(word_ + ": " + what); }
 
  private:
   double number_of(const std::string& item, const std::string& text) const {
@@ -69,7 +68,7 @@ class MadeWord {
   std::map<std::string, double> values_;
 };
 
-void add_known_cases(MadeWord& word, std::vector<BenchCase>& cases) {
+void add_known_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   if (!word.what().empty()) word.fail(word.what() + ": expected name=value");
   KnownSolutionSettings settings;
   settings.bodies = word.take_count("bodies", settings.bodies, 2);
@@ -95,13 +94,13 @@ void add_known_cases(MadeWord& word, std::vector<BenchCase>& cases) {
 }
 
 void add_stress_case(const std::string& name, const std::string& family,
-                     const std::function<StressProblem()>& make, std::vector<BenchCase>& cases) {
+                     const std::function<StressProblem()>& make, std::vector<CompareCase>& cases) {
   cases.push_back(
       {name, family, [make] { return load_case(make().problem, stress_gravity_step); }});
 }
 
 /// Every small problem that is valid; broken ones are for tests.
-void add_all_stress_cases(std::vector<BenchCase>& cases) {
+void add_all_stress_cases(std::vector<CompareCase>& cases) {
   for (const StressProblem& stress : stress_problems()) {
     if (!stress.refused.empty()) continue;
     // the manufactured ones have no gravity
@@ -113,7 +112,7 @@ void add_all_stress_cases(std::vector<BenchCase>& cases) {
 
 /// stack: n boxes of 1 kg, the uppermost of `ratio` kg. chain: grains between walls. table: four
 /// legs.
-void add_stress_cases(MadeWord& word, std::vector<BenchCase>& cases) {
+void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   char name[80];
   if (word.what() == "all") {
     word.finish();
@@ -157,7 +156,7 @@ bool is_made_case(const std::string& word) {
   return begins_with(word, "known:") || begins_with(word, "stress:");
 }
 
-void add_made_cases(const std::string& word, std::vector<BenchCase>& cases) {
+void add_made_cases(const std::string& word, std::vector<CompareCase>& cases) {
   MadeWord made(word);
   if (begins_with(word, "known:"))
     add_known_cases(made, cases);

@@ -91,7 +91,7 @@ namespace {
 bool is_ours(const std::string& solver) { return !solver.starts_with("siconos"); }
 
 /// Fills in our fastest.
-void take_fastest(const BenchTable& table, size_t c, ReferenceComparison::Line& line) {
+void take_fastest(const CompareTable& table, size_t c, ReferenceComparison::Line& line) {
   line.ours = std::numeric_limits<double>::infinity();
   for (size_t s = 0; s < table.solvers.size(); ++s) {
     if (!is_ours(table.solvers[s]) || !(table.cells[c][s].median < line.ours)) continue;
@@ -102,10 +102,10 @@ void take_fastest(const BenchTable& table, size_t c, ReferenceComparison::Line& 
 
 }  // namespace
 
-std::vector<ReferenceComparison> compare_with_reference(std::span<const BenchTable> tables,
+std::vector<ReferenceComparison> compare_with_reference(std::span<const CompareTable> tables,
                                                         std::span<const ReferenceTimes> reference) {
   std::vector<ReferenceComparison> comparisons;
-  for (const BenchTable& table : tables) {
+  for (const CompareTable& table : tables) {
     const auto times =
         std::find_if(reference.begin(), reference.end(),
                      [&](const ReferenceTimes& r) { return r.tolerance == table.tolerance; });

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/compare/bench_table.hpp"
+#include "experiments/compare/compare_table.hpp"
 
 namespace ballast {
 
@@ -49,8 +49,9 @@ struct ReferenceComparison {
   double ratio(double shift, double limit, bool of_auto) const;
 };
 
-/// For each reference tolerance that the bench has. Adapters to Siconos (siconos_*) are not ours.
-std::vector<ReferenceComparison> compare_with_reference(std::span<const BenchTable> tables,
+/// For each reference tolerance that the comparison has. Adapters to Siconos (siconos_*) are not
+/// ours.
+std::vector<ReferenceComparison> compare_with_reference(std::span<const CompareTable> tables,
                                                         std::span<const ReferenceTimes> reference);
 
 }  // namespace ballast

@@ -163,7 +163,7 @@ ChildMessage work_of_child(SolverMaker make, const LoadedCase& loaded, const Dri
   return message;
 }
 
-void judge(const LoadedCase& loaded, const Impulses& impulses, BenchRow& row) {
+void judge(const LoadedCase& loaded, const Impulses& impulses, CompareRow& row) {
   if (impulses.size() != loaded.problem.row_count()) return;
   const ContactError error = contact_error(loaded.problem, impulses);
   row.natural_map_rms = error.natural_map_rms;
@@ -178,7 +178,7 @@ void judge(const LoadedCase& loaded, const Impulses& impulses, BenchRow& row) {
   row.judged = error.finite && row.error <= row.tolerance;
 }
 
-Outcome outcome_of(const ChildMessage& message, const BenchRow& row, double max_seconds) {
+Outcome outcome_of(const ChildMessage& message, const CompareRow& row, double max_seconds) {
   switch (message.outcome) {
     case ChildOutcome::unsupported:
       return Outcome::unsupported;
@@ -197,7 +197,7 @@ Outcome outcome_of(const ChildMessage& message, const BenchRow& row, double max_
 }  // namespace
 
 void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSettings& settings,
-                    const ChildLimits& limits, BenchRow& row) {
+                    const ChildLimits& limits, CompareRow& row) {
   DriveSettings drive = settings;
   drive.measure = row.measure;
   drive.tolerance = row.tolerance;

@@ -1,8 +1,8 @@
 #pragma once
-// One attempt of a bench in a process of its own, under limits of time and memory: what crashes,
-// hangs or eats memory becomes a row.
+// One attempt of a comparison in a process of its own, under limits of time and memory: what
+// crashes, hangs or eats memory becomes a row.
 
-#include "experiments/compare/bench_row.hpp"
+#include "experiments/compare/compare_row.hpp"
 #include "experiments/compare/drive_solver.hpp"
 
 namespace ballast {
@@ -19,6 +19,6 @@ struct ChildLimits {
 /// fills in what came of it in `row`; what was tried (row.measure, tolerance, start) must be in it.
 /// `drive`'s measure, tolerance and scale are the row's. Throws InvalidProblem.
 void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive,
-                    const ChildLimits& limits, BenchRow& row);
+                    const ChildLimits& limits, CompareRow& row);
 
 }  // namespace ballast

@@ -5,12 +5,11 @@
 #include <sstream>
 
 #include "experiments/bench/accuracy_bench.hpp"
-#include "experiments/bench/bench_words.hpp"
 #include "experiments/bench/kernels.hpp"
 #include "experiments/bench/scaling_bench.hpp"
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/bench/sweep_floor.hpp"
-#include "experiments/compare/bench_options.hpp"
+#include "experiments/compare/compare_options.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "problems/algebra/contact_error.hpp"
@@ -87,12 +86,6 @@ TEST_CASE("Results are written, read and compared") {
   write_whole_file(folder.path() / "bad.json", "{\"kind\": 3}");
   CHECK_THROWS_WITH(read_bench_result(folder.path() / "bad.json"), Catch::Contains("bad.json"));
   CHECK_THROWS_AS(read_bench_result(folder.path() / "none.json"), Error);
-}
-
-TEST_CASE("Lists of numbers are read whole or refused") {
-  CHECK(whole_numbers("1,20", 100) == std::vector<long>{1, 20});
-  for (const char* wrong : {"", "1,", ",1", "0", "-3", "1.5", "101", "x", "1 2"})
-    CHECK_THROWS_AS(whole_numbers(wrong, 100), std::invalid_argument);
 }
 
 TEST_CASE("Copies side by side are the packing again and again") {
@@ -241,7 +234,7 @@ TEST_CASE("More iterations cost more and err less") {
   AccuracyOptions options;
   options.live.scene = "vibrated_box_small";
   options.live.overrides = tiny;
-  options.live.solvers = bench_solvers("pgs");
+  options.live.solvers = parse_solvers("pgs");
   options.live.tolerances = {1e-8};
   options.live.duration = 4e-3;
   options.live.folder = folder.path();

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "experiments/compare/bench_options.hpp"
+#include "experiments/compare/compare_options.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
@@ -23,7 +23,7 @@ LiveOptions small_live(const std::filesystem::path& folder) {
   options.scene = "vibrated_box_small";
   options.overrides = {"grains.count=12", "box.length=0.12", "box.width=0.12",
                        "control_volume.margin_x=0.02"};
-  options.solvers = bench_solvers("pgs,nncg");
+  options.solvers = parse_solvers("pgs,nncg");
   options.tolerances = {1e-2, 1e-8};
   options.start = 2e-3;
   options.duration = 4e-3;
@@ -76,7 +76,7 @@ TEST_CASE("One start under several backends and tolerances") {
     CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
 
   Manifest("compare --live x", {}, "key").write(folder.path() / "manifest.json");
-  write_live_report(folder.path(), comparison);
+  write_live_page(folder.path(), comparison);
   const std::string page = read_whole_file(folder.path() / "live.html");
   check_page(page);
   CHECK(page.find("(reference)") != std::string::npos);

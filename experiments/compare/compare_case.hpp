@@ -1,22 +1,14 @@
 #pragma once
-// The problems of a bench: files, folders, patterns and manufactured ones, each with what the
+// The problems of a comparison: files, folders, patterns and manufactured ones, each with what the
 // figures want to know of it.
 
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "problems/algebra/friction_problem.hpp"
 
 namespace ballast {
-
-/// A case that cannot be had: no such file, a pattern that matches nothing, an unknown setting. One
-/// line.
-class BenchCaseError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// What cost is drawn against.
 struct CaseFacts {
@@ -40,8 +32,8 @@ struct LoadedCase {
   std::function<std::string(int)> describe_contact;
 };
 
-struct BenchCase {
-  std::string name;    ///< unique in a bench: a file's name, or the words that make the problem
+struct CompareCase {
+  std::string name;  ///< unique in a comparison: a file's name, or the words that make the problem
   std::string family;  ///< cases of one kind: the file's name up to its numbers, the run and phase
                        ///< of a captured one
   /// Throws ProblemFileError, InvalidProblem.
@@ -51,13 +43,14 @@ struct BenchCase {
 /// Each word is one of
 ///   a file (.hdf5, .h5, .dat), a folder (all such files in and below it), a pattern with * ? [ ]
 ///   known:..., stress:... (made_cases.cpp has the settings; ballast compare --help lists them)
-/// Files come sorted; equal names get their folders before them. Throws BenchCaseError.
-std::vector<BenchCase> bench_cases(const std::vector<std::string>& words);
+/// Files come sorted; equal names get their place in the list after them: "a.dat (2)". Throws Error
+/// for a case that cannot be had: no such file, a pattern that matches nothing, an unknown setting.
+std::vector<CompareCase> compare_cases(const std::vector<std::string>& words);
 
 /// Problems made on the spot: words that begin with known: or stress:.
 bool is_made_case(const std::string& word);
 void add_made_cases(const std::string& word,
-                    std::vector<BenchCase>& cases);  ///< throws BenchCaseError
+                    std::vector<CompareCase>& cases);  ///< throws Error
 
 /// A case without warm start; errors are relative to `velocity_scale` [m/s], or to the rms of q
 /// when that is 0. Throws InvalidProblem.

@@ -1,4 +1,4 @@
-#include "experiments/compare/bench_case.hpp"
+#include "experiments/compare/compare_case.hpp"
 
 #include <glob.h>
 
@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "platform/error.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"
 
@@ -44,7 +45,7 @@ std::string run_of_captured(const fs::path& file) {
   return folder.filename().string();
 }
 
-BenchCase file_case(const fs::path& file) {
+CompareCase file_case(const fs::path& file) {
   if (!is_captured(file))
     return {file.filename().string(), family_of_file(file.filename().string()),
             [file] { return load_case(read_problem(file)); }};
@@ -73,31 +74,31 @@ void add_files(const fs::path& path, std::vector<fs::path>& files) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path))
     if (entry.is_regular_file() && is_problem_file(entry.path())) files.push_back(entry.path());
   if (files.size() == before)
-    throw BenchCaseError(path.string() + ": no problem file (.hdf5, .h5, .dat) in this folder");
+    throw Error(path.string() + ": no problem file (.hdf5, .h5, .dat) in this folder");
   std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
 }
 
-void add_file_cases(const std::string& word, std::vector<BenchCase>& cases) {
+void add_file_cases(const std::string& word, std::vector<CompareCase>& cases) {
   std::vector<fs::path> files;
   if (fs::exists(word)) {
     add_files(word, files);
   } else {
     for (const fs::path& match : matches(word)) add_files(match, files);
     if (files.empty())
-      throw BenchCaseError(
-          word + ": no such file, folder or pattern; made cases begin with known: or stress:");
+      throw Error(word +
+                  ": no such file, folder or pattern; made cases begin with known: or stress:");
   }
   for (const fs::path& file : files) {
     if (!is_problem_file(file))
-      throw BenchCaseError(file.string() + ": is no problem file (.hdf5, .h5, .dat)");
+      throw Error(file.string() + ": is no problem file (.hdf5, .h5, .dat)");
     cases.push_back(file_case(file));
   }
 }
 
 /// Equal names: the place in the list decides.
-void make_names_unique(std::vector<BenchCase>& cases) {
+void make_names_unique(std::vector<CompareCase>& cases) {
   std::map<std::string, int> seen;
-  for (BenchCase& c : cases)
+  for (CompareCase& c : cases)
     if (const int count = ++seen[c.name]; count > 1) c.name += " (" + std::to_string(count) + ")";
 }
 
@@ -112,8 +113,8 @@ std::string family_of_file(const std::string& file_name) {
   return family.empty() ? file_name : family;
 }
 
-std::vector<BenchCase> bench_cases(const std::vector<std::string>& words) {
-  std::vector<BenchCase> cases;
+std::vector<CompareCase> compare_cases(const std::vector<std::string>& words) {
+  std::vector<CompareCase> cases;
   for (const std::string& word : words) {
     if (is_made_case(word))
       add_made_cases(word, cases);

@@ -1,25 +1,25 @@
 #pragma once
-// The figures of a bench.
+// The figures of a comparison of backends.
 
 #include <span>
 #include <vector>
 
-#include "experiments/compare/bench_table.hpp"
+#include "experiments/compare/compare_table.hpp"
 #include "experiments/run_page/figures.hpp"
 
 namespace ballast {
 
 /// Performance and data profiles, cost against contacts, rank deficiency and mass ratio, of one
 /// table. Empty when nobody solved anything.
-std::vector<ReportFigure> profile_figures(const BenchTable& table);
-std::vector<ReportFigure> cost_figures(const BenchTable& table);
+std::vector<ReportFigure> profile_figures(const CompareTable& table);
+std::vector<ReportFigure> cost_figures(const CompareTable& table);
 
 /// Error against time on one case from one start: each backend's history to its tightest tolerance,
 /// and where each tolerance was reached. Without panels when there is nothing to draw.
-ReportFigure work_precision_figure(std::span<const BenchRow> rows, const std::string& case_name,
+ReportFigure work_precision_figure(std::span<const CompareRow> rows, const std::string& case_name,
                                    StartKind start);
 /// The same over a family: geometric means over its cases.
-ReportFigure family_figure(std::span<const BenchRow> rows, const std::string& family,
+ReportFigure family_figure(std::span<const CompareRow> rows, const std::string& family,
                            StartKind start);
 
 /// The k-th backend's line: eight colours, then the same dashed, then thin.

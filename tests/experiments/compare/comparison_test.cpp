@@ -1,7 +1,7 @@
-// The bench: crashes and timeouts are rows, nobody is believed without the judge, and what is there
-// is not done again.
+// A comparison: crashes and timeouts are rows, nobody is believed without the judge, and what is
+// there is not done again.
 
-#include "experiments/compare/bench.hpp"
+#include "experiments/compare/comparison.hpp"
 
 #include <signal.h>
 #include <stdlib.h>
@@ -11,8 +11,9 @@
 #include <cmath>
 #include <thread>
 
-#include "experiments/compare/bench_options.hpp"
+#include "experiments/compare/compare_options.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
@@ -65,13 +66,13 @@ struct NoMemory {
 };
 
 template <typename Act>
-BenchSolver misbehaving(const char* name) {
+ComparedSolver misbehaving(const char* name) {
   return {name, ContactLaw::coulomb,
           []() -> std::unique_ptr<Solver> { return std::make_unique<Misbehaving<Act>>(); }};
 }
 
-BenchOptions options_in(const fs::path& folder, std::vector<BenchSolver> solvers) {
-  BenchOptions options;
+CompareOptions options_in(const fs::path& folder, std::vector<ComparedSolver> solvers) {
+  CompareOptions options;
   options.solvers = std::move(solvers);
   options.folder = folder;
   options.limits.memory_MB = 0.0;  // sanitizers reserve terabytes
@@ -80,21 +81,21 @@ BenchOptions options_in(const fs::path& folder, std::vector<BenchSolver> solvers
   return options;
 }
 
-bool go_on(const BenchRow&, bool, size_t, size_t) { return true; }
+bool go_on(const CompareRow&, bool, size_t, size_t) { return true; }
 
-std::vector<BenchCase> one_case() { return bench_cases({"known:contacts=12,bodies=6,seed=3"}); }
+std::vector<CompareCase> one_case() { return compare_cases({"known:contacts=12,bodies=6,seed=3"}); }
 
 }  // namespace
 
 TEST_CASE("Whatever a backend does becomes a row") {
   const TemporaryFolder folder;
-  BenchOptions options =
+  CompareOptions options =
       options_in(folder.path(),
                  {misbehaving<Crash>("crash"), misbehaving<Lie>("lie"), misbehaving<Throw>("throw"),
                   misbehaving<Refuse>("refuse"), misbehaving<NoMemory>("no_memory")});
-  options.solvers.push_back(bench_solvers("pgs")[0]);
+  options.solvers.push_back(parse_solvers("pgs")[0]);
   options.tolerances = {1e-6};
-  const std::vector<BenchRow> rows = run_bench(one_case(), options, go_on);
+  const std::vector<CompareRow> rows = run_comparison(one_case(), options, go_on);
   REQUIRE(rows.size() == 6);
   CHECK(rows[0].outcome == Outcome::crashed);
   CHECK(rows[1].outcome == Outcome::stopped);
@@ -116,11 +117,11 @@ TEST_CASE("Whatever a backend does becomes a row") {
 
 TEST_CASE("A backend that does not stop is stopped") {
   const TemporaryFolder folder;
-  BenchOptions options =
-      options_in(folder.path(), {misbehaving<Hang>("hang"), bench_solvers("pgs")[0]});
+  CompareOptions options =
+      options_in(folder.path(), {misbehaving<Hang>("hang"), parse_solvers("pgs")[0]});
   options.tolerances = {1e-4};
   options.max_seconds = 0.2;
-  const std::vector<BenchRow> rows = run_bench(one_case(), options, go_on);
+  const std::vector<CompareRow> rows = run_comparison(one_case(), options, go_on);
   REQUIRE(rows.size() == 2);
   CHECK(rows[0].outcome == Outcome::timeout);
   CHECK(rows[0].note.find("killed") != std::string::npos);
@@ -129,13 +130,13 @@ TEST_CASE("A backend that does not stop is stopped") {
 
 TEST_CASE("The measure of Siconos is reached through falling tolerances on the natural map") {
   const TemporaryFolder folder;
-  BenchOptions options = options_in(folder.path(), bench_solvers("pgs,nncg"));
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs,nncg"));
   options.measure = Measure::fclib;
   options.tolerances = {1e-3, 1e-7};
-  const std::vector<BenchRow> rows =
-      run_bench(bench_cases({"known:contacts=20,bodies=10,seed=2,mass_ratio=100"}), options, go_on);
+  const std::vector<CompareRow> rows = run_comparison(
+      compare_cases({"known:contacts=20,bodies=10,seed=2,mass_ratio=100"}), options, go_on);
   REQUIRE(rows.size() == 4);
-  for (const BenchRow& row : rows) {
+  for (const CompareRow& row : rows) {
     INFO(row.solver << " " << row.tolerance);
     CHECK(row.outcome == Outcome::solved);
     CHECK(row.error == row.fclib);
@@ -149,34 +150,34 @@ TEST_CASE("The measure of Siconos is reached through falling tolerances on the n
 
 TEST_CASE("Rows that are there are not made again, and a change of options makes new ones") {
   const TemporaryFolder folder;
-  BenchOptions options = options_in(folder.path(), bench_solvers("pgs"));
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs"));
   options.tolerances = {1e-4, 1e-6};
   options.repeats = 2;
   int made = 0;
-  const auto count = [&](const BenchRow&, bool was_there, size_t, size_t) {
+  const auto count = [&](const CompareRow&, bool was_there, size_t, size_t) {
     made += !was_there;
     return true;
   };
-  const std::vector<BenchRow> first = run_bench(one_case(), options, count);
+  const std::vector<CompareRow> first = run_comparison(one_case(), options, count);
   CHECK(made == 4);
-  const std::vector<BenchRow> second = run_bench(one_case(), options, count);
+  const std::vector<CompareRow> second = run_comparison(one_case(), options, count);
   CHECK(made == 4);
   REQUIRE(second.size() == first.size());
   for (size_t k = 0; k < first.size(); ++k) CHECK(to_json(first[k]) == to_json(second[k]));
   options.max_seconds = 21.0;
-  run_bench(one_case(), options, count);
+  run_comparison(one_case(), options, count);
   CHECK(made == 8);
 }
 
-TEST_CASE("A bench goes on after kill -9") {
+TEST_CASE("A comparison goes on after kill -9") {
   const TemporaryFolder folder;
-  const std::vector<BenchCase> cases = bench_cases({"known:contacts=12,bodies=6,count=30"});
-  BenchOptions options = options_in(folder.path(), bench_solvers("pgs"));
+  const std::vector<CompareCase> cases = compare_cases({"known:contacts=12,bodies=6,count=30"});
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs"));
   options.tolerances = {1e-6};
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
-    run_bench(cases, options, [](const BenchRow&, bool, size_t done, size_t) {
+    run_comparison(cases, options, [](const CompareRow&, bool, size_t done, size_t) {
       if (done == 7) kill(getpid(), SIGKILL);
       return true;
     });
@@ -186,25 +187,25 @@ TEST_CASE("A bench goes on after kill -9") {
   waitpid(child, &status, 0);
   REQUIRE(WIFSIGNALED(status));
   int made = 0;
-  const std::vector<BenchRow> rows =
-      run_bench(cases, options, [&](const BenchRow&, bool was_there, size_t, size_t) {
+  const std::vector<CompareRow> rows =
+      run_comparison(cases, options, [&](const CompareRow&, bool was_there, size_t, size_t) {
         made += !was_there;
         return true;
       });
   CHECK(rows.size() == 30);
   CHECK(made == 23);
-  for (const BenchRow& row : rows) CHECK(row.outcome == Outcome::solved);
+  for (const CompareRow& row : rows) CHECK(row.outcome == Outcome::solved);
 }
 
-TEST_CASE("An interrupt stops the bench after the row under way") {
+TEST_CASE("An interrupt stops the comparison after the row under way") {
   const TemporaryFolder folder;
-  const std::vector<BenchCase> cases = bench_cases({"known:contacts=12,bodies=6,count=5"});
-  BenchOptions options = options_in(folder.path(), bench_solvers("pgs"));
+  const std::vector<CompareCase> cases = compare_cases({"known:contacts=12,bodies=6,count=5"});
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs"));
   options.tolerances = {1e-6};
-  std::vector<BenchRow> rows;
+  std::vector<CompareRow> rows;
   {
     const InterruptGuard guard;
-    rows = run_bench(cases, options, [](const BenchRow&, bool, size_t done, size_t) {
+    rows = run_comparison(cases, options, [](const CompareRow&, bool, size_t done, size_t) {
       if (done == 2) raise(SIGINT);
       return !InterruptGuard::requested();
     });
@@ -216,7 +217,7 @@ TEST_CASE("An interrupt stops the bench after the row under way") {
 }
 
 TEST_CASE("A row survives its file to the last bit") {
-  BenchRow row;
+  CompareRow row;
   row.key = "k";
   row.case_name = "a, \"b\"";
   row.note = "line\nbreak";
@@ -226,37 +227,38 @@ TEST_CASE("A row survives its file to the last bit") {
   row.start = StartKind::warm;
   row.measure = Measure::fclib;
   row.history = {{0, 1, 1e-300, 1.0 / 3.0}, {1, 2, 0.5, 5e-324}};
-  const BenchRow back = bench_row_of_json(to_json(row), "file");
+  const CompareRow back = compare_row_of_json(to_json(row), "file");
   CHECK(to_json(back) == to_json(row));
   CHECK(back.error == row.error);
   CHECK(std::isnan(back.fclib));
   REQUIRE(back.history.size() == 2);
   CHECK(back.history[1].error == 5e-324);
-  CHECK(bench_csv({row}).find("\"a, \"\"b\"\"\"") != std::string::npos);
-  CHECK_THROWS_WITH(bench_row_of_json("{}", "row.json"), Catch::StartsWith("row.json: is no row"));
+  CHECK(compare_csv({row}).find("\"a, \"\"b\"\"\"") != std::string::npos);
+  CHECK_THROWS_WITH(compare_row_of_json("{}", "row.json"),
+                    Catch::StartsWith("row.json: is no row"));
 }
 
 TEST_CASE("Cases: families, names, and what is refused") {
   CHECK(family_of_file("Capsules-i101-404.dat") == "Capsules");
   CHECK(family_of_file("Rover1039.dat") == "Rover");
   CHECK(family_of_file("NESpheres_30_1.dat") == "NESpheres");
-  CHECK(bench_cases({"known:count=3"}).size() == 3);
-  const std::vector<BenchCase> made = bench_cases({"stress:stack,ratio=1e3", "stress:all"});
+  CHECK(compare_cases({"known:count=3"}).size() == 3);
+  const std::vector<CompareCase> made = compare_cases({"stress:stack,ratio=1e3", "stress:all"});
   CHECK(made.size() > 10);
   CHECK(made[0].load().facts.mass_ratio == Approx(1e3));
   CHECK(made[0].load().facts.velocity_scale == 9.81e-3);
-  for (const BenchCase& c : made) CHECK_NOTHROW(c.load());
+  for (const CompareCase& c : made) CHECK_NOTHROW(c.load());
   const TemporaryFolder folder;
   for (const std::string word :
        {"known:bodies=x", "known:colour=3", "known:contacts=0", "known:bodies",
         "stress:", "stress:stack,weight=3", "stress:stack,rows=2", "/no/such/file.dat"})
-    CHECK_THROWS_AS(bench_cases({word}), BenchCaseError);
-  CHECK_THROWS_AS(bench_cases({folder.path().string()}), BenchCaseError);
-  CHECK_THROWS_AS(bench_cases({folder.write("notes.txt", "").string()}), BenchCaseError);
+    CHECK_THROWS_AS(compare_cases({word}), Error);
+  CHECK_THROWS_AS(compare_cases({folder.path().string()}), Error);
+  CHECK_THROWS_AS(compare_cases({folder.write("notes.txt", "").string()}), Error);
   folder.write("b.dat", "3 0 0 0 0");
   folder.write("a.dat", "3 0 0 0 0");
-  const std::vector<BenchCase> cases =
-      bench_cases({(folder.path() / "*.dat").string(), folder.path().string()});
+  const std::vector<CompareCase> cases =
+      compare_cases({(folder.path() / "*.dat").string(), folder.path().string()});
   REQUIRE(cases.size() == 4);
   CHECK(cases[0].name == "a.dat");
   CHECK(cases[2].name == "a.dat (2)");

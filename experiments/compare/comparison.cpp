@@ -1,4 +1,4 @@
-#include "experiments/compare/bench.hpp"
+#include "experiments/compare/comparison.hpp"
 
 #include <stdlib.h>
 
@@ -18,84 +18,84 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Attempt {
-  const BenchSolver* solver;
+  const ComparedSolver* solver;
   double tolerance;
   StartKind start;
 };
 
 /// In the order in which they are tried on one case.
-std::vector<Attempt> attempts_of(const BenchOptions& options, const LoadedCase& loaded) {
+std::vector<Attempt> attempts_of(const CompareOptions& options, const LoadedCase& loaded) {
   std::vector<Attempt> attempts;
   for (const double tolerance : options.tolerances)
     for (const StartKind start : options.starts) {
       if (start == StartKind::warm && loaded.warm_start.size() == 0) continue;
-      for (const BenchSolver& solver : options.solvers)
+      for (const ComparedSolver& solver : options.solvers)
         attempts.push_back({&solver, tolerance, start});
     }
   return attempts;
 }
 
-std::string key_of(const BenchOptions& options, const std::string& binary,
-                   const BenchCase& bench_case, const CaseFacts& facts, const Attempt& attempt,
+std::string key_of(const CompareOptions& options, const std::string& binary,
+                   const CompareCase& tried, const CaseFacts& facts, const Attempt& attempt,
                    int repeat) {
   char numbers[160];
   std::snprintf(numbers, sizeof numbers, "%.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance,
                 options.max_seconds, options.max_iterations, options.limits.memory_MB,
                 options.limits.warm_seconds, options.limits.most_runs, repeat);
-  return content_key("bench row 1|" + binary + '|' + bench_case.name + '|' + facts.content + '|' +
+  return content_key("compare row 1|" + binary + '|' + tried.name + '|' + facts.content + '|' +
                      attempt.solver->name + '|' + name_of(options.measure) + '|' +
                      name_of(attempt.start) + '|' + numbers);
 }
 
-/// One bench under way.
-class Bench {
+/// One comparison under way.
+class Comparison {
  public:
-  Bench(const std::vector<BenchCase>& cases, const BenchOptions& options,
-        const BenchProgress& progress)
+  Comparison(const std::vector<CompareCase>& cases, const CompareOptions& options,
+             const CompareProgress& progress)
       : cases_(cases), options_(options), progress_(progress), binary_(binary_key()) {}
 
-  std::vector<BenchRow> execute() {
+  std::vector<CompareRow> execute() {
     create_folder(options_.folder / "rows");
     Manifest manifest("compare", {options_.command}, binary_);
     count_ = cases_.size() * options_.tolerances.size() * options_.starts.size() *
              options_.solvers.size() * static_cast<size_t>(options_.repeats);
     for (int repeat = 0; repeat < options_.repeats && goes_on_; ++repeat)
       for (size_t c = 0; c < cases_.size() && goes_on_; ++c) try_case(cases_[c], repeat);
-    write_whole_file(options_.folder / "results.csv", bench_csv(rows_));
+    write_whole_file(options_.folder / "results.csv", compare_csv(rows_));
     describe(manifest);
     manifest.write(options_.folder / "manifest.json");
     return std::move(rows_);
   }
 
  private:
-  void try_case(const BenchCase& bench_case, int repeat) {
-    const LoadedCase loaded = bench_case.load();
+  void try_case(const CompareCase& tried, int repeat) {
+    const LoadedCase loaded = tried.load();
     const std::vector<Attempt> attempts = attempts_of(options_, loaded);
     done_ += options_.tolerances.size() * options_.starts.size() * options_.solvers.size() -
              attempts.size();
     for (const Attempt& attempt : attempts) {
       if (!goes_on_) return;
       ++done_;
-      const std::string identity = bench_case.name + '|' + attempt.solver->name + '|' +
+      const std::string identity = tried.name + '|' + attempt.solver->name + '|' +
                                    name_of(attempt.start) + '|' + std::to_string(attempt.tolerance);
       if (repeat > 0 && unsolved_.contains(identity)) continue;
       bool was_there = false;
-      BenchRow row = row_of(bench_case, loaded, attempt, repeat, was_there);
+      CompareRow row = row_of(tried, loaded, attempt, repeat, was_there);
       if (row.outcome != Outcome::solved) unsolved_.insert(identity);
       goes_on_ = progress_(row, was_there, done_, count_);
       rows_.push_back(std::move(row));
     }
   }
 
-  BenchRow row_of(const BenchCase& bench_case, const LoadedCase& loaded, const Attempt& attempt,
-                  int repeat, bool& was_there) const {
-    BenchRow row;
-    row.key = key_of(options_, binary_, bench_case, loaded.facts, attempt, repeat);
+  CompareRow row_of(const CompareCase& tried, const LoadedCase& loaded, const Attempt& attempt,
+                    int repeat, bool& was_there) const {
+    CompareRow row;
+    row.key = key_of(options_, binary_, tried, loaded.facts, attempt, repeat);
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
     was_there = fs::exists(file);
-    if (was_there) return bench_row_of_json(read_whole_file(file), file.string());
-    row.case_name = bench_case.name;
-    row.family = bench_case.family;
+    if (was_there) return compare_row_of_json(read_whole_file(file), file.string());
+    row.case_name = tried.name;
+    row.family = tried.family;
     row.solver = attempt.solver->name;
     row.law = name_of(attempt.solver->law);
     row.measure = options_.measure;
@@ -128,7 +128,7 @@ class Bench {
     double load[3];
     if (getloadavg(load, 3) == 3) manifest.summary("load_at_end", load[0]);
     long solved = 0, denied = 0;
-    for (const BenchRow& row : rows_) {
+    for (const CompareRow& row : rows_) {
       solved += row.outcome == Outcome::solved;
       denied += row.is_false_success();
     }
@@ -136,11 +136,11 @@ class Bench {
     manifest.summary("claims_that_the_judge_denies", static_cast<double>(denied));
   }
 
-  const std::vector<BenchCase>& cases_;
-  const BenchOptions& options_;
-  const BenchProgress& progress_;
+  const std::vector<CompareCase>& cases_;
+  const CompareOptions& options_;
+  const CompareProgress& progress_;
   std::string binary_;
-  std::vector<BenchRow> rows_;
+  std::vector<CompareRow> rows_;
   std::set<std::string> unsolved_;
   size_t done_ = 0, count_ = 0;
   bool goes_on_ = true;
@@ -148,9 +148,10 @@ class Bench {
 
 }  // namespace
 
-std::vector<BenchRow> run_bench(const std::vector<BenchCase>& cases, const BenchOptions& options,
-                                const BenchProgress& progress) {
-  return Bench(cases, options, progress).execute();
+std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,
+                                       const CompareOptions& options,
+                                       const CompareProgress& progress) {
+  return Comparison(cases, options, progress).execute();
 }
 
 std::string binary_key() { return content_key(read_whole_file("/proc/self/exe")); }

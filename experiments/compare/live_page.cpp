@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/compare/bench_figures.hpp"
+#include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/page_drawing.hpp"
 #include "experiments/run_page/report_origin.hpp"
@@ -295,7 +295,7 @@ std::vector<ReportFigure> live_figures(const LiveComparison& comparison) {
 
 }  // namespace
 
-void write_live_report(const std::filesystem::path& folder, const LiveComparison& comparison) {
+void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison) {
   std::vector<LiveRow> rows;
   for (const Trajectory& t : comparison.trajectories) {
     rows.push_back(row_of(t, comparison));

@@ -1,21 +1,21 @@
 #pragma once
-// The page of a bench, compare.html, with its figures as SVG and PDF beside it.
+// The page of a comparison, compare.html, with its figures as SVG and PDF beside it.
 
 #include <filesystem>
 #include <span>
 
-#include "experiments/compare/bench_row.hpp"
+#include "experiments/compare/compare_row.hpp"
 #include "experiments/compare/reference_times.hpp"
 
 namespace ballast {
 
 /// Reads manifest.json of `folder`; writes figures/*.svg, *.pdf and compare.html there. Without
 /// gnuplot the page has the tables alone and says so. Throws Error.
-void write_bench_report(const std::filesystem::path& folder, std::span<const BenchRow> rows,
+void write_compare_page(const std::filesystem::path& folder, std::span<const CompareRow> rows,
                         std::span<const ReferenceTimes> reference);
 
 /// The table of backends as text for a terminal, and the ratios to the reference.
-std::string bench_summary(std::span<const BenchRow> rows,
-                          std::span<const ReferenceTimes> reference);
+std::string compare_summary(std::span<const CompareRow> rows,
+                            std::span<const ReferenceTimes> reference);
 
 }  // namespace ballast

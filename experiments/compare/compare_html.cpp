@@ -1,4 +1,4 @@
-#include "experiments/compare/bench_html.hpp"
+#include "experiments/compare/compare_html.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ Html time_of(double seconds) {
 Html count(long value) { return value == 0 ? Html{""} : exact(static_cast<double>(value)); }
 
 /// The row that came nearest to the tolerance, of all backends; null when none gave an answer.
-const BenchRow* nearest(const std::vector<BenchCell>& line) {
-  const BenchRow* best = nullptr;
-  for (const BenchCell& cell : line)
+const CompareRow* nearest(const std::vector<CompareCell>& line) {
+  const CompareRow* best = nullptr;
+  for (const CompareCell& cell : line)
     if (cell.row && std::isfinite(cell.row->error) && (!best || cell.row->error < best->error))
       best = cell.row;
   return best;
@@ -31,13 +31,13 @@ Html names(const std::vector<std::string>& list) {
 
 }  // namespace
 
-double limit_of(std::span<const BenchRow> rows) {
+double limit_of(std::span<const CompareRow> rows) {
   double limit = 0.0;
-  for (const BenchRow& row : rows) limit = std::max(limit, row.max_seconds);
+  for (const CompareRow& row : rows) limit = std::max(limit, row.max_seconds);
   return limit;
 }
 
-std::vector<BackendSummary> backend_summaries(const BenchTable& table, double limit) {
+std::vector<BackendSummary> backend_summaries(const CompareTable& table, double limit) {
   constexpr double shift = 1e-3;
   std::vector<BackendSummary> summaries;
   for (size_t s = 0; s < table.solvers.size(); ++s) {
@@ -45,7 +45,7 @@ std::vector<BackendSummary> backend_summaries(const BenchTable& table, double li
     summary.solver = table.solvers[s];
     std::vector<double> times, ratios_of, best;
     for (size_t c = 0; c < table.cases.size(); ++c) {
-      const BenchCell& cell = table.cells[c][s];
+      const CompareCell& cell = table.cells[c][s];
       if (!cell.row) continue;
       summary.law = cell.row->law;
       summary.solved += cell.solved;
@@ -74,7 +74,7 @@ std::vector<BackendSummary> backend_summaries(const BenchTable& table, double li
   return summaries;
 }
 
-Html backends_html(const BenchTable& table, double limit) {
+Html backends_html(const CompareTable& table, double limit) {
   HtmlTable html;
   html.head = {{"backend"},       {"law"},     {"solved"},    {"mean time"},     {"over fastest"},
                {"time&shy;outs"}, {"crashes"}, {"not taken"}, {"claims denied"}, {"spread"}};
@@ -92,23 +92,23 @@ Html backends_html(const BenchTable& table, double limit) {
   return to_html(html);
 }
 
-Html cases_html(const BenchTable& table) {
+Html cases_html(const CompareTable& table) {
   HtmlTable html;
   html.head = {{"case"}, {"contacts"}, {"solved by"},    {"fastest"},
                {"time"}, {"error"},    {"worst contact"}};
   html.is_number = {false, true, true, false, true, true, false};
   for (size_t c = 0; c < table.cases.size(); ++c) {
-    const std::vector<BenchCell>& line = table.cells[c];
+    const std::vector<CompareCell>& line = table.cells[c];
     const double best = table.fastest(c);
-    const BenchRow* row = nullptr;
-    for (const BenchCell& cell : line)
+    const CompareRow* row = nullptr;
+    for (const CompareCell& cell : line)
       if (cell.solved && cell.median == best) row = cell.row;
     const bool is_solved = row != nullptr;
     if (!row) row = nearest(line);
-    const long solvers =
-        std::count_if(line.begin(), line.end(), [](const BenchCell& cell) { return cell.solved; });
-    const BenchCell& any = *std::find_if(line.begin(), line.end(),
-                                         [](const BenchCell& cell) { return cell.row != nullptr; });
+    const long solvers = std::count_if(line.begin(), line.end(),
+                                       [](const CompareCell& cell) { return cell.solved; });
+    const CompareCell& any = *std::find_if(
+        line.begin(), line.end(), [](const CompareCell& cell) { return cell.row != nullptr; });
     html.rows.push_back(
         {escaped(table.cases[c]), exact(any.row->facts.contacts),
          is_solved ? exact(static_cast<double>(solvers))
@@ -120,11 +120,11 @@ Html cases_html(const BenchTable& table) {
   return to_html(html);
 }
 
-Html failures_html(std::span<const BenchRow> rows) {
+Html failures_html(std::span<const CompareRow> rows) {
   HtmlTable html;
   html.head = {{"case"}, {"backend"}, {"tolerance"}, {"what happened"}, {"error"}};
   html.is_number = {false, false, true, false, true};
-  for (const BenchRow& row : rows) {
+  for (const CompareRow& row : rows) {
     const bool died = row.outcome == Outcome::crashed || row.outcome == Outcome::out_of_memory;
     if (!died && !row.is_false_success() && (row.note.empty() || row.outcome != Outcome::stopped))
       continue;

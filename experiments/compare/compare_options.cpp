@@ -1,4 +1,4 @@
-#include "experiments/compare/bench_options.hpp"
+#include "experiments/compare/compare_options.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -11,7 +11,8 @@
 namespace ballast {
 namespace {
 
-std::vector<std::string> words_of(const std::string& list, const char* what) {
+/// The words between the commas of a list; `what` says what was expected there.
+std::vector<std::string> words_of(const std::string& list, const std::string& what) {
   std::vector<std::string> words;
   for (size_t begin = 0; begin <= list.size();) {
     const size_t end = std::min(list.find(',', begin), list.size());
@@ -26,8 +27,8 @@ std::vector<std::string> words_of(const std::string& list, const char* what) {
 
 }  // namespace
 
-std::vector<BenchSolver> bench_solvers(const std::string& list) {
-  std::vector<BenchSolver> solvers;
+std::vector<ComparedSolver> parse_solvers(const std::string& list) {
+  std::vector<ComparedSolver> solvers;
   if (list == "all") {
     for (const SolverEntry& entry : solver_list())
       if (entry.make) solvers.push_back({entry.name, entry.law, entry.make});
@@ -37,13 +38,13 @@ std::vector<BenchSolver> bench_solvers(const std::string& list) {
     make_solver(name);  // says what is wrong with a name
     const SolverEntry& entry = find_solver(name);
     if (std::none_of(solvers.begin(), solvers.end(),
-                     [&](const BenchSolver& s) { return s.name == name; }))
+                     [&](const ComparedSolver& s) { return s.name == name; }))
       solvers.push_back({entry.name, entry.law, entry.make});
   }
   return solvers;
 }
 
-std::vector<double> bench_tolerances(const std::string& list) {
+std::vector<double> parse_tolerances(const std::string& list) {
   std::vector<double> tolerances;
   for (const std::string& word : words_of(list, "numbers > 0")) {
     double value = 0.0;
@@ -58,7 +59,20 @@ std::vector<double> bench_tolerances(const std::string& list) {
   return tolerances;
 }
 
-std::vector<StartKind> bench_starts(const std::string& list) {
+std::vector<long> parse_counts(const std::string& list, long most) {
+  const std::string expected = "whole numbers from 1 to " + std::to_string(most);
+  std::vector<long> counts;
+  for (const std::string& word : words_of(list, expected)) {
+    long count = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+    if (error != std::errc() || end != word.data() + word.size() || count < 1 || count > most)
+      throw std::invalid_argument("'" + word + "': expected " + expected + ", separated by commas");
+    counts.push_back(count);
+  }
+  return counts;
+}
+
+std::vector<StartKind> parse_starts(const std::string& list) {
   std::vector<StartKind> starts;
   for (const std::string& word : words_of(list, "cold or warm"))
     if (const StartKind start = start_of(word);

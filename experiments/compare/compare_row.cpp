@@ -1,4 +1,4 @@
-#include "experiments/compare/bench_row.hpp"
+#include "experiments/compare/compare_row.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -112,9 +112,9 @@ StartKind start_of(const std::string& name) {
   return by_name<StartKind>(start_names, name, "start");
 }
 
-const std::vector<BenchColumn>& bench_columns() {
-  using R = const BenchRow&;
-  static const std::vector<BenchColumn> columns = {
+const std::vector<CompareColumn>& compare_columns() {
+  using R = const CompareRow&;
+  static const std::vector<CompareColumn> columns = {
       {"case", "problem", [](R r) { return r.case_name; }},
       {"family", "problems of one kind", [](R r) { return r.family; }},
       {"solver", "backend", [](R r) { return r.solver; }},
@@ -165,22 +165,22 @@ const std::vector<BenchColumn>& bench_columns() {
   return columns;
 }
 
-std::string bench_csv(const std::vector<BenchRow>& rows) {
+std::string compare_csv(const std::vector<CompareRow>& rows) {
   std::string text;
   const auto add_line = [&](const auto& cell_of) {
-    for (const BenchColumn& column : bench_columns()) {
+    for (const CompareColumn& column : compare_columns()) {
       text += cell_of(column);
       text += ',';
     }
     text.back() = '\n';
   };
-  add_line([](const BenchColumn& column) { return std::string(column.name); });
-  for (const BenchRow& row : rows)
-    add_line([&](const BenchColumn& column) { return quoted(column.text(row)); });
+  add_line([](const CompareColumn& column) { return std::string(column.name); });
+  for (const CompareRow& row : rows)
+    add_line([&](const CompareColumn& column) { return quoted(column.text(row)); });
   return text;
 }
 
-std::string to_json(const BenchRow& row) {
+std::string to_json(const CompareRow& row) {
   Json json = Json::object();
   for_members(row, [&](const char* name, const auto& value) { json[name] = json_of(value); });
   json["measure"] = name_of(row.measure);
@@ -192,10 +192,10 @@ std::string to_json(const BenchRow& row) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-BenchRow bench_row_of_json(const std::string& text, const std::string& file) {
+CompareRow compare_row_of_json(const std::string& text, const std::string& file) {
   try {
     const Json json = Json::parse(text);
-    BenchRow row;
+    CompareRow row;
     for_members(row, [&](const char* name, auto& value) { take(json.at(name), value); });
     row.measure = measure_of(json.at("measure").get<std::string>());
     row.start = start_of(json.at("start").get<std::string>());
@@ -210,7 +210,7 @@ BenchRow bench_row_of_json(const std::string& text, const std::string& file) {
     }
     return row;
   } catch (const std::exception& error) {  // of JSON, or of a name
-    throw Error(file + ": is no row of a bench: " + error.what());
+    throw Error(file + ": is no row of a comparison: " + error.what());
   }
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-// What one solve of a bench was and what came of it: the row of every table and figure.
+// What one solve of a comparison was and what came of it: the row of every table and figure.
 
 #include <string>
 #include <vector>
 
-#include "experiments/compare/bench_case.hpp"
+#include "experiments/compare/compare_case.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
@@ -43,7 +43,7 @@ struct HistoryRow {
       0.0;  ///< scaled natural map rms over the case's velocity scale: the backend's own figure
 };
 
-struct BenchRow {
+struct CompareRow {
   // what was tried
   std::string key, case_name, family, solver, law;
   Measure measure = Measure::natural_map;
@@ -79,19 +79,19 @@ struct BenchRow {
 };
 
 /// One column of the CSV. `text` writes a cell.
-struct BenchColumn {
+struct CompareColumn {
   const char* name;
   const char* description;
-  std::string (*text)(const BenchRow&);
+  std::string (*text)(const CompareRow&);
 };
-const std::vector<BenchColumn>& bench_columns();
+const std::vector<CompareColumn>& compare_columns();
 
 /// All rows without their histories; fields with commas or quotes are quoted.
-std::string bench_csv(const std::vector<BenchRow>& rows);
+std::string compare_csv(const std::vector<CompareRow>& rows);
 
 /// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null. Throws
 /// Error naming `file`.
-std::string to_json(const BenchRow& row);
-BenchRow bench_row_of_json(const std::string& text, const std::string& file);
+std::string to_json(const CompareRow& row);
+CompareRow compare_row_of_json(const std::string& text, const std::string& file);
 
 }  // namespace ballast

@@ -1,12 +1,12 @@
-// Profiles and means of a bench against a table worked out by hand.
+// Profiles and means of a comparison against a table worked out by hand.
 
-#include "experiments/compare/bench_table.hpp"
+#include "experiments/compare/compare_table.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "experiments/compare/bench_html.hpp"
-#include "experiments/compare/bench_report.hpp"
+#include "experiments/compare/compare_html.hpp"
+#include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/page/plot.hpp"
 #include "experiments/run/manifest.hpp"
@@ -26,9 +26,9 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 const std::vector<std::vector<double>> hand_made = {
     {1.0, 2.0, inf}, {2.0, 8.0, 6.0}, {9.0, 3.0, inf}, {inf, inf, inf}};
 
-BenchRow row(const char* case_name, const char* solver, double seconds, Outcome outcome,
-             int repeat = 0) {
-  BenchRow r;
+CompareRow row(const char* case_name, const char* solver, double seconds, Outcome outcome,
+               int repeat = 0) {
+  CompareRow r;
   r.case_name = case_name;
   r.family = "hand";
   r.solver = solver;
@@ -81,13 +81,13 @@ TEST_CASE("Shifted geometric means") {
 }
 
 TEST_CASE("Cells: medians over repeats, solved only when every repeat is") {
-  const std::vector<BenchRow> rows = {
+  const std::vector<CompareRow> rows = {
       row("x", "a", 3.0, Outcome::solved, 0), row("x", "a", 1.0, Outcome::solved, 1),
       row("x", "a", 2.0, Outcome::solved, 2), row("x", "b", 1.0, Outcome::solved, 0),
       row("x", "b", 60.0, Outcome::timeout, 1)};
-  const std::vector<BenchTable> tables = bench_tables(rows);
+  const std::vector<CompareTable> tables = compare_tables(rows);
   REQUIRE(tables.size() == 1);
-  const BenchCell& a = tables[0].cells[0][0];
+  const CompareCell& a = tables[0].cells[0][0];
   CHECK(a.solved);
   CHECK(a.median == 2.0);
   CHECK(a.fastest == 1.0);
@@ -99,7 +99,7 @@ TEST_CASE("Cells: medians over repeats, solved only when every repeat is") {
 }
 
 TEST_CASE("Errors of histories fall, and their means are taken at equal times") {
-  BenchRow r = row("x", "a", 1.0, Outcome::solved);
+  CompareRow r = row("x", "a", 1.0, Outcome::solved);
   r.prepare_seconds = 0.25;
   r.history = {{0, 0, 0.0, 1.0}, {0, 1, 1.0, 1e-2}, {0, 2, 2.0, 1e-1}, {0, 3, 3.0, 1e-4}};
   const StepCurve best = best_so_far(r);
@@ -122,11 +122,11 @@ TEST_CASE("Reference times: names that differ by their suffixes, and ratios") {
   REQUIRE(reference.size() == 1);
   CHECK(reference[0].tolerance == 1e-4);
   CHECK(reference[0].entries.at("x").seconds == Approx(0.5));
-  const std::vector<BenchRow> rows = {
+  const std::vector<CompareRow> rows = {
       row("x.hdf5", "a", 2.0, Outcome::solved), row("x.hdf5", "auto", 1.0, Outcome::solved),
       row("y.dat", "a", 3.0, Outcome::solved), row("y.dat", "auto", 4.0, Outcome::stopped),
       row("x.hdf5", "siconos_nsgs", 0.1, Outcome::solved)};
-  const std::vector<BenchTable> tables = bench_tables(rows);
+  const std::vector<CompareTable> tables = compare_tables(rows);
   const std::vector<ReferenceComparison> compared = compare_with_reference(tables, reference);
   REQUIRE(compared.size() == 1);
   REQUIRE(compared[0].lines.size() == 1);
@@ -140,9 +140,9 @@ TEST_CASE("Reference times: names that differ by their suffixes, and ratios") {
     CHECK_THROWS_AS(read_reference_times(folder.write("bad.csv", bad)), Error);
 }
 
-TEST_CASE("The page of a bench is well-formed and has what it promises") {
+TEST_CASE("The page of a comparison is well-formed and has what it promises") {
   const TemporaryFolder folder;
-  std::vector<BenchRow> rows;
+  std::vector<CompareRow> rows;
   for (const char* name : {"x&<1", "y2"}) {
     rows.push_back(row(name, "a", 0.1, Outcome::solved));
     rows.push_back(row(name, "b", 0.3, Outcome::solved));
@@ -151,7 +151,7 @@ TEST_CASE("The page of a bench is well-formed and has what it promises") {
   rows.push_back(row("z", "a", 0.2, Outcome::stopped));
   rows.back().claimed = true;
   Manifest("compare", {"ballast compare <x>"}, "key").write(folder.path() / "manifest.json");
-  write_bench_report(folder.path(), rows, {});
+  write_compare_page(folder.path(), rows, {});
   const std::string page = read_whole_file(folder.path() / "compare.html");
   check_page(page);
   CHECK(page.find("x&amp;&lt;1") != std::string::npos);
@@ -164,5 +164,5 @@ TEST_CASE("The page of a bench is well-formed and has what it promises") {
       CHECK(std::filesystem::file_size(folder.path() / "figures" / (std::string(name) + ".pdf")) >
             1000);
     }
-  CHECK(bench_summary(rows, {}).find("CLAIMS DENIED") != std::string::npos);
+  CHECK(compare_summary(rows, {}).find("CLAIMS DENIED") != std::string::npos);
 }

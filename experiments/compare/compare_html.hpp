@@ -1,9 +1,9 @@
 #pragma once
-// Tables of a bench's page.
+// Tables of a comparison's page.
 
 #include <span>
 
-#include "experiments/compare/bench_table.hpp"
+#include "experiments/compare/compare_table.hpp"
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/page/html_page.hpp"
 
@@ -23,17 +23,17 @@ struct BackendSummary {
   double largest_spread = 0.0;  ///< (slowest - fastest)/median over repeats
 };
 /// Sorted: most solved first, then fastest. `limit`: seconds that an unsolved case counts.
-std::vector<BackendSummary> backend_summaries(const BenchTable& table, double limit);
+std::vector<BackendSummary> backend_summaries(const CompareTable& table, double limit);
 
 /// What an unsolved case counts: the largest limit of the rows.
-double limit_of(std::span<const BenchRow> rows);
+double limit_of(std::span<const CompareRow> rows);
 
-Html backends_html(const BenchTable& table, double limit);
+Html backends_html(const CompareTable& table, double limit);
 /// Case by case: fastest backend, its time and spread, or how near anybody came; the worst contact
 /// by name.
-Html cases_html(const BenchTable& table);
+Html cases_html(const CompareTable& table);
 /// Claims that the judge denies, crashes and memory: empty when there are none.
-Html failures_html(std::span<const BenchRow> rows);
+Html failures_html(std::span<const CompareRow> rows);
 Html reference_html(const ReferenceComparison& comparison, double limit);
 
 }  // namespace ballast

@@ -1,11 +1,11 @@
-#include "experiments/compare/bench_report.hpp"
+#include "experiments/compare/compare_page.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/compare/bench_figures.hpp"
-#include "experiments/compare/bench_html.hpp"
+#include "experiments/compare/compare_figures.hpp"
+#include "experiments/compare/compare_html.hpp"
 #include "experiments/compare/page_drawing.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "platform/atomic_file.hpp"
@@ -16,32 +16,32 @@ namespace {
 namespace fs = std::filesystem;
 
 template <typename Name>
-std::vector<std::string> names_in(std::span<const BenchRow> rows, Name&& name_of_row) {
+std::vector<std::string> names_in(std::span<const CompareRow> rows, Name&& name_of_row) {
   std::vector<std::string> names;
-  for (const BenchRow& row : rows)
+  for (const CompareRow& row : rows)
     if (std::find(names.begin(), names.end(), name_of_row(row)) == names.end())
       names.push_back(name_of_row(row));
   return names;
 }
 
-std::vector<StartKind> starts_in(std::span<const BenchRow> rows) {
+std::vector<StartKind> starts_in(std::span<const CompareRow> rows) {
   std::vector<StartKind> starts;
   for (const StartKind start : {StartKind::cold, StartKind::warm})
     if (std::any_of(rows.begin(), rows.end(),
-                    [&](const BenchRow& row) { return row.start == start; }))
+                    [&](const CompareRow& row) { return row.start == start; }))
       starts.push_back(start);
   return starts;
 }
 
-std::string heading_of(const BenchTable& table) {
+std::string heading_of(const CompareTable& table) {
   char text[64];
   std::snprintf(text, sizeof text, "Tolerance %g, %s start", table.tolerance, name_of(table.start));
   return text;
 }
 
-Html header(std::span<const BenchRow> rows, const RunData& data) {
-  const size_t cases = names_in(rows, [](const BenchRow& r) { return r.case_name; }).size();
-  const size_t solvers = names_in(rows, [](const BenchRow& r) { return r.solver; }).size();
+Html header(std::span<const CompareRow> rows, const RunData& data) {
+  const size_t cases = names_in(rows, [](const CompareRow& r) { return r.case_name; }).size();
+  const size_t solvers = names_in(rows, [](const CompareRow& r) { return r.solver; }).size();
   Html html =
       Html{"<header>\n<h1>Solvers of frictional contact, compared</h1>\n<p class=\"lede\">"} +
       exact(static_cast<double>(solvers)) + Html{" backends on "} +
@@ -75,32 +75,32 @@ Html options_table(const RunData& data) {
   return to_html(table);
 }
 
-Html case_figures(std::span<const BenchRow> rows, PageDrawing& drawing) {
+Html case_figures(std::span<const CompareRow> rows, PageDrawing& drawing) {
   Html html;
   for (const StartKind start : starts_in(rows))
-    for (const std::string& name : names_in(rows, [](const BenchRow& r) { return r.case_name; }))
+    for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.case_name; }))
       html += drawing.draw(work_precision_figure(rows, name, start));
   return html;
 }
 
-Html family_figures(std::span<const BenchRow> rows, PageDrawing& drawing) {
+Html family_figures(std::span<const CompareRow> rows, PageDrawing& drawing) {
   Html html;
   for (const StartKind start : starts_in(rows))
-    for (const std::string& name : names_in(rows, [](const BenchRow& r) { return r.family; }))
+    for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.family; }))
       html += drawing.draw(family_figure(rows, name, start));
   return html;
 }
 
 }  // namespace
 
-void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows,
+void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows,
                         std::span<const ReferenceTimes> reference) {
   const RunData data = read_provenance(folder);
-  const std::vector<BenchTable> tables = bench_tables(rows);
+  const std::vector<CompareTable> tables = compare_tables(rows);
   const double limit = limit_of(rows);
   PageDrawing drawing(folder / "figures");
   Html overview = explanation(limit), profiles, costs, per_case, references;
-  for (const BenchTable& table : tables) {
+  for (const CompareTable& table : tables) {
     const Html heading = Html{"<h3>"} + escaped(heading_of(table)) + Html{"</h3>\n"};
     overview += heading + backends_html(table, limit);
     per_case += heading + cases_html(table);
@@ -109,7 +109,7 @@ void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows,
   }
   if (!reference.empty() && !rows.empty() && rows[0].measure != Measure::fclib)
     drawing.notices.push_back(
-        "The reference's times are to the measure fclib, this bench's are not: their ratio "
+        "The reference's times are to the measure fclib, this comparison's are not: their ratio "
         "compares unlike things.");
   for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
     references += reference_html(comparison, limit);
@@ -129,13 +129,13 @@ void write_bench_report(const fs::path& folder, std::span<const BenchRow> rows,
                    html_page("Solvers of frictional contact, compared", body));
 }
 
-std::string bench_summary(std::span<const BenchRow> rows,
-                          std::span<const ReferenceTimes> reference) {
+std::string compare_summary(std::span<const CompareRow> rows,
+                            std::span<const ReferenceTimes> reference) {
   std::string text;
   char line[200];
   const double limit = limit_of(rows);
-  const std::vector<BenchTable> tables = bench_tables(rows);
-  for (const BenchTable& table : tables) {
+  const std::vector<CompareTable> tables = compare_tables(rows);
+  for (const CompareTable& table : tables) {
     text += heading_of(table) + ", " + std::to_string(table.cases.size()) + " cases\n";
     for (const BackendSummary& s : backend_summaries(table, limit)) {
       std::snprintf(line, sizeof line,

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/compare/bench_row.hpp"
+#include "experiments/compare/compare_row.hpp"
 
 namespace ballast {
 
@@ -15,8 +15,8 @@ namespace ballast {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One case by one solver to one tolerance, over its repeats.
-struct BenchCell {
-  const BenchRow* row =
+struct CompareCell {
+  const CompareRow* row =
       nullptr;  ///< of the fastest repeat that solved it, else of the first; null: not tried
   bool solved = false;  ///< in every repeat
   double median = 0.0, fastest = 0.0,
@@ -24,22 +24,21 @@ struct BenchCell {
 };
 
 /// All cells of one start and tolerance.
-struct BenchTable {
+struct CompareTable {
   StartKind start = StartKind::cold;
   double tolerance = 0.0;
-  std::vector<std::string> cases, solvers;    ///< in the order of the rows
-  std::vector<std::vector<BenchCell>> cells;  ///< [case][solver]
+  std::vector<std::string> cases, solvers;      ///< in the order of the rows
+  std::vector<std::vector<CompareCell>> cells;  ///< [case][solver]
 
   /// Median times [case][solver]; infinite when not solved.
   std::vector<std::vector<double>> times() const;
-  int solved_by(size_t solver) const;
   double fastest(size_t case_index)
       const;  ///< of all solvers, median over repeats; infinite when none solved it
 };
 
 /// One table for each start and tolerance among the rows; loosest tolerance first. `rows` must
 /// outlive them.
-std::vector<BenchTable> bench_tables(std::span<const BenchRow> rows);
+std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows);
 
 /// exp(mean(log(x + shift))) - shift. NaN for no values.
 double shifted_geometric_mean(std::span<const double> values, double shift);
@@ -63,7 +62,7 @@ std::vector<StepCurve> data_profiles(const std::vector<std::vector<double>>& tim
                                      std::span<const double> sizes, double first, double last);
 
 /// Error of a history as what was reached by then: falling steps. Times include `prepare_seconds`.
-StepCurve best_so_far(const BenchRow& row);
+StepCurve best_so_far(const CompareRow& row);
 
 /// Geometric mean over the curves of the error at each of `times`; before a curve's first point its
 /// first error holds; zero counts as 1e-16. NaN without curves.

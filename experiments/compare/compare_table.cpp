@@ -1,4 +1,4 @@
-#include "experiments/compare/bench_table.hpp"
+#include "experiments/compare/compare_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,8 @@ double median_of(std::vector<double> values) {
   return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-BenchCell cell_of(const std::vector<const BenchRow*>& repeats) {
-  BenchCell cell;
+CompareCell cell_of(const std::vector<const CompareRow*>& repeats) {
+  CompareCell cell;
   if (repeats.empty()) {
     cell.median = cell.fastest = cell.slowest = infinity;
     return cell;
@@ -30,7 +30,7 @@ BenchCell cell_of(const std::vector<const BenchRow*>& repeats) {
   std::vector<double> seconds;
   cell.row = repeats.front();
   cell.solved = true;
-  for (const BenchRow* row : repeats) {
+  for (const CompareRow* row : repeats) {
     const bool solved = row->outcome == Outcome::solved;
     cell.solved = cell.solved && solved;
     if (solved && (cell.row->outcome != Outcome::solved || row->seconds() < cell.row->seconds()))
@@ -66,48 +66,43 @@ StepCurve counted(std::vector<double> values, double first, double last) {
 
 }  // namespace
 
-std::vector<std::vector<double>> BenchTable::times() const {
+std::vector<std::vector<double>> CompareTable::times() const {
   std::vector<std::vector<double>> times;
-  for (const std::vector<BenchCell>& line : cells) {
+  for (const std::vector<CompareCell>& line : cells) {
     times.emplace_back();
-    for (const BenchCell& cell : line) times.back().push_back(cell.median);
+    for (const CompareCell& cell : line) times.back().push_back(cell.median);
   }
   return times;
 }
 
-int BenchTable::solved_by(size_t solver) const {
-  return static_cast<int>(std::count_if(cells.begin(), cells.end(),
-                                        [&](const auto& line) { return line[solver].solved; }));
-}
-
-double BenchTable::fastest(size_t case_index) const {
+double CompareTable::fastest(size_t case_index) const {
   double least = infinity;
-  for (const BenchCell& cell : cells[case_index]) least = std::min(least, cell.median);
+  for (const CompareCell& cell : cells[case_index]) least = std::min(least, cell.median);
   return least;
 }
 
-std::vector<BenchTable> bench_tables(std::span<const BenchRow> rows) {
+std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
   std::map<std::pair<StartKind, double>,
-           std::map<std::pair<size_t, size_t>, std::vector<const BenchRow*>>>
+           std::map<std::pair<size_t, size_t>, std::vector<const CompareRow*>>>
       groups;
   std::vector<std::string> cases, solvers;
-  for (const BenchRow& row : rows) {
+  for (const CompareRow& row : rows) {
     const size_t c = index_of(cases, row.case_name), s = index_of(solvers, row.solver);
     groups[{row.start, -row.tolerance}][{c, s}].push_back(&row);
   }
-  std::vector<BenchTable> tables;
+  std::vector<CompareTable> tables;
   for (const auto& [what, repeats] : groups) {
-    BenchTable table{what.first, -what.second, {}, solvers, {}};
+    CompareTable table{what.first, -what.second, {}, solvers, {}};
     for (size_t c = 0; c < cases.size(); ++c) {
-      std::vector<BenchCell> line;
+      std::vector<CompareCell> line;
       for (size_t s = 0; s < solvers.size(); ++s) {
         const auto found = repeats.find({c, s});
         line.push_back(
-            cell_of(found == repeats.end() ? std::vector<const BenchRow*>() : found->second));
+            cell_of(found == repeats.end() ? std::vector<const CompareRow*>() : found->second));
       }
       // a case without a warm start is in no warm table
       if (std::none_of(line.begin(), line.end(),
-                       [](const BenchCell& cell) { return cell.row != nullptr; }))
+                       [](const CompareCell& cell) { return cell.row != nullptr; }))
         continue;
       table.cases.push_back(cases[c]);
       table.cells.push_back(std::move(line));
@@ -157,7 +152,7 @@ std::vector<StepCurve> data_profiles(const std::vector<std::vector<double>>& tim
   return curves;
 }
 
-StepCurve best_so_far(const BenchRow& row) {
+StepCurve best_so_far(const CompareRow& row) {
   StepCurve curve;
   for (const HistoryRow& point : row.history) {
     if (!std::isfinite(point.error) || (!curve.y.empty() && point.error >= curve.y.back()))

@@ -1,6 +1,6 @@
 #pragma once
-// The bench: cases x backends x tolerances x starts x repeats -> rows in a folder, resumable after
-// any kind of death.
+// The comparison: cases x backends x tolerances x starts x repeats -> rows in a folder, resumable
+// after any kind of death.
 
 #include <filesystem>
 #include <functional>
@@ -8,21 +8,21 @@
 #include <string>
 #include <vector>
 
-#include "experiments/compare/bench_case.hpp"
-#include "experiments/compare/bench_row.hpp"
+#include "experiments/compare/compare_case.hpp"
+#include "experiments/compare/compare_row.hpp"
 #include "experiments/compare/solve_child.hpp"
 
 namespace ballast {
 
-/// A backend of a bench: of solver_list(), or a test's own.
-struct BenchSolver {
+/// A backend of a comparison: of solver_list(), or a test's own.
+struct ComparedSolver {
   std::string name;
   ContactLaw law = ContactLaw::coulomb;
   SolverMaker make = nullptr;
 };
 
-struct BenchOptions {
-  std::vector<BenchSolver> solvers;
+struct CompareOptions {
+  std::vector<ComparedSolver> solvers;
   std::vector<double> tolerances{1e-4, 1e-8};
   std::vector<StartKind> starts{StartKind::cold};  ///< warm only where a case has a warm start
   Measure measure = Measure::natural_map;
@@ -36,15 +36,16 @@ struct BenchOptions {
 };
 
 /// Called after each attempt, old rows included; `done` of `count`. Returning false stops the
-/// bench: what is there stays.
-using BenchProgress =
-    std::function<bool(const BenchRow& row, bool was_there, size_t done, size_t count)>;
+/// comparison: what is there stays.
+using CompareProgress =
+    std::function<bool(const CompareRow& row, bool was_there, size_t done, size_t count)>;
 
 /// Tries everything that has no row yet, and returns the rows in order: repeat, case, tolerance,
 /// start, solver. results.csv and manifest.json are written at the end and when stopped. A case
 /// that cannot be loaded throws ProblemFileError or InvalidProblem.
-std::vector<BenchRow> run_bench(const std::vector<BenchCase>& cases, const BenchOptions& options,
-                                const BenchProgress& progress);
+std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,
+                                       const CompareOptions& options,
+                                       const CompareProgress& progress);
 
 /// Key of the program that is running: its file's content.
 std::string binary_key();

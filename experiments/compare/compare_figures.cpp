@@ -1,4 +1,4 @@
-#include "experiments/compare/bench_figures.hpp"
+#include "experiments/compare/compare_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 constexpr const char* seconds_axis = "time  (s)";
 
 /// "cold_1e-08": no two tolerances alike.
-std::string suffix_of(const BenchTable& table) {
+std::string suffix_of(const CompareTable& table) {
   char text[48];
   std::snprintf(text, sizeof text, "%.0e", table.tolerance);
   if (std::atof(text) != table.tolerance) std::snprintf(text, sizeof text, "%g", table.tolerance);
@@ -23,7 +23,7 @@ std::string suffix_of(const BenchTable& table) {
 double decade_above(double value) { return std::pow(10.0, std::ceil(std::log10(value) - 1e-9)); }
 double decade_below(double value) { return std::pow(10.0, std::floor(std::log10(value) + 1e-9)); }
 
-ReportFigure profile(const BenchTable& table, const std::string& name, const std::string& title,
+ReportFigure profile(const CompareTable& table, const std::string& name, const std::string& title,
                      const std::string& x_label, const std::vector<StepCurve>& curves, double first,
                      double last, Html caption) {
   Panel panel;
@@ -44,7 +44,7 @@ ReportFigure profile(const BenchTable& table, const std::string& name, const std
   return {figure, std::move(caption)};
 }
 
-Html what_of(const BenchTable& table) {
+Html what_of(const CompareTable& table) {
   return Html{"Tolerance "} + exact(table.tolerance) + Html{", "} + Html{name_of(table.start)} +
          Html{" start, "} + exact(static_cast<double>(table.cases.size())) + Html{" cases. "};
 }
@@ -64,9 +64,9 @@ constexpr CostAxis cost_axes[] = {
      [](const CaseFacts& f) { return f.mass_ratio; }},
 };
 
-const CaseFacts& facts_of(const BenchTable& table, size_t c) {
+const CaseFacts& facts_of(const CompareTable& table, size_t c) {
   return std::find_if(table.cells[c].begin(), table.cells[c].end(),
-                      [](const BenchCell& cell) { return cell.row != nullptr; })
+                      [](const CompareCell& cell) { return cell.row != nullptr; })
       ->row->facts;
 }
 
@@ -107,7 +107,7 @@ std::string figure_name(const std::string& text) {
   return name;
 }
 
-std::vector<ReportFigure> profile_figures(const BenchTable& table) {
+std::vector<ReportFigure> profile_figures(const CompareTable& table) {
   const std::vector<std::vector<double>> times = table.times();
   double most_ratio = 1.0, least_cost = infinity, most_cost = 0.0;
   std::vector<double> sizes;
@@ -141,7 +141,7 @@ std::vector<ReportFigure> profile_figures(const BenchTable& table) {
               Html{"The share of the cases solved when so much time is given for each contact."})};
 }
 
-std::vector<ReportFigure> cost_figures(const BenchTable& table) {
+std::vector<ReportFigure> cost_figures(const CompareTable& table) {
   std::vector<ReportFigure> figures;
   for (const CostAxis& axis : cost_axes) {
     Panel panel;
