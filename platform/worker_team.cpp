@@ -22,8 +22,8 @@ void WorkerTeam::resize(int threads) {
   if (threads == members_) return;
   stop();
   members_ = threads;
-  const unsigned seen =
-      round_.load();  // taken here: a thread that starts late must not miss the first round
+  // Taken here, not by the thread: one that starts late must not miss the first round.
+  const unsigned seen = round_.load();
   for (int member = 1; member < threads; ++member)
     workers_.emplace_back([this, member, seen] { work(member, seen); });
 }
@@ -46,15 +46,18 @@ void WorkerTeam::start(int parts, Call call, const void* context) {
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
   for (int part = 0; part < parts; part += members_) call(context, part);
-  for (int spin = 0; busy_.load(std::memory_order_acquire) > 0; ++spin)
+  // The others are about to end: spin, but let go of the core if one of them waits for it.
+  for (int spin = 0; busy_.load(std::memory_order_acquire) > 0; ++spin) {
     if (spin < spins)
       pause();
     else
       std::this_thread::yield();
+  }
 }
 
 void WorkerTeam::work(int member, unsigned seen) {
   while (true) {
+    // Spin for a short while, in which the next task usually comes; then sleep until it does.
     unsigned now = seen;
     for (int spin = 0; spin < spins && (now = round_.load(std::memory_order_acquire)) == seen;
          ++spin)

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 
 namespace ballast {
 namespace {
@@ -96,9 +96,9 @@ GrainPairs grain_pairs(int vertices, bool touching, int count) {
     for (int side = 0; side < 2; ++side) {
       pairs.shapes.push_back(std::make_shared<const Polyhedron>(
           make_grain(settings, grain_radius, static_cast<std::uint64_t>(2 * k + side + 1)).shape));
-      turn[side] = random.rotation();
-      shake.push_back(random.rotation() * Vec3(grain_radius, 0, 0));
-      spin.push_back(random.rotation() * Vec3::UnitZ());
+      turn[side] = random_rotation(random);
+      shake.push_back(random_rotation(random) * Vec3(grain_radius, 0, 0));
+      spin.push_back(random_rotation(random) * Vec3::UnitZ());
     }
     const double touch =
         touching_distance(*pairs.shapes[2 * k], *pairs.shapes[2 * k + 1], turn[0], turn[1]);

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "experiments/bench/kernels.hpp"
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"
 

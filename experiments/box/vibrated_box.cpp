@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "geometry/shape/mesh_file.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "platform/content_key.hpp"
 
 namespace ballast {
@@ -116,7 +116,7 @@ Rain make_rain(const Scene& scene) {
     body.shape = std::make_shared<const Polyhedron>(shapes[k].shape);
     body.mass = spec.density * shapes[k].volume;
     body.inertia = spec.density * shapes[k].inertia;
-    body.pose = {centres[k], random.rotation()};
+    body.pose = {centres[k], random_rotation(random)};
     rain.grains.push_back(std::move(body));
   }
   return rain;

@@ -93,11 +93,7 @@ void TimeStepper::share_work(int threads) {
   team_->resize(threads);
   assembler_.use_team(team_.get());
   runner_.use_team(team_.get());
-  detector_.run_parts_by(
-      [team = team_.get()](int parts, const std::function<void(int)>& part) {
-        team->run(parts, part);
-      },
-      parts_of_thread * threads);
+  detector_.use_team(team_.get(), parts_of_thread * threads);
 }
 
 void TimeStepper::free_motion(const MotionState& state, double mid_time) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/contact/detection_part.hpp"
+#include "platform/worker_team.hpp"
 
 namespace ballast {
 namespace {
@@ -21,10 +22,6 @@ std::vector<BroadPhase::Body> broad_phase_bodies(const DetectedBodies& bodies) {
   for (int i = 0; i < bodies.count(); ++i)
     list.push_back({bodies.shape(i), bodies.shapes[i].fixed});
   return list;
-}
-
-void in_one_thread(int parts, const std::function<void(int)>& part) {
-  for (int i = 0; i < parts; ++i) part(i);
 }
 
 }  // namespace
@@ -50,7 +47,7 @@ struct ContactDetector::State {
   BroadPhase broad_phase;
   std::vector<Pose> previous;      // poses of the last call
   std::vector<double> wide_reach;  // with the margins that held points need
-  RunParts run_parts = in_one_thread;
+  WorkerTeam* team = nullptr;
   std::vector<DetectionPart> parts;
   std::vector<int> part_of;  // part that remembers the pairs (a, b) of body a
   DetectionCounters counters;
@@ -64,9 +61,9 @@ ContactDetector::ContactDetector(ContactDetector&&) noexcept = default;
 ContactDetector& ContactDetector::operator=(ContactDetector&&) noexcept = default;
 const DetectionCounters& ContactDetector::counters() const { return state_->counters; }
 
-void ContactDetector::run_parts_by(RunParts run, int parts) {
+void ContactDetector::use_team(WorkerTeam* team, int parts) {
   State& s = *state_;
-  s.run_parts = std::move(run);
+  s.team = team;
   while (static_cast<int>(s.parts.size()) < parts) s.parts.emplace_back(s.bodies, s.settings);
   s.share();
 }
@@ -85,12 +82,11 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   s.broad_phase.update(poses, s.bodies.rotations, s.bodies.reach);
   if (s.broad_phase.rebuilds() != rebuilds) s.share();
   s.advance(poses);
-  const auto detect_part = [&](int k) {
+  run_parts(s.team, static_cast<int>(s.parts.size()), [&](int k) {
     std::vector<ContactPoint>& found = k == 0 ? contacts : s.parts[k].found;
     found.clear();
     s.parts[k].detect(s.broad_phase, found);
-  };
-  s.run_parts(static_cast<int>(s.parts.size()), std::ref(detect_part));
+  });
   s.counters = DetectionCounters{};
   s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
   for (size_t k = 0; k < s.parts.size(); ++k) {

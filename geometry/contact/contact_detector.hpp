@@ -2,7 +2,6 @@
 // Shapes and poses -> contact points: broad phase, separating axis, face clipping, in one call per
 // step.
 
-#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <span>
@@ -12,8 +11,7 @@
 
 namespace ballast {
 
-/// Runs part(0) ... part(parts - 1), on as many threads as it likes, and returns when all are done.
-using RunParts = std::function<void(int parts, const std::function<void(int)>& part)>;
+class WorkerTeam;
 
 /// Contact detection for one set of bodies, coherent from step to step. Contacts depend only on the
 /// poses and reaches given (never on the cache), unless reuse_motion is set, and come sorted by
@@ -37,9 +35,9 @@ class ContactDetector {
   /// reaches alone.
   void refresh();
 
-  /// From now on the work is done in so many parts, by `run`: the same contacts, whatever their
-  /// number.
-  void run_parts_by(RunParts run, int parts);
+  /// From now on the work is done in so many parts, by `team` (null: by the caller alone), which
+  /// must outlive the detector. The same contacts, whatever their number.
+  void use_team(WorkerTeam* team, int parts);
 
  private:
   struct State;

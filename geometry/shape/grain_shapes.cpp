@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "geometry/shape/convex_hull.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 
 namespace ballast {
 
@@ -30,12 +30,12 @@ void check(const GrainShapeSettings& s) {
 /// `count` directions, each the one of six candidates that is farthest from those before it
 /// (Mitchell 1991): irregular but without clusters, as on a crushed stone.
 std::vector<Vec3> spread_directions(int count, Random& random) {
-  std::vector<Vec3> directions{random.unit_vector()};
+  std::vector<Vec3> directions{random_direction(random)};
   while (static_cast<int>(directions.size()) < count) {
     Vec3 best = Vec3::Zero();
     double best_cosine = 2.0;  // of the angle to the nearest direction so far
     for (int candidate = 0; candidate < 6; ++candidate) {
-      const Vec3 d = random.unit_vector();
+      const Vec3 d = random_direction(random);
       double cosine = -1.0;
       for (const Vec3& other : directions) cosine = std::max(cosine, d.dot(other));
       if (cosine >= best_cosine) continue;

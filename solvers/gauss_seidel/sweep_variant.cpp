@@ -84,7 +84,7 @@ void solve_exactly(const PrincipalContact& contact, const double* u, double* y, 
 
 void ContactOrder::begin(const SweepVariant& variant, int contacts) {
   order_ = variant.order;
-  random_ = SeededRandom(variant.seed);
+  random_ = SplitMix64(variant.seed);
   contacts_.resize(contacts);
   std::iota(contacts_.begin(), contacts_.end(), 0);
   first_ = true;
@@ -94,7 +94,7 @@ const std::vector<int>& ContactOrder::next() {
   if (order_ == SweepOrder::symmetric && !first_) std::reverse(contacts_.begin(), contacts_.end());
   if (order_ == SweepOrder::random)
     for (int i = static_cast<int>(contacts_.size()) - 1; i > 0; --i)
-      std::swap(contacts_[i], contacts_[random_.index(i + 1)]);
+      std::swap(contacts_[i], contacts_[random_.below(i + 1)]);
   first_ = false;
   return contacts_;
 }

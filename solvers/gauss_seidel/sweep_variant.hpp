@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "solvers/parts/one_contact.hpp"
 
 namespace ballast {
@@ -44,7 +44,7 @@ class ContactOrder {
 
  private:
   SweepOrder order_ = SweepOrder::forward;
-  SeededRandom random_{1};
+  SplitMix64 random_{1};
   std::vector<int> contacts_;
   bool first_ = true;
 };

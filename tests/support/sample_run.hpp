@@ -14,7 +14,7 @@
 
 #include "experiments/record/recorder.hpp"
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -97,13 +97,13 @@ inline MotionState sample_state(const MechanicalSystem& system, long step) {
     } else {
       const double x = random.uniform(0.1, 0.5), y = random.uniform(0.1, 0.5),
                    z = random.uniform(0.1, 0.4);
-      pose = {Vec3(x, y, z), random.rotation()};
+      pose = {Vec3(x, y, z), random_rotation(random)};
     }
     state.pose.push_back(pose);
     state.velocity.push_back(wall ? Vec3::Zero()
-                                  : Vec3(random.uniform(0.1, 1.0) * random.unit_vector()));
+                                  : Vec3(random.uniform(0.1, 1.0) * random_direction(random)));
     state.spin.push_back(wall ? Vec3::Zero()
-                              : Vec3(random.uniform(1.0, 9.0) * random.unit_vector()));
+                              : Vec3(random.uniform(1.0, 9.0) * random_direction(random)));
   }
   return state;
 }

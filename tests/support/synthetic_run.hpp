@@ -14,7 +14,7 @@
 
 #include "experiments/measure/run_summary.hpp"
 #include "experiments/step/step_record.hpp"
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 
 namespace ballast {
 

@@ -16,7 +16,7 @@ std::vector<ContactPoint> sample_contacts(int count) {
   std::vector<ContactPoint> contacts;
   for (int c = 0; c < count; ++c)
     contacts.push_back(
-        {0, c + 1, 7, random.unit_vector(), random.unit_vector(), random.uniform(-1, 1)});
+        {0, c + 1, 7, random_direction(random), random_direction(random), random.uniform(-1, 1)});
   return contacts;
 }
 

@@ -6,7 +6,7 @@
 
 #include "experiments/paper/grain_fields.hpp"
 #include "experiments/paper/wall_model.hpp"
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

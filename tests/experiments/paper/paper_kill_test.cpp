@@ -6,8 +6,8 @@
 
 #include "experiments/paper/make_campaign.hpp"
 #include "experiments/run/run.hpp"
-#include "geometry/shape/random.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/killed_program.hpp"
 #include "tests/support/same_bits.hpp"

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "experiments/measure/observables.hpp"
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/synthetic_run.hpp"
 

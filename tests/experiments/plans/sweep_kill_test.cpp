@@ -1,7 +1,7 @@
 // Killed with -9 at random moments, a sweep ends with the bits of an undisturbed one.
 
 #include "experiments/plans/plan.hpp"
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/plans/small_sweep.hpp"
 #include "tests/support/killed_program.hpp"

@@ -14,9 +14,9 @@ Checkpoint sample_checkpoint(int contacts) {
   checkpoint.phase = "drive";
   checkpoint.state = sample_state(sample_system(), 77);
   for (int c = 0; c < contacts; ++c) {
-    checkpoint.contacts.push_back({c, c + 1, random.next(), random.unit_vector(),
-                                   random.unit_vector(), random.uniform(-1e-4, 1e-4)});
-    checkpoint.impulses.push_back(random.unit_vector());
+    checkpoint.contacts.push_back({c, c + 1, random.next(), random_direction(random),
+                                   random_direction(random), random.uniform(-1e-4, 1e-4)});
+    checkpoint.impulses.push_back(random_direction(random));
   }
   checkpoint.numbers = {1.5, -0.0, std::numeric_limits<double>::infinity()};
   return checkpoint;

@@ -23,7 +23,7 @@ struct World {
       Pose pose;
       pose.position =
           Vec3(random.uniform(0.0, 0.4), random.uniform(0.0, 0.3), random.uniform(0.0, 0.3));
-      pose.rotation = random.rotation();
+      pose.rotation = random_rotation(random);
       poses.push_back(pose);
       reach.push_back(1e-4 * random.uniform());
     }
@@ -85,8 +85,8 @@ void check_list(BroadPhase& broad_phase, const World& world) {
 TEST_CASE("bounding boxes hold every vertex and touch one on each side") {
   Random random(1);
   for (const CollisionShape& shape : collision_pool()) {
-    const Mat3 rotation = random.rotation().toRotationMatrix();
-    const Vec3 position = random.unit_vector();
+    const Mat3 rotation = random_rotation(random).toRotationMatrix();
+    const Vec3 position = random_direction(random);
     const Box box = bounding_box(shape, rotation, position);
     Vec3 low = Vec3::Constant(1e9), high = -low;
     for (int v = 0; v < shape.vertices().count(); ++v) {
@@ -106,13 +106,13 @@ TEST_CASE("the list holds every pair within reach, under motion, teleports and c
     for (int step = 0; step < 60; ++step) {
       for (size_t i = 0; i < world.poses.size(); ++i) {
         if (world.bodies[i].fixed) continue;
-        world.poses[i].position += speed * world.random.unit_vector();
+        world.poses[i].position += speed * random_direction(world.random);
         world.poses[i].rotation =
-            world.poses[i].rotation * rotation_by(10.0 * speed * world.random.unit_vector());
+            world.poses[i].rotation * rotation_by(10.0 * speed * random_direction(world.random));
       }
       const int some = world.random.below(static_cast<int>(world.poses.size()));
-      if (step % 9 == 4) world.poses[some].position = 0.3 * world.random.unit_vector();
-      if (step % 9 == 6) world.poses[some].rotation = world.random.rotation();
+      if (step % 9 == 4) world.poses[some].position = 0.3 * random_direction(world.random);
+      if (step % 9 == 6) world.poses[some].rotation = random_rotation(world.random);
       if (step % 9 == 7) world.poses[some].rotation.coeffs() *= -1.0;  // the same rotation
       if (step % 9 == 8) world.reach[some] = 0.02 * world.random.uniform();
       const std::vector<Mat3> rotations = world.rotations();
@@ -153,7 +153,7 @@ TEST_CASE("remembered axes survive a new list") {
   for (CandidatePair& pair : broad_phase.pairs()) pair.axis = {AxisKind::edges, pair.a, pair.b};
   std::set<std::pair<int, int>> before;
   for (const CandidatePair& pair : broad_phase.pairs()) before.emplace(pair.a, pair.b);
-  for (Pose& pose : world.poses) pose.position += 0.01 * world.random.unit_vector();
+  for (Pose& pose : world.poses) pose.position += 0.01 * random_direction(world.random);
   broad_phase.update(world.poses, rotations, world.reach);
   CHECK(broad_phase.rebuilds() == 2);
   int kept = 0, fresh = 0;

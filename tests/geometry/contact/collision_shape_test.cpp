@@ -18,10 +18,10 @@ TEST_CASE("affine rows are evaluated row by row, padding included") {
     CHECK(rows.padded() >= count);
     std::vector<Vec3> xyz;
     for (int i = 0; i < count; ++i) {
-      xyz.push_back(random.unit_vector());
+      xyz.push_back(random_direction(random));
       rows.set(i, xyz.back(), i);
     }
-    const Vec3 d = random.unit_vector();
+    const Vec3 d = random_direction(random);
     std::vector<double> values(rows.padded());
     rows.evaluate(d, values.data());
     for (int i = 0; i < rows.padded(); ++i)
@@ -76,7 +76,7 @@ TEST_CASE("coplanar triangles become one face") {
 
   // turned, so that coplanar only holds to rounding
   Random random(3);
-  const Quat rotation = random.rotation();
+  const Quat rotation = random_rotation(random);
   const Polyhedron upright = triangulated_box(Vec3(0.01, 0.02, 0.03));
   std::vector<Vec3> vertices;
   for (const Vec3& p : upright.vertices()) vertices.push_back(rotation * p);

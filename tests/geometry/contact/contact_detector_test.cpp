@@ -27,7 +27,7 @@ TEST_CASE("contacts depend on poses and reaches only: with and without cache, bi
     for (int k = 0; k < 120; ++k) {
       packing.move(step);
       const int some = packing.random.below(static_cast<int>(packing.shapes.size()));
-      if (k % 20 == 7) packing.poses[some].position += 0.05 * packing.random.unit_vector();
+      if (k % 20 == 7) packing.poses[some].position += 0.05 * random_direction(packing.random);
       if (k % 20 == 13) packing.reach[some] = 1e-3 * packing.random.uniform();
       cached.detect(packing.poses, packing.reach, contacts);
       from_scratch.detect(packing.poses, packing.reach, expected);
@@ -100,7 +100,7 @@ TEST_CASE("planes: every vertex within reach, by definition") {
   Packing packing(50, 0.2, 3);
   ContactDetector detector(packing.shapes, {});
   std::vector<ContactPoint> contacts;
-  packing.poses[0].rotation = packing.random.rotation();  // a wall need not be upright
+  packing.poses[0].rotation = random_rotation(packing.random);  // a wall need not be upright
   detector.detect(packing.poses, packing.reach, contacts);
   const int count = static_cast<int>(packing.shapes.size());
   size_t expected = 0;
@@ -163,8 +163,8 @@ TEST_CASE("the whole scene moved rigidly has its contacts moved with it") {
   for (int k = 0; k < 10; ++k) {
     packing.move(0.01);
     Pose frame;
-    frame.position = packing.random.unit_vector();
-    frame.rotation = packing.random.rotation();
+    frame.position = random_direction(packing.random);
+    frame.rotation = random_rotation(packing.random);
     std::vector<Pose> poses;
     for (const Pose& pose : packing.poses) {
       Pose next;

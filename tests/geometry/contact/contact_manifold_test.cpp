@@ -249,7 +249,7 @@ TEST_CASE("reduction keeps the deepest point and most of the area") {
   Random random(61);
   for (int i = 0; i < 200; ++i) {
     const Mat3 turn = (Eigen::AngleAxisd(random.uniform(0.0, 6.28), Vec3::UnitZ()) *
-                       Eigen::AngleAxisd(1e-5 * random.uniform(), random.unit_vector()))
+                       Eigen::AngleAxisd(1e-5 * random.uniform(), random_direction(random)))
                           .toRotationMatrix();
     const Vec3 shift(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), 0.03 - 1e-5);
     const ShapePair pair(shapes[0], shapes[0], {turn, shift});

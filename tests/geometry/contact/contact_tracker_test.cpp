@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -20,7 +20,7 @@ std::vector<ContactPoint> random_contacts(Random& random, int pairs, int feature
     const std::uint64_t feature = static_cast<std::uint64_t>(random.below(features))
                                   << (random.below(2) ? 0 : 40);
     if (!used.emplace(a, b, feature).second) continue;
-    contacts.push_back({a, b, feature, random.unit_vector(), random.unit_vector(), 0.0});
+    contacts.push_back({a, b, feature, random_direction(random), random_direction(random), 0.0});
   }
   std::sort(contacts.begin(), contacts.end(), [](const ContactPoint& p, const ContactPoint& q) {
     return std::tie(p.body_a, p.body_b, p.feature) < std::tie(q.body_a, q.body_b, q.feature);
@@ -68,7 +68,7 @@ std::vector<Vec3> carried_by_definition(const std::vector<ContactPoint>& old_con
 
 std::vector<Vec3> random_impulses(Random& random, size_t count) {
   std::vector<Vec3> impulses;
-  for (size_t i = 0; i < count; ++i) impulses.push_back(random.unit_vector());
+  for (size_t i = 0; i < count; ++i) impulses.push_back(random_direction(random));
   return impulses;
 }
 

@@ -1,27 +1,11 @@
 // Detection in parts, on threads: the contacts of one part alone, to the last bit.
 
-#include <thread>
-
+#include "platform/worker_team.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/contact/sample_packing.hpp"
 
 using namespace ballast;
 using namespace ballast::testing;
-
-namespace {
-
-void on_threads_of_their_own(int parts, const std::function<void(int)>& part) {
-  std::vector<std::thread> threads;
-  for (int k = 0; k < parts; ++k) threads.emplace_back([&part, k] { part(k); });
-  for (std::thread& thread : threads) thread.join();
-}
-
-/// The last first: whatever part 0 leaves behind, the others must not need it.
-void backwards(int parts, const std::function<void(int)>& part) {
-  for (int k = parts; k-- > 0;) part(k);
-}
-
-}  // namespace
 
 TEST_CASE("detection in parts finds the same contacts, bit by bit, and counts the same pairs") {
   for (const double step : {1e-5, 1e-3}) {
@@ -29,12 +13,14 @@ TEST_CASE("detection in parts finds the same contacts, bit by bit, and counts th
     if (step < 5e-4) packing.relax();
     ContactDetector whole(packing.shapes, {}), threads(packing.shapes, {}),
         many(packing.shapes, {});
-    threads.run_parts_by(on_threads_of_their_own, 3);
-    many.run_parts_by(backwards, 200);  // more than bodies: some parts have nothing to do
+    WorkerTeam team;
+    team.resize(3);
+    threads.use_team(&team, 3);
+    many.use_team(nullptr, 200);  // more than bodies: some parts have nothing to do
     std::vector<ContactPoint> expected, contacts;
     for (int k = 0; k < 60; ++k) {
       packing.move(step);
-      if (k == 20) threads.run_parts_by(on_threads_of_their_own, 5);  // records move to other parts
+      if (k == 20) threads.use_team(&team, 5);  // records move to other parts
       whole.detect(packing.poses, packing.reach, expected);
       for (ContactDetector* detector : {&threads, &many}) {
         detector->detect(packing.poses, packing.reach, contacts);

@@ -18,7 +18,7 @@ std::vector<Polyhedron> make_pool() {
   for (int i = 0; i < 4; ++i) {
     std::vector<Vec3> corners;
     for (int k = 0; k < 4; ++k)
-      corners.push_back(random.uniform(0.02, 0.05) * random.unit_vector());
+      corners.push_back(random.uniform(0.02, 0.05) * random_direction(random));
     Vec3 mean = Vec3::Zero();
     for (const Vec3& p : corners) mean += 0.25 * p;
     for (Vec3& p : corners) p -= mean;
@@ -93,7 +93,7 @@ PairCase faces_together(PairCase c, Random& random) {
   for (int v : a.face(f)) centre_a += a.vertex(v) / static_cast<double>(a.face(f).size());
   for (int v : b.face(g)) centre_b += b.vertex(v) / static_cast<double>(b.face(g).size());
   Vec3 shift = random.below(3) == 0 ? Vec3(Vec3::Zero())
-                                    : Vec3(random.uniform(0.0, 0.03) * random.unit_vector());
+                                    : Vec3(random.uniform(0.0, 0.03) * random_direction(random));
   shift -= shift.dot(a.normal(f)) * a.normal(f);
   c.b_in_a = turned(
       rotation, centre_a - rotation * centre_b + shift + random_scale(random, 3, 12) * a.normal(f));
@@ -231,15 +231,16 @@ PairCase edges_together(double angle, Random& random) {
 
 PairCase random_case(Placement placement, Random& random) {
   const int count = static_cast<int>(shape_pool().size());
-  PairCase c{random.below(count), random.below(count), turned(random.rotation(), Vec3::Zero())};
+  PairCase c{random.below(count), random.below(count),
+             turned(random_rotation(random), Vec3::Zero())};
   const double size = collision_pool()[c.a].circumradius() + collision_pool()[c.b].circumradius();
   switch (placement) {
     case Placement::near_touching:
-      c.b_in_a.position = size * random.unit_vector();
+      c.b_in_a.position = size * random_direction(random);
       set_gap(c, random_scale(random, 3, 12));
       return c;
     case Placement::deep:
-      c.b_in_a.position = size * random.uniform(0.0, 0.5) * random.unit_vector();
+      c.b_in_a.position = size * random.uniform(0.0, 0.5) * random_direction(random);
       return c;
     case Placement::parallel_faces:
       return faces_together(c, random);
@@ -247,16 +248,16 @@ PairCase random_case(Placement placement, Random& random) {
       return edges_together(random_scale(random, 2, 6.5), random);
     case Placement::offset_copy: {
       c.b = c.a;
-      const Vec3 turn = random_scale(random, 2, 14) * random.unit_vector();
+      const Vec3 turn = random_scale(random, 2, 14) * random_direction(random);
       c.b_in_a =
-          turned(rotation_by(turn), size * random_scale(random, 2, 14) * random.unit_vector());
+          turned(rotation_by(turn), size * random_scale(random, 2, 14) * random_direction(random));
       return c;
     }
     case Placement::inside:
-      c.b_in_a.position = size * random_scale(random, 2, 8) * random.unit_vector();
+      c.b_in_a.position = size * random_scale(random, 2, 8) * random_direction(random);
       return c;
     case Placement::apart:
-      c.b_in_a.position = size * random.uniform(0.6, 3.0) * random.unit_vector();
+      c.b_in_a.position = size * random.uniform(0.6, 3.0) * random_direction(random);
       return c;
   }
   return c;

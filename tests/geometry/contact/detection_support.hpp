@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/contact/separating_axis.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 
 namespace ballast::testing {
 

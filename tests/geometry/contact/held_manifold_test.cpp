@@ -113,15 +113,11 @@ TEST_CASE("from a refresh on, a detector and its newborn twin find the same bits
   for (int round = 0; round < 6; ++round) {
     old.refresh();
     ContactDetector newborn(packing.shapes, holding(1e-3)), parts(packing.shapes, holding(1e-3));
-    parts.run_parts_by(
-        [](int count, const std::function<void(int)>& part) {
-          for (int k = count; k-- > 0;) part(k);
-        },
-        7);
+    parts.use_team(nullptr, 7);
     long reused = 0;
     for (int k = 0; k < 25; ++k) {
       packing.move(k < 5 ? 1e-6 : 1e-5);
-      if (k == 12) packing.poses[10 + round].position += 0.02 * packing.random.unit_vector();
+      if (k == 12) packing.poses[10 + round].position += 0.02 * random_direction(packing.random);
       old.detect(packing.poses, packing.reach, expected);
       reused += old.counters().reused;
       for (ContactDetector* twin : {&newborn, &parts}) {

@@ -27,13 +27,13 @@ struct Packing {
       Pose pose;
       pose.position =
           Vec3(random.uniform(0.0, side), random.uniform(0.0, side), random.uniform(0.0, side));
-      pose.rotation = random.rotation();
+      pose.rotation = random_rotation(random);
       poses.push_back(pose);
     }
     std::swap(shapes[3], shapes[count]);  // one wall among the grains
     std::swap(poses[3], poses[count]);
     for (size_t i = 0; i < shapes.size(); ++i) {
-      velocity.push_back(random.unit_vector());
+      velocity.push_back(random_direction(random));
       reach.push_back(1e-5 + 1e-4 * random.uniform());
     }
   }
@@ -55,7 +55,7 @@ struct Packing {
   void move(double step) {
     for (size_t i = 0; i < shapes.size(); ++i) {
       if (shapes[i].fixed) continue;
-      velocity[i] = (velocity[i] + 0.2 * random.unit_vector()).normalized();
+      velocity[i] = (velocity[i] + 0.2 * random_direction(random)).normalized();
       if (shapes[i].polyhedron)
         poses[i] = moved(poses[i], velocity[i], 20.0 * velocity[i], step);
       else

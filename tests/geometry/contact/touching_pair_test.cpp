@@ -18,7 +18,7 @@ constexpr int all_points = 1 << 20;
 /// detector does.
 RelativePose jiggled(const RelativePose& pose, Random& random, double& chord) {
   const double angle = std::abs(random_scale(random, 7.0, 3.0));
-  const Vec3 axis = random.rotation() * Vec3::UnitX(),
+  const Vec3 axis = random_rotation(random) * Vec3::UnitX(),
              shift = random_scale(random, 7.0, 3.0) * axis;
   chord = angle;
   return {Eigen::AngleAxisd(angle, axis).toRotationMatrix() * pose.rotation, pose.position + shift};

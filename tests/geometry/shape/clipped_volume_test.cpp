@@ -6,7 +6,7 @@
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mass_properties.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -111,7 +111,7 @@ TEST_CASE("grains against the hull of all points where three planes meet") {
     GrainShapeSettings small;
     small.max_vertices = 20;  // the oracle is cubic
     const PrincipalShape grain = make_grain(small, 1.0, 100 + trial);
-    const Pose pose{uniform_point(random, -1, 1), random.rotation()};
+    const Pose pose{uniform_point(random, -1, 1), random_rotation(random)};
     Vec3 lo, hi;
     int cuts = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -133,7 +133,7 @@ TEST_CASE("the pieces of a partition sum to the whole") {
   Random random(12);
   for (int trial = 0; trial < 50; ++trial) {
     const PrincipalShape grain = make_grain({}, 0.05, 500 + trial);
-    const Pose pose{uniform_point(random, 0.2, 0.4), random.rotation()};
+    const Pose pose{uniform_point(random, 0.2, 0.4), random_rotation(random)};
     double ticks[3][5];
     for (int axis = 0; axis < 3; ++axis) {
       ticks[axis][0] = -1.0;
@@ -157,7 +157,7 @@ TEST_CASE("a count of random points agrees") {
   BoxClipper clipper;
   Random random(13);
   const PrincipalShape grain = make_grain({}, 1.0, 7);
-  const Pose pose{Vec3(0.1, -0.2, 0.3), random.rotation()};
+  const Pose pose{Vec3(0.1, -0.2, 0.3), random_rotation(random)};
   const Vec3 lo(-0.2, -1.5, -0.1), hi(1.5, 0.4, 1.5);
   const auto planes = half_spaces(grain.shape, pose, lo, hi);
   const int count = 100000;
@@ -179,7 +179,7 @@ TEST_CASE("a used workspace gives the same bits as a new one") {
   Random random(14);
   for (int trial = 0; trial < 30; ++trial) {
     const PrincipalShape grain = make_grain({}, 1.0, 900 + trial);
-    const Pose pose{uniform_point(random, -1, 1), random.rotation()};
+    const Pose pose{uniform_point(random, -1, 1), random_rotation(random)};
     const Vec3 lo = uniform_point(random, -1, 0), hi = uniform_point(random, 0, 1);
     BoxClipper fresh;
     CHECK(used.volume(grain.shape, pose, lo, hi, grain.volume) ==

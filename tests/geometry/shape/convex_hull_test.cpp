@@ -10,7 +10,7 @@
 #include <set>
 
 #include "geometry/shape/mass_properties.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -102,7 +102,7 @@ class StderrCapture {
 TEST_CASE("a cube's corners give six quadrilaterals, in any orientation") {
   Random random(1);
   for (int trial = 0; trial < 200; ++trial) {
-    const Quat turn = trial == 0 ? Quat::Identity() : random.rotation();
+    const Quat turn = trial == 0 ? Quat::Identity() : random_rotation(random);
     std::vector<Vec3> points = cube_corners();
     for (Vec3& p : points) p = turn * p + Vec3(trial, 0, 0);
     const Polyhedron hull = convex_hull(points);
@@ -130,7 +130,7 @@ TEST_CASE("faces agree with the definition of a hull") {
     std::vector<Vec3> points;
     // every third set from a lattice: many coplanar points
     for (int i = 0; i < 14; ++i)
-      points.push_back(trial % 3 ? random.unit_vector()
+      points.push_back(trial % 3 ? random_direction(random)
                                  : Vec3(random.below(3), random.below(3), random.below(3)));
     if (trial % 3 == 0) {
       std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
@@ -149,7 +149,7 @@ TEST_CASE("faces agree with the definition of a hull") {
 TEST_CASE("the same points give the same bits; their order changes only the numbering") {
   Random random(4);
   std::vector<Vec3> points;
-  for (int i = 0; i < 40; ++i) points.push_back(random.unit_vector());
+  for (int i = 0; i < 40; ++i) points.push_back(random_direction(random));
   const Polyhedron once = convex_hull(points), again = convex_hull(points);
   REQUIRE(once.face_count() == again.face_count());
   for (int f = 0; f < once.face_count(); ++f) {
@@ -173,7 +173,7 @@ TEST_CASE("cubes and lattices with noise of any size have a hull that holds ever
   Random random(5);
   for (int trial = 0; trial < 3000; ++trial) {
     const double noise = std::pow(10.0, -random.uniform(2.0, 17.0));
-    const Quat turn = random.rotation();
+    const Quat turn = random_rotation(random);
     const int n = 2 + trial % 3;
     std::vector<Vec3> points;
     for (int x = 0; x < n; ++x)
@@ -228,7 +228,7 @@ TEST_CASE("sets without a hull say why, and qhull stays silent") {
       for (Vec3& end : ends)
         for (double& x : end) x = random.below(2);
       const double t = random.uniform();
-      points.push_back(ends[0] + t * (ends[1] - ends[0]) + noise * random.unit_vector());
+      points.push_back(ends[0] + t * (ends[1] - ends[0]) + noise * random_direction(random));
     }
     expect(points, "");
   }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/shape/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -29,47 +28,6 @@ std::array<double, 3> extents(const Polyhedron& p) {
 }
 
 }  // namespace
-
-TEST_CASE("splitmix64 gives the published numbers") {
-  std::uint64_t state = 1234567;
-  for (const std::uint64_t expected :
-       {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u,
-        16408922859458223821u})
-    CHECK(Random::splitmix(state) == expected);
-}
-
-TEST_CASE("the generator's numbers have the moments they should have") {
-  Random random(5), same(5), other(6);
-  CHECK(random.next() == same.next());
-  CHECK(random.next() != other.next());
-  const int n = 200000;
-  double mean = 0.0, normal_mean = 0.0, normal_sq = 0.0;
-  Vec3 direction = Vec3::Zero();
-  Mat3 second = Mat3::Zero(), turned = Mat3::Zero();
-  for (int i = 0; i < n; ++i) {
-    const double u = random.uniform();
-    REQUIRE((u >= 0.0 && u < 1.0));
-    mean += u / n;
-    const double x = random.normal();
-    normal_mean += x / n;
-    normal_sq += x * x / n;
-    const Vec3 d = random.unit_vector();
-    REQUIRE(std::abs(d.norm() - 1.0) < 1e-15);
-    direction += d / n;
-    second += d * d.transpose() / n;
-    turned += random.rotation().toRotationMatrix() / n;
-    const int k = random.below(7);
-    REQUIRE((k >= 0 && k < 7));
-  }
-  // five standard errors of each mean
-  const double error = 5.0 / std::sqrt(static_cast<double>(n));
-  CHECK(std::abs(mean - 0.5) < error * 0.29);
-  CHECK(std::abs(normal_mean) < error);
-  CHECK(std::abs(normal_sq - 1.0) < error * 1.42);
-  CHECK(direction.cwiseAbs().maxCoeff() < error * 0.58);
-  CHECK((second - Mat3::Identity() / 3.0).cwiseAbs().maxCoeff() < error * 0.3);
-  CHECK(turned.cwiseAbs().maxCoeff() < error * 0.58);  // uniform rotations average to zero
-}
 
 TEST_CASE("two thousand grains stay within the paper's ranges and look like ballast") {
   const int n = 2000;

@@ -4,7 +4,7 @@
 
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -72,9 +72,9 @@ TEST_CASE("rotation, translation and scale follow their laws") {
   Random random(1);
   for (int seed = 0; seed < 50; ++seed) {
     const Polyhedron grain =
-        moved_copy(make_grain({}, 1.0, seed).shape, {{0.1, 0.2, 0.3}, random.rotation()});
+        moved_copy(make_grain({}, 1.0, seed).shape, {{0.1, 0.2, 0.3}, random_rotation(random)});
     const MassProperties before = mass_properties(grain);
-    const Pose pose{3.0 * random.unit_vector(), random.rotation()};
+    const Pose pose{3.0 * random_direction(random), random_rotation(random)};
     const MassProperties after = mass_properties(moved_copy(grain, pose, 2.0));
     const Mat3 R = pose.rotation.toRotationMatrix();
     CHECK(after.volume == Approx(8.0 * before.volume).epsilon(1e-13));
@@ -88,7 +88,7 @@ TEST_CASE("the two pieces of a cut grain add up to the whole") {
   Random random(2);
   for (int seed = 0; seed < 100; ++seed) {
     const Polyhedron grain = make_grain({}, 1.0, seed).shape;
-    const Vec3 normal = random.unit_vector();
+    const Vec3 normal = random_direction(random);
     const double offset = random.uniform(-0.5, 0.5) * grain.inradius();
     const MassProperties whole = mass_properties(grain);
     const MassProperties a = mass_properties(cut(grain, normal, offset));
@@ -117,8 +117,9 @@ TEST_CASE("the principal frame of grains anywhere") {
   Random random(3);
   for (int seed = 0; seed < 200; ++seed) {
     const double distance = seed % 2 ? 100.0 : 0.1;
-    const Polyhedron given = moved_copy(make_grain({}, 1.0, seed).shape,
-                                        {distance * random.unit_vector(), random.rotation()});
+    const Polyhedron given =
+        moved_copy(make_grain({}, 1.0, seed).shape,
+                   {distance * random_direction(random), random_rotation(random)});
     const PrincipalShape p = to_principal_frame(given);
     const MassProperties again = mass_properties(p.shape);
     CHECK(again.volume == p.volume);
@@ -138,7 +139,7 @@ TEST_CASE("the principal frame of grains anywhere") {
 TEST_CASE("solids without distinct axes have a principal frame too") {
   Random random(4);
   for (int trial = 0; trial < 20; ++trial) {
-    const Pose pose{random.unit_vector(), random.rotation()};
+    const Pose pose{random_direction(random), random_rotation(random)};
     for (const Polyhedron& solid :
          {make_box({2, 2, 2}), make_box({2, 2, 1}), make_sphere(1.0, 2)}) {
       const PrincipalShape p = to_principal_frame(moved_copy(solid, pose));

@@ -3,7 +3,7 @@
 
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mesh_file.hpp"
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/shape/mesh_test_files.hpp"
 

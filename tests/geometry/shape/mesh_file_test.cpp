@@ -8,7 +8,7 @@
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mass_properties.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/shape/mesh_test_files.hpp"
 
@@ -67,7 +67,7 @@ TEST_CASE("binary STL in single precision, also when its header says solid") {
     const Polyhedron grain = make_grain({}, 0.0125, seed).shape;
     std::vector<Vec3> turned;
     const Polyhedron box = make_box({0.1, 0.2, 0.3});
-    const Quat turn = random.rotation();
+    const Quat turn = random_rotation(random);
     for (const Vec3& x : (seed % 2 ? grain : box).vertices()) turned.push_back(turn * x);
     const Polyhedron p = convex_hull(turned);
     save(file, binary_stl(p, seed % 3 ? "solid made by a scanner" : ""));

@@ -7,7 +7,7 @@
 
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -136,7 +136,7 @@ TEST_CASE("walking uphill along edges ends at the support vertex") {
   Random random(3);
   for (int trial = 0; trial < 200; ++trial) {
     const Polyhedron p = trial % 2 ? make_grain({}, 1.0, trial).shape : Polyhedron(vertices, fans);
-    const Vec3 d = random.unit_vector();
+    const Vec3 d = random_direction(random);
     int at = random.below(p.vertex_count());
     for (bool climbing = true; climbing;) {
       climbing = false;
@@ -291,7 +291,7 @@ TEST_CASE("thin and stretched grains are accepted") {
   for (int seed = 0; seed < 300; ++seed) {
     const Polyhedron grain = make_grain({}, 1.0, seed).shape;
     const double thinness = std::pow(10.0, -random.uniform(1.0, 6.0));
-    const Quat turn = random.rotation();
+    const Quat turn = random_rotation(random);
     std::vector<Vec3> v = vertices_of(grain);
     for (Vec3& p : v) p = turn * p.cwiseProduct(Vec3(1.0, 0.5, thinness)) + Vec3(3, 4, 5);
     CAPTURE(seed, thinness);

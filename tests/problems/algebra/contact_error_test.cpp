@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/known_solutions.hpp"
@@ -70,7 +70,7 @@ TEST_CASE("the judge agrees with dense matrices") {
   KnownSolutionSettings settings;
   const FrictionProblem problems[] = {oracle::mixed_problem(),
                                       make_known_solution(settings).problem};
-  SeededRandom random(31);
+  Random random(31);
   for (const FrictionProblem& problem : problems) {
     Impulses r(problem.row_count());
     for (double& x : r) x = random.uniform(-1, 1);
@@ -106,7 +106,7 @@ TEST_CASE("a team judges with the bits of one thread") {
   KnownSolutionSettings settings;
   settings.contacts = 700;
   const FrictionProblem problem = make_known_solution(settings).problem;
-  SeededRandom random(32);
+  Random random(32);
   Impulses r(problem.row_count());
   for (double& x : r) x = random.uniform(-1, 1);
   const ContactError alone = contact_error(problem, r);
@@ -186,7 +186,7 @@ TEST_CASE("the scaled natural map does not depend on the units") {
 }
 
 TEST_CASE("the largest eigenvalue agrees with an iterative solver") {
-  SeededRandom random(32);
+  Random random(32);
   for (int k = 0; k < 200000; ++k) {
     const double scale = random.log_uniform(1e-30, 1e30);
     Eigen::Matrix3d a;

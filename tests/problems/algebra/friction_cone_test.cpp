@@ -1,6 +1,6 @@
 #include "problems/algebra/friction_cone.hpp"
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -8,13 +8,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-double random_mu(SeededRandom& random) {
+double random_mu(Random& random) {
   const double kind = random.uniform();
   if (kind < 0.1) return 0.0;
   return kind < 0.5 ? random.uniform() : random.uniform(0.0, 10.0);
 }
 
-Vector3d random_point(SeededRandom& random) {
+Vector3d random_point(Random& random) {
   const double scale = random.log_uniform(1e-12, 1e12);
   return scale * Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
 }
@@ -25,7 +25,7 @@ double outside(const Vector3d& x, double mu) { return std::hypot(x[1], x[2]) - m
 }  // namespace
 
 TEST_CASE("the projection satisfies the conditions that define it") {
-  SeededRandom random(11);
+  Random random(11);
   for (int k = 0; k < 100000; ++k) {
     const double mu = random_mu(random);
     const Vector3d x = random_point(random), p = project_cone(x, mu), residual = x - p;
@@ -39,7 +39,7 @@ TEST_CASE("the projection satisfies the conditions that define it") {
 }
 
 TEST_CASE("no sampled point of the cone is nearer than the projection") {
-  SeededRandom random(12);
+  Random random(12);
   for (int k = 0; k < 200; ++k) {
     const double mu = random_mu(random);
     const Vector3d x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
@@ -54,7 +54,7 @@ TEST_CASE("no sampled point of the cone is nearer than the projection") {
 }
 
 TEST_CASE("Moreau: a point is its projection on the cone minus that of its opposite on the dual") {
-  SeededRandom random(13);
+  Random random(13);
   for (int k = 0; k < 100000; ++k) {
     const double mu = random_mu(random);
     const Vector3d x = random_point(random);
@@ -75,7 +75,7 @@ TEST_CASE("without friction the cone is a half-line and its dual a half-space") 
 }
 
 TEST_CASE("the Jacobian is the derivative wherever there is one") {
-  SeededRandom random(14);
+  Random random(14);
   int compared = 0;
   for (int k = 0; k < 2000; ++k) {
     const double mu = random.uniform(0.0, 3.0), h = 1e-6;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 
@@ -40,7 +40,7 @@ std::vector<int> labels_of(const FrictionProblem& problem) {
 }
 
 Impulses random_rows(int rows, std::uint64_t seed) {
-  SeededRandom random(seed);
+  Random random(seed);
   Impulses r(rows);
   for (int i = 0; i < rows; ++i) r[i] = random.uniform(-1.0, 1.0);
   return r;

@@ -2,14 +2,14 @@
 
 #include <Eigen/Dense>
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
 
 namespace {
 
-Eigen::MatrixXd random_mass(int dofs, bool diagonal, SeededRandom& random) {
+Eigen::MatrixXd random_mass(int dofs, bool diagonal, Random& random) {
   Eigen::MatrixXd a(dofs, dofs);
   for (double& x : a.reshaped()) x = random.uniform(-1, 1);
   Eigen::MatrixXd mass = a * a.transpose() + 0.1 * Eigen::MatrixXd::Identity(dofs, dofs);
@@ -29,7 +29,7 @@ Eigen::MatrixXd scaled(const MassRoot& root, const Eigen::MatrixXd& h) {
 }  // namespace
 
 TEST_CASE("the mass root agrees with a dense Cholesky factor") {
-  SeededRandom random(21);
+  Random random(21);
   for (int dofs = 1; dofs <= 6; ++dofs)
     for (const bool diagonal : {true, false})
       for (int sample = 0; sample < 20; ++sample) {

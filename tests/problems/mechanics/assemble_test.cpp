@@ -3,7 +3,7 @@
 
 #include "problems/mechanics/assemble.hpp"
 
-#include "geometry/shape/random.hpp"
+#include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -25,7 +25,8 @@ struct Fixture {
       body.shape = std::make_shared<const Polyhedron>(make_box(Vec3(0.1, 0.2, 0.3)));
       body.mass = 1.0 + b;
       body.inertia = Vec3(0.1, 0.2, 0.25) * (1.0 + b);
-      body.pose = {Vec3(random.normal(), random.normal(), random.normal()), random.rotation()};
+      body.pose = {Vec3(random.normal(), random.normal(), random.normal()),
+                   random_rotation(random)};
       body.velocity = Vec3(random.normal(), random.normal(), random.normal());
       body.spin = Vec3(random.normal(), random.normal(), random.normal());
       if (b == 2) {
@@ -49,7 +50,7 @@ struct Fixture {
     system.friction = 0.4;
     state.velocity[3] = -0.7 * driven.normal;
     for (auto [a, b] : {std::pair{0, 1}, {1, 2}, {3, 0}, {4, 1}, {3, 2}})
-      contacts.push_back({a, b, 0, random.unit_vector(),
+      contacts.push_back({a, b, 0, random_direction(random),
                           Vec3(random.normal(), random.normal(), random.normal()), 0.0});
   }
 
@@ -147,7 +148,7 @@ TEST_CASE("world impulses and rows are inverse to each other in the frame") {
 TEST_CASE("contact frames are right-handed and orthonormal for every normal") {
   Random random(3);
   for (int k = 0; k < 1000; ++k) {
-    const Mat3 frame = contact_frame(random.unit_vector());
+    const Mat3 frame = contact_frame(random_direction(random));
     CHECK((frame * frame.transpose() - Mat3::Identity()).norm() < 1e-14);
     CHECK(frame.determinant() == Approx(1.0));
   }
@@ -161,7 +162,7 @@ TEST_CASE("a team assembles with the bits of one thread") {
   const std::vector<ContactPoint> few = f.contacts;
   for (int k = 0; k < 500; ++k) {  // several parts
     f.contacts.push_back(few[k % few.size()]);
-    f.contacts.back().normal = random.unit_vector();
+    f.contacts.back().normal = random_direction(random);
     f.contacts.back().position = Vec3(random.normal(), random.normal(), random.normal());
   }
   WorkerTeam team;

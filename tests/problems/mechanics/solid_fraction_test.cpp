@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "geometry/shape/mass_properties.hpp"
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

@@ -1,6 +1,6 @@
 #include "solvers/backends/newton.hpp"
 
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/seam/run_solver.hpp"

@@ -1,6 +1,6 @@
 // The one-contact problem by a general optimiser: an oracle for the exact local solution.
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "solvers/parts/one_contact.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
@@ -11,7 +11,7 @@ using namespace ballast;
 TEST_CASE("nlopt and the exact solution of one contact agree") {
   const SolverEntry& entry = find_solver("nlopt_slsqp");
   if (!entry.make) return;  // built without NLopt
-  SeededRandom random(5);
+  Random random(5);
   int solved = 0, pushed = 0;
   for (int trial = 0; trial < 200; ++trial) {
     Eigen::Matrix3d root;

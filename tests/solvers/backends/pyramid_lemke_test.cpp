@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/parts/lemke.hpp"
 #include "solvers/seam/run_solver.hpp"
@@ -21,7 +21,7 @@ LemkeState run(Lemke& lemke, const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
   return lemke.state();
 }
 
-Eigen::MatrixXd random_matrix(int rows, int columns, SeededRandom& random) {
+Eigen::MatrixXd random_matrix(int rows, int columns, Random& random) {
   Eigen::MatrixXd x(rows, columns);
   for (double& entry : x.reshaped()) entry = random.uniform(-1, 1);
   return x;
@@ -42,7 +42,7 @@ FrictionProblem sliding_block(double angle) {
 }  // namespace
 
 TEST_CASE("lemke: positive semidefinite problems of any rank, degenerate ones too") {
-  SeededRandom random(3);
+  Random random(3);
   int pivots = 0;
   for (const int n : {1, 2, 5, 20, 60})
     for (const int rank : {0, 1, n / 2, n})

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <set>
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "platform/worker_team.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
@@ -25,7 +25,7 @@ FrictionProblem long_box(int bodies, std::uint64_t seed) {
   settings.frictionless_fraction = 0.2;
   settings.seed = seed;
   FrictionProblem problem = make_known_solution(settings).problem;
-  SeededRandom random(seed);
+  Random random(seed);
   DynamicsForm& d = problem.dynamics;
   for (int c = 0; c < problem.contact_count(); ++c) {
     if (d.body_a[c] < 0 || d.body_b[c] < 0) continue;

@@ -1,6 +1,6 @@
 #include "solvers/parts/nesterov_todd.hpp"
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -9,7 +9,7 @@ using lorentz::Vector;
 namespace {
 
 /// Inside the cone, at a relative distance `depth` from its side.
-Vector inside(SeededRandom& random, double depth) {
+Vector inside(Random& random, double depth) {
   const double angle = random.uniform(0.0, 6.28), size = random.log_uniform(1e-3, 1e3);
   return size * Vector(1.0 + depth, std::cos(angle), std::sin(angle));
 }
@@ -17,7 +17,7 @@ Vector inside(SeededRandom& random, double depth) {
 }  // namespace
 
 TEST_CASE("the scaling sends both points to the same one, near the cone's side too") {
-  SeededRandom random(5);
+  Random random(5);
   for (const double depth : {1.0, 1e-3, 1e-7})
     for (int k = 0; k < 50; ++k) {
       const Vector x = inside(random, depth), z = inside(random, depth);
@@ -40,7 +40,7 @@ TEST_CASE("the scaling sends both points to the same one, near the cone's side t
 }
 
 TEST_CASE("the Jordan product and its division undo each other") {
-  SeededRandom random(6);
+  Random random(6);
   for (int k = 0; k < 50; ++k) {
     const Vector x = inside(random, 0.5), y = inside(random, -0.5);
     CHECK((lorentz::divide(x, lorentz::product(x, y)) - y).norm() <= 1e-12 * y.norm());
@@ -48,7 +48,7 @@ TEST_CASE("the Jordan product and its division undo each other") {
 }
 
 TEST_CASE("the longest step ends on the cone's side, or at its limit") {
-  SeededRandom random(7);
+  Random random(7);
   int ended = 0;
   for (int k = 0; k < 200; ++k) {
     const Vector x = inside(random, 0.3);

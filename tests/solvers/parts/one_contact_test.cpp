@@ -1,6 +1,6 @@
 #include "solvers/parts/one_contact.hpp"
 
-#include "platform/seeded_random.hpp"
+#include "platform/random.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "tests/catch.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 /// Symmetric positive definite, turned at random, eigenvalues `scale`, something between, and scale
 /// / condition.
-Matrix3d random_w(double condition, double scale, SeededRandom& random) {
+Matrix3d random_w(double condition, double scale, Random& random) {
   Matrix3d a;
   for (double& x : a.reshaped()) x = random.uniform(-1, 1);
   const Matrix3d axes = Eigen::HouseholderQR<Matrix3d>(a).householderQ();
@@ -21,7 +21,7 @@ Matrix3d random_w(double condition, double scale, SeededRandom& random) {
 }
 
 /// Mostly approaching; now and then almost purely tangential or almost purely normal.
-Vector3d random_q(double scale, SeededRandom& random) {
+Vector3d random_q(double scale, Random& random) {
   Vector3d q(random.uniform(-1, 0.3), random.uniform(-1, 1), random.uniform(-1, 1));
   const double kind = random.uniform();
   if (kind < 0.15) q[0] *= random.log_uniform(1e-12, 1.0);
@@ -29,7 +29,7 @@ Vector3d random_q(double scale, SeededRandom& random) {
   return scale * q;
 }
 
-double random_mu(SeededRandom& random) {
+double random_mu(Random& random) {
   const double kind = random.uniform();
   if (kind < 0.1) return 0.0;
   if (kind < 0.3) return random.log_uniform(1e-6, 1.0);
@@ -47,7 +47,7 @@ double relative_error(const Matrix3d& w, const Vector3d& q, double mu, const Vec
 }  // namespace
 
 TEST_CASE("a million contacts: well and badly conditioned, light and heavy, slippery and rough") {
-  SeededRandom random(41);
+  Random random(41);
   int count[3] = {0, 0, 0};
   double worst = 0.0;
   for (int k = 0; k < 1000000; ++k) {
@@ -69,7 +69,7 @@ TEST_CASE("a million contacts: well and badly conditioned, light and heavy, slip
 }
 
 TEST_CASE("the three cases are what the header says") {
-  SeededRandom random(42);
+  Random random(42);
   for (int k = 0; k < 100000; ++k) {
     const Matrix3d w = random_w(100.0, 1.0, random);
     const Vector3d q = random_q(1.0, random);
@@ -95,7 +95,7 @@ TEST_CASE("the three cases are what the header says") {
 }
 
 TEST_CASE("a guess, good or bad, does not change a unique solution") {
-  SeededRandom random(43);
+  Random random(43);
   for (int k = 0; k < 50000; ++k) {
     const Matrix3d w = random_w(10.0, 1.0, random);
     const Vector3d q = random_q(1.0, random);
@@ -112,7 +112,7 @@ TEST_CASE("a guess, good or bad, does not change a unique solution") {
 }
 
 TEST_CASE("singular W") {
-  SeededRandom random(44);
+  Random random(44);
   for (int k = 0; k < 100000; ++k) {
     // Rank 1 or 2, q in the range of W: a contact whose bodies have few unknowns.
     Eigen::Matrix<double, 3, 2> half;
@@ -161,7 +161,7 @@ TEST_CASE("next to no approach gives next to no impulse") {
 }
 
 TEST_CASE("the principal coordinates make W diagonal") {
-  SeededRandom random(45);
+  Random random(45);
   for (int k = 0; k < 10000; ++k) {
     const Matrix3d w = random_w(1e3, 1.0, random);
     PrincipalContact contact;

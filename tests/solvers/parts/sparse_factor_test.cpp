@@ -1,6 +1,6 @@
 #include "solvers/parts/sparse_factor.hpp"
 
-#include "geometry/shape/random.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

@@ -1,0 +1,68 @@
+#include "platform/worker_team.hpp"
+
+#include <set>
+#include <thread>
+
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// How often each part was done in `rounds` tasks.
+std::vector<int> visits(WorkerTeam* team, int parts, int rounds) {
+  std::vector<int> count(parts, 0);
+  for (int round = 0; round < rounds; ++round)
+    run_parts(team, parts, [&](int part) { ++count[part]; });
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("every part is done once in every task, by whatever team") {
+  for (const int threads : {0, 1, 2, 3, 5}) {
+    WorkerTeam team;
+    team.resize(threads);
+    CHECK(team.size() == std::max(threads, 1));
+    for (const int parts : {0, 1, 2, 3, 17}) {
+      CAPTURE(threads, parts);
+      CHECK(visits(&team, parts, 200) == std::vector<int>(parts, 200));
+    }
+  }
+  CHECK(visits(nullptr, 17, 3) == std::vector<int>(17, 3));
+}
+
+TEST_CASE("a task is over when run() returns: what it wrote can be read") {
+  WorkerTeam team;
+  team.resize(3);
+  std::vector<double> value(64, 1.0), next(64);
+  for (int round = 0; round < 500; ++round) {
+    team.run(64, [&](int i) { next[i] = 0.5 * (value[i] + value[(i + 1) % 64]) + i; });
+    team.run(64, [&](int i) { value[i] = next[i]; });
+  }
+  std::vector<double> expected(64, 1.0), later(64);
+  for (int round = 0; round < 500; ++round) {
+    for (int i = 0; i < 64; ++i) later[i] = 0.5 * (expected[i] + expected[(i + 1) % 64]) + i;
+    expected = later;
+  }
+  CHECK(value == expected);
+}
+
+TEST_CASE("the caller and each of the others take part") {
+  WorkerTeam team;
+  team.resize(3);
+  std::vector<std::thread::id> by(3);
+  team.run(3, [&](int part) { by[part] = std::this_thread::get_id(); });
+  CHECK(by[0] == std::this_thread::get_id());
+  CHECK(std::set<std::thread::id>(by.begin(), by.end()).size() == 3);
+}
+
+TEST_CASE("a team grows, shrinks and sleeps between two tasks") {
+  WorkerTeam team;
+  for (const int threads : {4, 2, 2, 1, 3}) {
+    team.resize(threads);
+    CHECK(visits(&team, 9, 20) == std::vector<int>(9, 20));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // they sleep by now
+  CHECK(visits(&team, 9, 20) == std::vector<int>(9, 20));
+}
