@@ -10,12 +10,18 @@
 
 namespace ballast {
 
+/// A library that a build may do without.
+struct Library {
+  const char* package = "";         ///< Debian's name: what to install; empty: none is needed
+  bool (*is_built_in)() = nullptr;  ///< null: always
+};
+
 struct SolverEntry {
   const char* name;         ///< as on the command line
   const char* description;  ///< one line, with the source
   ContactLaw law;
-  SolverMaker make;        ///< null: built without the library it needs
-  const char* missing;     ///< what to install when make is null
+  SolverMaker make;  ///< null: built without the library it needs
+  Library needs = {};
   SizeLimit largest = {};  ///< what it promises to take
 };
 

@@ -26,7 +26,7 @@ void print_solvers() {
               << (entry.make ? "yes" : "no") << std::setw(10)
               << (entry.largest.none() ? "any" : std::to_string(entry.largest.with_friction))
               << entry.description;
-    if (!entry.make) std::cout << " [install " << entry.missing << "]";
+    if (!entry.make) std::cout << " [install " << entry.needs.package << "]";
     std::cout << '\n';
   }
 }
@@ -40,7 +40,7 @@ void print_solvers_json() {
          {"built", entry.make != nullptr},
          {"largest",
           {{"contacts", entry.largest.contacts}, {"with_friction", entry.largest.with_friction}}},
-         {"missing", entry.make ? "" : entry.missing},
+         {"missing", entry.make ? "" : entry.needs.package},
          {"description", entry.description}});
   std::cout << list.dump(2) << '\n';
 }

@@ -32,9 +32,7 @@ class Admm final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    w_.project(r);
-    w_.velocity(r, u_);
-    iteration.evaluated(w_.error(r, u_));
+    iteration.evaluated(w_.begin_at(r, u_));
     shift_.reset(w_);
     shift_.follow(w_, u_);
     for (int c = 0; c < w_.contact_count(); ++c) w_.put(y_, c, -shift_.shifted(w_, u_, c));
@@ -130,8 +128,8 @@ class Admm final : public Solver {
 
 }  // namespace
 
-SolverMaker admm_maker() {
-  return []() -> std::unique_ptr<Solver> { return std::make_unique<Admm>(AdmmSettings{}); };
+std::unique_ptr<Solver> make_admm(const AdmmSettings& settings) {
+  return std::make_unique<Admm>(settings);
 }
 
 }  // namespace ballast

@@ -17,6 +17,6 @@ struct AdmmSettings {
       3;  ///< a penalty is changed by no less than this factor: it costs a factorisation
 };
 
-SolverMaker admm_maker();
+std::unique_ptr<Solver> make_admm(const AdmmSettings& settings = {});
 
 }  // namespace ballast

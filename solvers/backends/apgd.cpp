@@ -27,9 +27,7 @@ class Apgd final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.02});
-    w_.project(r);
-    w_.velocity(r, u_);
-    iteration.evaluated(w_.error(r, u_));
+    iteration.evaluated(w_.begin_at(r, u_));
     shift_.reset(w_);
     shift_.follow(w_, u_);
     step_ = first_step_;

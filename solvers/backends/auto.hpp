@@ -10,7 +10,7 @@ namespace ballast {
 /// is further away than some factorisations cost, proximal Newton takes over; where that stands
 /// still, sweeps and Newton go on by turns from the best iterate. What a sweep and a factorisation
 /// cost is modelled from sizes, not clocked: same input, same bits. One iteration is a sweep or a
-/// factorisation. Null without SuiteSparse.
-SolverMaker auto_maker();
+/// factorisation.
+std::unique_ptr<Solver> make_auto();
 
 }  // namespace ballast

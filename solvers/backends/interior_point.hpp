@@ -9,15 +9,13 @@
 
 #include <memory>
 
+#include "solvers/parts/cone_step.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
 
 struct InteriorPointSettings {
-  double to_boundary = 0.99;   ///< of the longest step inside the cones
-  int refinements = 1;         ///< of each linear solve, against the scaling's huge range
-  double least_shift = 1e-12;  ///< the scaling's eigenvalues stay above this, below its inverse,
-                               ///< times lambda_max(W_cc)
+  ConeStepSettings step{};
   double inner_part =
       0.1;  ///< s is renewed when the convex problem is solved to this part of what s has to move
   int most_steps = 25;  ///< with one s
@@ -26,8 +24,6 @@ struct InteriorPointSettings {
       1e-4;  ///< proximal Newton takes over below this error, in units of the rms of q
 };
 
-/// Missing without SuiteSparse, as the maker is null.
 std::unique_ptr<Solver> make_interior_point(const InteriorPointSettings& settings = {});
-SolverMaker interior_point_maker();
 
 }  // namespace ballast

@@ -108,8 +108,8 @@ class IpoptCone final : public Solver {
                           const VectorXd inside = cones_.to_polar(request.start, u, 0.1, 0.9);
                           IpoptSettings settings;
                           settings.tolerance = std::clamp(1e-2 * request.accuracy, 1e-13, 1e-6);
-                          settings.max_iterations = std::min(500, request.max_iterations);
-                          settings.max_seconds = request.max_seconds;
+                          settings.max_iterations = std::min(500, request.left.max_iterations);
+                          settings.max_seconds = request.left.max_seconds;
                           const IpoptAnswer ipopt = run_ipopt(nlp, inside, settings);
                           if (ipopt.x.size() > 0) answer.x = cones_.from_polar(ipopt.x);
                           answer.iterations = ipopt.iterations;
@@ -122,8 +122,8 @@ class IpoptCone final : public Solver {
 
 }  // namespace
 
-SolverMaker ipopt_maker() {
-  return [] { return std::unique_ptr<Solver>(std::make_unique<IpoptCone>()); };
-}
+bool has_ipopt() { return true; }
+
+std::unique_ptr<Solver> make_ipopt() { return std::make_unique<IpoptCone>(); }
 
 }  // namespace ballast

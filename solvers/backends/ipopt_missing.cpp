@@ -4,7 +4,8 @@
 
 namespace ballast {
 
-SolverMaker ipopt_maker() { return nullptr; }
-SolverMaker ipopt_mpcc_maker() { return nullptr; }
+bool has_ipopt() { return false; }
+std::unique_ptr<Solver> make_ipopt() { return nullptr; }
+std::unique_ptr<Solver> make_ipopt_mpcc() { return nullptr; }
 
 }  // namespace ballast

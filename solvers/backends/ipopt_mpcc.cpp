@@ -205,8 +205,8 @@ class IpoptMpcc final : public Solver {
                              IpoptSettings settings;
                              settings.tolerance = std::min(1e-8, 0.1 * nlp.relaxation);
                              settings.first_barrier = std::min(0.1, nlp.relaxation);
-                             settings.max_iterations = std::min(300, request.max_iterations);
-                             settings.max_seconds = request.max_seconds;
+                             settings.max_iterations = std::min(300, request.left.max_iterations);
+                             settings.max_seconds = request.left.max_seconds;
                              const IpoptAnswer ipopt = run_ipopt(nlp, x, settings);
                              answer.iterations = ipopt.iterations;
                              nlp.relaxation = std::max(last_relaxation, 0.1 * nlp.relaxation);
@@ -222,8 +222,6 @@ class IpoptMpcc final : public Solver {
 
 }  // namespace
 
-SolverMaker ipopt_mpcc_maker() {
-  return [] { return std::unique_ptr<Solver>(std::make_unique<IpoptMpcc>()); };
-}
+std::unique_ptr<Solver> make_ipopt_mpcc() { return std::make_unique<IpoptMpcc>(); }
 
 }  // namespace ballast

@@ -159,17 +159,4 @@ std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& setti
   return std::make_unique<ProximalNewton>(settings);
 }
 
-SolverMaker newton_ac_maker() {
-  return [] { return make_newton({.equation = ContactEquation::alart_curnier}); };
-}
-SolverMaker newton_nm_maker() {
-  return [] { return make_newton({.equation = ContactEquation::natural_map}); };
-}
-SolverMaker newton_fb_maker() {
-  return [] { return make_newton({.equation = ContactEquation::fischer_burmeister}); };
-}
-SolverMaker prox_newton_maker() {
-  return [] { return make_proximal_newton(); };
-}
-
 }  // namespace ballast

@@ -35,10 +35,4 @@ struct ProximalNewtonSettings {
 /// after failed ones. One iteration is one factorisation.
 std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& settings = {});
 
-/// For solver_list; null without SuiteSparse.
-SolverMaker newton_ac_maker();
-SolverMaker newton_nm_maker();
-SolverMaker newton_fb_maker();
-SolverMaker prox_newton_maker();
-
 }  // namespace ballast

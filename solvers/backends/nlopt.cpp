@@ -101,7 +101,8 @@ class Nlopt final : public Solver {
     program.q = request.q(row);
     VectorXd y = answer.x(row);
     answer.iterations = optimise(request, program, row, y);
-    answer.finished = answer.iterations < std::min(recipe_.evaluations, request.max_iterations);
+    answer.finished =
+        answer.iterations < std::min(recipe_.evaluations, request.left.max_iterations);
     answer.x(row) = y;
   }
 
@@ -134,8 +135,8 @@ class Nlopt final : public Solver {
     const VectorXd violation = VectorXd::Constant(m, small);
     if (m > 0) nlopt_add_inequality_mconstraint(optimiser, m, cones, &program, violation.data());
     nlopt_set_xtol_abs1(optimiser, small);
-    nlopt_set_maxeval(optimiser, std::min(recipe_.evaluations, request.max_iterations));
-    nlopt_set_maxtime(optimiser, std::max(1e-3, request.max_seconds));
+    nlopt_set_maxeval(optimiser, std::min(recipe_.evaluations, request.left.max_iterations));
+    nlopt_set_maxtime(optimiser, std::max(1e-3, request.left.max_seconds));
     double value = 0.0;
     nlopt_optimize(optimiser, y.data(), &value);  // whatever it says: the judge looks at y
     const int evaluations = nlopt_get_numevals(optimiser);
@@ -156,15 +157,20 @@ const NloptRecipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000,
 const NloptRecipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, nlopt_ccsaq_limit, 3000,
                         "NLopt's dense Jacobian; one curvature for all cones"};
 
-template <const NloptRecipe& recipe>
-std::unique_ptr<Solver> make_nlopt() {
-  return std::make_unique<Nlopt>(recipe);
-}
-
 }  // namespace
 
-SolverMaker nlopt_slsqp_maker() { return make_nlopt<slsqp>; }
-SolverMaker nlopt_mma_maker() { return make_nlopt<mma>; }
-SolverMaker nlopt_ccsaq_maker() { return make_nlopt<ccsaq>; }
+bool has_nlopt() { return true; }
+
+std::unique_ptr<Solver> make_nlopt(NloptMethod method) {
+  switch (method) {
+    case NloptMethod::slsqp:
+      return std::make_unique<Nlopt>(slsqp);
+    case NloptMethod::mma:
+      return std::make_unique<Nlopt>(mma);
+    case NloptMethod::ccsaq:
+      return std::make_unique<Nlopt>(ccsaq);
+  }
+  return nullptr;
+}
 
 }  // namespace ballast

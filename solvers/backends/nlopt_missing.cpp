@@ -4,8 +4,7 @@
 
 namespace ballast {
 
-SolverMaker nlopt_slsqp_maker() { return nullptr; }
-SolverMaker nlopt_mma_maker() { return nullptr; }
-SolverMaker nlopt_ccsaq_maker() { return nullptr; }
+bool has_nlopt() { return false; }
+std::unique_ptr<Solver> make_nlopt(NloptMethod) { return nullptr; }
 
 }  // namespace ballast

@@ -15,8 +15,8 @@ struct PyramidLemkeSettings {
   int largest = 1000;  ///< unknowns of the complementarity problem: sides + 2 per contact with
                        ///< friction, 1 without
 
-  int unknowns_per_contact() const { return sides + 2; }  ///< with friction
-  SizeLimit limit() const {
+  constexpr int unknowns_per_contact() const { return sides + 2; }  ///< with friction
+  constexpr SizeLimit limit() const {
     return {largest / unknowns_per_contact(), largest / unknowns_per_contact()};
   }
 };

@@ -163,8 +163,4 @@ std::unique_ptr<Solver> make_sap(const SapSettings& settings) {
   return std::make_unique<Sap>(settings);
 }
 
-SolverMaker sap_maker() {
-  return [] { return make_sap(); };
-}
-
 }  // namespace ballast

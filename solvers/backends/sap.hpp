@@ -25,6 +25,5 @@ struct SapSettings {
 };
 
 std::unique_ptr<Solver> make_sap(const SapSettings& settings = {});
-SolverMaker sap_maker();
 
 }  // namespace ballast

@@ -124,7 +124,7 @@ class Siconos final : public Solver {
     constexpr int patience = 3;
     return solve_in_rounds(problem, moving_, std::move(start), budget, patience,
                            [&](const RoundRequest& request, RoundAnswer& answer) {
-                             const int limit = std::min(chunk, request.max_iterations);
+                             const int limit = std::min(chunk, request.left.max_iterations);
                              const bool whole = run(request, tolerance, limit, answer);
                              answer.finished = !whole || answer.iterations < limit;
                              if (!answer.finished)
@@ -139,19 +139,20 @@ class Siconos final : public Solver {
   /// One call of Siconos from the best iterate. False: no answer.
   bool run(const RoundRequest& request, double tolerance, int limit, RoundAnswer& answer) {
     const Eigen::VectorXd start = blocks_.pad(request.best);
-    const ChildResult child = run_in_child(request.max_seconds, [&](std::vector<double>& record) {
-      numerics_set_verbose(0);
-      FrictionContactProblem* problem = blocks_.siconos();
-      SolverOptions* options = solver_options_create(recipe_.solver);
-      recipe_.adjust(*options);
-      options->dparam[SICONOS_DPARAM_TOL] = tolerance;
-      options->iparam[SICONOS_IPARAM_MAX_ITER] = limit;
-      Eigen::VectorXd r = start, u = blocks_.q();
-      NM_gemv(1.0, problem->M, r.data(), 1.0, u.data());
-      fc3d_driver(problem, r.data(), u.data(), options);
-      record.assign(r.begin(), r.end());
-      record.push_back(options->iparam[SICONOS_IPARAM_ITER_DONE]);
-    });
+    const ChildResult child =
+        run_in_child(request.left.max_seconds, [&](std::vector<double>& record) {
+          numerics_set_verbose(0);
+          FrictionContactProblem* problem = blocks_.siconos();
+          SolverOptions* options = solver_options_create(recipe_.solver);
+          recipe_.adjust(*options);
+          options->dparam[SICONOS_DPARAM_TOL] = tolerance;
+          options->iparam[SICONOS_IPARAM_MAX_ITER] = limit;
+          Eigen::VectorXd r = start, u = blocks_.q();
+          NM_gemv(1.0, problem->M, r.data(), 1.0, u.data());
+          fc3d_driver(problem, r.data(), u.data(), options);
+          record.assign(r.begin(), r.end());
+          record.push_back(options->iparam[SICONOS_IPARAM_ITER_DONE]);
+        });
     if (child.end != ChildEnd::complete) return false;
     answer.x = blocks_.unpad(child.record);
     answer.iterations = static_cast<int>(child.record.back());
@@ -178,16 +179,22 @@ const SiconosRecipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2000,
 const SiconosRecipe nsn_ac{"siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 100,
                            [](SolverOptions&) {}};
 
-template <const SiconosRecipe& recipe>
-std::unique_ptr<Solver> make_siconos() {
-  return std::make_unique<Siconos>(recipe);
-}
-
 }  // namespace
 
-SolverMaker siconos_nsgs_maker() { return make_siconos<nsgs>; }
-SolverMaker siconos_prox_maker() { return make_siconos<prox>; }
-SolverMaker siconos_admm_maker() { return make_siconos<admm>; }
-SolverMaker siconos_nsn_ac_maker() { return make_siconos<nsn_ac>; }
+bool has_siconos() { return true; }
+
+std::unique_ptr<Solver> make_siconos(SiconosMethod method) {
+  switch (method) {
+    case SiconosMethod::nsgs:
+      return std::make_unique<Siconos>(nsgs);
+    case SiconosMethod::prox:
+      return std::make_unique<Siconos>(prox);
+    case SiconosMethod::admm:
+      return std::make_unique<Siconos>(admm);
+    case SiconosMethod::nsn_ac:
+      return std::make_unique<Siconos>(nsn_ac);
+  }
+  return nullptr;
+}
 
 }  // namespace ballast

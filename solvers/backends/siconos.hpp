@@ -11,12 +11,16 @@ namespace ballast {
 
 /// Each solve runs in child processes (Siconos cannot be interrupted, and ends the process on some
 /// errors), in rounds: Siconos' tolerance, which is relative and in mixed units, is tightened until
-/// the judge agrees, or nothing comes of it any more. An iteration is one of Siconos' own. Null
-/// where the library is not used.
-SolverMaker
-siconos_nsgs_maker();  ///< nonsmooth Gauss-Seidel, local Newton with line search and projections
-SolverMaker siconos_prox_maker();    ///< proximal point around a nonsmooth Newton
-SolverMaker siconos_admm_maker();    ///< ADMM, penalty by residual balancing
-SolverMaker siconos_nsn_ac_maker();  ///< nonsmooth Newton on Alart-Curnier's function
+/// the judge agrees, or nothing comes of it any more. An iteration is one of Siconos' own.
+enum class SiconosMethod {
+  nsgs,   ///< nonsmooth Gauss-Seidel, local Newton with line search and projections
+  prox,   ///< proximal point around a nonsmooth Newton
+  admm,   ///< ADMM, penalty by residual balancing
+  nsn_ac  ///< nonsmooth Newton on Alart-Curnier's function
+};
+std::unique_ptr<Solver> make_siconos(SiconosMethod method);
+
+/// This build has the library. Where it has not, make_siconos returns null.
+bool has_siconos();
 
 }  // namespace ballast

@@ -4,9 +4,7 @@
 
 namespace ballast {
 
-SolverMaker siconos_nsgs_maker() { return nullptr; }
-SolverMaker siconos_prox_maker() { return nullptr; }
-SolverMaker siconos_admm_maker() { return nullptr; }
-SolverMaker siconos_nsn_ac_maker() { return nullptr; }
+bool has_siconos() { return false; }
+std::unique_ptr<Solver> make_siconos(SiconosMethod) { return nullptr; }
 
 }  // namespace ballast

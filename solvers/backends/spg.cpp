@@ -30,9 +30,7 @@ class Spg final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.02});
-    w_.project(r);
-    w_.velocity(r, u_);
-    iteration.evaluated(w_.error(r, u_));
+    iteration.evaluated(w_.begin_at(r, u_));
     shift_.reset(w_);
     alpha_ = first_step_;
     while (iteration.next()) {

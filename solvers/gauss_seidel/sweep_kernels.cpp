@@ -2,81 +2,9 @@
 
 #include <algorithm>
 
-#include "problems/algebra/contact_error.hpp"
-
-// Vectors are returned by inlined functions only, so GCC's note about their calling convention does
-// not apply.
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "solvers/gauss_seidel/sweep_lanes.hpp"
 
 namespace ballast {
-namespace {
-
-// GCC's vector extensions: the same element-wise operations in the same order on every instruction
-// set, hence the same bits (-ffp-contract=off keeps multiplications and additions apart).
-using Vector8 = double __attribute__((vector_size(64)));
-using Vector4 = double __attribute__((vector_size(32)));
-
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
-#define BALLAST_FOR_EACH_CPU __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define BALLAST_FOR_EACH_CPU
-#endif
-
-#define BALLAST_INLINE inline __attribute__((always_inline))
-
-using Loose8 = double __attribute__((vector_size(64), aligned(8), may_alias));
-using Loose4 = double __attribute__((vector_size(32), aligned(8), may_alias));
-using Lanes4 = double __attribute__((vector_size(32), may_alias));
-using Loose2 = double __attribute__((vector_size(16), aligned(8), may_alias));
-
-BALLAST_INLINE Vector8 load8(const double* x) { return *reinterpret_cast<const Vector8*>(x); }
-/// A row, and the two numbers that follow it.
-BALLAST_INLINE Vector8 load_row(const double* x) { return *reinterpret_cast<const Loose8*>(x); }
-/// Zero in place of what follows a row.
-BALLAST_INLINE Vector8 only_row(const Vector8& x) {
-  using Bits = long long __attribute__((vector_size(64)));
-  constexpr Bits keep = {-1, -1, -1, -1, -1, -1, 0, 0};
-  return (Vector8)((Bits)x & keep);
-}
-BALLAST_INLINE void store_row(double* x, const Vector8& value) {
-  *reinterpret_cast<Loose4*>(x) = __builtin_shufflevector(value, value, 0, 1, 2, 3);
-  *reinterpret_cast<Loose2*>(x + 4) = __builtin_shufflevector(value, value, 4, 5);
-}
-BALLAST_INLINE void store8(double* x, const Vector8& value) {
-  *reinterpret_cast<Vector8*>(x) = value;
-}
-
-BALLAST_INLINE Vector4 halves(const Vector8& x) {
-  return __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
-}
-
-/// The sums of three vectors' entries.
-BALLAST_INLINE Vector4 three_sums(const Vector8& x, const Vector8& y, const Vector8& z) {
-  const Vector4 p = halves(x), q = halves(y), s = halves(z);
-  const Vector4 pq =
-      __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
-  const Vector4 ss =
-      __builtin_shufflevector(s, s, 0, 0, 2, 2) + __builtin_shufflevector(s, s, 1, 1, 3, 3);
-  return __builtin_shufflevector(pq, ss, 0, 1, 4, 5) + __builtin_shufflevector(pq, ss, 2, 3, 6, 7);
-}
-
-/// G w over both sides.
-BALLAST_INLINE Vector4 relative_velocity(const FrictionRecord& k, const Vector8& wa,
-                                         const Vector8& wb) {
-  return three_sums(load_row(k.rows[0][0]) * wa + load_row(k.rows[1][0]) * wb,
-                    load_row(k.rows[0][1]) * wa + load_row(k.rows[1][1]) * wb,
-                    load_row(k.rows[0][2]) * wa + load_row(k.rows[1][2]) * wb);
-}
-
-/// Row i times row j, lane by lane, over both sides.
-BALLAST_INLINE Vector8 row_product(const FrictionRecord& k, int i, int j) {
-  return only_row(load_row(k.rows[0][i]) * load_row(k.rows[0][j]) +
-                  load_row(k.rows[1][i]) * load_row(k.rows[1][j]));
-}
-
-}  // namespace
-
 namespace {
 
 /// Solves one contact and moves its bodies.
@@ -84,7 +12,7 @@ BALLAST_INLINE void relax(const FrictionRecord& k, FrictionImpulse& r, BodyVeloc
   double* va = velocity[k.body[0]].w;
   double* vb = velocity[k.body[1]].w;
   const Vector8 wa = load8(va), wb = load8(vb);
-  const Vector4 u = relative_velocity(k, wa, wb);
+  const Vector4 u = relative_velocity(k.rows, wa, wb);
   double y = r.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
   double t1 = r.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
   double t2 = r.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
@@ -225,90 +153,6 @@ void resolve_by_variant(const SweepVariant& variant, const OneRowRecord& k, doub
   r = y;
   for (int s = 0; s < 2; ++s)
     for (int j = 0; j < row_width; ++j) velocity[k.body[s]].w[j] += k.rows[s][j] * change;
-}
-
-BALLAST_FOR_EACH_CPU
-void make_principal(FrictionRecord& k, double mu, TangentTurn& turn, double& lambda_max) {
-  const Vector4 first =
-      three_sums(row_product(k, 0, 0), row_product(k, 1, 0), row_product(k, 2, 0));
-  const Vector4 rest = three_sums(row_product(k, 1, 1), row_product(k, 2, 1), row_product(k, 2, 2));
-  Eigen::Matrix3d w;
-  w << first[0], first[1], first[2], first[1], rest[0], rest[1], first[2], rest[1], rest[2];
-  make_principal(w, mu, k.local, turn);
-  lambda_max = largest_eigenvalue(w);
-
-  turn.to_principal(k.bias[1], k.bias[2]);
-  k.bias[1] -= k.local.c1 * k.bias[0];
-  k.bias[2] -= k.local.c2 * k.bias[0];
-  for (auto& rows : k.rows) {
-    const Vector8 n = load_row(rows[0]), t1 = load_row(rows[1]), t2 = load_row(rows[2]);
-    store_row(rows[1], turn.cosine * t1 + turn.sine * t2 - k.local.c1 * n);
-    store_row(rows[2], turn.cosine * t2 - turn.sine * t1 - k.local.c2 * n);
-  }
-}
-
-void make_principal(OneRowRecord& k, double& lambda_max) {
-  const Vector4 p = halves(only_row(load_row(k.rows[0]) * load_row(k.rows[0]) +
-                                    load_row(k.rows[1]) * load_row(k.rows[1])));
-  lambda_max = (p[0] + p[1]) + (p[2] + p[3]);
-  k.inverse_normal = lambda_max > 0.0 ? 1.0 / lambda_max : 0.0;
-}
-
-void load_impulse(const FrictionRecord& k, const TangentTurn& turn, const double* r,
-                  FrictionImpulse& impulse, BodyVelocity* velocity) {
-  const double weight = k.local.inverse_normal > 0.0 ? 1.0 : 0.0;
-  double t1 = weight * r[1], t2 = weight * r[2];
-  turn.to_principal(t1, t2);
-  impulse.y[0] = weight * r[0] + k.local.c1 * t1 + k.local.c2 * t2;
-  impulse.y[1] = t1;
-  impulse.y[2] = t2;
-  for (int s = 0; s < 2; ++s) {
-    double* w = velocity[k.body[s]].w;
-    const auto& rows = k.rows[s];
-    for (int i = 0; i < row_width; ++i)
-      w[i] += rows[0][i] * impulse.y[0] + rows[1][i] * impulse.y[1] + rows[2][i] * impulse.y[2];
-  }
-}
-
-void load_impulse(const OneRowRecord& k, const double* r, double& impulse, BodyVelocity* velocity) {
-  impulse = k.inverse_normal > 0.0 ? r[0] : 0.0;
-  for (int s = 0; s < 2; ++s)
-    for (int i = 0; i < row_width; ++i) velocity[k.body[s]].w[i] += k.rows[s][i] * impulse;
-}
-
-void store_impulse(const FrictionRecord& k, const TangentTurn& turn, const FrictionImpulse& impulse,
-                   double* r) {
-  double t1 = impulse.y[1], t2 = impulse.y[2];
-  r[0] = impulse.y[0] - k.local.c1 * t1 - k.local.c2 * t2;
-  turn.from_principal(t1, t2);
-  r[1] = t1;
-  r[2] = t2;
-}
-
-/// Arguments in registers: through memory, the vectors that the caller's clone makes of them would
-/// not be forwarded.
-[[gnu::noinline]] double judged(double rn, double r1, double r2, double un, double u1, double u2,
-                                double mu, double lambda_max) {
-  return ContactJudge::scaled_natural_map({rn, r1, r2}, {un, u1, u2}, mu, lambda_max);
-}
-
-BALLAST_FOR_EACH_CPU
-double natural_map(const FrictionRecord& k, const FrictionImpulse& r, double lambda_max,
-                   const BodyVelocity* velocity) {
-  const Vector4 moved =
-      relative_velocity(k, load8(velocity[k.body[0]].w), load8(velocity[k.body[1]].w));
-  const double un = moved[0] + k.bias[0];
-  return judged(r.y[0] - k.local.c1 * r.y[1] - k.local.c2 * r.y[2], r.y[1], r.y[2], un,
-                moved[1] + k.bias[1] + k.local.c1 * un, moved[2] + k.bias[2] + k.local.c2 * un,
-                k.local.mu, lambda_max);
-}
-
-double natural_map(const OneRowRecord& k, double r, double lambda_max,
-                   const BodyVelocity* velocity) {
-  double u = k.bias;
-  for (int s = 0; s < 2; ++s)
-    for (int i = 0; i < row_width; ++i) u += k.rows[s][i] * velocity[k.body[s]].w[i];
-  return ContactJudge::scaled_natural_map({r, 0.0, 0.0}, {u, 0.0, 0.0}, 0.0, lambda_max);
 }
 
 }  // namespace ballast

@@ -109,28 +109,26 @@ Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const 
   operator_.velocity(start, u);
   if (start.squaredNorm() > 0.0) shift_.follow(operator_, u);
   Impulses r;
-  return solve_in_rounds(problem, moving_, std::move(start), budget, patience,
-                         [&](const RoundRequest& request, RoundAnswer& answer) {
-                           Eigen::VectorXd x = from_rows(request.last);
-                           const Eigen::VectorXd term = linear_term(x);
-                           for (int k = 0; k < contact_count(); ++k)
-                             if (has_friction(k))
-                               x.segment<3>(row_begin[k]) =
-                                   project_cone(x.segment<3>(row_begin[k]), friction[k]);
-                             else
-                               x[row_begin[k]] = std::max(0.0, x[row_begin[k]]);
-                           convex({term, x, budget.tolerance / velocity_unit_,
-                                   request.max_iterations, request.max_seconds},
-                                  answer);
-                           if (answer.x.size() != row_count() || !answer.x.allFinite()) {
-                             answer.x.resize(0);
-                             return;
-                           }
-                           answer.x = to_rows(answer.x);
-                           moving_.scatter(problem, answer.x, r);
-                           operator_.velocity(r, u);
-                           shift_.improve(operator_, u);
-                         });
+  return solve_in_rounds(
+      problem, moving_, std::move(start), budget, patience,
+      [&](const RoundRequest& request, RoundAnswer& answer) {
+        Eigen::VectorXd x = from_rows(request.last);
+        const Eigen::VectorXd term = linear_term(x);
+        for (int k = 0; k < contact_count(); ++k)
+          if (has_friction(k))
+            x.segment<3>(row_begin[k]) = project_cone(x.segment<3>(row_begin[k]), friction[k]);
+          else
+            x[row_begin[k]] = std::max(0.0, x[row_begin[k]]);
+        convex({term, x, budget.tolerance / velocity_unit_, request.left}, answer);
+        if (answer.x.size() != row_count() || !answer.x.allFinite()) {
+          answer.x.resize(0);
+          return;
+        }
+        answer.x = to_rows(answer.x);
+        moving_.scatter(problem, answer.x, r);
+        operator_.velocity(r, u);
+        shift_.improve(operator_, u);
+      });
 }
 
 }  // namespace ballast

@@ -20,8 +20,7 @@ struct ConeRequest {
   const Eigen::VectorXd& q;      ///< with s, one entry per row of ConeProgram
   const Eigen::VectorXd& start;  ///< in the cones
   double accuracy;  ///< natural map that the budget asks for, in the program's unit of velocity
-  int max_iterations;
-  double max_seconds;
+  Budget left;
 };
 
 /// Contacts that nothing moves are left out; contacts with mu = 0 keep one row.

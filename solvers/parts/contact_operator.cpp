@@ -52,6 +52,12 @@ void ContactOperator::project(Impulses& r) const {
     put(r, c, rho_[c] > 0.0 ? project_cone(at(r, c), friction(c)) : Eigen::Vector3d::Zero());
 }
 
+double ContactOperator::begin_at(Impulses& r, Eigen::VectorXd& u) {
+  project(r);
+  velocity(r, u);
+  return error(r, u);
+}
+
 double ContactOperator::scaled_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
   double sum = 0.0;
   for (int c = 0; c < contact_count(); ++c)

@@ -51,6 +51,9 @@ class ContactOperator {
 
   /// Every contact's impulse to the nearest point of its cone; zero where nothing moves (rho = 0).
   void project(Impulses& r) const;
+  /// Where a method begins: r goes to the nearest point of its cones, and u to the velocities that
+  /// it gives. Returns error(r, u).
+  double begin_at(Impulses& r, Eigen::VectorXd& u);
   /// sum_c x_c . y_c / rho_c: the product in which W's diagonal is about one. Contacts with rho = 0
   /// are left out.
   double scaled_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const;

@@ -128,7 +128,6 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
       for (int q = 0; q < 2; ++q) add_block(problem, c, p, q, gain_[c]);
   }
   contact_to_body_impulse(d, problem.row_begin, dr, right_);
-  ++factorisations_;
   if (!factor_.factor(matrix_)) return false;
   factor_.solve(matrix_, right_, dv_, 1);
   if (!dv_.allFinite()) return false;
@@ -182,7 +181,6 @@ bool NewtonSystem::solve_delassus(const ContactOperator& w,
               linear[c].by_u(k, i) * entry.value();
     }
   }
-  ++factorisations_;
   if (!factor_.factor(matrix_)) return false;
   factor_.solve(matrix_, right_, dr, 1);
   return dr.allFinite();

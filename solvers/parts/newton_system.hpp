@@ -28,8 +28,6 @@ class NewtonSystem {
   bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
              const std::vector<double>& alpha, Impulses& dr);
 
-  int factorisations() const { return factorisations_; }
-
  private:
   void prepare_bodies(const FrictionProblem& problem);
   void prepare_delassus(const FrictionProblem& problem);
@@ -49,7 +47,6 @@ class NewtonSystem {
   std::vector<Eigen::Vector3d> source_;  ///< B^-1 f
   LuFactor factor_;
   Eigen::VectorXd right_, dv_, u_;
-  int factorisations_ = 0;
 };
 
 }  // namespace ballast

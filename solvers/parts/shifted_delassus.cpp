@@ -17,7 +17,6 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
   const FrictionProblem& problem = w.problem();
   dynamics_ = problem.has_dynamics;
   symmetric_ = true;
-  factorisations_ = 0;
   if (dynamics_) {
     base_ = sparse_mass(problem.dynamics);
     h_ = sparse_h(problem);
@@ -33,7 +32,6 @@ bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
                              const std::vector<Eigen::Matrix3d>& sigma) {
   shift_ = shift;
   sigma_ = sigma;
-  ++factorisations_;
   std::vector<Eigen::Triplet<double>> entries;
   for_block_entries(dynamics_ ? sigma_ : shift_,
                     [&](int i, int j, double x) { entries.emplace_back(i, j, x); });

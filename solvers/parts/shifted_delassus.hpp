@@ -28,7 +28,6 @@ class ShiftedDelassus {
   /// x = (M + H^T Sigma H)^-1 b, in the bodies' unknowns: dynamics form only. Sigma may here be
   /// singular. `x` may be `b`.
   void solve_bodies(const Eigen::VectorXd& b, Eigen::VectorXd& x) { cholesky_.solve(b, x); }
-  int factorisations() const { return factorisations_; }
 
  private:
   void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x);
@@ -45,7 +44,6 @@ class ShiftedDelassus {
   CholeskyFactor cholesky_;
   LuFactor lu_;
   Eigen::VectorXd scaled_, body_, contact_, residual_, correction_;
-  int factorisations_ = 0;
 };
 
 }  // namespace ballast

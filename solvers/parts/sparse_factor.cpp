@@ -7,10 +7,9 @@
 #include <umfpack.h>
 
 namespace ballast {
-namespace {
 
 /// Remembers a pattern; tells whether the next one is the same.
-class Pattern {
+class SparsePattern {
  public:
   bool is(const SparseColumns& a) const {
     return static_cast<Eigen::Index>(outer_.size()) == a.outerSize() + 1 &&
@@ -27,14 +26,14 @@ class Pattern {
   std::vector<int> outer_, inner_;
 };
 
-}  // namespace
+bool has_sparse_factors() { return true; }
 
 struct CholeskyFactor::State {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
   cholmod_dense *x = nullptr, *y = nullptr,
                 *e = nullptr;  // kept: cholmod_solve2 then allocates nothing
-  Pattern pattern;
+  SparsePattern pattern;
 
   State() {
     cholmod_start(&common);
@@ -101,17 +100,12 @@ void CholeskyFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   x = Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(s.x->x), b.size());
 }
 
-long CholeskyFactor::entries() const {
-  const cholmod_factor* f = state_->factor;
-  return f ? static_cast<long>(f->is_super ? f->xsize : f->nzmax) : 0;
-}
-
 struct LuFactor::State {
   void *symbolic = nullptr, *numeric = nullptr;
   double control[UMFPACK_CONTROL], info[UMFPACK_INFO];
   std::vector<int> index_work;
   std::vector<double> work;
-  Pattern pattern;
+  SparsePattern pattern;
 
   State() {
     umfpack_di_defaults(control);
@@ -157,11 +151,6 @@ void LuFactor::solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::Ve
   s.control[UMFPACK_IRSTEP] = refinements;
   umfpack_di_wsolve(UMFPACK_A, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), x.data(),
                     b.data(), s.numeric, s.control, s.info, s.index_work.data(), s.work.data());
-}
-
-double LuFactor::smallest_pivot_ratio() const {
-  const double largest = state_->info[UMFPACK_UMAX];
-  return largest > 0.0 ? state_->info[UMFPACK_UMIN] / largest : 0.0;
 }
 
 }  // namespace ballast

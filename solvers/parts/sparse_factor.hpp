@@ -13,6 +13,11 @@ namespace ballast {
 
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
+/// This build has SuiteSparse. Where it has not, sparse_factor_missing.cpp stands in: whatever
+/// factorises still compiles and links, factor() throws UnsupportedProblem, and the list of solvers
+/// offers none of it.
+bool has_sparse_factors();
+
 /// A = L L^T for symmetric positive definite A (CHOLMOD: best of AMD and METIS, supernodal).
 class CholeskyFactor {
  public:
@@ -27,7 +32,6 @@ class CholeskyFactor {
   bool factor(const SparseColumns& a);
   /// x = A^-1 b, b of the size of A. `x` may be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
-  long entries() const;  ///< stored in L, supernodal padding included
 
  private:
   struct State;
@@ -49,7 +53,6 @@ class LuFactor {
   /// with it when `refinements` > 0. `x` must not be `b`.
   void solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x,
              int refinements = 0);
-  double smallest_pivot_ratio() const;  ///< min |U_ii| / max |U_ii|: how near to singular
 
  private:
   struct State;

@@ -7,6 +7,7 @@
 
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/seam/iteration.hpp"
+#include "solvers/seam/relay.hpp"
 
 namespace ballast {
 
@@ -31,12 +32,12 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
   bool stalled = false;
   RoundAnswer answer;
   while (!stalled && iteration.next()) {
-    const int left = budget.max_iterations - iteration.count() + 1;
+    const Budget left = rest_of(budget, iteration.count() - 1, iteration.seconds());
     answer.x.resize(0);
     answer.iterations = 1;
     answer.finished = true;
-    round({last, best, last_error, left, budget.max_seconds - iteration.seconds()}, answer);
-    for (int i = 1; i < std::min(answer.iterations, left); ++i) iteration.next();
+    round({last, best, last_error, left}, answer);
+    for (int i = 1; i < std::min(answer.iterations, left.max_iterations); ++i) iteration.next();
     if (answer.x.size() == last.size() && answer.x.allFinite()) {
       last = answer.x;
       last_error = error_of(last);

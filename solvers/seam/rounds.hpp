@@ -13,8 +13,7 @@ struct RoundRequest {
   const Eigen::VectorXd& last;  ///< where the last round ended, rows of MovingContacts
   const Eigen::VectorXd& best;  ///< the iterate of least error so far
   double last_error;            ///< of `last`, by the judge [m/s]
-  int max_iterations;           ///< > 0: what is left of the budget
-  double max_seconds;
+  Budget left;                  ///< max_iterations > 0
 };
 
 struct RoundAnswer {

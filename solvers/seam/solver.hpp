@@ -72,9 +72,7 @@ class Solver {
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
 };
 
-/// Makes one backend. A backend that needs an optional library offers `SolverMaker foo_maker();`:
-/// foo.cpp returns the function, foo_missing.cpp, compiled instead where the library is not used,
-/// returns null.
+/// Makes one backend, with the settings that its row in the list stands for.
 using SolverMaker = std::unique_ptr<Solver> (*)();
 
 }  // namespace ballast

@@ -68,7 +68,6 @@ TEST_CASE("the shifted system is solved in both forms, singular W or not") {
       CHECK((x - exact).norm() <= 1e-11 * exact.norm());
       REQUIRE(system.factor(blocks(dynamics, 2.0),
                             inverses(blocks(dynamics, 2.0))));  // the same pattern again
-      CHECK(system.factorisations() == 2);
     }
   }
 }

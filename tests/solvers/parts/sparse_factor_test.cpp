@@ -34,7 +34,6 @@ TEST_CASE("a Cholesky factor solves like a dense one, for a sequence of matrices
     for (const double scale : {1.0, 3.0}) {
       const SparseColumns scaled = scale * a;
       REQUIRE(factor.factor(scaled));
-      CHECK(factor.entries() >= n);
       const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
       Eigen::VectorXd x;
       factor.solve(b, x);
@@ -64,7 +63,6 @@ TEST_CASE("an LU factor solves unsymmetric systems, and knows singular ones") {
     Eigen::VectorXd x;
     factor.solve(a, b, x, 1);
     CHECK((a * x - b).norm() < 1e-11 * b.norm());
-    CHECK(factor.smallest_pivot_ratio() > 1e-6);
   }
   SparseColumns singular(2, 2);
   singular.insert(0, 0) = 1.0;

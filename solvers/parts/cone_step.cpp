@@ -1,0 +1,142 @@
+#include "solvers/parts/cone_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+void ConeStep::prepare(ContactOperator& w) {
+  w_ = &w;
+  system_.prepare(w);
+  for (Eigen::VectorXd* x : {&right_, &dr_, &dg_}) x->resize(w.problem().row_count());
+  const std::size_t contacts = w.contact_count();
+  scaling_.resize(contacts);
+  sigma_.resize(contacts);
+  shift_blocks_.resize(contacts);
+  target_.resize(contacts);
+}
+
+ConeStep::Vector ConeStep::to_cone(const Eigen::VectorXd& r, int c) const {
+  const Vector x = w_->at(r, c);
+  return half_line(c) ? Vector(x[0], 0.0, 0.0) : Vector(w_->friction(c) * x[0], x[1], x[2]);
+}
+
+ConeStep::Vector ConeStep::to_dual(const Eigen::VectorXd& g, int c) const {
+  const Vector z = w_->at(g, c);
+  return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(z[0] / w_->friction(c), z[1], z[2]);
+}
+
+/// S z: from the cone's rows to a velocity; its inverse maps to an impulse.
+ConeStep::Vector ConeStep::from_dual(const Vector& z, int c) const {
+  return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(w_->friction(c) * z[0], z[1], z[2]);
+}
+
+bool ConeStep::factor(const ConePoint& point) {
+  for (int c = 0; c < w_->contact_count(); ++c)
+    if (!scale_contact(point, c)) return false;
+  return system_.factor(shift_blocks_, sigma_);
+}
+
+/// The blocks P and P^-1 of one contact.
+bool ConeStep::scale_contact(const ConePoint& point, int c) {
+  // What may not move does not: a huge P allows no dr.
+  constexpr double nothing = 1e-20;
+  const double lambda_max = moves(c) ? 1.0 / w_->rho()[c] : 1.0;
+  sigma_[c] = nothing / lambda_max * Eigen::Matrix3d::Identity();
+  shift_blocks_[c] = lambda_max / nothing * Eigen::Matrix3d::Identity();
+  if (!moves(c)) return true;
+  lorentz::Scaling& scaling = scaling_[c];
+  if (!lorentz::scale(to_cone(point.r, c), to_dual(point.g, c), half_line(c), scaling))
+    return false;
+  const double least = settings_.least_shift * lambda_max,
+               most = lambda_max / settings_.least_shift;
+  const auto bounded = [=](double e) { return std::clamp(e, least, most); };
+  if (half_line(c)) {
+    shift_blocks_[c](0, 0) = bounded(scaling.eigenvalues[0]);
+    sigma_[c](0, 0) = 1.0 / shift_blocks_[c](0, 0);
+    return true;
+  }
+  const Vector s(w_->friction(c), 1.0, 1.0), inverse = s.cwiseInverse();
+  shift_blocks_[c] = s.asDiagonal() * scaling.of_square(bounded) * s.asDiagonal();
+  sigma_[c] = inverse.asDiagonal() * scaling.of_square([&](double e) { return 1.0 / bounded(e); }) *
+              inverse.asDiagonal();
+  return true;
+}
+
+double ConeStep::barrier() const {
+  double sum = 0.0;
+  for (int c = 0; c < w_->contact_count(); ++c)
+    if (moves(c)) sum += scaling_[c].lambda.squaredNorm();
+  const int cones = moving_contacts();
+  return cones > 0 ? sum / cones : 0.0;
+}
+
+double ConeStep::head_impulses(const Eigen::VectorXd& r) const {
+  double sum = 0.0;
+  for (int c = 0; c < w_->contact_count(); ++c)
+    if (moves(c)) sum += to_cone(r, c)[0];
+  return sum;
+}
+
+int ConeStep::moving_contacts() const {
+  return static_cast<int>(
+      std::count_if(w_->rho().begin(), w_->rho().end(), [](double rho) { return rho > 0.0; }));
+}
+
+bool ConeStep::advance(const SlipShift& shift, const Eigen::VectorXd& u, ConePoint& point) {
+  const double nu = barrier();
+  // Predictor: straight to the solution, and how far along it the cones allow.
+  for (int c = 0; c < w_->contact_count(); ++c)
+    target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
+  solve_newton(shift, u, point);
+  const double predicted = longest(point, 1.0);
+  // Corrector: back to the middle as much as the predictor fell short, and its second-order term.
+  const double sigma = std::pow(1.0 - predicted, 3.0);
+  for (int c = 0; c < w_->contact_count(); ++c) {
+    const Vector dx = scaling_[c].f * to_cone(dr_, c), dz = scaling_[c].f_inverse * to_dual(dg_, c);
+    target_[c] -= lorentz::product(dx, dz);
+    target_[c][0] += sigma * nu;
+  }
+  solve_newton(shift, u, point);
+  const double length = longest(point, settings_.to_boundary);
+  point.r += length * dr_;
+  point.g += length * dg_;
+  return point.r.allFinite() && point.g.allFinite();
+}
+
+/// dr, dg for the complementarity residuals in target_.
+void ConeStep::solve_newton(const SlipShift& shift, const Eigen::VectorXd& u,
+                            const ConePoint& point) {
+  for (int c = 0; c < w_->contact_count(); ++c) {
+    Vector b = Vector::Zero();
+    if (moves(c)) {
+      const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
+      b = w_->at(point.g, c) - shift.shifted(*w_, u, c) + from_dual(scaling_[c].f * pull, c);
+      if (half_line(c)) b[1] = b[2] = 0.0;
+    }
+    w_->put(right_, c, b);
+  }
+  system_.solve(right_, dr_, settings_.refinements);
+  for (int c = 0; c < w_->contact_count(); ++c) {
+    Vector dr = w_->at(dr_, c);
+    if (half_line(c)) dr[1] = dr[2] = 0.0;
+    if (!moves(c)) dr.setZero();
+    w_->put(dr_, c, dr);
+    const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
+    const Vector dz = scaling_[c].f * (pull - scaling_[c].f * to_cone(dr_, c));
+    w_->put(dg_, c, moves(c) ? from_dual(dz, c) : Vector::Zero());
+  }
+}
+
+/// `part` of the longest step that stays in all cones, at most a whole one.
+double ConeStep::longest(const ConePoint& point, double part) const {
+  double step = 1.0 / part;
+  for (int c = 0; c < w_->contact_count(); ++c)
+    if (moves(c)) {
+      step = lorentz::longest_step(to_cone(point.r, c), to_cone(dr_, c), step);
+      step = lorentz::longest_step(to_dual(point.g, c), to_dual(dg_, c), step);
+    }
+  return std::min(1.0, part * step);
+}
+
+}  // namespace ballast

@@ -1,0 +1,35 @@
+// Compiled in place of sparse_factor.cpp where SuiteSparse is not used.
+
+#include "solvers/parts/sparse_factor.hpp"
+#include "solvers/seam/solver.hpp"
+
+namespace ballast {
+namespace {
+
+[[noreturn]] void decline() {
+  throw UnsupportedProblem("built without SuiteSparse: there are no sparse factors");
+}
+
+}  // namespace
+
+bool has_sparse_factors() { return false; }
+
+struct CholeskyFactor::State {};
+CholeskyFactor::CholeskyFactor() = default;
+CholeskyFactor::~CholeskyFactor() = default;
+CholeskyFactor::CholeskyFactor(CholeskyFactor&&) noexcept = default;
+CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
+bool CholeskyFactor::factor(const SparseColumns&) { decline(); }
+void CholeskyFactor::solve(const Eigen::VectorXd&, Eigen::VectorXd&) { decline(); }
+
+struct LuFactor::State {};
+LuFactor::LuFactor() = default;
+LuFactor::~LuFactor() = default;
+LuFactor::LuFactor(LuFactor&&) noexcept = default;
+LuFactor& LuFactor::operator=(LuFactor&&) noexcept = default;
+bool LuFactor::factor(const SparseColumns&) { decline(); }
+void LuFactor::solve(const SparseColumns&, const Eigen::VectorXd&, Eigen::VectorXd&, int) {
+  decline();
+}
+
+}  // namespace ballast
