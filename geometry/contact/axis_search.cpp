@@ -109,10 +109,10 @@ void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& a
       add_witness(pair, 1, pair.other[1] * pair.shape[0]->vertices().xyz(v));
     return;
   }
-  const int own = axis.feature.kind == AxisKind::face_of_a ? 0 : 1;
+  const int own = axis.feature.reference();
   add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(axis.support));
   const std::span<const CollisionShape::Corner> corners =
-      pair.shape[own]->corners(own == 0 ? axis.feature.a : axis.feature.b);
+      pair.shape[own]->corners(axis.feature.face());
   // a few of a large face's corners are enough
   const size_t stride = 1 + (corners.size() - 1) / 4;
   for (size_t k = 0; k < corners.size(); k += stride)
@@ -134,8 +134,7 @@ bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
     side.bound[f] = kMinusInfinity;
     if (found.separation >= best_) {
       best_ = found.separation;
-      best_feature_ = own == 0 ? AxisFeature{AxisKind::face_of_a, f, -1}
-                               : AxisFeature{AxisKind::face_of_b, -1, f};
+      best_feature_ = AxisFeature::of_face(own, f);
       if (best_ > alert) return true;
     }
     add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(found.support));
@@ -208,9 +207,7 @@ AxisFeature AxisSearch::choose(const ShapePair& pair) const {
   for (int own : {0, 1}) {
     const int count = pair.shape[own]->faces().count();
     for (int f = 0; f < count; ++f) {
-      if (side_[own].value[f] >= enough)
-        return own == 0 ? AxisFeature{AxisKind::face_of_a, f, -1}
-                        : AxisFeature{AxisKind::face_of_b, -1, f};
+      if (side_[own].value[f] >= enough) return AxisFeature::of_face(own, f);
     }
   }
   const EdgePair* first = nullptr;

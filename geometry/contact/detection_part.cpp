@@ -107,7 +107,7 @@ void DetectionPart::bound_separated(CandidatePair& pair, double distance, double
 void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts) {
   const std::span<const Pose> poses = bodies_.poses;
   const std::span<const double> reach = bodies_.given_reach;  // never held on to
-  const Vec3 normal = bodies_.rotations[plane] * bodies_.shapes[plane].plane.normal;
+  const Vec3 normal = contact_normal(bodies_.rotations[plane], bodies_.shapes[plane].plane);
   const Vec3& origin = poses[plane].position;
   for (int b = 0; b < bodies_.count(); ++b) {
     const CollisionShape* body = bodies_.shape(b);
@@ -121,8 +121,8 @@ void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts)
       const double gap = height + heights_[v];
       if (gap > alert) continue;
       const Vec3 vertex = poses[b].position + bodies_.rotations[b] * body->vertices().xyz(v);
-      contacts.push_back({plane, b, feature_key(PointKind::vertex_of_b, 0, v), normal,
-                          vertex - 0.5 * gap * normal, gap});
+      contacts.push_back(
+          {plane, b, vertex_key(1, v), normal, midway_from_b(vertex, gap, normal), gap});
     }
     if (contacts.size() > before) ++counters_.manifolds;
   }
@@ -155,7 +155,7 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
     switch (records_.touching[candidate.touching].look(pair, turn, alert, axis, point)) {
       case TouchingPair::Look::touching:
         ++counters_.proved_axes;
-        return append(candidate, b_in_a, axis, {&point, 1}, contacts);
+        return append(candidate, pair, axis, {&point, 1}, contacts);
       case TouchingPair::Look::apart:
         ++counters_.cached_separations;
         return bound_separated(candidate, between.norm(), axis.separation);
@@ -176,19 +176,20 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   // lists with no margin at all.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, alert)) return;
   if (settings_.use_cache) remember(candidate, pair, axis, turn);
-  append(candidate, b_in_a, axis, manifold_.points(pair, axis, alert, settings_.max_points),
+  append(candidate, pair, axis, manifold_.points(pair, axis, alert, settings_.max_points),
          contacts);
 }
 
 /// Points found within the wide reach; where they are held on to, only those within the given one
 /// are contacts now.
-void DetectionPart::append(const CandidatePair& candidate, const RelativePose& b_in_a,
+void DetectionPart::append(const CandidatePair& candidate, const PairFrame& frame,
                            const SeparatingAxis& axis, std::span<const ManifoldPoint> points,
                            std::vector<ContactPoint>& contacts) {
   const int a = candidate.a, b = candidate.b;
-  append(candidate, axis.normal, points, bodies_.given_reach[a] + bodies_.given_reach[b], contacts);
+  append(candidate, contact_normal(frame, axis), points,
+         bodies_.given_reach[a] + bodies_.given_reach[b], contacts);
   if (!bodies_.holds()) return;
-  const ShapePair pair(*bodies_.shape(a), *bodies_.shape(b), b_in_a);
+  const ShapePair pair(*bodies_.shape(a), *bodies_.shape(b), frame.other[0]);
   records_.held[candidate.touching].hold(pair, axis, points, bodies_.reach[a] + bodies_.reach[b]);
 }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/contact/axis_search.hpp"
 #include "geometry/contact/broad_phase.hpp"
+#include "geometry/contact/contact_manifold.hpp"
 #include "geometry/contact/held_manifold.hpp"
 #include "geometry/contact/shape_tables.hpp"
 #include "geometry/contact/touching_pair.hpp"
@@ -67,9 +68,8 @@ class DetectionPart {
   void detect_pair(CandidatePair& pair, std::vector<ContactPoint>& contacts);
   bool append_held(const CandidatePair& candidate, const RelativePose& b_in_a,
                    std::vector<ContactPoint>& contacts);
-  void append(const CandidatePair& candidate, const RelativePose& b_in_a,
-              const SeparatingAxis& axis, std::span<const ManifoldPoint> points,
-              std::vector<ContactPoint>& contacts);
+  void append(const CandidatePair& candidate, const PairFrame& frame, const SeparatingAxis& axis,
+              std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts);
   void append(const CandidatePair& candidate, const Vec3& normal,
               std::span<const ManifoldPoint> points, double alert,
               std::vector<ContactPoint>& contacts);

@@ -2,22 +2,20 @@
 
 namespace ballast {
 
-std::span<const ClippedPoint> FaceClipper::clip(const ShapePair& pair, int reference, int face,
-                                                int incident, double thickness) {
+std::span<ClippedPoint> FaceClipper::clip(const ShapePair& pair, int reference, int face,
+                                          int incident, double thickness) {
   const CollisionShape& shape = *pair.shape[reference];
   start(pair, reference, incident);
   const std::span<const CollisionShape::Side> sides = shape.sides(face);
   for (size_t k = 0; k < sides.size() && !polygon_.empty(); ++k)
     clip_by_side(pair, reference, face, static_cast<int>(k), {sides[k].outward, sides[k].offset},
                  thickness);
-  const Vec3& normal = shape.face(face).normal;
-  for (ClippedPoint& p : polygon_) p.height = normal.dot(p.position) - shape.face(face).offset;
   return polygon_;
 }
 
-std::span<const ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int reference,
-                                                      int face, int incident, const Vec3& direction,
-                                                      double thickness) {
+std::span<ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int reference, int face,
+                                                int incident, const Vec3& direction,
+                                                double thickness) {
   const CollisionShape& shape = *pair.shape[reference];
   start(pair, reference, incident);
   const std::span<const CollisionShape::Corner> corners = shape.corners(face);
@@ -28,10 +26,6 @@ std::span<const ClippedPoint> FaceClipper::clip_along(const ShapePair& pair, int
     clip_by_side(pair, reference, face, static_cast<int>(k), {outward, outward.dot(from)},
                  thickness);
   }
-  const Vec3& normal = shape.face(face).normal;
-  const double scale = 1.0 / normal.dot(direction);
-  for (ClippedPoint& p : polygon_)
-    p.height = (normal.dot(p.position) - shape.face(face).offset) * scale;
   return polygon_;
 }
 
@@ -39,10 +33,8 @@ void FaceClipper::start(const ShapePair& pair, int reference, int incident) {
   const CollisionShape& other = *pair.shape[1 - reference];
   polygon_.clear();
   for (const CollisionShape::Corner& corner : other.corners(incident)) {
-    const std::uint64_t key = reference == 0
-                                  ? feature_key(PointKind::vertex_of_b, 0, corner.vertex)
-                                  : feature_key(PointKind::vertex_of_a, corner.vertex, 0);
-    polygon_.push_back({pair.other[reference] * corner.position, 0.0, key, corner.edge});
+    polygon_.push_back({pair.other[reference] * corner.position, 0.0,
+                        vertex_key(1 - reference, corner.vertex), corner.edge});
   }
 }
 
@@ -71,7 +63,7 @@ void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, i
     ClippedPoint crossing;
     crossing.position =
         p.position + (polygon_[next].position - p.position) * (here / (here - there));
-    crossing.height = 0.0;
+    crossing.gap = 0.0;
     crossing.key = crossing_key(pair, reference, face, k, p.next_edge);
     crossing.next_edge = leaves ? ~k : p.next_edge;
     clipped_.push_back(crossing);
@@ -85,17 +77,13 @@ std::uint64_t FaceClipper::crossing_key(const ShapePair& pair, int reference, in
                                         int edge) const {
   const std::span<const CollisionShape::Corner> corners = pair.shape[reference]->corners(face);
   const int own_edge = corners[k].edge;
-  if (edge >= 0) {
-    return reference == 0 ? feature_key(PointKind::edges, own_edge, edge)
-                          : feature_key(PointKind::edges, edge, own_edge);
-  }
+  if (edge >= 0) return edges_key(reference, own_edge, edge);
   const int other_side = ~edge, count = static_cast<int>(corners.size());
   int corner = -1;
   if ((other_side + 1) % count == k) corner = corners[k].vertex;
   if ((k + 1) % count == other_side) corner = corners[other_side].vertex;
   if (corner < 0) return feature_key(PointKind::sides, own_edge, corners[other_side].edge);
-  return reference == 0 ? feature_key(PointKind::vertex_of_a, corner, 0)
-                        : feature_key(PointKind::vertex_of_b, 0, corner);
+  return vertex_key(reference, corner);
 }
 
 }  // namespace ballast

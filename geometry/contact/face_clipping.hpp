@@ -2,39 +2,21 @@
 // A face of one body clipped by the sides of a face of the other (Sutherland-Hodgman), with names
 // for the corners.
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "geometry/contact/feature_key.hpp"
 #include "geometry/contact/separating_axis.hpp"
 
 namespace ballast {
 
-/// Names of the places where two bodies touch. They do not name the reference face, so a point
-/// keeps its key when the reference changes from one body's face to the other's, or to the face
-/// beside it.
-enum class PointKind : std::uint8_t {
-  vertex_of_a,  ///< index in a; nothing in b
-  vertex_of_b,
-  edges,  ///< an edge of each
-  sides   ///< two sides of the reference face that share no corner: rounding only
-};
-
-/// kind in the two top bits, then 31 bits for each body's index. A vertex of b has the vertex's
-/// number as its key.
-inline std::uint64_t feature_key(PointKind kind, int a, int b) {
-  constexpr std::uint64_t code[] = {1, 0, 2, 3};
-  return code[static_cast<int>(kind)] << 62 | static_cast<std::uint64_t>(a) << 31 |
-         static_cast<std::uint64_t>(b);
-}
-
 /// A corner of a clipped polygon.
 struct ClippedPoint {
   Vec3 position;  ///< in the reference body's frame [m]
-  double height;  ///< above the reference face's plane, along the prism [m]
+  double gap;     ///< [m]; left to the contact rule (contact_normal.hpp)
   std::uint64_t key;
-  int next_edge;  ///< what runs to the next corner: an edge e of the incident body, or ~k for side
-                  ///< k of the reference face
+  int next_edge;  ///< runs to the next corner: an edge e of the incident body, or ~k for side k of
+                  ///< the reference face
 };
 
 /// Holds scratch memory; one per thread.
@@ -52,12 +34,11 @@ class FaceClipper {
   /// of body `reference`, along the face's normal, counter-clockwise seen from the incident body's
   /// outside. Corners up to `thickness` [m] outside a side count as inside and stay where they are.
   /// Valid until the next call.
-  std::span<const ClippedPoint> clip(const ShapePair& pair, int reference, int face, int incident,
-                                     double thickness);
-  /// The same for a prism along another unit direction (reference body's frame); heights are
-  /// measured along it.
-  std::span<const ClippedPoint> clip_along(const ShapePair& pair, int reference, int face,
-                                           int incident, const Vec3& direction, double thickness);
+  std::span<ClippedPoint> clip(const ShapePair& pair, int reference, int face, int incident,
+                               double thickness);
+  /// The same for a prism along another unit direction, in the reference body's frame.
+  std::span<ClippedPoint> clip_along(const ShapePair& pair, int reference, int face, int incident,
+                                     const Vec3& direction, double thickness);
 
  private:
   static constexpr size_t kRoom = 128;

@@ -10,18 +10,12 @@ void HeldManifold::hold(const ShapePair& pair, const SeparatingAxis& axis,
   count_ = 0;
   if (points.size() > most_points) return;
   const RelativePose& a_in_b = pair.other[1];
-  kind_ = axis.feature.kind;
+  carried_ = CarriedContact(pair, axis);
   reach_ = reach;
   b_in_a_ = pair.other[0];
-  if (kind_ == AxisKind::face_of_a) first_ = axis.normal;
-  if (kind_ == AxisKind::face_of_b) first_ = a_in_b.rotation * axis.normal;
-  if (kind_ == AxisKind::edges) {
-    first_ = pair.shape[0]->edges()[axis.feature.a].along;
-    second_ = pair.shape[1]->edges()[axis.feature.b].along;
-    if (first_.cross(b_in_a_.rotation * second_).dot(axis.normal) < 0.0) second_ = -second_;
-  }
+  const Vec3 normal = contact_normal(pair, axis);
   for (const ManifoldPoint& point : points) {
-    const Vec3 half = 0.5 * point.gap * axis.normal;
+    const Vec3 half = 0.5 * point.gap * normal;
     points_[count_++] = {point.key, point.position - half, a_in_b * (point.position + half)};
   }
 }
@@ -37,20 +31,12 @@ bool HeldManifold::is_valid(const RelativePose& b_in_a, double radius, double al
 std::span<const ManifoldPoint> HeldManifold::points(
     const RelativePose& b_in_a, double alert, Vec3& normal,
     std::array<ManifoldPoint, most_points>& storage) const {
-  if (kind_ == AxisKind::face_of_a) normal = first_;
-  if (kind_ == AxisKind::face_of_b) normal = b_in_a.rotation * first_;
-  if (kind_ == AxisKind::edges) normal = first_.cross(b_in_a.rotation * second_).normalized();
+  normal = carried_.normal(b_in_a);
   size_t count = 0;
   for (int k = 0; k < count_; ++k) {
-    const Vec3& on_a = points_[k].on_a;
-    const Vec3 on_b = b_in_a * points_[k].on_b;
-    const double gap = normal.dot(on_b - on_a);
-    if (gap > alert) continue;
-    // the vertex says where it is; its foot on the face may have slid
-    Vec3 position = 0.5 * (on_a + on_b);
-    if (kind_ == AxisKind::face_of_a) position = on_b - 0.5 * gap * normal;
-    if (kind_ == AxisKind::face_of_b) position = on_a + 0.5 * gap * normal;
-    storage[count++] = {points_[k].key, position, gap};
+    const Point& held = points_[k];
+    const ManifoldPoint now = carried_.point(held.key, held.on_a, b_in_a * held.on_b, normal);
+    if (now.gap <= alert) storage[count++] = now;
   }
   return {storage.data(), count};
 }

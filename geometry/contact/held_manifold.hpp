@@ -1,13 +1,14 @@
 #pragma once
-// A pair's contact points held on to while its bodies have hardly moved against each other: each
-// point is a material point of either body, the normal turns with the features that define it. The
-// axis is not proved to be the best still; that is what is saved, and why it is off by default
+// A pair's contact points held on to while its bodies have hardly moved against each other. Each
+// point stays on the material of both bodies, and the normal turns with the features that define it
+// (CarriedContact). Meanwhile no search asks whether another axis has become the best one: this
+// saves time at the price of exactness, and is therefore off by default
 // (DetectionSettings::reuse_motion).
 
 #include <array>
 #include <span>
 
-#include "geometry/contact/contact_manifold.hpp"
+#include "geometry/contact/contact_normal.hpp"
 
 namespace ballast {
 
@@ -36,12 +37,10 @@ class HeldManifold {
     std::uint64_t key;
     Vec3 on_a, on_b;  ///< each in its body's frame [m]
   };
-  AxisKind kind_ = AxisKind::none;
+  CarriedContact carried_;
   int count_ = 0;
   double reach_ = 0.0;
   RelativePose b_in_a_;  ///< when the points were taken
-  Vec3 first_, second_;  ///< the face's normal from a to b in its body's frame; or the edges, cross
-                         ///< product from a to b
   std::array<Point, most_points> points_;
 };
 

@@ -45,11 +45,11 @@ SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature,
                          const CollisionShape::Face& face,
                          std::span<const CollisionShape::Side> sides, const Vec3& vertex,
                          double separation) {
-  const int own = feature.kind == AxisKind::face_of_a ? 0 : 1;
+  const int own = feature.reference();
   SeparatingAxis axis;
   axis.feature = feature;
   axis.separation = separation;
-  axis.normal = own == 0 ? face.normal : Vec3(-(pair.other[0].rotation * face.normal));
+  axis.direction = own == 0 ? face.normal : Vec3(-(pair.other[0].rotation * face.normal));
   const Vec3 support = pair.other[own] * vertex;
   axis.inside = pair.size();
   for (const CollisionShape::Side& side : sides)
@@ -62,11 +62,11 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
                          const EdgeSeparation& found) {
   SeparatingAxis axis;
   axis.feature = feature;
-  axis.normal = found.normal;
+  axis.direction = found.direction;
   axis.separation = found.separation;
   const Vec3 between = pair.other[0] * b.from - a.from;
-  axis.at_a = between.cross(found.along_b).dot(found.normal) / found.cross;
-  axis.at_b = between.cross(a.along).dot(found.normal) / found.cross;
+  axis.at_a = between.cross(found.along_b).dot(found.direction) / found.cross;
+  axis.at_b = between.cross(a.along).dot(found.direction) / found.cross;
   // the facet is the parallelogram of the two edges: distances to its sides are lengths times the
   // sine
   const double cross = std::abs(found.cross);
@@ -109,8 +109,8 @@ std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape:
   facet.cross = sign * length;
   facet.nearly_parallel = !(sine > 1e-3);
   if (facet.nearly_parallel) return facet;
-  facet.normal = cross / facet.cross;
-  facet.separation = facet.normal.dot(b_in_a * b.from - a.from);
+  facet.direction = cross / facet.cross;
+  facet.separation = facet.direction.dot(b_in_a * b.from - a.from);
   return facet;
 }
 
@@ -122,12 +122,12 @@ std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int
   if (!facet || !facet->nearly_parallel) return facet;
   // The arcs' crossing is uncertain by rounding / sine, so the supports are asked.
   const double sign = facet->cross > 0.0 ? 1.0 : -1.0;
-  facet->normal = sign * refined_cross(edge_a.along, facet->along_b).normalized();
-  a.vertices().evaluate(-facet->normal, heights.data());
+  facet->direction = sign * refined_cross(edge_a.along, facet->along_b).normalized();
+  a.vertices().evaluate(-facet->direction, heights.data());
   const double top_a = -lowest(heights.data(), a.vertices().padded()).value;
-  b.vertices().evaluate(pair.other[1].rotation * facet->normal, heights.data());
+  b.vertices().evaluate(pair.other[1].rotation * facet->direction, heights.data());
   const double bottom_b = lowest(heights.data(), b.vertices().padded()).value +
-                          facet->normal.dot(pair.other[0].position);
+                          facet->direction.dot(pair.other[0].position);
   facet->separation = bottom_b - top_a;
   return facet;
 }
@@ -142,8 +142,7 @@ std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFea
     return edge_axis(pair, feature, pair.shape[0]->edges()[feature.a],
                      pair.shape[1]->edges()[feature.b], *found);
   }
-  const int own = feature.kind == AxisKind::face_of_a ? 0 : 1;
-  const int f = own == 0 ? feature.a : feature.b;
+  const int own = feature.reference(), f = feature.face();
   const FaceSeparation found = face_separation(pair, own, f, heights);
   SeparatingAxis axis =
       face_axis(pair, feature, pair.shape[own]->face(f), pair.shape[own]->sides(f),
@@ -183,7 +182,7 @@ bool is_proved_best(const PairFrame& pair, double face_isolation, const Separati
   const double needed = s0 - margin + pair.bounds[0]->ball_radius + pair.bounds[1]->ball_radius;
   if (!(needed > -distance)) return false;
   // largest angle from n0 within the cap: the angle n0-c plus the cap's half angle
-  const double cos_c = std::clamp(axis.normal.dot(c) / distance, -1.0, 1.0);
+  const double cos_c = std::clamp(axis.direction.dot(c) / distance, -1.0, 1.0);
   const double cos_cap = std::clamp(needed / distance, -1.0, 1.0);
   const double sin_c = std::sqrt(1.0 - cos_c * cos_c), sin_cap = std::sqrt(1.0 - cos_cap * cos_cap);
   const double cos_t = cos_c * cos_cap - sin_c * sin_cap, sin_t = sin_c * cos_cap + cos_c * sin_cap;

@@ -50,13 +50,23 @@ enum class AxisKind : std::uint8_t { none, face_of_a, face_of_b, edges };
 struct AxisFeature {
   AxisKind kind = AxisKind::none;
   int a = -1, b = -1;
+
+  static AxisFeature of_face(int body, int face) {
+    return body == 0 ? AxisFeature{AxisKind::face_of_a, face, -1}
+                     : AxisFeature{AxisKind::face_of_b, -1, face};
+  }
+  /// The body that the face belongs to, 0 = a; of two edges 0.
+  int reference() const { return kind == AxisKind::face_of_b ? 1 : 0; }
+  int face() const { return reference() == 0 ? a : b; }
   bool operator==(const AxisFeature&) const = default;
 };
 
+/// What the search proves of a pair. Which normal, gaps and points a contact has by it is decided
+/// in contact_normal.hpp.
 struct SeparatingAxis {
   AxisFeature feature;
-  Vec3 normal;        ///< unit, in a's frame, from a to b
-  double separation;  ///< [m]
+  Vec3 direction;     ///< unit, in a's frame, from a to b, across the facet
+  double separation;  ///< gap along the direction [m]; negative = overlap
   int support = -1;   ///< of a face: the other body's vertex nearest to its plane (smallest index
                       ///< among equals)
   double at_a = 0.0,
@@ -92,9 +102,9 @@ FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& h
 
 struct EdgeSeparation {
   double separation = 0.0;
-  Vec3 normal;   ///< unit, in a's frame, from a to b
-  Vec3 along_b;  ///< b's edge in a's frame
-  double cross;  ///< along_a x along_b = cross * normal
+  Vec3 direction;  ///< unit, in a's frame, from a to b
+  Vec3 along_b;    ///< b's edge in a's frame
+  double cross;    ///< along_a x along_b = cross * direction
   double weight_a,
       weight_b;  ///< for CollisionShape::Edge::drop: the smaller |normal of a face beside the edge
                  ///< . other edge|
@@ -120,8 +130,8 @@ bool is_proved_best(const PairFrame& pair, double face_isolation, const Separati
 // The same axes from the features' records alone, to the same bits: what is remembered of a pair
 // that touches needs no more.
 
-/// The facet of two edges, or nothing. Of nearly parallel ones normal and separation are left out:
-/// their shapes decide.
+/// The facet of two edges, or nothing. Of nearly parallel ones direction and separation are left
+/// out: their shapes decide.
 struct EdgeFacet : EdgeSeparation {
   bool nearly_parallel = false;
 };

@@ -6,22 +6,26 @@ namespace ballast {
 
 namespace {
 
-EdgeAcrossEdge::Beside beside(const CollisionShape& shape, int face, int edge) {
+EdgeAcrossEdge::Beside beside(const EdgeOfFace& found, int face) {
   EdgeAcrossEdge::Beside beside;
-  const SidesBesideEdge found = sides_beside(shape, face, edge);
-  if (found.sides.size() > EdgeAcrossEdge::most_sides) return beside;
+  if (!beside.sides.keep(found.sides)) return beside;
   beside.face = face;
   beside.own = found.own;
-  beside.count = static_cast<int>(found.sides.size());
-  std::copy(found.sides.begin(), found.sides.end(), beside.sides.begin());
   return beside;
 }
 
-SidesBesideEdge sides_of(const EdgeAcrossEdge::Beside& beside) {
-  return {{beside.sides.data(), static_cast<size_t>(beside.count)}, beside.own};
+EdgeOfFace remembered(const CollisionShape::Edge& edge, const EdgeAcrossEdge::Beside& beside) {
+  return {edge, beside.sides.all(), beside.own};
 }
 
 }  // namespace
+
+bool FewSides::keep(std::span<const CollisionShape::Side> sides) {
+  if (sides.size() > most) return false;
+  count = static_cast<int>(sides.size());
+  std::copy(sides.begin(), sides.end(), side.begin());
+  return true;
+}
 
 void TouchingPair::record(const ShapePair& pair, const SeparatingAxis& axis, double turn) {
   contact_ = std::monostate{};
@@ -29,18 +33,16 @@ void TouchingPair::record(const ShapePair& pair, const SeparatingAxis& axis, dou
   if (feature_.kind == AxisKind::edges) {
     const CollisionShape::Edge &a = pair.shape[0]->edges()[feature_.a],
                                &b = pair.shape[1]->edges()[feature_.b];
-    const EdgeCrossing edges(pair, axis, a, b);
-    contact_ = EdgeAcrossEdge{a, b, beside(*pair.shape[0], edges.face_a, feature_.a),
-                              beside(*pair.shape[1], edges.face_b, feature_.b)};
+    const EdgesMeeting meeting(pair, axis, a, b);
+    contact_ = EdgeAcrossEdge{
+        a, b, beside(edge_of_face(*pair.shape[0], feature_.a, meeting.face_a), meeting.face_a),
+        beside(edge_of_face(*pair.shape[1], feature_.b, meeting.face_b), meeting.face_b)};
     return;
   }
-  const int own = feature_.kind == AxisKind::face_of_a ? 0 : 1;
-  const int f = own == 0 ? feature_.a : feature_.b;
-  const std::span<const CollisionShape::Side> sides = pair.shape[own]->sides(f);
-  if (sides.size() > VertexOnFace::most_sides) return;
+  const int own = feature_.reference(), f = feature_.face();
   VertexOnFace contact;
+  if (!contact.sides.keep(pair.shape[own]->sides(f))) return;
   contact.face = pair.shape[own]->face(f);
-  std::copy(sides.begin(), sides.end(), contact.sides.begin());
   contact.vertex = pair.shape[1 - own]->vertices().xyz(axis.support);
   contact.support = axis.support;
   contact.clearance = axis.clearance;
@@ -60,7 +62,7 @@ TouchingPair::Look TouchingPair::look(const PairFrame& pair, double turn, double
 TouchingPair::Look TouchingPair::look_at(const VertexOnFace& contact, const PairFrame& pair,
                                          double turn, double alert, SeparatingAxis& axis,
                                          ManifoldPoint& point) const {
-  const int own = feature_.kind == AxisKind::face_of_a ? 0 : 1;
+  const int own = feature_.reference();
   // 1e-9: far above the rounding of sums of turns over 1e7 steps
   const double diameter = 2.0 * pair.bounds[1 - own]->circumradius;
   const double clearance =
@@ -72,14 +74,12 @@ TouchingPair::Look TouchingPair::look_at(const VertexOnFace& contact, const Pair
       face_separation_at(pair, own, contact.face, vertex_height(direction, contact.vertex));
   axis.separation = separation;
   if (separation > alert) return Look::apart;
-  const std::span<const CollisionShape::Side> sides(contact.sides.data(),
-                                                    static_cast<size_t>(contact.face.corner_count));
-  axis = face_axis(pair, feature_, contact.face, sides, contact.vertex, separation);
+  axis = face_axis(pair, feature_, contact.face, contact.sides.all(), contact.vertex, separation);
   axis.support = contact.support;
   axis.clearance = clearance;
   if (!is_lone_vertex(pair, axis, alert) || !is_proved_best(pair, contact.face.isolation, axis))
     return Look::undecided;
-  point = lone_vertex(pair, axis, contact.face, contact.vertex);
+  point = contact_at(pair, axis, vertex_on_face(pair, axis, contact.face, contact.vertex));
   return Look::touching;
 }
 
@@ -91,14 +91,15 @@ TouchingPair::Look TouchingPair::look_at(const EdgeAcrossEdge& contact, const Pa
   axis.separation = facet->separation;
   if (facet->separation > alert) return Look::apart;
   axis = edge_axis(pair, feature_, contact.a, contact.b, *facet);
-  const EdgeCrossing edges(pair, axis, contact.a, contact.b);
-  const bool known = edges.face_a == contact.beside_a.face && edges.face_b == contact.beside_b.face;
-  const bool lone =
-      edges.is_sharp() || (known && edges.rises_out_of_reach(pair, axis, contact.a, contact.b,
-                                                             sides_of(contact.beside_a),
-                                                             sides_of(contact.beside_b), alert));
-  if (!lone || !is_proved_best(pair, 1.0, axis)) return Look::undecided;
-  point = crossing_point(pair, axis, contact.a, contact.b);
+  const EdgesMeeting meeting(pair, axis, contact.a, contact.b);
+  const bool is_known =
+      meeting.face_a == contact.beside_a.face && meeting.face_b == contact.beside_b.face;
+  const bool is_lone =
+      meeting.is_sharp() ||
+      (is_known && is_lone_crossing(pair, axis, meeting, remembered(contact.a, contact.beside_a),
+                                    remembered(contact.b, contact.beside_b), alert));
+  if (!is_lone || !is_proved_best(pair, 1.0, axis)) return Look::undecided;
+  point = contact_at(pair, axis, edges_cross(pair, axis, contact.a, contact.b));
   return Look::touching;
 }
 

@@ -1,40 +1,52 @@
 #pragma once
-// What is remembered of a pair that touches: the records that its axis and its one contact point
-// are computed from, in one place.
+// The memory of a pair that touches: the records that its axis and its one contact point are
+// computed from, in one place.
 //
 // From step to step nearly every touching pair keeps its axis and is one vertex over a face, or two
-// edges across. Its shapes' tables lie scattered over megabytes; this is a few cache lines, read in
-// the order of the pairs. What is computed here equals, bit for bit, what the tables give: a case
-// that these records cannot decide is left to them.
+// edges across. Its shapes' tables lie scattered over megabytes; this memory is a few cache lines,
+// read in the order of the pairs. Its answers equal, bit for bit, those of the tables, which decide
+// whenever these records cannot.
 
 #include <array>
 #include <variant>
 
-#include "geometry/contact/contact_manifold.hpp"
+#include "geometry/contact/lone_point.hpp"
 
 namespace ballast {
 
-/// A vertex of one body over a face of the other.
-struct VertexOnFace {
-  static constexpr int most_sides = 4;  ///< faces with more are left to the tables
-  CollisionShape::Face face;
-  std::array<CollisionShape::Side, most_sides> sides;
-  Vec3 vertex;
-  int support;
-  double clearance;  ///< when recorded [m]
-  double turn;  ///< of both bodies until then (Travel): the clearance shrinks by no more than what
-                ///< they turn after that times the other body's diameter
+/// The planes on the sides of a face that has few of them.
+struct FewSides {
+  static constexpr size_t most = 4;  ///< faces with more are left to the shapes' tables
+  int count = 0;
+  std::array<CollisionShape::Side, most> side;
+
+  /// False, and nothing is kept, if there are too many.
+  bool keep(std::span<const CollisionShape::Side> sides);
+  std::span<const CollisionShape::Side> all() const {
+    return {side.data(), static_cast<size_t>(count)};
+  }
 };
 
+/// A vertex of one body over a face of the other.
+struct VertexOnFace {
+  CollisionShape::Face face;
+  FewSides sides;
+  Vec3 vertex;       ///< in its own body's frame [m]
+  int support;       ///< its index
+  double clearance;  ///< when recorded [m]
+  double turn;  ///< of both bodies until then (Travel): the clearance shrinks by no more than the
+                ///< turn after that times the other body's diameter
+};
+
+/// Two edges and, of the faces beside each, the one that looked along the axis most.
 struct EdgeAcrossEdge {
-  static constexpr int most_sides = 4;
   struct Beside {
-    int face = -1;  ///< -1: none, or too many sides
-    int own = 0, count = 0;
-    std::array<CollisionShape::Side, most_sides> sides;
+    int face = -1;  ///< -1: the face has too many sides
+    int own = 0;    ///< the side that stands on the edge
+    FewSides sides;
   };
   CollisionShape::Edge a, b;
-  Beside beside_a, beside_b;  ///< the faces that looked along the axis most
+  Beside beside_a, beside_b;
 };
 
 class TouchingPair {

@@ -26,7 +26,7 @@ AxisFeature random_feature(const ShapePair& pair, Random& random) {
 
 bool same_bits(const SeparatingAxis& p, const SeparatingAxis& q) {
   return p.feature == q.feature && p.support == q.support && p.separation == q.separation &&
-         p.normal == q.normal && p.inside == q.inside && p.clearance == q.clearance;
+         p.direction == q.direction && p.inside == q.inside && p.clearance == q.clearance;
 }
 
 }  // namespace
@@ -155,7 +155,7 @@ TEST_CASE("equal axes: faces before edges, a before b, the smaller index") {
   cubes.find(ShapePair(shapes[0], shapes[0], {Mat3::Identity(), Vec3(0.1, 0.2, 1.9)}), 1.0, hint,
              axis);
   CHECK(axis.feature.kind == AxisKind::face_of_a);
-  CHECK(axis.normal.isApprox(Vec3(0, 0, 1), 1e-15));
+  CHECK(axis.direction.isApprox(Vec3(0, 0, 1), 1e-15));
   CHECK(axis.separation == Approx(-0.1).epsilon(1e-14));
   // concentric: all six faces of a tie with all of b
   hint = {};

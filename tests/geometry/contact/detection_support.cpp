@@ -79,7 +79,7 @@ void set_gap(PairCase& c, double gap) {
     AxisFeature hint;
     SeparatingAxis axis;
     search.find(c.pair(), 1e9, hint, axis);
-    c.b_in_a.position += (gap - axis.separation) * axis.normal;
+    c.b_in_a.position += (gap - axis.separation) * axis.direction;
   }
 }
 

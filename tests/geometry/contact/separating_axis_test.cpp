@@ -43,7 +43,7 @@ TEST_CASE("a face's separation is the gap to the other body's nearest vertex") {
   const auto axis = evaluate_axis(pair, {AxisKind::face_of_a, top_face(box), -1}, heights);
   REQUIRE(axis);
   CHECK(axis->separation == Approx(-0.01).epsilon(1e-12));
-  CHECK(axis->normal.isApprox(Vec3(0, 0, 1)));
+  CHECK(axis->direction.isApprox(Vec3(0, 0, 1)));
   CHECK(box.vertices().xyz(axis->support).isApprox(Vec3(1, 1, 1)));
   CHECK(axis->inside == Approx(0.7).epsilon(1e-12));
   CHECK(axis->clearance == Approx(2.0 / std::sqrt(3.0)).epsilon(1e-12));
@@ -69,7 +69,7 @@ TEST_CASE("crossed edges: the gap along their common normal") {
   }
   REQUIRE(found.size() == 1);
   CHECK(found[0].separation == Approx(0.02).epsilon(1e-12));
-  CHECK(found[0].normal.isApprox(on_edge.transpose() * Vec3::UnitZ(), 1e-14));
+  CHECK(found[0].direction.isApprox(on_edge.transpose() * Vec3::UnitZ(), 1e-14));
   CHECK(found[0].inside == Approx(5.0 * std::sqrt(0.75)).epsilon(1e-12));
   CHECK(is_proved_best(pair, face_isolation(pair, found[0].feature), found[0]));
   CHECK(found[0].at_a == Approx(0.5));
@@ -131,7 +131,7 @@ TEST_CASE("seen from the other body every axis is the same") {
     if (!axis || !other) continue;
     const double small = 1e-12 * c.size();
     CHECK(std::abs(axis->separation - other->separation) <= small);
-    CHECK((c.b_in_a.rotation * other->normal + axis->normal).norm() <= 1e-12);
+    CHECK((c.b_in_a.rotation * other->direction + axis->direction).norm() <= 1e-12);
     CHECK(std::abs(axis->inside - other->inside) <=
           1e3 * small);  // ill-conditioned for nearly parallel edges
     CHECK(std::abs(axis->clearance - other->clearance) <= 1e3 * small);

@@ -1,0 +1,103 @@
+#include "geometry/contact/contact_normal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+namespace {
+
+/// Of the two faces beside an edge, the one that looks along d most. The edge's record knows both
+/// normals, so that the faces' records need not be read.
+struct FaceBesideEdge {
+  int face;
+  Vec3 normal;
+  double cosine;
+};
+FaceBesideEdge most_aligned(const CollisionShape::Edge& edge, const Vec3& d) {
+  const double left = edge.left_normal.dot(d), right = edge.right_normal.dot(d);
+  return left >= right ? FaceBesideEdge{edge.left, edge.left_normal, left}
+                       : FaceBesideEdge{edge.right, edge.right_normal, right};
+}
+
+}  // namespace
+
+ManifoldPoint contact_at(const PairFrame& pair, const SeparatingAxis& axis,
+                         const ClippedPoint& place) {
+  const Vec3 normal = contact_normal(pair, axis);
+  if (axis.feature.reference() == 1)
+    return {place.key, midway_from_a(pair.other[0] * place.position, place.gap, normal), place.gap};
+  return {place.key, midway_from_b(place.position, place.gap, normal), place.gap};
+}
+
+ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
+                            const CollisionShape::Face& face, const Vec3& vertex) {
+  const int reference = axis.feature.reference();
+  ClippedPoint place;
+  place.position = pair.other[reference] * vertex;
+  place.gap = gap_over_face(face, place.position);
+  place.key = vertex_key(1 - reference, axis.support);
+  place.next_edge = -1;
+  return place;
+}
+
+ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
+                         const CollisionShape::Edge& a, const CollisionShape::Edge& b) {
+  const Vec3 on_a = a.from + std::clamp(axis.at_a, 0.0, 1.0) * a.along;
+  const Vec3 on_b = pair.other[0] * (b.from + std::clamp(axis.at_b, 0.0, 1.0) * b.along);
+  ClippedPoint place;
+  place.key = feature_key(PointKind::edges, axis.feature.a, axis.feature.b);
+  place.gap = axis.separation;
+  // half a gap from the middle: on b's surface where the lines' closest points lie on the edges
+  place.position = 0.5 * (on_a + on_b) + 0.5 * place.gap * contact_normal(pair, axis);
+  place.next_edge = -1;
+  return place;
+}
+
+EdgesMeeting::EdgesMeeting(const PairFrame& pair, const SeparatingAxis& axis,
+                           const CollisionShape::Edge& a, const CollisionShape::Edge& b) {
+  constexpr double flat = 0.99;            // cosine of 8 degrees
+  constexpr double across_squared = 0.01;  // squared sine of 6 degrees
+  const Vec3 normal = contact_normal(pair, axis);
+  const FaceBesideEdge beside_a = most_aligned(a, normal);
+  const Vec3 towards_a = -(pair.other[1].rotation * normal);  // b's frame
+  const FaceBesideEdge beside_b = most_aligned(b, towards_a);
+  face_a = beside_a.face;
+  face_b = beside_b.face;
+  flat_on_a = beside_a.cosine > flat;
+  flat_on_b = beside_b.cosine > flat;
+  const Vec3 along_b = pair.other[0].rotation * b.along;
+  across = a.along.cross(along_b).squaredNorm() >
+           across_squared * a.along.squaredNorm() * along_b.squaredNorm();
+  const Vec3 along_a = pair.other[1].rotation * a.along;
+  rise_a = std::abs(beside_b.normal.dot(along_a)) / (a.length * beside_b.cosine);
+  rise_b = std::abs(beside_a.normal.dot(along_b)) / (b.length * beside_a.cosine);
+}
+
+CarriedContact::CarriedContact(const ShapePair& pair, const SeparatingAxis& axis)
+    : kind_(axis.feature.kind) {
+  const Vec3 normal = contact_normal(pair, axis);
+  if (kind_ == AxisKind::face_of_a) first_ = normal;
+  if (kind_ == AxisKind::face_of_b) first_ = pair.other[1].rotation * normal;
+  if (kind_ == AxisKind::edges) {
+    first_ = pair.shape[0]->edges()[axis.feature.a].along;
+    second_ = pair.shape[1]->edges()[axis.feature.b].along;
+    if (first_.cross(pair.other[0].rotation * second_).dot(normal) < 0.0) second_ = -second_;
+  }
+}
+
+Vec3 CarriedContact::normal(const RelativePose& b_in_a) const {
+  if (kind_ == AxisKind::face_of_a) return first_;
+  if (kind_ == AxisKind::face_of_b) return b_in_a.rotation * first_;
+  return first_.cross(b_in_a.rotation * second_).normalized();
+}
+
+ManifoldPoint CarriedContact::point(std::uint64_t key, const Vec3& on_a, const Vec3& on_b,
+                                    const Vec3& normal) const {
+  const double gap = normal.dot(on_b - on_a);
+  // The vertex says where the point is: its foot on the face may have slid.
+  if (kind_ == AxisKind::face_of_a) return {key, midway_from_b(on_b, gap, normal), gap};
+  if (kind_ == AxisKind::face_of_b) return {key, midway_from_a(on_a, gap, normal), gap};
+  return {key, 0.5 * (on_a + on_b), gap};
+}
+
+}  // namespace ballast

@@ -1,0 +1,156 @@
+#pragma once
+// The contact rule: which normal, which gaps and which points a touching pair has. This is the one
+// place to read, cite or change it.
+//
+// The search (axis_search.hpp) proves which facet of the Minkowski difference B - A separates two
+// polyhedra best: a face of a, a face of b, or an edge of each. It hands over that feature, the
+// unit direction d across it (a's frame, from a to b) and the separation s along d. From the
+// feature, the two bodies' records and their relative pose, this module decides
+//
+//   the normal  n    unit, from a to b, one for all points of the pair:  n = d
+//   the gaps    g_i  measured along n [m]; negative where the bodies overlap;  min g_i = s
+//   the points  x_i  midway between the two surfaces:  x = x_b - g/2 n = x_a + g/2 n
+//
+// with x_a and x_b the places on the surfaces of a and b. The proof needs d and s alone and the law
+// needs n, g and x alone: another rule changes nothing in the search.
+//
+//   case            feature  normal n           points                          gap at a point x
+//   --------------  -------  -----------------  ------------------------------  -----------------
+//   face on face    face f   normal n_f of the  corners of the common part: the  n_f.x - o_f, the
+//   edge on face    of one   reference face f   other body's most opposed face   height over the
+//                   body     (turned round for  at the touching vertex, cut by   plane n_f.x = o_f
+//                            a face of b)       the planes on the sides of f     of f
+//   vertex on face  face f   the same           the touching vertex              the same
+//   edge on edge    an edge  e_a x e_b scaled   closest points of the two lines  n.(x_b - x_a), the
+//                   of each  to 1, a to b       (held within the edges)          separation s
+//   flat edges      an edge  the same           that point, and the corners of   (n_f.x - o_f)
+//                   of each                     the faces' common part, cut      / (n_f.n), the
+//                                               along n; f lies beside the edge  height along n
+//   parallel edges  never a feature: the faces beside the edges separate as well (kParallelSine)
+//   plane           a wall   the plane's n_P    every vertex within reach        n.(x - p)
+//
+// "Flat edges" (EdgesMeeting) lie nearly in a face of the other body. Such an edge touches at both
+// ends of its overlap, not only where the axis happens to see it in this step: without the other
+// end, contact would jump from end to end as the body rocks by micrometres.
+//
+// The direction of least overlap is that of Cameron and Culley, "Determining the minimum
+// translational distance between two convex polyhedra", ICRA 1986. The points are chosen as in
+// Gregorius, "Robust contact creation for physics simulations", GDC 2015; the flat edges are ours.
+//
+// Who asks: contact_manifold.hpp collects the points within reach and keeps the most useful ones,
+// lone_point.hpp proves that the rule gives no more than one, held_manifold.hpp carries points on
+// to later poses, detection_part.cpp turns them to the world frame. The proofs of lone_point.hpp
+// hold for every rule whose gaps are at least the heights along d; another one must drop them.
+
+#include "geometry/contact/contact_point.hpp"
+#include "geometry/contact/face_clipping.hpp"
+
+namespace ballast {
+
+/// A contact point of two polyhedra, in a's frame.
+struct ManifoldPoint {
+  std::uint64_t key;  ///< unique within the pair (feature_key.hpp)
+  Vec3 position;      ///< midway between the two surfaces [m]
+  double gap;         ///< along the normal [m]; negative = overlap
+};
+
+// ---- the normal
+
+/// Of all points of a pair of polyhedra: unit, in a's frame, from a to b.
+inline Vec3 contact_normal(const PairFrame& /*pair*/, const SeparatingAxis& axis) {
+  return axis.direction;
+}
+/// Of all points on a plane: unit, world frame, into the free side. `rotation`: R_WB of the plane.
+inline Vec3 contact_normal(const Mat3& rotation, const Plane& plane) {
+  return rotation * plane.normal;
+}
+
+// ---- the gaps
+
+/// Of a place x on the other body over a reference face, in that face's frame [m].
+inline double gap_over_face(const CollisionShape::Face& face, const Vec3& x) {
+  return face.normal.dot(x) - face.offset;
+}
+/// Sets the gaps of all corners of the common part of two faces, which a reference face's own
+/// normal has cut.
+inline void set_gaps(std::span<ClippedPoint> corners, const CollisionShape::Face& face) {
+  for (ClippedPoint& corner : corners) corner.gap = gap_over_face(face, corner.position);
+}
+/// The same for corners cut, and gaps measured, along `direction`: the normal in the frame of the
+/// reference face, out of it.
+inline void set_gaps(std::span<ClippedPoint> corners, const CollisionShape::Face& face,
+                     const Vec3& direction) {
+  const double scale = 1.0 / face.normal.dot(direction);
+  for (ClippedPoint& corner : corners) corner.gap = gap_over_face(face, corner.position) * scale;
+}
+
+// ---- the points
+
+/// Midway between the surfaces, from the place on b's surface or on a's.
+inline Vec3 midway_from_b(const Vec3& on_b, double gap, const Vec3& normal) {
+  return on_b - 0.5 * gap * normal;
+}
+inline Vec3 midway_from_a(const Vec3& on_a, double gap, const Vec3& normal) {
+  return on_a + 0.5 * gap * normal;
+}
+/// The contact point of a place on the surface of the body beside the reference, whose frame it is
+/// given in: of b for a face of a and for two edges, of a for a face of b.
+ManifoldPoint contact_at(const PairFrame& pair, const SeparatingAxis& axis,
+                         const ClippedPoint& place);
+
+/// The axis' support vertex over its face. `vertex`: in its own body's frame [m].
+ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
+                            const CollisionShape::Face& face, const Vec3& vertex);
+/// The closest points of the axis' two edges, as a place on b's surface in a's frame. The lines of
+/// bodies apart may be closest beyond the edges' ends: the points are then held at the ends.
+ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
+                         const CollisionShape::Edge& a, const CollisionShape::Edge& b);
+/// A place on a's surface (a's frame) moved along the normal to b's.
+inline Vec3 from_a_to_b(const PairFrame& pair, const SeparatingAxis& axis, const Vec3& on_a,
+                        double gap) {
+  return on_a + gap * contact_normal(pair, axis);
+}
+
+/// How the two edges of an axis and the faces beside them lie: a crossing, or flat on one another.
+struct EdgesMeeting {
+  EdgesMeeting(const PairFrame& pair, const SeparatingAxis& axis, const CollisionShape::Edge& a,
+               const CollisionShape::Edge& b);
+
+  int face_a, face_b;         ///< of the two faces beside each edge, the one facing the other body
+  bool flat_on_a, flat_on_b;  ///< the other body lies nearly flat on that face
+  bool across;                ///< the edges are not nearly parallel
+  double rise_a, rise_b;      ///< per unit length along each edge, how fast the other's face rises
+                              ///< from it; no less anywhere off the edges
+  /// Neither body lies flat on the other: the crossing is the only point. An edge along the
+  /// face's own side has no second end on the face, hence "across".
+  bool is_sharp() const {
+    return !(flat_on_a && flat_on_b) && !(across && (flat_on_a || flat_on_b));
+  }
+  /// Of flat edges: the body (0 = a) whose face is the reference, and the two faces.
+  int reference() const { return flat_on_a ? 0 : 1; }
+  int reference_face() const { return flat_on_a ? face_a : face_b; }
+  int incident_face() const { return flat_on_a ? face_b : face_a; }
+};
+
+// ---- the same at later poses
+
+/// The normal and the points of a pair whose bodies have moved a little, with the same features:
+/// the normal turns with what defines it, each point stays on the material of both bodies.
+class CarriedContact {
+ public:
+  CarriedContact() = default;
+  CarriedContact(const ShapePair& pair, const SeparatingAxis& axis);
+
+  /// Unit, in a's frame, from a to b.
+  Vec3 normal(const RelativePose& b_in_a) const;
+  /// `on_a`, `on_b`: where the point is on each body now, in a's frame. Sets position and gap.
+  ManifoldPoint point(std::uint64_t key, const Vec3& on_a, const Vec3& on_b,
+                      const Vec3& normal) const;
+
+ private:
+  AxisKind kind_ = AxisKind::none;
+  Vec3 first_, second_;  // the face's normal from a to b in its body's frame; or each body's edge,
+                         // their cross product from a to b
+};
+
+}  // namespace ballast

@@ -1,0 +1,90 @@
+// The proofs of a lone point against clipping, which looks at all corners.
+
+#include "geometry/contact/lone_point.hpp"
+
+#include "geometry/contact/axis_search.hpp"
+#include "tests/catch.hpp"
+#include "tests/geometry/contact/detection_support.hpp"
+
+using namespace ballast;
+using namespace ballast::testing;
+
+namespace {
+
+constexpr double alert = 1e-4;
+
+/// The pair's best axis, if it does not separate the bodies by more than the alert distance.
+std::optional<SeparatingAxis> best_axis(const ShapePair& pair) {
+  static AxisSearch search(collision_pool());
+  AxisFeature hint;
+  SeparatingAxis axis;
+  if (is_separated(search.find(pair, alert, hint, axis))) return std::nullopt;
+  return axis;
+}
+
+}  // namespace
+
+TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the face") {
+  Random random(93);
+  FaceClipper clipper;
+  int proved = 0, alone = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const PairCase c =
+        random_case(i % 2 ? Placement::near_touching : Placement::parallel_faces, random);
+    const ShapePair pair = c.pair();
+    const std::optional<SeparatingAxis> axis = best_axis(pair);
+    if (!axis || axis->feature.kind == AxisKind::edges || axis->inside < 0.0) continue;
+    const int reference = axis->feature.reference(), face = axis->feature.face();
+    // every face of the other body is cut, not only the one that the rule chooses
+    int others = 0;
+    const CollisionShape& other = *pair.shape[1 - reference];
+    for (int f = 0; f < other.faces().count(); ++f) {
+      const auto corners = clipper.clip(pair, reference, face, f, clipping_thickness(c.size()));
+      set_gaps(corners, pair.shape[reference]->face(face));
+      for (const ClippedPoint& p : corners)
+        others += p.key != vertex_key(1 - reference, axis->support) && p.gap <= alert;
+    }
+    alone += others == 0;
+    if (!is_lone_vertex(pair, *axis, alert)) continue;
+    ++proved;
+    if (others > 0) FAIL_CHECK("case " << i << ": " << others << " other points within reach");
+  }
+  CHECK(proved > 2000);
+  CHECK(proved > alone / 2);  // the proof is worth having
+}
+
+TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their crossing alone") {
+  Random random(92);
+  FaceClipper clipper;
+  int proved = 0, alone = 0;
+  for (int i = 0; i < 60000; ++i) {
+    const PairCase c = i % 3 ? edges_together(std::abs(random_scale(random, 1.5, 0.0)), random)
+                             : random_case(Placement::near_touching, random);
+    const ShapePair pair = c.pair();
+    const std::optional<SeparatingAxis> axis = best_axis(pair);
+    if (!axis || axis->feature.kind != AxisKind::edges) continue;
+    const AxisFeature feature = axis->feature;
+    const CollisionShape::Edge &a = pair.shape[0]->edges()[feature.a],
+                               &b = pair.shape[1]->edges()[feature.b];
+    const EdgesMeeting meeting(pair, *axis, a, b);
+    if (meeting.is_sharp()) continue;
+    const int reference = meeting.reference(), face = meeting.reference_face();
+    const Vec3 direction =
+        reference == 0 ? axis->direction : Vec3(-(pair.other[1].rotation * axis->direction));
+    const auto corners = clipper.clip_along(pair, reference, face, meeting.incident_face(),
+                                            direction, clipping_thickness(c.size()));
+    set_gaps(corners, pair.shape[reference]->face(face), direction);
+    const auto crossing = feature_key(PointKind::edges, feature.a, feature.b);
+    int others = 0;
+    for (const ClippedPoint& p : corners) others += p.key != crossing && p.gap <= alert;
+    alone += others == 0;
+    if (!is_lone_crossing(pair, *axis, meeting,
+                          edge_of_face(*pair.shape[0], feature.a, meeting.face_a),
+                          edge_of_face(*pair.shape[1], feature.b, meeting.face_b), alert))
+      continue;
+    ++proved;
+    if (others > 0) FAIL_CHECK("case " << i << ": " << others << " other corners within reach");
+  }
+  CHECK(alone > 1000);
+  CHECK(proved > alone / 2);  // the proof is worth having
+}
