@@ -140,7 +140,7 @@ void add_paper_command(CLI::App& program, Action& action) {
       "Finished runs are not made again; stopped ones go on. What is missing is said in the "
       "report.\n\n"
       "Examples:\n  ballast paper all --jobs 2\n  ballast paper fig9\n  ballast paper plan\n"
-      "  ballast paper report --results results/paper --output docs/paper");
+      "  ballast paper report --results results/paper --output my_report");
   command->callback([options, &action] { action = [options] { return reproduce(*options); }; });
 }
 

@@ -76,7 +76,7 @@ void add_sweep_command(CLI::App& program, Action& action) {
   auto options = std::make_shared<SweepRequest>();
   options->sweep.results.clear();
   options->sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  command->add_option("plan", options->plan, "A plan's file (docs/sweeps.md)")->required();
+  command->add_option("plan", options->plan, "A plan's file (docs/manual/plans.md)")->required();
   command
       ->add_option("--jobs", options->sweep.jobs,
                    "Runs at a time (as many as there are processors)")

@@ -30,8 +30,8 @@ std::string name_of(const RunSettings& s, int base_iterations) {
   return name + "_seed=" + std::to_string(s.seed);
 }
 
-/// Core-seconds of a drive of the 1200-grain box, from the first measurements (docs/results.md,
-/// docs/comparison.md): a step's fixed part, and an iteration of each backend.
+/// Core-seconds of a drive of the 1200-grain box: a step's fixed part, and an iteration of each
+/// backend, as measured on one machine (docs/measured). Only for telling how long the rest takes.
 double estimate(const RunSettings& s, long steps) {
   constexpr double fixed = 8e-3, sweep = 0.18e-3;  // [s]
   const double factor = s.solver == "nncg" ? 1.0 : s.solver == "anderson_pgs" ? 1.3 : 0.8;

@@ -20,8 +20,8 @@ struct Plan {
   std::vector<PlannedRun> runs;
 };
 
-/// Reads a plan file (docs/sweeps.md). Throws SceneFileError naming file, key and value: also for a
-/// run that is not a valid scene.
+/// Reads a plan file (docs/manual/plans.md). Throws SceneFileError naming file, key and value: also
+/// for a run that is not a valid scene.
 Plan read_plan(const std::filesystem::path& file);
 
 /// The plan as a file that read_plan reads to the same plan: every run written out. Throws Error

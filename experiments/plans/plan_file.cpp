@@ -1,5 +1,5 @@
 // A plan's file: runs one by one, and sweeps, which are products of lists of values. See
-// docs/sweeps.md.
+// docs/manual/plans.md.
 
 #include <optional>
 

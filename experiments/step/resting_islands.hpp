@@ -1,6 +1,6 @@
 #pragma once
 // Sleep: islands at rest are frozen, and neither detected, assembled nor solved until something
-// comes near. Not exact; what it neglects stands in docs/method.md.
+// comes near. Not exact; what it neglects stands in docs/theory/method.md.
 //
 // An island is what contacts within reach join; walls and fixed bodies join nothing. It falls
 // asleep when all its bodies have been slower than the limit for long enough, it stands on

@@ -128,7 +128,7 @@ struct SolverSpec {
 };
 
 /// Islands at rest fall asleep: frozen, and neither detected nor solved until something comes near
-/// (docs/method.md). Not exact.
+/// (docs/theory/method.md). Not exact.
 struct SleepSpec {
   bool enabled = false;
   double velocity = 0.1;  ///< |v| + |w| R below which a body counts as at rest, in g h

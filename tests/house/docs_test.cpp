@@ -1,14 +1,191 @@
-// What the docs quote is what the files say.
+// What the docs quote, cite and link to is there, and their prose can be read in an editor.
 
+#include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "tests/catch.hpp"
 #include "tests/house/source_tree.hpp"
 
 using namespace ballast::house;
+namespace fs = std::filesystem;
 
-TEST_CASE("what docs/adding_a_solver.md quotes is what the files say") {
-  std::istringstream lines(content(root() / "docs" / "adding_a_solver.md"));
+namespace {
+
+constexpr size_t widest_prose = 100;  // columns
+constexpr int farthest_page = 3;      // links from README.md
+
+/// One page of Markdown.
+struct Page {
+  fs::path path;  ///< from the project's root
+  std::string text;
+};
+
+/// README, CHANGELOG and every page of docs/. Sorted by path.
+std::vector<Page> pages() {
+  std::vector<Page> found = {{"README.md", content(root() / "README.md")},
+                             {"CHANGELOG.md", content(root() / "CHANGELOG.md")}};
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root() / "docs"))
+    if (entry.path().extension() == ".md")
+      found.push_back({fs::relative(entry.path(), root()), content(entry.path())});
+  std::sort(found.begin(), found.end(),
+            [](const Page& a, const Page& b) { return a.path < b.path; });
+  return found;
+}
+
+bool is_measured(const Page& page) { return page.path.string().starts_with("docs/measured/"); }
+
+/// `ballast paper report` writes it, a paragraph a line.
+bool is_generated(const Page& page) {
+  return is_measured(page) && page.path.parent_path().filename() == "paper";
+}
+
+/// The lines of prose: no tables, no headings, no code (fenced or indented by four).
+std::vector<std::string> prose(const std::string& text) {
+  std::vector<std::string> found;
+  bool fenced = false;
+  for (const std::string& line : lines_of(text)) {
+    if (line.starts_with("```")) fenced = !fenced;
+    const bool code = fenced || line.starts_with("```") || line.starts_with("    ");
+    if (!code && !line.empty() && line[0] != '|' && line[0] != '#') found.push_back(line);
+  }
+  return found;
+}
+
+/// Targets of the links to files of this project: `[words](target)`, without `#part`.
+std::vector<std::string> links(const std::string& text) {
+  std::vector<std::string> found;
+  for (size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
+    const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+    if (target.starts_with("http") || target.starts_with("#")) continue;
+    found.push_back(target.substr(0, target.find('#')));
+  }
+  return found;
+}
+
+/// What stands in backticks and looks like a path of the sources: `solvers/seam/solver.hpp`, a
+/// module without its suffix, or a folder. Placeholders (<room>, *, foo) are not paths.
+std::vector<std::string> cited_paths(const std::string& text) {
+  const std::vector<std::string> tops = {"platform/", "geometry/",    "problems/",
+                                         "solvers/",  "experiments/", "tests/"};
+  std::vector<std::string> found;
+  for (const std::string& line : lines_of(text)) {
+    std::istringstream pieces(line);
+    bool quoted = false;
+    for (std::string piece; std::getline(pieces, piece, '`'); quoted = !quoted) {
+      const bool path = std::any_of(tops.begin(), tops.end(),
+                                    [&](const auto& top) { return piece.starts_with(top); });
+      if (quoted && path && piece.find_first_of(" <*{") == std::string::npos &&
+          piece.find("/foo") == std::string::npos)
+        found.push_back(piece);
+    }
+  }
+  return found;
+}
+
+bool is_in_the_tree(const std::string& path) {
+  return fs::exists(root() / path) || fs::exists(root() / (path + ".hpp")) ||
+         fs::exists(root() / (path + ".cpp"));
+}
+
+/// Words that look like a commit: seven hexadecimal digits or more, letters and figures mixed.
+std::vector<std::string> commits(const std::string& text) {
+  const auto in_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_' || c == '-';
+  };
+  std::vector<std::string> found;
+  std::string word;
+  for (const char c : text + " ") {
+    if (in_word(c)) {
+      word += c;
+      continue;
+    }
+    const bool hexadecimal = word.find_first_not_of("0123456789abcdef") == std::string::npos;
+    if (word.size() >= 7 && hexadecimal && word.find_first_of("abcdef") != std::string::npos &&
+        word.find_first_of("0123456789") != std::string::npos)
+      found.push_back(word);
+    word.clear();
+  }
+  return found;
+}
+
+/// Pages -> least number of links from README.md to them.
+std::map<std::string, int> distances_from_readme() {
+  std::map<std::string, int> distance = {{"README.md", 0}};
+  std::vector<std::string> queue = {"README.md"};
+  for (size_t k = 0; k < queue.size(); ++k) {
+    const std::string page = queue[k];
+    if (!page.ends_with(".md")) continue;
+    for (const std::string& link : links(content(root() / page))) {
+      const std::string to = (fs::path(page).parent_path() / link).lexically_normal().string();
+      if (distance.try_emplace(to, distance[page] + 1).second) queue.push_back(to);
+    }
+  }
+  return distance;
+}
+
+}  // namespace
+
+TEST_CASE("every link of the docs leads to a file") {
+  int found = 0;
+  for (const Page& page : pages())
+    for (const std::string& link : links(page.text)) {
+      INFO(page.path.string() << ": " << link);
+      CHECK(fs::exists(root() / page.path.parent_path() / link));
+      ++found;
+    }
+  CHECK(found > 50);
+}
+
+TEST_CASE("every source that the docs cite exists") {
+  int found = 0;
+  for (const Page& page : pages())
+    for (const std::string& path : cited_paths(page.text)) {
+      INFO(page.path.string() << ": " << path);
+      CHECK(is_in_the_tree(path));
+      ++found;
+    }
+  CHECK(found > 50);
+}
+
+TEST_CASE("the docs' prose is not too wide, and no commit explains anything") {
+  for (const Page& page : pages()) {
+    INFO(page.path.string());
+    if (!is_generated(page))
+      for (const std::string& line : prose(page.text)) {
+        INFO(line);
+        CHECK(columns(line) <= widest_prose);
+      }
+    if (!is_measured(page)) CHECK(commits(page.text).empty());
+  }
+}
+
+TEST_CASE("every page is a few links from README.md") {
+  const std::map<std::string, int> distance = distances_from_readme();
+  for (const Page& page : pages()) {
+    const std::string path = page.path.string();
+    if (path == "CHANGELOG.md") continue;
+    INFO(path);
+    REQUIRE(distance.contains(path));
+    CHECK(distance.at(path) <= farthest_page);
+  }
+}
+
+TEST_CASE("the reader of docs sees what is forbidden") {
+  CHECK(links("a [b](c.md#part) [d](https://e.f) ![g](h.svg)") ==
+        std::vector<std::string>{"c.md", "h.svg"});
+  CHECK(prose("# head\n\none\n| table |\n    code\n```\nfenced\n```\n- two\n") ==
+        std::vector<std::string>{"one", "- two"});
+  CHECK(commits("since cea39a7, 4.348570e-3 and 20260101 and 1e30") ==
+        std::vector<std::string>{"cea39a7"});
+  CHECK(cited_paths("`solvers/none.hpp`, tests/no, `tests/<room>/a.txt`, `ballast run`") ==
+        std::vector<std::string>{"solvers/none.hpp"});
+  CHECK(is_in_the_tree("tests/house/source_tree"));
+  CHECK_FALSE(is_in_the_tree("solvers/none.hpp"));
+}
+
+TEST_CASE("what docs/house/adding_a_solver.md quotes is what the files say") {
+  std::istringstream lines(content(root() / "docs" / "house" / "adding_a_solver.md"));
   std::string file, quotation;
   bool inside = false;
   int quotations = 0;

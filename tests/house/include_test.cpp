@@ -1,4 +1,4 @@
-// Who may include whom (docs/design.md), read from the sources and from CMake.
+// Who may include whom (docs/house/design.md), read from the sources and from CMake.
 
 #include <algorithm>
 

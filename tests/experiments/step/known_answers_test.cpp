@@ -1,4 +1,4 @@
-// The mechanics' known answers (numbers as in docs/known_answers.md), each a scene of
+// The mechanics' known answers (numbers as in docs/theory/known_answers.md), each a scene of
 // problems/scenes run by the stepper. Where a formula is exact for the scheme it is checked at
 // every step; elsewhere the error must fall with h.
 
