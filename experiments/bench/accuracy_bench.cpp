@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/step/record_column.hpp"
 #include "experiments/step/step_record.hpp"
 
 namespace ballast {

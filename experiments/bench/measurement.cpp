@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
@@ -16,13 +17,6 @@ namespace ballast {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Linear between the two nearest; `sorted` has at least one value.
-double quantile(const std::vector<double>& sorted, double fraction) {
-  const double at = fraction * static_cast<double>(sorted.size() - 1);
-  const size_t below = static_cast<size_t>(at), above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
 
 Json json_of(const MachineFacts& facts) {
   Json json = {{"read_GB_s", facts.read_GB_s},
@@ -49,10 +43,10 @@ Measurement measurement_of(const std::string& group, const std::string& name,
   return {group,
           name,
           unit,
-          quantile(values, 0.5),
+          quantile_of_sorted(values, 0.5),
           std::accumulate(values.begin(), values.end(), 0.0) / count,
-          quantile(values, 0.25),
-          quantile(values, 0.75),
+          quantile_of_sorted(values, 0.25),
+          quantile_of_sorted(values, 0.75),
           static_cast<long>(values.size())};
 }
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "experiments/run/run.hpp"
-#include "experiments/step/record_column.hpp"
+#include "experiments/step/step_record.hpp"
 #include "platform/child_process.hpp"
 #include "platform/error.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"

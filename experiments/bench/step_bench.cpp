@@ -5,37 +5,32 @@
 #include <functional>
 
 #include "experiments/measure/wall_cycles.hpp"
-#include "experiments/step/record_column.hpp"
+#include "experiments/step/step_record.hpp"
 
 namespace ballast {
 namespace {
 
 struct StepQuantity {
-  const char* name;
+  std::string name;
   const char* unit;
   std::function<double(const BenchStep&)> value;
 };
 
 /// What is said of a set of steps. `scale` [m/s]: g h.
 std::vector<StepQuantity> quantities(double scale) {
-  const auto phase = [](double StepRecord::*seconds) {
-    return [seconds](const BenchStep& s) { return 1e3 * (s.record.*seconds); };
-  };
   const auto counter = [](long DetectionCounters::*count) {
     return [count](const BenchStep& s) { return static_cast<double>(s.counters.*count); };
   };
   const auto column = [](double StepRecord::*value) {
     return [value](const BenchStep& s) { return s.record.*value; };
   };
-  return {
+  std::vector<StepQuantity> all{
       {"step", "ms", [](const BenchStep& s) { return 1e3 * step_seconds(s.record); }},
-      {"step, CPU", "ms", [](const BenchStep& s) { return 1e3 * s.cpu_seconds; }},
-      {"detect", "ms", phase(&StepRecord::seconds_detect)},
-      {"assemble", "ms", phase(&StepRecord::seconds_assemble)},
-      {"solve", "ms", phase(&StepRecord::seconds_solve)},
-      {"judge", "ms", phase(&StepRecord::seconds_judge)},
-      {"correct", "ms", phase(&StepRecord::seconds_correct)},
-      {"other", "ms", phase(&StepRecord::seconds_other)},
+      {"step, CPU", "ms", [](const BenchStep& s) { return 1e3 * s.cpu_seconds; }}};
+  for (const StepColumn& phase : step_phases())
+    all.push_back({phase.phase_word(), "ms",
+                   [&phase](const BenchStep& s) { return 1e3 * (s.record.*phase.value); }});
+  const StepQuantity rest[] = {
       {"pairs in the broad phase's list", "pairs", counter(&DetectionCounters::candidate_pairs)},
       {"separated by the cache", "pairs", counter(&DetectionCounters::cached_separations)},
       {"cached axis proved", "pairs", counter(&DetectionCounters::proved_axes)},
@@ -49,6 +44,8 @@ std::vector<StepQuantity> quantities(double scale) {
       {"error of the worst contact", "g h",
        [scale](const BenchStep& s) { return s.record.error_max / scale; }},
       {"penetration max", "um", [](const BenchStep& s) { return 1e6 * s.record.penetration_max; }}};
+  all.insert(all.end(), std::begin(rest), std::end(rest));
+  return all;
 }
 
 void add_group(const std::string& group, const std::vector<const BenchStep*>& steps, double scale,
@@ -59,7 +56,7 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
     for (const BenchStep* step : steps) values.push_back(quantity.value(*step));
     const double worst = *std::max_element(values.begin(), values.end());
     to.push_back(measurement_of(group, quantity.name, quantity.unit, std::move(values)));
-    if (std::string(quantity.name) == "error rms")
+    if (quantity.name == "error rms")
       to.push_back(measurement_of(group, "error rms, worst step", quantity.unit, {worst}));
   }
   // of means: what an iteration costs, everything of the solver counted
@@ -116,17 +113,7 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
 }
 
 Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
-  struct Line {
-    const char* title;
-    double StepRecord::*seconds;
-    Ink ink;
-  };
-  const Line lines[] = {{"solve", &StepRecord::seconds_solve, Ink::blue},
-                        {"detect", &StepRecord::seconds_detect, Ink::vermilion},
-                        {"judge", &StepRecord::seconds_judge, Ink::green},
-                        {"assemble", &StepRecord::seconds_assemble, Ink::orange},
-                        {"correct", &StepRecord::seconds_correct, Ink::sky},
-                        {"other", &StepRecord::seconds_other, Ink::grey}};
+  constexpr Ink inks[] = {Ink::vermilion, Ink::orange, Ink::blue, Ink::green, Ink::sky, Ink::grey};
   Figure figure;
   figure.name = "step";
   figure.title = "Where the time of a step goes";
@@ -144,10 +131,10 @@ Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
     }
     return curve;
   };
-  for (const Line& line : lines) {
-    Curve curve = medians([&](const StepRecord& r) { return 1e3 * (r.*line.seconds); });
-    curve.title = line.title;
-    curve.ink = line.ink;
+  for (const StepColumn& phase : step_phases()) {
+    Curve curve = medians([&](const StepRecord& r) { return 1e3 * (r.*phase.value); });
+    curve.title = phase.phase_word();
+    curve.ink = inks[figure.panels[0].curves.size() % std::size(inks)];
     figure.panels[0].curves.push_back(std::move(curve));
   }
   figure.panels[0].y_label = "time of a step [ms]";

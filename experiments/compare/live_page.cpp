@@ -8,7 +8,7 @@
 #include "experiments/compare/live.hpp"
 #include "experiments/compare/page_drawing.hpp"
 #include "experiments/run_page/report_origin.hpp"
-#include "experiments/step/record_column.hpp"
+#include "experiments/step/step_record.hpp"
 #include "platform/atomic_file.hpp"
 
 namespace ballast {

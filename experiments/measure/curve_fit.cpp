@@ -51,11 +51,17 @@ double golden_section(const Function& f, double a, double b) {
   double fc = f(c), fd = f(d);
   for (int k = 0; k < 80 && b - a > 1e-12; ++k) {
     if (fc < fd) {
-      b = d, d = c, fd = fc;
-      c = b - ratio * (b - a), fc = f(c);
+      b = d;
+      d = c;
+      fd = fc;
+      c = b - ratio * (b - a);
+      fc = f(c);
     } else {
-      a = c, c = d, fc = fd;
-      d = a + ratio * (b - a), fd = f(d);
+      a = c;
+      c = d;
+      fc = fd;
+      d = a + ratio * (b - a);
+      fd = f(d);
     }
   }
   return 0.5 * (a + b);
@@ -111,7 +117,10 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
   double least = projected(scan_step * best).residual;
   for (int k = -scan_half + 1; k <= scan_half; ++k) {
     const double residual = projected(scan_step * k).residual;
-    if (residual < least) least = residual, best = k;
+    if (residual < least) {
+      least = residual;
+      best = k;
+    }
   }
   const double rate = golden_section([&](double r) { return projected(r).residual; },
                                      scan_step * (best - 1), scan_step * (best + 1));
@@ -157,15 +166,19 @@ Statistics statistics(std::span<const double> values) {
   return result;
 }
 
+double quantile_of_sorted(std::span<const double> sorted, double p) {
+  if (sorted.empty()) return not_known;
+  const double at = p * static_cast<double>(sorted.size() - 1);
+  const size_t below = static_cast<size_t>(at), above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
 double quantile(std::span<const double> values, double p) {
   std::vector<double> sorted;
   for (double value : values)
     if (std::isfinite(value)) sorted.push_back(value);
-  if (sorted.empty()) return not_known;
   std::sort(sorted.begin(), sorted.end());
-  const double place = std::ceil(p * static_cast<double>(sorted.size())) - 1.0;
-  return sorted[static_cast<size_t>(
-      std::clamp(place, 0.0, static_cast<double>(sorted.size() - 1)))];
+  return quantile_of_sorted(sorted, p);
 }
 
 }  // namespace ballast

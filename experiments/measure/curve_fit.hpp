@@ -66,8 +66,12 @@ struct Statistics {
 };
 Statistics statistics(std::span<const double> values);
 
-/// Smallest value that the share `p` of the finite samples does not exceed (0 <= p <= 1); NaN
-/// without samples.
+/// The value that the share `p` (0 <= p <= 1) of the samples does not exceed, linear between the
+/// two nearest of `sorted`, which grows: 0.5 is the median, the mean of the middle two of an even
+/// number. NaN without samples.
+double quantile_of_sorted(std::span<const double> sorted, double p);
+
+/// The same of values in any order; those that are not finite are left out.
 double quantile(std::span<const double> values, double p);
 
 }  // namespace ballast

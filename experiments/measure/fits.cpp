@@ -143,8 +143,10 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   const double bound = least_residual * (1.0 + t * t / (fit.samples - 2)) + 1e-300;
   int first = best, last = best;
   for (int k = 0; k <= parts; ++k)
-    if (residual[static_cast<size_t>(k)] <= bound)
-      first = std::min(first, k), last = std::max(last, k);
+    if (residual[static_cast<size_t>(k)] <= bound) {
+      first = std::min(first, k);
+      last = std::max(last, k);
+    }
   fit.low = critical(first);
   fit.high = critical(last);
   return fit;

@@ -75,7 +75,10 @@ void note_non_finite(const std::vector<StepRecord>& steps, std::vector<std::stri
   for (const StepColumn& column : step_columns()) {
     size_t count = 0, first = 0;
     for (size_t k = steps.size(); k-- > 0;)
-      if (!std::isfinite(steps[k].*column.value)) ++count, first = k;
+      if (!std::isfinite(steps[k].*column.value)) {
+        ++count;
+        first = k;
+      }
     if (count == 0 || count == steps.size())
       continue;  // all: the column is missing, which has been said
     notices.push_back(std::string(column.name) + " is not finite in " + std::to_string(count) +

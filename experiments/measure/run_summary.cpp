@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/step/record_column.hpp"
+#include "experiments/step/step_record.hpp"
 
 namespace ballast {
 namespace {
@@ -35,12 +35,7 @@ double sum_of(std::span<const StepRecord> steps, double StepRecord::*value) {
 }
 
 void summarise_cost(std::span<const StepRecord> steps, RunSummary& summary) {
-  summary.cost = {PhaseCost{"detection", &StepRecord::seconds_detect},
-                  PhaseCost{"assembly", &StepRecord::seconds_assemble},
-                  PhaseCost{"solver", &StepRecord::seconds_solve},
-                  PhaseCost{"validation and judge", &StepRecord::seconds_judge},
-                  PhaseCost{"overlap correction", &StepRecord::seconds_correct},
-                  PhaseCost{"integration, measures", &StepRecord::seconds_other}};
+  for (const StepColumn& phase : step_phases()) summary.cost.push_back({phase.phase, phase.value});
   double total = 0.0;
   bool is_known = false;
   for (PhaseCost& phase : summary.cost) {
@@ -122,6 +117,16 @@ Statistics over_periods(const std::vector<WallPeriod>& periods, double WallPerio
   return statistics(values);
 }
 
+Statistics dissipated_in(std::span<const StepRecord> steps,
+                         const std::vector<WallPeriod>& periods) {
+  std::vector<double> losses;
+  for (const WallPeriod& period : periods) {
+    losses.push_back(0.0);
+    for (size_t k = period.first; k < period.last; ++k) losses.back() += steps[k].dissipated;
+  }
+  return statistics(losses);
+}
+
 void summarise_wall(std::span<const StepRecord> steps, const WallSettings& settings,
                     RunSummary& summary) {
   const RunFacts& facts = summary.facts;
@@ -129,37 +134,22 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
   summary.loop = fit_loop(steps, summary.wall, settings);
   summary.jammed = jammed_state(steps, summary.wall, facts.f_min, facts.f_max);
   summary.contraction = first_contraction(steps, facts.frequency);
-  summary.rise = over_periods(summary.wall.periods, &WallPeriod::rise);
-  summary.net = over_periods(summary.wall.periods, &WallPeriod::net);
-  summary.speed_in = over_periods(summary.wall.periods, &WallPeriod::speed_in);
-  summary.speed_out = over_periods(summary.wall.periods, &WallPeriod::speed_out);
-  const double eq3 = facts.grain_mass / (facts.grain_mass + facts.wall_mass) * facts.grain_mass *
-                     facts.gravity / facts.f_max * facts.gravity /
-                     (facts.frequency * facts.frequency);
-  summary.prefactor = summary.rise.mean / eq3;
-}
-
-Compaction compaction_of(std::span<const StepRecord> steps, const RunSummary& summary) {
-  Compaction compaction;
-  compaction.initial = summary.facts.solid_fraction_initial;
-  compaction.last = steps.back().solid_fraction;
-  for (const StepRecord& step : steps)
-    if (step.time >= paper::reference_time - 0.25 * summary.facts.step) {
-      compaction.reference = step.solid_fraction;
-      break;
-    }
-  std::vector<double> number, mean;
-  for (const WallPeriod& period : summary.wall.periods) {
-    number.push_back(static_cast<double>(number.size()));
-    mean.push_back(period.solid_fraction);
-  }
-  compaction.per_period = fit_line(number, mean);
-  compaction.relative_gain = compaction.per_period.slope / compaction.reference;
-  compaction.rate = compaction.relative_gain * summary.facts.frequency;
-  return compaction;
+  const std::vector<WallPeriod>& periods = summary.wall.periods;
+  summary.rise = over_periods(periods, &WallPeriod::rise);
+  summary.net = over_periods(periods, &WallPeriod::net);
+  summary.speed_in = over_periods(periods, &WallPeriod::speed_in);
+  summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
+  summary.jam_position = over_periods(periods, &WallPeriod::x_after);
+  summary.dissipated = dissipated_in(steps, periods);
+  summary.prefactor = summary.rise.mean / eq3_displacement(facts);
 }
 
 }  // namespace
+
+double eq3_displacement(const RunFacts& facts) {
+  const double m = facts.grain_mass, g = facts.gravity;
+  return m / (m + facts.wall_mass) * m * g / facts.f_max * g / (facts.frequency * facts.frequency);
+}
 
 RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
   const auto fill = [](double& value, double found) {
@@ -199,7 +189,10 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
   summary.energy = energy_balance(steps);
   if (*summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
     summarise_wall(steps, settings, summary);
-  if (*summary.facts.has_packing) summary.compaction = compaction_of(steps, summary);
+  if (*summary.facts.has_packing)
+    summary.compaction =
+        compaction_of(steps, summary.wall.periods, summary.facts.solid_fraction_initial,
+                      summary.facts.frequency, summary.facts.step);
   return summary;
 }
 

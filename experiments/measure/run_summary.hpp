@@ -1,13 +1,30 @@
 #pragma once
-// The numbers of a run that the report and the figures of the paper state: pure functions of the
-// record. NaN: not known.
+// The numbers of a run that its page and the figures of the paper state: pure functions of the
+// record, each defined once. NaN: not known.
+//
+// clang-format off
+//   Delta x_max            largest rise of x above its running minimum in a period; end of the active phase, sec. 3, Figs. 9-11
+//   v_max                  largest inward velocity of the wall in a period; passive phase, sec. 4, Fig. 9
+//   jamming position       least x after the rise, until the period's end; sec. 3
+//   net contraction        x at the period's begin minus x at its end; Fig. 3
+//   Delta rho_1            change of the solid fraction over a period, same phase of the load; sec. 5, Fig. 12
+//   rho_0                  solid fraction at t = 0.2 s; sec. 5
+//   compaction rate        (rho(t_b) - rho(t_a)) / (rho_0 (t_b - t_a)) over whole periods; Eq. 4, Fig. 13
+//   dissipation            energy lost in contacts per period
+//   Eq. 3's right side     m/(m + m_w) . m g/f_max . g/nu^2; Eq. 3, Fig. 11
+//   C of Eq. 3             Delta x_max over that
+// clang-format on
+//
+// Quantities of a period are means over the periods that count; which these are, wall_cycles says.
+// Delta rho_1 is a mean of differences, not the slope of a line through the periods' means: it
+// needs one period where a line needs two, and both its ends are at one phase of the load.
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "experiments/measure/compaction.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
 #include "experiments/step/step_record.hpp"
@@ -28,6 +45,9 @@ struct RunFacts {
   std::optional<bool> has_wall, has_packing;             ///< a driven wall; a solid fraction
 };
 
+/// The right side of Eq. 3 without C, m the mass of all grains [m].
+double eq3_displacement(const RunFacts& facts);
+
 /// Fills in from the record what is missing: h from the times, f_max, f_min and frequency from the
 /// load, the initial solid fraction from the first row, has_wall and has_packing from columns that
 /// are not zero. velocity_scale = gravity * step when both are known.
@@ -44,8 +64,7 @@ inline constexpr double jammed_force = 1e-3;        ///< |f_g - f|/f_max
 }  // namespace target
 namespace paper {
 inline constexpr double solid_fraction_initial = 0.50;
-inline constexpr double solid_fraction_reference = 0.52;  ///< rho_0, after 0.2 s
-inline constexpr double reference_time = 0.2;             ///< [s]
+inline constexpr double solid_fraction_reference = 0.52;  ///< rho_0
 inline constexpr double gain_per_period = 0.0025;  ///< Delta rho_1 / rho_0 below nu_c (Eq. 5)
 inline constexpr double prefactor = 0.01;          ///< C of Eq. 3
 }  // namespace paper
@@ -78,22 +97,12 @@ struct FirstContraction {
   double time90 = not_known;  ///< when 90 % of it is reached [s]
 };
 
-struct Compaction {
-  double initial = not_known;    ///< before the drive
-  double reference = not_known;  ///< rho_0: at 0.2 s
-  double last = not_known;
-  LineFit per_period;  ///< line through the period means against the period's number: slope = Delta
-                       ///< rho_1
-  double relative_gain = not_known;  ///< Delta rho_1 / rho_0
-  double rate = not_known;           ///< Eq. 4: relative_gain * nu [1/s]
-};
-
 struct RunSummary {
   RunFacts facts;
   long steps = 0;
   double duration = not_known;  ///< [s]
 
-  std::array<PhaseCost, 6> cost;
+  std::vector<PhaseCost> cost;     ///< one per phase of the step, as step_phases()
   double ms_per_step = not_known;  ///< sum of the phases
   Statistics iterations, contacts, active_contacts;
 
@@ -116,7 +125,10 @@ struct RunSummary {
   LoopFits loop;
   JammedState jammed;
   FirstContraction contraction;
-  Statistics rise, net, speed_in, speed_out;  ///< over the whole periods after the first transient
+  // over the periods that count
+  Statistics rise, net, speed_in, speed_out;  ///< as in WallPeriod
+  Statistics jam_position;                    ///< [m]
+  Statistics dissipated;                      ///< [J]
   double prefactor = not_known;               ///< C of Eq. 3, m the mass of all grains
 
   // with a packing

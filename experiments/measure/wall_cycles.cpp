@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "experiments/step/record_column.hpp"
+#include "experiments/step/step_record.hpp"
 
 namespace ballast {
 namespace {
@@ -84,7 +84,8 @@ bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, do
 
 void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h,
                  const WallSettings& settings, WallCycles& cycles) {
-  const size_t first = first_after(steps, settings.first_transient, h);
+  const double transient = transient_of(1.0 / duration_of_period, settings.window);
+  const size_t first = first_after(steps, transient, h);
   std::vector<double> speed;
   for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
   cycles.v_peak = statistics(speed).max;
@@ -118,6 +119,10 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
 
 }  // namespace
 
+double transient_of(double frequency, const TimeWindow& window) {
+  return std::max(window.begin, 1.0 / frequency);
+}
+
 WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double h,
                        const WallSettings& settings) {
   if (!(frequency > 0.0) || !(h > 0.0))
@@ -132,8 +137,9 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   cycles.phase.assign(steps.size(), WallPhase::none);
   if (steps.empty()) return cycles;
 
-  const double end_time = steps.back().time;
-  for (long k = std::lround(std::ceil((settings.first_transient - 0.25 * h) * frequency));; ++k) {
+  const double transient = transient_of(frequency, settings.window);
+  const double end_time = std::min(steps.back().time, settings.window.end);
+  for (long k = std::lround(std::ceil((transient - 0.25 * h) * frequency));; ++k) {
     const double begin = static_cast<double>(k) * duration_of_period;
     const double end = begin + duration_of_period;
     if (end > end_time + 0.25 * h) break;

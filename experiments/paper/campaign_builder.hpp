@@ -41,7 +41,7 @@ class CampaignBuilder {
   size_t run(RunSettings settings);
   /// One value of a sweep, for the first `seeds` samples.
   void point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds,
-             TimeWindow window = scaling_window);
+             TimeWindow window = {});
 
   int seeds() const { return campaign.settings.seeds; }
 

@@ -20,8 +20,9 @@ struct Abscissa {
 /// x of the fit: f_max [N], g [m/s^2], or m/(m + m_w).
 double abscissa_of(const SweepValue& value, Sweep sweep) {
   const Observation& seen = value.samples.front();
-  if (sweep == Sweep::gravity) return seen.gravity;
-  if (sweep == Sweep::wall_mass) return seen.grain_mass / (seen.grain_mass + seen.wall_mass);
+  if (sweep == Sweep::gravity) return seen.facts.gravity;
+  if (sweep == Sweep::wall_mass)
+    return seen.facts.grain_mass / (seen.facts.grain_mass + seen.facts.wall_mass);
   return value.value;  // f_max over the weight under 9.81 m/s^2: the same for all seeds
 }
 

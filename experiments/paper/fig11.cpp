@@ -65,8 +65,10 @@ Panel eq3_panel(const std::vector<SweepCurve>& all, const Proportion& line, bool
 double prefactor_by_grain(const std::vector<SweepValue>& values) {
   std::vector<double> x, y;
   for (const SweepValue& value : values)
-    for (const Observation& sample : value.samples)
-      x.push_back(sample.eq3_one_grain()), y.push_back(sample.rise);
+    for (const Observation& sample : value.samples) {
+      x.push_back(sample.eq3_one_grain());
+      y.push_back(sample.rise);
+    }
   return fit_proportion(x, y).factor;
 }
 

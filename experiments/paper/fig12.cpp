@@ -4,7 +4,7 @@
 
 #include "experiments/paper/sections.hpp"
 #include "experiments/run_page/figures.hpp"
-#include "experiments/step/record_column.hpp"
+#include "experiments/step/step_record.hpp"
 
 namespace ballast {
 
@@ -19,7 +19,7 @@ PaperSection fig12_section(PaperData& data) {
   Panel panel;
   panel.x_label = "{/:Italic t}  (s)";
   panel.y_label = "Δ{/:Italic ρ}";
-  panel.lines = {{paper::reference_time, "0.2 s", true, Ink::grey}};
+  panel.lines = {{paper_window.begin, "0.2 s", true, Ink::grey}};
   std::vector<double> initial, reference, gain, relative;
   for (size_t k = 0; k < runs.size(); ++k) {
     const RunData run = data.read(runs[k]);

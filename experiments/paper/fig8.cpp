@@ -19,9 +19,7 @@ struct Orbit {
 
 Orbit mean_orbit(const RunData& data) {
   const RunFacts facts = complete_facts(data.facts, data.steps);
-  WallSettings settings;
-  settings.first_transient = transient_of(facts.frequency);
-  const WallCycles cycles = wall_cycles(data.steps, facts.frequency, facts.step, settings);
+  const WallCycles cycles = wall_cycles(data.steps, facts.frequency, facts.step);
   Orbit orbit;
   orbit.x.assign(orbit_phases, 0.0);
   orbit.v.assign(orbit_phases, 0.0);

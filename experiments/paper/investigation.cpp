@@ -62,7 +62,10 @@ double peak_of(const Variant& variant, double Observation::*rate) {
     const double mean = value.mean(rate).mean;
     if (!std::isfinite(mean)) continue;
     ++known;
-    if (mean > most) most = mean, at = value.value;
+    if (mean > most) {
+      most = mean;
+      at = value.value;
+    }
   }
   return known < 3 ? not_known : at;
 }

@@ -6,9 +6,7 @@ std::vector<MotionRun> read_motion(PaperData& data, PaperSection& section) {
   std::vector<MotionRun> runs;
   for (const size_t run : data.motion()) {
     MotionRun motion{data.read(run), {}};
-    WallSettings settings;
-    settings.first_transient = transient_of(motion_frequency);
-    motion.summary = summarise(motion.data.steps, motion.data.facts, settings);
+    motion.summary = summarise(motion.data.steps, motion.data.facts);
     runs.push_back(std::move(motion));
   }
   const size_t planned = data.campaign().motion.size();

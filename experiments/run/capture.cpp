@@ -39,12 +39,13 @@ CaptureSettings CaptureSettings::parse(std::string_view text) {
     else if (name == "steps")
       settings.steps = positive_number(name, value);
     else if (name == "from")
-      settings.from = positive_number(name, value), has_range = true;
+      settings.from = positive_number(name, value);
     else if (name == "to")
-      settings.to = positive_number(name, value), has_range = true;
+      settings.to = positive_number(name, value);
     else
       throw std::invalid_argument("'" + std::string(item) +
                                   "': expected every=, steps=, from= or to=");
+    has_range = has_range || name == "from" || name == "to";
   }
   if (settings.every == 0 && !has_range)
     throw std::invalid_argument("expected every=, or from= and to=");

@@ -247,8 +247,7 @@ class Run {
     double seconds = 0.0, error = 0.0;
     for (const StepRecord& row : steps) {
       error += row.error_rms / velocity_scale / static_cast<double>(steps.size());
-      for (const StepColumn& column : step_columns())
-        if (std::string_view(column.name).starts_with("seconds_")) seconds += row.*column.value;
+      seconds += step_seconds(row);
     }
     manifest_.summary("drive_seconds", seconds);
     manifest_.summary("error_mean_relative", error);

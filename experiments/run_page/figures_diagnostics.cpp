@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "experiments/run_page/figures.hpp"
-#include "experiments/step/record_column.hpp"
+#include "experiments/step/step_record.hpp"
 
 namespace ballast {
 namespace {
@@ -131,7 +131,7 @@ std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, 
     if (!(summary.cost[p].ms_per_step > 0.0)) continue;
     Curve curve;
     curve.title = summary.cost[p].name;
-    curve.ink = inks[p];
+    curve.ink = inks[p % std::size(inks)];
     curve.mark = Mark::area;
     curve.x = time;
     curve.y_low = low;

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "experiments/run_page/figures.hpp"
-#include "experiments/step/record_column.hpp"
+#include "experiments/step/step_record.hpp"
 
 namespace ballast {
 namespace {
@@ -193,19 +193,18 @@ ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
                           Ink::blue, 1.8)};
   panel.x_min = 0.0;
   panel.x_max = data.steps.back().time;
-  panel.lines = {{paper::reference_time, "0.2 s", true, Ink::grey}};
-  const LineFit& trend = compaction.per_period;
-  if (std::isfinite(trend.slope)) {
+  panel.lines = {{paper_window.begin, "0.2 s", true, Ink::grey}};
+  const std::vector<WallPeriod>& periods = summary.wall.periods;
+  const bool has_gain = std::isfinite(compaction.gain) && periods.front().first > 0;
+  if (has_gain) {
+    // from the first period's begin to the last one's end: its slope is the mean gain
     Curve line;
-    line.title = "gain per period " + print("%.3g", trend.slope);
+    line.title = "gain per period " + print("%.3g", compaction.gain);
     line.ink = Ink::vermilion;
     line.dashed = true;
     line.width = 1.8;
-    for (size_t p = 0; p < summary.wall.periods.size(); ++p) {
-      const WallPeriod& period = summary.wall.periods[p];
-      line.x.push_back(0.5 * (period.begin + period.end));
-      line.y.push_back(trend.at(static_cast<double>(p)) - compaction.initial);
-    }
+    line.x = {periods.front().begin, periods.back().end};
+    line.y = {change[periods.front().first - 1], change[periods.back().last - 1]};
     panel.curves.push_back(line);
   }
   Figure figure;
@@ -219,9 +218,9 @@ ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
   caption += number(compaction.initial, 4) + Html{" (paper: 0.50). At 0.2&#8239;s it is "} +
              number(compaction.reference, 4) +
              Html{" (paper: &rho;<sub>0</sub> ≈ 0.52, a first compaction of 2&#8239;%)."};
-  if (std::isfinite(trend.slope))
-    caption += Html{" Dashed: least-squares line through the period means, "} +
-               number(trend.slope) + Html{" per period, that is "} +
+  if (has_gain)
+    caption += Html{" Dashed: the mean gain over the periods after the transient, "} +
+               number(compaction.gain) + Html{" per period, that is "} +
                number(compaction.relative_gain) +
                Html{" &rho;<sub>0</sub> (paper, Eq. 5: about 0.0025 below 10&#8239;Hz)."};
   caption += {" <span class=\"look\">Look for oscillations around a straight slow rise.</span>"};

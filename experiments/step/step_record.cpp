@@ -1,6 +1,8 @@
 #include "experiments/step/step_record.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace ballast {
 namespace {
@@ -53,19 +55,48 @@ constexpr std::array columns{
                "change of kinetic energy minus works plus dissipation in this step",
                &StepRecord::energy_residual},
     StepColumn{"seconds_detect", "s", "wall clock of contact detection and warm-start matching",
-               &StepRecord::seconds_detect},
-    StepColumn{"seconds_assemble", "s", "wall clock of assembly", &StepRecord::seconds_assemble},
-    StepColumn{"seconds_solve", "s", "wall clock of prepare and solve", &StepRecord::seconds_solve},
+               &StepRecord::seconds_detect, "detection"},
+    StepColumn{"seconds_assemble", "s", "wall clock of assembly", &StepRecord::seconds_assemble,
+               "assembly"},
+    StepColumn{"seconds_solve", "s", "wall clock of prepare and solve", &StepRecord::seconds_solve,
+               "solver"},
     StepColumn{"seconds_judge", "s", "wall clock of validation and judge",
-               &StepRecord::seconds_judge},
+               &StepRecord::seconds_judge, "validation and judge"},
     StepColumn{"seconds_correct", "s", "wall clock of the overlap correction",
-               &StepRecord::seconds_correct},
+               &StepRecord::seconds_correct, "overlap correction"},
     StepColumn{"seconds_other", "s", "wall clock of the rest of the step: integration, measures",
-               &StepRecord::seconds_other},
+               &StepRecord::seconds_other, "integration, measures"},
 };
 
 }  // namespace
 
+std::string StepColumn::phase_word() const {
+  return std::string(name).substr(std::string_view("seconds_").size());
+}
+
 std::span<const StepColumn> step_columns() { return columns; }
+
+std::span<const StepColumn> step_phases() {
+  // the phases stand together at the table's end
+  constexpr auto first = std::find_if(columns.begin(), columns.end(),
+                                      [](const StepColumn& column) { return column.phase; });
+  static_assert(
+      std::all_of(first, columns.end(), [](const StepColumn& column) { return column.phase; }));
+  return {first, columns.end()};
+}
+
+double step_seconds(const StepRecord& step) {
+  double seconds = 0.0;
+  for (const StepColumn& phase : step_phases()) seconds += step.*phase.value;
+  return seconds;
+}
+
+std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value,
+                                  double factor) {
+  std::vector<double> values;
+  values.reserve(steps.size());
+  for (const StepRecord& step : steps) values.push_back(factor * (step.*value));
+  return values;
+}
 
 }  // namespace ballast

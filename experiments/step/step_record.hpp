@@ -1,8 +1,12 @@
 #pragma once
 // What every step leaves behind: one row of named scalars. The table of columns is the one source
-// of names, units and descriptions for CSV, HDF5 and the report.
+// of names, units and descriptions for CSV, HDF5 and the pages; it also says which columns are wall
+// clock of a phase of the step. A new column is a member here, a row in the table, and the place
+// where it is measured.
 
 #include <span>
+#include <string>
+#include <vector>
 
 namespace ballast {
 
@@ -28,8 +32,24 @@ struct StepColumn {
   const char* unit;
   const char* description;
   double StepRecord::*value;
+  /// Wall clock of a phase of the step: the phase in words for a page. The phases add up to the
+  /// step. nullptr: the column is no phase.
+  const char* phase = nullptr;
+
+  /// A phase's name in one word: the column's name without "seconds_".
+  std::string phase_word() const;
 };
 
 std::span<const StepColumn> step_columns();
+
+/// The columns that are phases, in the order of the step.
+std::span<const StepColumn> step_phases();
+
+/// Wall clock of a step: all its phases [s].
+double step_seconds(const StepRecord& step);
+
+/// One entry per step, times `factor` (from SI to what a figure shows).
+std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value,
+                                  double factor = 1.0);
 
 }  // namespace ballast

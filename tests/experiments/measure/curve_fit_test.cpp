@@ -127,9 +127,10 @@ TEST_CASE("statistics and quantiles") {
   CHECK(s.min == 1.0);
   CHECK(s.max == 4.0);
   CHECK(s.samples == 4);
-  CHECK(quantile(values, 0.5) == 2.0);
-  CHECK(quantile(values, 0.95) == 4.0);
+  CHECK(quantile(values, 0.5) == 2.5);
+  CHECK(quantile(values, 0.95) == Approx(3.85));
   CHECK(quantile(values, 0.0) == 1.0);
+  CHECK(quantile(values, 1.0) == 4.0);
   CHECK(std::isnan(statistics({}).mean));
   CHECK(std::isnan(quantile({}, 0.5)));
 }

@@ -79,7 +79,7 @@ TEST_CASE("the box's page says the numbers beside what is asked and what the pap
                        Contains(">0.52<"));
   CHECK_THAT(page,
              Contains("✓ met") && Contains("≤&nbsp;250&#8239;µm") && Contains("≤&nbsp;0.001"));
-  CHECK_THAT(page, Contains("4 of 4 periods"));
+  CHECK_THAT(page, Contains("3 of 3 periods"));
   for (const char* next :
        {"paper fig12", "sweep my_sweep.toml", "compare --live", "run vibrated_box --set"})
     CHECK_THAT(page.substr(page.find("What next")), Contains(next));

@@ -1,12 +1,11 @@
-// The paper's measured quantities and fits on records and data whose answers are known.
+// The paper's fits on data whose answers are known.
+
+#include "experiments/measure/fits.hpp"
 
 #include <cmath>
-#include <numbers>
 
-#include "experiments/measure/observables.hpp"
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
-#include "tests/support/synthetic_run.hpp"
 
 using namespace ballast;
 
@@ -93,42 +92,20 @@ TEST_CASE("Eq. 5 on a rate that only grows puts the corner at the end of the dat
   CHECK(fit.gain == Approx(1.0));
 }
 
-TEST_CASE("observables of a record made from formulas") {
-  SyntheticBox box;
-  box.noise = 0.0;
-  box.duration = 2.0;
-  const auto steps = synthetic_box(box);
-  const Observation seen = observe(steps, facts_of(box), 100.0);
-  CHECK(seen.periods == 8);  // from 0.4 s, the first whole period after 0.3 s
-  CHECK(seen.net == Approx(box.ratchet).epsilon(0.02));
-  CHECK(seen.gain == Approx(box.solid_gain).epsilon(0.02));
-  CHECK(seen.rate == Approx(box.solid_gain * box.frequency / seen.solid_reference).epsilon(0.02));
-  CHECK(seen.rate_common == Approx(seen.rate).epsilon(0.02));
-  CHECK(seen.first_contraction == Approx(box.first_contraction).epsilon(0.05));
-  // Delta x_max: the same stroke by hand, from the record between two jams
-  double least = 1e300, rise = 0.0, in = 0.0;
-  for (const StepRecord& step : steps) {
-    if (step.time <= 0.8 + 1e-9 || step.time > 1.0 + 1e-9) continue;
-    least = std::min(least, step.wall_x);
-    rise = std::max(rise, step.wall_x - least);
-    in = std::max(in, -step.wall_v);
+TEST_CASE("chi^2 over its degrees of freedom: one when points scatter as their errors say") {
+  Random random(11);
+  std::vector<double> x, y, error, far;
+  for (int k = 0; k < 400; ++k) {
+    double gauss = -6.0;
+    for (int j = 0; j < 12; ++j) gauss += random.uniform(0.0, 1.0);
+    x.push_back(1.0 + 0.1 * k);
+    y.push_back(2.0 / x.back() * (1.0 + 0.02 * gauss));
+    error.push_back(0.02 * y.back());
+    far.push_back(0.005 * y.back());
   }
-  CHECK(seen.rise == Approx(rise).epsilon(0.02));
-  CHECK(seen.speed_in == Approx(in).epsilon(0.02));
-  CHECK(seen.eq3() == Approx(0.5 * box.grain_mass * 9.81 / box.f_max * 9.81 / 25.0));
-  const double one = box.grain_mass / 100.0;
-  CHECK(seen.eq3_one_grain() ==
-        Approx(one / (one + box.wall_mass) * one * 9.81 / box.f_max * 9.81 / 25.0));
-}
-
-TEST_CASE("a window cuts periods that end after it, and what is too short is not known") {
-  SyntheticBox box;
-  box.noise = 0.0;
-  const auto steps = synthetic_box(box);
-  CHECK(observe(steps, facts_of(box), 100.0, {0.3, 0.8}).periods == 2);
-  CHECK(observe(steps, facts_of(box), 100.0, {0.3, 0.79}).periods == 1);
-  const Observation none = observe(steps, facts_of(box), 100.0, {0.9, 1.0});
-  CHECK(none.periods == 0);
-  CHECK(std::isnan(none.rise));
-  CHECK(std::isnan(compaction_rate(steps, 5.0, box.h, 0.52, {0.85, 1.0})));
+  const PowerFit fit = fit_power(x, y);
+  CHECK(reduced_chi2(fit, x, y, error) == Approx(1.0).epsilon(0.2));
+  CHECK(reduced_chi2(fit, x, y, far) == Approx(16.0).epsilon(0.2));
+  error.assign(400, not_known);
+  CHECK(std::isnan(reduced_chi2(fit, x, y, error)));
 }
