@@ -19,11 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Before the entries: what says that they follow, and how many. After them: the same word once
-/// more.
+/// Before the answer: a word that says that it follows, and its size in bytes. After it: the same
+/// word once more.
 struct Head {
   std::uint64_t word;
-  std::uint64_t entries;
+  std::uint64_t size;
 };
 constexpr std::uint64_t mark = 0x62616c6c61737421ull;
 
@@ -40,30 +40,28 @@ bool write_all(int pipe, const void* data, std::size_t size) {
 }
 
 /// Never returns: the parent's destructors, exit handlers and unwritten output are not the child's.
-[[noreturn]] void be_child(int pipe, pid_t parent,
-                           const std::function<void(std::vector<double>&)>& work) {
+[[noreturn]] void be_child(int pipe, pid_t parent, const std::function<std::string()>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // the parent died before the line above
   for (const int number : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGFPE}) signal(number, SIG_DFL);
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  std::vector<double> record;
+  std::string answer;
   try {
-    work(record);
+    answer = work();
   } catch (...) {
     _exit(1);
   }
-  const Head head{mark, record.size()};
+  const Head head{mark, answer.size()};
   const bool whole = write_all(pipe, &head, sizeof head) &&
-                     write_all(pipe, record.data(), record.size() * sizeof(double)) &&
+                     write_all(pipe, answer.data(), answer.size()) &&
                      write_all(pipe, &mark, sizeof mark);
   _exit(whole ? 0 : 1);
 }
 
 /// Reads until the other end is closed; false when the time is over first.
-bool read_until_closed(int pipe, Clock::time_point begin, double max_seconds,
-                       std::vector<char>& bytes) {
+bool read_until_closed(int pipe, Clock::time_point begin, double max_seconds, std::string& bytes) {
   char buffer[65536];
   for (;;) {
     const double left = max_seconds - std::chrono::duration<double>(Clock::now() - begin).count();
@@ -76,30 +74,26 @@ bool read_until_closed(int pipe, Clock::time_point begin, double max_seconds,
     const ssize_t count = read(pipe, buffer, sizeof buffer);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return true;
-    bytes.insert(bytes.end(), buffer, buffer + count);
+    bytes.append(buffer, static_cast<std::size_t>(count));
   }
 }
 
-bool parse(const std::vector<char>& bytes, std::vector<double>& record) {
+/// The answer between head and last word; false when something of it is missing.
+bool take_answer(const std::string& bytes, std::string& answer) {
   Head head;
   std::uint64_t last;
   if (bytes.size() < sizeof head + sizeof last) return false;
   std::memcpy(&head, bytes.data(), sizeof head);
-  if (head.word != mark ||
-      bytes.size() != sizeof head + head.entries * sizeof(double) + sizeof last)
-    return false;
+  if (head.word != mark || bytes.size() != sizeof head + head.size + sizeof last) return false;
   std::memcpy(&last, bytes.data() + bytes.size() - sizeof last, sizeof last);
   if (last != mark) return false;
-  record.resize(head.entries);
-  if (head.entries > 0)
-    std::memcpy(record.data(), bytes.data() + sizeof head, head.entries * sizeof(double));
+  answer = bytes.substr(sizeof head, head.size);
   return true;
 }
 
 }  // namespace
 
-ChildResult run_in_child(double max_seconds,
-                         const std::function<void(std::vector<double>&)>& work) {
+ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work) {
   const Clock::time_point begin = Clock::now();
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
@@ -116,7 +110,7 @@ ChildResult run_in_child(double max_seconds,
     be_child(ends[1], parent, work);
   }
   close(ends[1]);
-  std::vector<char> bytes;
+  std::string bytes;
   const bool closed = read_until_closed(ends[0], begin, max_seconds, bytes);
   close(ends[0]);
   // Harmless for a child that is through: it has written, and is about to exit or already waits to
@@ -125,7 +119,7 @@ ChildResult run_in_child(double max_seconds,
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
   ChildResult result;
-  if (parse(bytes, result.record))
+  if (take_answer(bytes, result.answer))
     result.end = ChildEnd::complete;
   else
     result.end = closed ? ChildEnd::crashed : ChildEnd::out_of_time;

@@ -11,6 +11,7 @@
 #include "experiments/step/step_record.hpp"
 #include "platform/child_process.hpp"
 #include "platform/error.hpp"
+#include "platform/pack.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -92,22 +93,32 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
   return point;
 }
 
-std::vector<double> packed(const ScalingPoint& p) {
-  std::vector<double> record{p.contacts, p.detect, p.assemble, p.solve, p.step, p.sweep, p.bytes};
-  record.insert(record.end(), p.iterations.begin(), p.iterations.end());
-  record.insert(record.end(), p.seconds.begin(), p.seconds.end());
-  return record;
+/// What the child measured, on its way to the parent.
+template <class Carrier, class Point>
+void carry(Carrier& carrier, Point& point) {
+  for (const auto value :
+       {&ScalingPoint::contacts, &ScalingPoint::detect, &ScalingPoint::assemble,
+        &ScalingPoint::solve, &ScalingPoint::step, &ScalingPoint::sweep, &ScalingPoint::bytes})
+    carrier.number(point.*value);
+  carrier.list(point.iterations);
+  carrier.list(point.seconds);
 }
 
-ScalingPoint unpacked(const std::vector<double>& record, ScalingPoint p) {
-  double* const values[] = {&p.contacts, &p.detect, &p.assemble, &p.solve,
-                            &p.step,     &p.sweep,  &p.bytes};
-  for (size_t k = 0; k < std::size(values); ++k) *values[k] = record.at(k);
-  const auto first = record.begin() + std::size(values),
-             middle = first + (record.end() - first) / 2;
-  p.iterations.assign(first, middle);
-  p.seconds.assign(middle, record.end());
-  return p;
+/// Measures the packing that `point` names in a child, and fills in what it measured.
+void measure_in_child(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
+  const ChildResult child = run_in_child(options.max_seconds, [&] {
+    const ScalingPoint measured = measure_packing(box, options, point);
+    Packer packer;
+    carry(packer, measured);
+    return packer.bytes();
+  });
+  if (child.end != ChildEnd::complete)
+    throw Error("bench scaling: " + std::to_string(static_cast<long>(point.grains)) +
+                " grains: the child " +
+                (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
+  Unpacker unpacker(child.answer, "bench scaling: a child's answer");
+  carry(unpacker, point);
+  unpacker.finish();
 }
 
 }  // namespace
@@ -128,15 +139,8 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
       point.threads = threads;
       std::tie(point.nx, point.ny) = tiles_for(grains, block);
       point.grains = static_cast<double>(point.nx) * point.ny * block;
-      const ChildResult child = run_in_child(options.max_seconds, [&](std::vector<double>& record) {
-        record = packed(measure_packing(box, options, point));
-      });
-      if (child.end != ChildEnd::complete)
-        throw Error(
-            "bench scaling: " + std::to_string(static_cast<long>(point.grains)) +
-            " grains: the child " +
-            (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
-      points.push_back(unpacked(child.record, point));
+      measure_in_child(box, options, point);
+      points.push_back(std::move(point));
       said(points.back());
     }
   return points;

@@ -13,7 +13,7 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "experiments/compare/compare_page.hpp"
-#include "experiments/compare/live.hpp"
+#include "experiments/compare/live_page.hpp"
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/run/manifest.hpp"
 #include "experiments/run_page/report_origin.hpp"

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <optional>
 
 #include "experiments/box/vibrated_box.hpp"
@@ -26,6 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* out_of_time = "time limit";
+
 /// Where every backend begins.
 struct Start {
   MechanicalSystem system;
@@ -34,35 +35,6 @@ struct Start {
   std::optional<ControlVolume> control_volume;
   std::string key;  ///< of its checkpoint's content
 };
-
-/// A trajectory is kept as doubles: steps, frames, grains, how it ended, letters of why; then the
-/// columns of each step, each frame's time and positions, and the letters.
-enum class Ended { complete, time_limit, unsupported, failed };
-
-const char* words_of(Ended ended) {
-  switch (ended) {
-    case Ended::complete:
-      return "complete";
-    case Ended::time_limit:
-      return "time limit";
-    case Ended::unsupported:
-      return "the backend cannot take the problem";
-    case Ended::failed:
-      return "failed";
-  }
-  return "";
-}
-
-void append_step(const StepRecord& step, std::vector<double>& rows) {
-  for (const StepColumn& column : step_columns()) rows.push_back(step.*column.value);
-}
-
-void append_frame(const MotionState& state, int grains, std::vector<double>& frames) {
-  frames.push_back(state.time);
-  for (int b = 0; b < grains; ++b)
-    for (int axis = 0; axis < 3; ++axis)
-      frames.push_back(state.pose[static_cast<size_t>(b)].position[axis]);
-}
 
 /// The scene run by its own solver to the common start, in a folder of its own: an ordinary run,
 /// resumed if it is there.
@@ -96,98 +68,66 @@ Start read_start(const LiveOptions& options, const Scene& scene) {
   return start;
 }
 
-/// What the child does: steps until the end, or the time is over.
-Ended step_on(const LiveOptions& options, const Scene& scene, Start start,
-              const ComparedSolver& solver, double tolerance, std::vector<double>& rows,
-              std::vector<double>& frames, std::string& why) {
+void append_frame(const MotionState& state, int grains, Trajectory& trajectory) {
+  Eigen::VectorXd positions(3 * grains);
+  for (int b = 0; b < grains; ++b)
+    positions.segment<3>(3 * b) = state.pose[static_cast<size_t>(b)].position;
+  trajectory.frame_times.push_back(state.time);
+  trajectory.positions.push_back(std::move(positions));
+}
+
+/// What the child does: steps until the end, or the time is over. A backend that throws ends the
+/// trajectory there, with its own words.
+void step_on(const LiveOptions& options, const Scene& scene, Start start,
+             const ComparedSolver& solver, Trajectory& trajectory) {
   StepSettings settings = step_settings(scene);
   settings.solver.name = solver.name;
-  settings.solver.tolerance = tolerance;
+  settings.solver.tolerance = trajectory.tolerance;
   settings.solver.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1 << 30;
   settings.solver.max_seconds = options.max_seconds;
   TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
   const long count = std::max(1L, std::lround(options.duration / settings.h)),
              frame_every = std::max(1L, count / 100);
   const auto begin = Clock::now();
-  append_frame(start.state, start.system.grain_count, frames);
-  try {
-    for (long step = 1; step <= count; ++step) {
-      if (std::chrono::duration<double>(Clock::now() - begin).count() > options.trajectory_seconds)
-        return Ended::time_limit;
-      StepRecord record = stepper.step(start.state, start.memory);
-      if (start.control_volume && (step % frame_every == 0 || step == count))
-        record.solid_fraction = start.control_volume->solid_fraction(start.system, start.state);
-      else
-        record.solid_fraction = std::nan("");
-      append_step(record, rows);
-      if (step % frame_every == 0 || step == count)
-        append_frame(start.state, start.system.grain_count, frames);
+  append_frame(start.state, start.system.grain_count, trajectory);
+  for (long step = 1; step <= count; ++step) {
+    if (std::chrono::duration<double>(Clock::now() - begin).count() > options.trajectory_seconds) {
+      trajectory.ended = out_of_time;
+      return;
     }
-  } catch (const UnsupportedProblem& error) {
-    why = error.what();
-    return Ended::unsupported;
-  } catch (const std::exception& error) {
-    why = error.what();
-    return Ended::failed;
+    StepRecord record = stepper.step(start.state, start.memory);
+    const bool has_frame = step % frame_every == 0 || step == count;
+    record.solid_fraction = start.control_volume && has_frame
+                                ? start.control_volume->solid_fraction(start.system, start.state)
+                                : std::nan("");
+    trajectory.steps.push_back(record);
+    if (has_frame) append_frame(start.state, start.system.grain_count, trajectory);
   }
-  return Ended::complete;
+  trajectory.ended = Trajectory::complete;
 }
 
-std::vector<double> in_child(const LiveOptions& options, const Scene& scene, const Start& start,
-                             const ComparedSolver& solver, double tolerance) {
+/// Fills the trajectory in a child process, which may crash, hang or be interrupted.
+void step_in_child(const LiveOptions& options, const Scene& scene, const Start& start,
+                   const ComparedSolver& solver, Trajectory& trajectory) {
   const double most = options.trajectory_seconds + 1.25 * options.max_seconds + 5.0;
-  const ChildResult child = run_in_child(most, [&](std::vector<double>& record) {
-    std::vector<double> rows, frames;
-    std::string why;
-    const Ended ended = step_on(options, scene, start, solver, tolerance, rows, frames, why);
-    const double grains = start.system.grain_count;
-    record = {static_cast<double>(rows.size() / step_columns().size()),
-              static_cast<double>(frames.size()) / (3.0 * grains + 1.0), grains,
-              static_cast<double>(ended), static_cast<double>(why.size())};
-    record.insert(record.end(), rows.begin(), rows.end());
-    record.insert(record.end(), frames.begin(), frames.end());
-    record.insert(record.end(), why.begin(), why.end());
+  const ChildResult child = run_in_child(most, [&] {
+    Trajectory made = trajectory;
+    try {
+      step_on(options, scene, start, solver, made);
+    } catch (const UnsupportedProblem& error) {
+      made.ended = std::string("the backend cannot take the problem: ") + error.what();
+    } catch (const std::exception& error) {
+      made.ended = std::string("failed: ") + error.what();
+    }
+    return packed(made);
   });
-  if (child.end == ChildEnd::complete) return child.record;
-  return {
-      0.0, 0.0, 0.0,
-      static_cast<double>(child.end == ChildEnd::out_of_time ? Ended::time_limit : Ended::failed),
-      0.0};
+  if (child.end == ChildEnd::complete)
+    unpack(child.answer, "ballast compare --live: a child's answer", trajectory);
+  else
+    trajectory.ended = child.end == ChildEnd::out_of_time ? out_of_time : "failed";
 }
 
-void unpack(const std::vector<double>& record, const fs::path& file, Trajectory& trajectory) {
-  const auto bad = [&] { throw Error(file.string() + ": is no trajectory: remove it"); };
-  constexpr size_t head = 5;
-  if (record.size() < head) bad();
-  const size_t steps = static_cast<size_t>(record[0]), frames = static_cast<size_t>(record[1]),
-               grains = static_cast<size_t>(record[2]);
-  const size_t letters = static_cast<size_t>(record[4]);
-  const size_t columns = step_columns().size();
-  if (record.size() != head + steps * columns + frames * (1 + 3 * grains) + letters) bad();
-  trajectory.ended = words_of(static_cast<Ended>(static_cast<int>(record[3])));
-  const double* next = record.data() + head;
-  for (size_t k = 0; k < steps; ++k) {
-    StepRecord step;
-    for (const StepColumn& column : step_columns()) step.*column.value = *next++;
-    trajectory.steps.push_back(step);
-  }
-  for (size_t k = 0; k < frames; ++k) {
-    trajectory.frame_times.push_back(*next++);
-    trajectory.positions.emplace_back(
-        Eigen::Map<const Eigen::VectorXd>(next, static_cast<Eigen::Index>(3 * grains)));
-    next += 3 * grains;
-  }
-  if (letters > 0) trajectory.ended += ": ";
-  for (size_t k = 0; k < letters; ++k) trajectory.ended += static_cast<char>(*next++);
-}
-
-std::vector<double> read_doubles(const fs::path& file) {
-  const std::string bytes = read_whole_file(file);
-  std::vector<double> values(bytes.size() / sizeof(double));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
-  return values;
-}
-
+/// From its file, or made now and kept there.
 Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start,
                          const std::string& binary, const ComparedSolver& solver,
                          double tolerance) {
@@ -196,17 +136,20 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
                 options.max_seconds, options.trajectory_seconds, options.max_iterations);
   const fs::path file =
       options.folder / "trajectories" /
-      (content_key("trajectory 2|" + binary + '|' + start.key + '|' + solver.name + numbers) +
+      (content_key("trajectory 3|" + binary + '|' + start.key + '|' + solver.name + numbers) +
        ".bin");
-  Trajectory trajectory{
-      solver.name, name_of(solver.law), tolerance, options.max_iterations, "", {}, {}, {}};
-  if (!fs::exists(file)) {
-    const std::vector<double> record = in_child(options, scene, start, solver, tolerance);
-    if (InterruptGuard::requested()) return trajectory;
-    write_whole_file(
-        file, {reinterpret_cast<const char*>(record.data()), record.size() * sizeof(double)});
+  Trajectory trajectory;
+  trajectory.solver = solver.name;
+  trajectory.law = name_of(solver.law);
+  trajectory.tolerance = tolerance;
+  trajectory.max_iterations = options.max_iterations;
+  if (fs::exists(file)) {
+    read_trajectory(file, trajectory);
+    return trajectory;
   }
-  unpack(read_doubles(file), file, trajectory);
+  step_in_child(options, scene, start, solver, trajectory);
+  // an interrupt reaches the child as well: what it left is no result
+  if (!InterruptGuard::requested()) write_trajectory(file, trajectory);
   return trajectory;
 }
 
@@ -222,26 +165,6 @@ int reference_of(const std::vector<Trajectory>& trajectories) {
 }
 
 }  // namespace
-
-std::string Trajectory::label() const {
-  char text[32];
-  if (max_iterations > 0)
-    std::snprintf(text, sizeof text, " %d iterations", max_iterations);
-  else
-    std::snprintf(text, sizeof text, " %g", tolerance);
-  return solver + text + (law == name_of(ContactLaw::coulomb) ? "" : " (" + law + ")");
-}
-
-std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference) {
-  std::vector<double> result;
-  for (size_t k = 0; k < std::min(trajectory.positions.size(), reference.positions.size()); ++k) {
-    const Eigen::VectorXd& p = trajectory.positions[k];
-    const double grains = static_cast<double>(p.size()) / 3.0;
-    result.push_back(grains > 0.0 ? std::sqrt((p - reference.positions[k]).squaredNorm() / grains)
-                                  : 0.0);
-  }
-  return result;
-}
 
 LiveComparison run_live(const LiveOptions& options,
                         const std::function<bool(const Trajectory&)>& said) {

@@ -4,14 +4,11 @@
 
 #include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
-
 #include "experiments/compare/comparison.hpp"
-#include "experiments/step/step_record.hpp"
+#include "experiments/compare/trajectory.hpp"
 #include "problems/scene/scene.hpp"
 
 namespace ballast {
@@ -32,20 +29,6 @@ struct LiveOptions {
   std::filesystem::path folder;  ///< start/ (a run), trajectories/<key>.bin, live.csv, live.html
 };
 
-/// What one backend made of the start.
-struct Trajectory {
-  std::string solver, law;
-  double tolerance = 0.0;  ///< relative
-  int max_iterations = 0;  ///< the limit; 0: none
-  std::string ended;       ///< "complete", or why not: "time limit", "the child process died", a
-                           ///< backend's own words
-  std::vector<StepRecord> steps;
-  std::vector<double> frame_times;         ///< [s]
-  std::vector<Eigen::VectorXd> positions;  ///< of all grains, 3 each [m]; one per frame
-  bool is_complete() const { return ended == "complete"; }
-  std::string label() const;  ///< "pgs 1e-4"
-};
-
 struct LiveComparison {
   Scene scene;
   double velocity_scale = 1.0;  ///< [m/s]: tolerances are relative to it
@@ -55,17 +38,10 @@ struct LiveComparison {
   std::vector<Trajectory> trajectories;
 };
 
-/// rms over grains of the distance from the reference at each frame that both have [m].
-std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference);
-
 /// Steps every backend to every tolerance in a child process of its own; trajectories that are
 /// there are not made again. `said` hears of each; returning false stops. Throws SceneFileError,
 /// Error.
 LiveComparison run_live(const LiveOptions& options,
                         const std::function<bool(const Trajectory&)>& said);
-
-/// live.csv (one row per trajectory), trajectories as steps-<solver>-<tolerance>.csv,
-/// figures/*.svg, *.pdf and live.html.
-void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison);
 
 }  // namespace ballast

@@ -1,11 +1,10 @@
-// The page of a closed-loop comparison.
+#include "experiments/compare/live_page.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "experiments/compare/compare_figures.hpp"
-#include "experiments/compare/live.hpp"
 #include "experiments/compare/page_drawing.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "experiments/step/step_record.hpp"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "platform/child_process.hpp"
+#include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 
 namespace ballast {
@@ -16,8 +17,7 @@ namespace {
 /// How the child says it ended, apart from being solved or not.
 enum class ChildOutcome { driven, unsupported, out_of_memory, failed };
 
-/// What a child sends, as the row of doubles that child_process carries: written and read by the
-/// same list of members.
+/// What a child sends.
 struct ChildMessage {
   ChildOutcome outcome = ChildOutcome::failed;
   std::string note;
@@ -29,6 +29,7 @@ struct ChildMessage {
   std::vector<HistoryRow> history;
   Impulses impulses;
 
+  /// Packs and unpacks: the carrier decides.
   template <typename Carrier>
   void carry(Carrier& c) {
     c.number(outcome);
@@ -43,49 +44,13 @@ struct ChildMessage {
     c.number(solve_seconds);
     c.number(first_seconds);
     c.number(peak_memory_MB);
-    c.size(history);
-    for (HistoryRow& point : history) {
+    c.list(history, [&](auto& point) {
       c.number(point.round);
       c.number(point.iteration);
       c.number(point.seconds);
       c.number(point.error);
-    }
-    c.size(impulses);
-    for (double& entry : impulses) c.number(entry);
-  }
-};
-
-struct Writer {
-  std::vector<double>& record;
-  template <typename Value>
-  void number(Value value) {
-    record.push_back(static_cast<double>(value));
-  }
-  template <typename Values>
-  void size(const Values& values) {
-    number(values.size());
-  }
-  void text(const std::string& text) {
-    size(text);
-    for (const char c : text) number(static_cast<unsigned char>(c));
-  }
-};
-
-struct Reader {
-  const std::vector<double>& record;
-  size_t next = 0;
-  double take() { return record.at(next++); }
-  template <typename Value>
-  void number(Value& value) {
-    value = static_cast<Value>(take());
-  }
-  template <typename Values>
-  void size(Values& values) {
-    values.resize(static_cast<decltype(values.size())>(take()));
-  }
-  void text(std::string& text) {
-    size(text);
-    for (char& c : text) c = static_cast<char>(static_cast<unsigned char>(take()));
+    });
+    c.list(impulses);
   }
 };
 
@@ -205,10 +170,11 @@ void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSetti
   // Backends look at the clock between iterations, prepare() never does: some grace before the
   // child is killed.
   const double most_seconds = 1.25 * drive.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
-  const ChildResult child = run_in_child(most_seconds, [&](std::vector<double>& record) {
+  const ChildResult child = run_in_child(most_seconds, [&] {
     ChildMessage message = work_of_child(make, loaded, drive, limits, row.start);
-    Writer writer{record};
-    message.carry(writer);
+    Packer packer;
+    message.carry(packer);
+    return packer.bytes();
   });
   row.error = row.natural_map_rms = row.natural_map_max = row.fclib = std::nan("");
   if (child.end != ChildEnd::complete) {
@@ -219,8 +185,9 @@ void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSetti
     return;
   }
   ChildMessage message;
-  Reader reader{child.record};
-  message.carry(reader);
+  Unpacker unpacker(child.answer, "ballast compare: a child's answer");
+  message.carry(unpacker);
+  unpacker.finish();
   row.note = message.note;
   row.reason = message.outcome == ChildOutcome::driven ? name_of(message.reason) : "";
   row.claimed = message.claimed;

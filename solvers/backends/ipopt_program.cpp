@@ -8,6 +8,7 @@
 #include <IpTNLP.hpp>
 
 #include "platform/child_process.hpp"
+#include "platform/pack.hpp"
 
 namespace ballast {
 namespace {
@@ -122,30 +123,32 @@ void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings) {
 
 IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start,
                       const IpoptSettings& settings) {
-  const ChildResult child = run_in_child(settings.max_seconds, [&](std::vector<double>& record) {
-    // Never destroyed: the record is written after this function, and Ipopt's destructors may
+  const ChildResult child = run_in_child(settings.max_seconds, [&]() -> std::string {
+    // Never destroyed: the answer is sent after this function, and Ipopt's destructors may
     // crash.
     Adapter* adapter = new Adapter(program, start);
     auto* held = new Ipopt::SmartPtr<Ipopt::TNLP>(adapter);
     auto* application =
         new Ipopt::SmartPtr<Ipopt::IpoptApplication>(new Ipopt::IpoptApplication(false));
     set_options(*(*application)->Options(), settings);
-    if ((*application)->Initialize("") != Ipopt::Solve_Succeeded) return;
+    if ((*application)->Initialize("") != Ipopt::Solve_Succeeded) return {};
     const Ipopt::ApplicationReturnStatus status = (*application)->OptimizeTNLP(*held);
     const bool limited =
         status == Ipopt::Maximum_Iterations_Exceeded || status == Ipopt::Maximum_CpuTime_Exceeded;
     const Ipopt::SmartPtr<Ipopt::SolveStatistics> statistics = (*application)->Statistics();
-    record.assign(adapter->answer().begin(), adapter->answer().end());
-    record.push_back(IsValid(statistics) ? statistics->IterationCount() : 1);
-    record.push_back(limited ? 1.0 : 0.0);
+    Packer packer;
+    packer.list(adapter->answer());
+    packer.number(IsValid(statistics) ? static_cast<int>(statistics->IterationCount()) : 1);
+    packer.number(!limited);
+    return packer.bytes();
   });
   IpoptAnswer answer;
-  const Eigen::Index n = program.variables();
-  if (child.end != ChildEnd::complete || static_cast<Eigen::Index>(child.record.size()) != n + 2)
-    return answer;
-  answer.x = Eigen::Map<const Eigen::VectorXd>(child.record.data(), n);
-  answer.iterations = static_cast<int>(child.record[n]);
-  answer.finished = child.record[n + 1] == 0.0;
+  if (child.answer.empty()) return answer;  // no child that came to its end, or no start for Ipopt
+  Unpacker unpacker(child.answer, "ipopt: a child's answer");
+  unpacker.list(answer.x);
+  unpacker.number(answer.iterations);
+  unpacker.number(answer.finished);
+  unpacker.finish();
   return answer;
 }
 

@@ -13,6 +13,7 @@
 #include <siconos/numerics/SparseBlockMatrix.h>
 
 #include "platform/child_process.hpp"
+#include "platform/pack.hpp"
 #include "solvers/seam/rounds.hpp"
 
 extern "C" void numerics_set_verbose(int);  // in no header that C++ can read
@@ -71,7 +72,7 @@ class BlockProblem {
     return padded;
   }
   /// `padded` may carry more entries behind.
-  Eigen::VectorXd unpad(const std::vector<double>& padded) const {
+  Eigen::VectorXd unpad(const Eigen::VectorXd& padded) const {
     Eigen::VectorXd x(static_cast<Eigen::Index>(row_.size()));
     for (std::size_t i = 0; i < row_.size(); ++i) x[static_cast<Eigen::Index>(i)] = padded[row_[i]];
     return x;
@@ -139,23 +140,28 @@ class Siconos final : public Solver {
   /// One call of Siconos from the best iterate. False: no answer.
   bool run(const RoundRequest& request, double tolerance, int limit, RoundAnswer& answer) {
     const Eigen::VectorXd start = blocks_.pad(request.best);
-    const ChildResult child =
-        run_in_child(request.left.max_seconds, [&](std::vector<double>& record) {
-          numerics_set_verbose(0);
-          FrictionContactProblem* problem = blocks_.siconos();
-          SolverOptions* options = solver_options_create(recipe_.solver);
-          recipe_.adjust(*options);
-          options->dparam[SICONOS_DPARAM_TOL] = tolerance;
-          options->iparam[SICONOS_IPARAM_MAX_ITER] = limit;
-          Eigen::VectorXd r = start, u = blocks_.q();
-          NM_gemv(1.0, problem->M, r.data(), 1.0, u.data());
-          fc3d_driver(problem, r.data(), u.data(), options);
-          record.assign(r.begin(), r.end());
-          record.push_back(options->iparam[SICONOS_IPARAM_ITER_DONE]);
-        });
+    const ChildResult child = run_in_child(request.left.max_seconds, [&] {
+      numerics_set_verbose(0);
+      FrictionContactProblem* problem = blocks_.siconos();
+      SolverOptions* options = solver_options_create(recipe_.solver);
+      recipe_.adjust(*options);
+      options->dparam[SICONOS_DPARAM_TOL] = tolerance;
+      options->iparam[SICONOS_IPARAM_MAX_ITER] = limit;
+      Eigen::VectorXd r = start, u = blocks_.q();
+      NM_gemv(1.0, problem->M, r.data(), 1.0, u.data());
+      fc3d_driver(problem, r.data(), u.data(), options);
+      Packer packer;
+      packer.list(r);
+      packer.number(int{options->iparam[SICONOS_IPARAM_ITER_DONE]});
+      return packer.bytes();
+    });
     if (child.end != ChildEnd::complete) return false;
-    answer.x = blocks_.unpad(child.record);
-    answer.iterations = static_cast<int>(child.record.back());
+    Eigen::VectorXd r;
+    Unpacker unpacker(child.answer, "siconos: a child's answer");
+    unpacker.list(r);
+    unpacker.number(answer.iterations);
+    unpacker.finish();
+    answer.x = blocks_.unpad(r);
     return true;
   }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "experiments/compare/compare_options.hpp"
+#include "experiments/compare/live_page.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
@@ -82,12 +83,4 @@ TEST_CASE("One start under several backends and tolerances") {
   CHECK(page.find("(reference)") != std::string::npos);
   const std::string csv = read_whole_file(folder.path() / "live.csv");
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 5);
-}
-
-TEST_CASE("Distances are rms over grains at common frames") {
-  Trajectory a, b;
-  a.positions = {Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
-  b.positions = {Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
-  b.positions[1] << 3.0, 4.0, 0.0, 0.0, 0.0, 5.0;
-  CHECK(distances(a, b) == std::vector<double>{0.0, 5.0});
 }
