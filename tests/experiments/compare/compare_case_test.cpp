@@ -1,0 +1,39 @@
+// Words of the command line -> cases from files, folders and patterns.
+
+#include "experiments/compare/compare_case.hpp"
+
+#include "platform/error.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+
+TEST_CASE("Cases from files: families, names, and what is refused") {
+  CHECK(family_of_file("Capsules-i101-404.dat") == "Capsules");
+  CHECK(family_of_file("Rover1039.dat") == "Rover");
+  CHECK(family_of_file("NESpheres_30_1.dat") == "NESpheres");
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(compare_cases({"/no/such/file.dat"}), Error);
+  CHECK_THROWS_AS(compare_cases({folder.path().string()}), Error);
+  CHECK_THROWS_AS(compare_cases({folder.write("notes.txt", "").string()}), Error);
+  folder.write("b.dat", "3 0 0 0 0");
+  folder.write("a.dat", "3 0 0 0 0");
+  const std::vector<CompareCase> cases =
+      compare_cases({(folder.path() / "*.dat").string(), folder.path().string()});
+  REQUIRE(cases.size() == 4);
+  CHECK(cases[0].name == "a.dat");
+  CHECK(cases[2].name == "a.dat (2)");
+}
+
+TEST_CASE("Folders are searched to the bottom, and only for problems") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "deep" / "deeper");
+  folder.write("deep/deeper/Rover2.dat", "");
+  folder.write("deep/Rover1.dat", "");
+  folder.write("deep/readme.md", "");
+  const std::vector<CompareCase> cases = compare_cases({folder.path().string()});
+  REQUIRE(cases.size() == 2);
+  CHECK(cases[0].family == "Rover");
+  CHECK(cases[0].name == "Rover1.dat");
+  CHECK(cases[1].name == "Rover2.dat");
+}

@@ -1,0 +1,40 @@
+// The page of a comparison and its summary for the terminal.
+
+#include "experiments/compare/compare_page.hpp"
+
+#include "experiments/page/plot.hpp"
+#include "experiments/run/manifest.hpp"
+#include "platform/atomic_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/experiments/compare/hand_made_row.hpp"
+#include "tests/support/page_sample.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+
+TEST_CASE("The page of a comparison is well-formed and has what it promises") {
+  const TemporaryFolder folder;
+  std::vector<CompareRow> rows;
+  for (const char* name : {"x&<1", "y2"}) {
+    rows.push_back(row(name, "a", 0.1, Outcome::solved));
+    rows.push_back(row(name, "b", 0.3, Outcome::solved));
+    rows.push_back(row(name, "c", 60.0, Outcome::timeout));
+  }
+  rows.push_back(hand_made_row("z", "a", 0.2, Outcome::stopped));
+  rows.back().claimed = true;
+  Manifest("compare", {"ballast compare <x>"}, "key").write(folder.path() / "manifest.json");
+  write_compare_page(folder.path(), rows, {});
+  const std::string page = read_whole_file(folder.path() / "compare.html");
+  check_page(page);
+  CHECK(page.find("x&amp;&lt;1") != std::string::npos);
+  CHECK(page.find("the judge denies it") != std::string::npos);
+  if (!gnuplot_version().empty())
+    for (const char* name : {"performance_cold_1e-04", "data_cold_1e-04",
+                             "cost_contacts_cold_1e-04", "case_y2_cold", "family_hand_cold"}) {
+      INFO(name);
+      CHECK(page.find(std::string("<figure id=\"") + name) != std::string::npos);
+      CHECK(std::filesystem::file_size(folder.path() / "figures" / (std::string(name) + ".pdf")) >
+            1000);
+    }
+  CHECK(compare_summary(rows, {}).find("CLAIMS DENIED") != std::string::npos);
+}

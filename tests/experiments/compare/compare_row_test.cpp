@@ -1,0 +1,70 @@
+// A row's file and its line of the CSV.
+
+#include "experiments/compare/compare_row.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("A row survives its file to the last bit") {
+  CompareRow row;
+  row.key = "k";
+  row.case_name = "a, \"b\"";
+  row.note = "line\nbreak";
+  row.error = 0.1 + 0.2;
+  row.fclib = std::nan("");
+  row.outcome = Outcome::timeout;
+  row.start = StartKind::warm;
+  row.measure = Measure::fclib;
+  row.history = {{0, 1, 1e-300, 1.0 / 3.0}, {1, 2, 0.5, 5e-324}};
+  const CompareRow back = compare_row_of_json(to_json(row), "file");
+  CHECK(to_json(back) == to_json(row));
+  CHECK(back.error == row.error);
+  CHECK(std::isnan(back.fclib));
+  REQUIRE(back.history.size() == 2);
+  CHECK(back.history[1].error == 5e-324);
+  CHECK(compare_csv({row}).find("\"a, \"\"b\"\"\"") != std::string::npos);
+  CHECK_THROWS_WITH(compare_row_of_json("{}", "row.json"),
+                    Catch::StartsWith("row.json: is no row"));
+}
+
+TEST_CASE("Names of measures, starts and outcomes are read back, others are refused") {
+  for (const Measure measure : {Measure::natural_map, Measure::fclib})
+    CHECK(measure_of(name_of(measure)) == measure);
+  for (const StartKind start : {StartKind::cold, StartKind::warm})
+    CHECK(start_of(name_of(start)) == start);
+  CHECK_THROWS_WITH(measure_of("siconos"),
+                    "'siconos' is no measure; there are: natural_map, fclib");
+  CHECK_THROWS_AS(start_of("Cold"), std::invalid_argument);
+  const std::string json = to_json(CompareRow{});
+  const size_t at = json.find("crashed");
+  REQUIRE(at != std::string::npos);
+  CHECK_THROWS_WITH(compare_row_of_json(std::string(json).replace(at, 7, "exploded"), "row.json"),
+                    Catch::Contains("exploded"));
+}
+
+TEST_CASE("A claim that the judge denies is a false success") {
+  CompareRow row;
+  row.claimed = true;
+  CHECK(row.is_false_success());
+  row.judged = true;
+  CHECK_FALSE(row.is_false_success());
+  row.prepare_seconds = 0.25;
+  row.solve_seconds = 1.5;
+  CHECK(row.seconds() == 1.75);
+}
+
+TEST_CASE("Every line of the CSV has every column, and a line break in a note makes no line") {
+  CompareRow row;
+  row.note = "two\nlines, \"quoted\"";
+  const std::string csv = compare_csv({row, row});
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
+  CHECK(csv.find("\"two lines, \"\"quoted\"\"\"") != std::string::npos);
+  const std::string head = csv.substr(0, csv.find('\n'));
+  CHECK(std::count(head.begin(), head.end(), ',') + 1 ==
+        static_cast<long>(compare_columns().size()));
+}

@@ -1,0 +1,45 @@
+// Cases that are made on the spot: known:... and stress:...
+
+#include "experiments/compare/compare_case.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("Made cases are what their words say") {
+  CHECK(compare_cases({"known:count=3"}).size() == 3);
+  const std::vector<CompareCase> made = compare_cases({"stress:stack,ratio=1e3", "stress:all"});
+  CHECK(made.size() > 10);
+  CHECK(made[0].load().facts.mass_ratio == Approx(1e3));
+  CHECK(made[0].load().facts.velocity_scale == 9.81e-3);
+  for (const CompareCase& c : made) CHECK_NOTHROW(c.load());
+}
+
+TEST_CASE("Settings of a made case are in its name, and in the problem") {
+  const std::vector<CompareCase> known =
+      compare_cases({"known:bodies=5,contacts=7,copies=2,seed=4,count=2,frictionless=0"});
+  REQUIRE(known.size() == 2);
+  CHECK(known[0].name == "known-b5-c7x2-R1-s4");
+  CHECK(known[1].name == "known-b5-c7x2-R1-s5");
+  CHECK(known[0].family == "known");
+  const LoadedCase first = known[0].load();
+  CHECK(first.facts.contacts == 14);
+  CHECK(first.facts.rows == 42);
+  CHECK(first.facts.content != known[1].load().facts.content);
+  CHECK(first.facts.content == known[0].load().facts.content);
+  CHECK(first.describe_contact(3) == "contact 3");
+  CHECK(first.describe_contact(-1).empty());
+  // three contacts, each of one row: boxes without friction
+  const LoadedCase stack = compare_cases({"stress:stack,n=3,rows=1"})[0].load();
+  CHECK(stack.facts.rows == stack.facts.contacts);
+  CHECK(compare_cases({"stress:chain,grains=4,force=10"})[0].name == "chain-n4-F10");
+  CHECK(compare_cases({"stress:table,copies=2"})[0].load().facts.contacts == 8);
+}
+
+TEST_CASE("Words that make no case are refused by name") {
+  for (const std::string word :
+       {"known:bodies=x", "known:colour=3", "known:contacts=0", "known:bodies", "known:bodies=-1",
+        "known:bodies=1e10", "stress:", "stress:pile", "stress:stack,weight=3",
+        "stress:stack,rows=2", "stress:stack,chain"})
+    CHECK_THROWS_WITH(compare_cases({word}), Catch::StartsWith(word + ": "));
+  CHECK_FALSE(is_made_case("unknown:bodies=3"));
+}
