@@ -1,5 +1,4 @@
-// A comparison: crashes and timeouts are rows, nobody is believed without the judge, and what is
-// there is not done again.
+// A comparison tries every combination once, keeps what is there, and goes on after any death.
 
 #include "experiments/compare/comparison.hpp"
 
@@ -30,8 +29,6 @@ CompareOptions options_in(const fs::path& folder, std::vector<ComparedSolver> so
   options.max_seconds = 20.0;
   return options;
 }
-
-bool go_on(const CompareRow&, bool, size_t, size_t) { return true; }
 
 std::vector<CompareCase> one_case() { return compare_cases({"known:contacts=12,bodies=6,seed=3"}); }
 
