@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "solvers/seam/relay.hpp"
+
 namespace ballast {
 namespace {
 
@@ -14,9 +16,12 @@ constexpr double largest_fall = 1e-3;
 constexpr double aim = 0.7;
 constexpr int most_rounds = 60;
 
-class Rounds {
+/// One solver on its way to a tolerance. solvers/seam/relay.hpp goes on from the best iterate and
+/// its clock runs on while iterates are judged; here each round goes on from the last one's
+/// impulses, and only prepare() and solve() are timed.
+class Drive {
  public:
-  Rounds(Solver& solver, const FrictionProblem& problem, const DriveSettings& settings)
+  Drive(Solver& solver, const FrictionProblem& problem, const DriveSettings& settings)
       : solver_(solver), problem_(problem), settings_(settings) {}
 
   DrivenSolve to_natural_map(Impulses start) {
@@ -50,14 +55,11 @@ class Rounds {
   }
 
   void round(Impulses start, double tolerance) {
-    Budget budget;
-    budget.tolerance = tolerance;
-    budget.max_iterations = settings_.max_iterations;
-    budget.max_seconds = std::max(1e-9, settings_.max_seconds - driven_.seconds());
-    budget.keep_history = true;
+    const Budget whole{tolerance, settings_.max_iterations, settings_.max_seconds, true};
+    const Budget left = rest_of(whole, 0, driven_.seconds());  // iterations are of each round
     SolverRun run = driven_.rounds == 0
-                        ? runner_.run(solver_, problem_, std::move(start), budget)
-                        : runner_.run_again(solver_, problem_, std::move(start), budget);
+                        ? runner_.run(solver_, problem_, std::move(start), left)
+                        : runner_.run_again(solver_, problem_, std::move(start), left);
     for (const HistoryPoint& point : run.solved.history)
       driven_.history.push_back({driven_.rounds, driven_.iterations + point.iteration,
                                  driven_.solve_seconds + point.seconds,
@@ -80,8 +82,8 @@ class Rounds {
 
 DrivenSolve drive_solver(Solver& solver, const FrictionProblem& problem, const Impulses& start,
                          const DriveSettings& settings) {
-  Rounds rounds(solver, problem, settings);
-  return settings.measure == Measure::fclib ? rounds.to_fclib(start) : rounds.to_natural_map(start);
+  Drive drive(solver, problem, settings);
+  return settings.measure == Measure::fclib ? drive.to_fclib(start) : drive.to_natural_map(start);
 }
 
 }  // namespace ballast
