@@ -4,9 +4,13 @@
 # ones that need an optional library: the caller adds them where the library is found).
 #   DOORS      the rooms whose headers it may include; what is not named here does not link
 #   LIBRARIES  third-party libraries that only its sources see
-# Sources are compiled in batches (unity build): headers that they share are read once for each batch.
+# Sources are compiled in batches (unity build), and the headers that nearly all of them need are
+# read once (precompiled).
+#
+# QUICK_TO_COMPILE: rooms without a hot loop are compiled with -O1, the others with -O3. Both give the
+# same bits: no option here lets the compiler change the order of floating-point operations.
 function(ballast_room name folder)
-  cmake_parse_arguments(ROOM "" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
+  cmake_parse_arguments(ROOM "QUICK_TO_COMPILE" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
   foreach(file IN LISTS ROOM_EXCEPT)
     list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/${file})
@@ -16,5 +20,31 @@ function(ballast_room name folder)
   target_link_libraries(ballast_${name}
     PUBLIC ballast_options Eigen3::Eigen ${ROOM_DOORS}
     PRIVATE ${ROOM_LIBRARIES})
-  set_target_properties(ballast_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  ballast_compile_in_batches(ballast_${name} 8)
+  if(ROOM_QUICK_TO_COMPILE)
+    target_compile_options(ballast_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_precompile_headers(ballast_${name} REUSE_FROM ballast_headers_O1)
+  else()
+    target_precompile_headers(ballast_${name} REUSE_FROM ballast_headers_O3)
+  endif()
 endfunction()
+
+# The batches of a target: so many sources are one translation unit. Large batches compile fast as a
+# whole, small ones after an edit.
+function(ballast_compile_in_batches target size)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+endfunction()
+
+# Precompiled headers for each level of optimisation: the compiler takes them only at their own.
+foreach(level O1 O3)
+  set(source ${CMAKE_BINARY_DIR}/precompiled/headers_${level}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// For the precompiled headers of this target.\n")
+  add_library(ballast_headers_${level} OBJECT ${source})
+  target_link_libraries(ballast_headers_${level} PUBLIC ballast_options Eigen3::Eigen)
+  if(level STREQUAL O1)
+    target_compile_options(ballast_headers_O1 PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  target_precompile_headers(ballast_headers_${level} PRIVATE <Eigen/Dense> <Eigen/Sparse> <algorithm>
+    <chrono> <cmath> <filesystem> <fstream> <functional> <iostream> <map> <memory> <optional> <set>
+    <span> <sstream> <string> <variant> <vector>)
+endforeach()
