@@ -69,8 +69,9 @@ void for_members(Row& row, F&& f) {
   f("peak_memory_MB", row.peak_memory_MB);
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json json_of(double value) { return number(value); }
+/// JSON has no NaN: null.
+Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
 template <typename Value>
 Json json_of(const Value& value) {
   return value;
@@ -188,7 +189,7 @@ std::string to_json(const CompareRow& row) {
   json["outcome"] = name_of(row.outcome);
   Json& history = json["history"] = Json::array();
   for (const HistoryRow& h : row.history)
-    history.push_back({h.round, h.iteration, number(h.seconds), number(h.error)});
+    history.push_back({h.round, h.iteration, json_of(h.seconds), json_of(h.error)});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
