@@ -33,8 +33,8 @@ constexpr double overrun = 10.0;
 constexpr double overrun = 2.0;
 #endif
 
-std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem,
-                             const Budget& budget) {
+std::optional<SolverRun> solve_stressed(const SolverEntry& entry, const FrictionProblem& problem,
+                                        const Budget& budget) {
   try {
     return SolverRunner().run(*entry.make(), problem, {}, budget);
   } catch (const UnsupportedProblem&) {
@@ -80,11 +80,11 @@ TEST_CASE("stress: every backend, every problem") {
       for (const StressProblem& stress : problems) {
         CAPTURE(stress.item, stress.name);
         if (!stress.refused.empty()) {
-          CHECK_THROWS_WITH(run(entry, stress.problem, short_budget),
+          CHECK_THROWS_WITH(solve_stressed(entry, stress.problem, short_budget),
                             Catch::Contains(stress.refused));
           continue;
         }
-        const std::optional<SolverRun> result = run(entry, stress.problem, short_budget);
+        const std::optional<SolverRun> result = solve_stressed(entry, stress.problem, short_budget);
         if (!result) continue;
         CAPTURE(name_of(result->solved.reason), result->error.natural_map_rms);
         CHECK(result->error.finite);
@@ -115,7 +115,7 @@ TEST_CASE("stress: rounding and kinks do not stop Newton's methods and spg") {
     for (const StressProblem& stress : stress_problems()) {
       if (stress.name != problem_name) continue;
       CAPTURE(name, problem_name);
-      const std::optional<SolverRun> result = run(entry, stress.problem, unhurried);
+      const std::optional<SolverRun> result = solve_stressed(entry, stress.problem, unhurried);
       REQUIRE(result);
       CHECK(result->success);
       CHECK(result->solved.iterations < 500);
@@ -170,7 +170,7 @@ TEST_CASE("stress: sliding tells the laws apart") {
     const double mu = 0.4;
     const StressProblem stress =
         sliding_block(mu, M_PI / 8.0);  // half-way between the directions of a pyramid
-    const std::optional<SolverRun> result = run(entry, stress.problem, unhurried);
+    const std::optional<SolverRun> result = solve_stressed(entry, stress.problem, unhurried);
     if (!result) continue;
     Eigen::VectorXd u;
     contact_velocity(stress.problem, result->solved.impulses, u);
@@ -189,7 +189,7 @@ namespace {
 std::string table_cell(const SolverEntry& entry, const StressProblem& stress) {
   std::optional<SolverRun> result;
   try {
-    result = run(entry, stress.problem, table_budget);
+    result = solve_stressed(entry, stress.problem, table_budget);
   } catch (const InvalidProblem&) {
     return "refused";
   }

@@ -25,7 +25,7 @@ LocalProblem read_local(const std::string& text) {
   return std::get<LocalProblem>(read_siconos_text(file.path));
 }
 
-std::string complaint(const std::string& text) {
+std::string complaint_of_text(const std::string& text) {
   const TextFile file(text);
   try {
     read_problem(file.path);
@@ -114,30 +114,33 @@ TEST_CASE("a global problem is told by its first matrix") {
 
 TEST_CASE("each broken text is refused, with its line") {
   const std::string sound = "3\n1\n0\n3\n3\n3 3\n2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n";
-  CHECK(complaint(sound) == "");
-  CHECK(complaint("") == "line 1: the file ends within the dimension");
-  CHECK(complaint("2\n1\n") == "line 1: dimension 2: only 3 is supported");
-  CHECK(complaint("5\n1\n") == "line 1: dimension 5: only 3 is supported");
-  CHECK(complaint("3\n-1\n") == "line 2: the number of contacts = -1 is negative");
-  CHECK(complaint("3\nmany\n") == "line 2: the number of contacts: 'many' is not a number");
-  CHECK(complaint("3\n1\n7\n3 3\n").rfind("line 4: storage 7 is none of", 0) == 0);
-  CHECK(
-      complaint("3\n1\n0\n3 3\n3 4\n").rfind("line 5: the matrix states two different sizes", 0) ==
-      0);
-  CHECK(complaint("3\n1\n0\n3 3\n3 3\n2 0 0 nan 3 0 0 0 4\n1 1 1\n")
+  CHECK(complaint_of_text(sound) == "");
+  CHECK(complaint_of_text("") == "line 1: the file ends within the dimension");
+  CHECK(complaint_of_text("2\n1\n") == "line 1: dimension 2: only 3 is supported");
+  CHECK(complaint_of_text("5\n1\n") == "line 1: dimension 5: only 3 is supported");
+  CHECK(complaint_of_text("3\n-1\n") == "line 2: the number of contacts = -1 is negative");
+  CHECK(complaint_of_text("3\nmany\n") == "line 2: the number of contacts: 'many' is not a number");
+  CHECK(complaint_of_text("3\n1\n7\n3 3\n").rfind("line 4: storage 7 is none of", 0) == 0);
+  CHECK(complaint_of_text("3\n1\n0\n3 3\n3 4\n")
+            .rfind("line 5: the matrix states two different sizes", 0) == 0);
+  CHECK(complaint_of_text("3\n1\n0\n3 3\n3 3\n2 0 0 nan 3 0 0 0 4\n1 1 1\n")
             .rfind("line 6: a dense matrix = nan", 0) == 0);
-  CHECK(complaint(sound.substr(0, sound.size() - 5)) == "line 8: the file ends within mu");
-  CHECK(complaint(sound.substr(0, 25)).find("the file ends within") != std::string::npos);
-  CHECK(complaint("3\n1000000\n0\n3000000 3000000\n3000000 3000000\n1 2\n").find("ends within") !=
-        std::string::npos);
-  CHECK(complaint("3\n1\n2\n3 3\n4\n").rfind("line 5: sparse origin 4 is not supported", 0) == 0);
-  CHECK(complaint(
+  CHECK(complaint_of_text(sound.substr(0, sound.size() - 5)) == "line 8: the file ends within mu");
+  CHECK(complaint_of_text(sound.substr(0, 25)).find("the file ends within") != std::string::npos);
+  CHECK(complaint_of_text("3\n1000000\n0\n3000000 3000000\n3000000 3000000\n1 2\n")
+            .find("ends within") != std::string::npos);
+  CHECK(
+      complaint_of_text("3\n1\n2\n3 3\n4\n").rfind("line 5: sparse origin 4 is not supported", 0) ==
+      0);
+  CHECK(complaint_of_text(
             "3\n1\n0\n4 4\n4 4\n1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n0\n3 3\n3 3\n1 0 0 0 1 0 0 0 1\n")
             .find("H is 3 x 3, must be 4 x 3") != std::string::npos);
-  CHECK(complaint("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n0\n5\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n")
-            .find("not in order") != std::string::npos);
-  CHECK(complaint("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n4\n0\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n")
-            .find("outside") != std::string::npos);
-  CHECK(complaint("3\n1\n0\n3\n3\n3 3\n-2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n")
+  CHECK(
+      complaint_of_text("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n0\n5\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n")
+          .find("not in order") != std::string::npos);
+  CHECK(
+      complaint_of_text("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n4\n0\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n")
+          .find("outside") != std::string::npos);
+  CHECK(complaint_of_text("3\n1\n0\n3\n3\n3 3\n-2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n")
             .rfind("delassus.w(0, 0) = -2 is negative", 0) == 0);
 }
