@@ -83,6 +83,21 @@ std::vector<std::string> cited_paths(const std::string& text) {
   return found;
 }
 
+/// The pages that a source names in a comment or a message: docs/manual/plans.md.
+std::vector<std::string> cited_pages(const std::string& text) {
+  std::vector<std::string> found;
+  for (size_t at = text.find("docs/"); at != std::string::npos; at = text.find("docs/", at + 1)) {
+    size_t end = at;
+    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) ||
+                                 std::string_view("_/.-").find(text[end]) != std::string::npos))
+      ++end;
+    const size_t suffix = text.substr(at, end - at).rfind(".md");
+    const std::string page = suffix == std::string::npos ? "" : text.substr(at, suffix + 3);
+    if (!page.empty() && page.find("..") == std::string::npos) found.push_back(page);
+  }
+  return found;
+}
+
 bool is_in_the_tree(const std::string& path) {
   return fs::exists(root() / path) || fs::exists(root() / (path + ".hpp")) ||
          fs::exists(root() / (path + ".cpp"));
@@ -148,6 +163,19 @@ TEST_CASE("every source that the docs cite exists") {
   CHECK(found > 50);
 }
 
+TEST_CASE("every page that the sources cite exists") {
+  int found = 0;
+  for (const SourceFile& file : all_sources(true)) {
+    if (file.path == "tests/house/docs_test.cpp") continue;
+    for (const std::string& page : cited_pages(file.text)) {
+      INFO(file.path << ": " << page);
+      CHECK(fs::exists(root() / page));
+      ++found;
+    }
+  }
+  CHECK(found > 3);
+}
+
 TEST_CASE("the docs' prose is not too wide, and no commit explains anything") {
   for (const Page& page : pages()) {
     INFO(page.path.string());
@@ -171,6 +199,14 @@ TEST_CASE("every page is a few links from README.md") {
   }
 }
 
+TEST_CASE("docs/house/design.md has a row for every room") {
+  const std::string design = content(root() / "docs" / "house" / "design.md");
+  for (const auto& [room, ignored] : doors()) {
+    INFO(room);
+    CHECK(design.find("| `" + fs::path(room).filename().string() + "` |") != std::string::npos);
+  }
+}
+
 TEST_CASE("the reader of docs sees what is forbidden") {
   CHECK(links("a [b](c.md#part) [d](https://e.f) ![g](h.svg)") ==
         std::vector<std::string>{"c.md", "h.svg"});
@@ -180,6 +216,8 @@ TEST_CASE("the reader of docs sees what is forbidden") {
         std::vector<std::string>{"cea39a7"});
   CHECK(cited_paths("`solvers/none.hpp`, tests/no, `tests/<room>/a.txt`, `ballast run`") ==
         std::vector<std::string>{"solvers/none.hpp"});
+  CHECK(cited_pages("// see docs/a/b.md. And docs/measured/.../c.md, docs/d") ==
+        std::vector<std::string>{"docs/a/b.md"});
   CHECK(is_in_the_tree("tests/house/source_tree"));
   CHECK_FALSE(is_in_the_tree("solvers/none.hpp"));
 }
