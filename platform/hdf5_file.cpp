@@ -1,279 +1,59 @@
 #include "platform/hdf5_file.hpp"
 
+#include <hdf5.h>
+
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <numeric>
+#include <type_traits>
 
-#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
 
-namespace {
+// What the header says in place of HDF5's own types.
+static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int> &&
+              std::is_same_v<hsize_t, Hdf5Shape::value_type>);
 
-constexpr size_t memory_increment = size_t{4} << 20;  // by which the file in memory grows
-constexpr hsize_t chunk_bytes =
-    1 << 16;  // of compressed data; smaller datasets are stored as they are
-constexpr unsigned deflate_level = 4;
-
-hsize_t product(const Hdf5Shape& shape) {
-  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+Hdf5File::Hdf5File(const std::filesystem::path& path) : path_(path) {
+  H5Eget_auto2(H5E_DEFAULT, &old_report_, &old_client_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Memory of a file in memory: malloc's, but kept when the file is closed. H5Fget_file_image would
-/// copy it, and spoils the checksum of the superblock (HDF5 1.10).
-namespace image_memory {
-using Op = H5FD_file_image_op_t;
-void* allocate(size_t size, Op, void*) { return std::malloc(size); }
-void* copy(void* to, const void* from, size_t size, Op, void*) {
-  return std::memcpy(to, from, size);
-}
-void* resize(void* bytes, size_t size, Op, void*) { return std::realloc(bytes, size); }
-herr_t release(void* bytes, Op op, void* image) {
-  if (op == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
-    static_cast<Hdf5Writer::Image*>(image)->bytes = static_cast<unsigned char*>(bytes);
-  else
-    std::free(bytes);
-  return 0;
-}
-void* same_image(void* image) { return image; }
-herr_t keep_image(void*) { return 0; }
-}  // namespace image_memory
+Hdf5File::~Hdf5File() { H5Eset_auto2(H5E_DEFAULT, old_report_, old_client_); }
 
-/// Opens a file that lives in memory only: its name is never used.
-hid_t create_in_memory(Hdf5Writer::Image& image) {
-  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
-      creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5FD_file_image_callbacks_t callbacks{image_memory::allocate,    image_memory::copy,
-                                        image_memory::resize,      image_memory::release,
-                                        image_memory::same_image,  image_memory::keep_image,
-                                        static_cast<void*>(&image)};
-  H5Pset_fapl_core(access, memory_increment, false);
-  H5Pset_file_image_callbacks(access, &callbacks);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  H5Pset_obj_track_times(creation, false);
-  return H5Fcreate("record in memory", H5F_ACC_TRUNC, creation, access);
+void Hdf5File::fail(const std::string& what) const { throw Error(path_.string() + ": " + what); }
+
+std::int64_t Hdf5File::check(std::int64_t result, const std::string& action) const {
+  if (result < 0) fail("HDF5 cannot " + action);
+  return result;
 }
 
-/// Length of a file with superblock version 2 (HDF5 1.8's): its end-of-file address. 0 for anything
-/// else.
-size_t file_length(const unsigned char* bytes) {
-  constexpr unsigned char beginning[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n', 2, 8, 8};
-  constexpr size_t end_of_file = 28;
-  if (!bytes || std::memcmp(bytes, beginning, sizeof beginning) != 0) return 0;
-  size_t length = 0;
-  for (size_t k = 8; k-- > 0;) length = length << 8 | bytes[end_of_file + k];
-  return length;
-}
-
-hid_t open_for_reading(const std::filesystem::path& file) {
-  return H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-}
-
-Hdf5Id text_type() {
+Hdf5Id Hdf5File::text_type() {
   Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, H5T_VARIABLE);
   H5Tset_cset(type, H5T_CSET_UTF8);
   return type;
 }
 
-hid_t checked(hid_t result, const std::filesystem::path& file, const std::string& what) {
-  if (result < 0) throw Error(file.string() + ": HDF5 cannot " + what);
-  return result;
+Hdf5Id Hdf5File::space_of(const Hdf5Shape& shape) {
+  return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
 
-}  // namespace
-
-Hdf5Silence::Hdf5Silence() {
-  H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-Hdf5Silence::~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& target)
-    : target_(target),
-      file_(checked(create_in_memory(image_), target, "make a file in memory"), H5Fclose) {}
-
-hid_t Hdf5Writer::check(hid_t result, const std::string& what) const {
-  return checked(result, target_, what);
-}
-
-void Hdf5Writer::add_group(const std::string& name) {
-  const Hdf5Id creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, false);
-  const Hdf5Id group(
-      check(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), "make " + name),
-      H5Gclose);
-}
-
-void Hdf5Writer::add_text(const std::string& object, const std::string& attribute,
-                          const std::string& text) {
-  const std::string what = "write the attribute " + attribute + " of " + object;
-  const Hdf5Id type = text_type(), space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Id id(check(H5Acreate_by_name(file_, object.c_str(), attribute.c_str(), type, space,
-                                          H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                        what),
-                  H5Aclose);
-  const char* value = text.c_str();
-  check(H5Awrite(id, type, &value), what);
-}
-
-Hdf5Id Hdf5Writer::make_dataset(const std::string& name, hid_t type, const Hdf5Shape& shape) {
-  const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, false);
-  const hsize_t bytes = product(shape) * H5Tget_size(type);
-  if (bytes > chunk_bytes / 16 && !shape.empty()) {
-    Hdf5Shape chunk = shape;
-    chunk[0] = std::clamp<hsize_t>(chunk_bytes * shape[0] / bytes, 1, shape[0]);
-    H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
-    H5Pset_shuffle(creation);
-    if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) H5Pset_deflate(creation, deflate_level);
-    H5Pset_fletcher32(creation);
-  }
-  const Hdf5Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                     H5Sclose);
-  return Hdf5Id(
-      check(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-            "make " + name),
-      H5Dclose);
-}
-
-void Hdf5Writer::write(const std::string& name, hid_t stored, hid_t given, const void* values,
-                       const Hdf5Shape& shape) {
-  const Hdf5Id dataset = make_dataset(name, stored, shape);
-  if (product(shape) > 0)
-    check(H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
-}
-
-void Hdf5Writer::add(const std::string& name, std::span<const double> values,
-                     const Hdf5Shape& shape) {
-  write(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), shape);
-}
-
-void Hdf5Writer::add(const std::string& name, std::span<const std::int32_t> values,
-                     const Hdf5Shape& shape) {
-  write(name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.data(), shape);
-}
-
-void Hdf5Writer::add(const std::string& name, std::span<const std::int64_t> values,
-                     const Hdf5Shape& shape) {
-  write(name, H5T_STD_I64LE, H5T_NATIVE_INT64, values.data(), shape);
-}
-
-void Hdf5Writer::add(const std::string& name, const std::vector<std::string>& texts) {
-  std::vector<const char*> pointers;
-  for (const std::string& text : texts) pointers.push_back(text.c_str());
-  const Hdf5Id type = text_type(),
-               space(H5Screate_simple(1, Hdf5Shape{texts.size()}.data(), nullptr), H5Sclose);
-  const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, false);
-  const Hdf5Id dataset(
-      check(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-            "make " + name),
-      H5Dclose);
-  if (!texts.empty())
-    check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "write " + name);
-}
-
-Hdf5Id Hdf5Writer::add_slices(const std::string& name, const Hdf5Shape& shape) {
-  return make_dataset(name, H5T_IEEE_F64LE, shape);
-}
-
-void Hdf5Writer::write_slice(const Hdf5Id& dataset, hsize_t index, std::span<const double> values) {
-  const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
-  Hdf5Shape count(static_cast<size_t>(H5Sget_simple_extent_ndims(space))), start(count.size(), 0);
+Hdf5Shape Hdf5File::select_slice(const Hdf5Id& space, size_t index) {
+  Hdf5Shape count(static_cast<size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
   H5Sget_simple_extent_dims(space, count.data(), nullptr);
+  Hdf5Shape start(count.size(), 0);
+  if (count.empty() || index >= count[0]) return {};
   start[0] = index;
   count[0] = 1;
-  const Hdf5Id memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
-                      H5Sclose);
-  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
-        "select a slice");
-  check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()),
-        "write a slice");
+  const herr_t selected =
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  return selected < 0 ? Hdf5Shape{} : count;
 }
 
-void Hdf5Writer::commit() {
-  check(file_.close(), "finish the file in memory");
-  const size_t length = file_length(image_.bytes);
-  if (length == 0) check(-1, "give the bytes of the file in memory");
-  write_whole_file(target_, {reinterpret_cast<const char*>(image_.bytes), length});
-}
-
-Hdf5Writer::Image::~Image() { std::free(bytes); }
-
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
-    : path_(file),
-      file_(checked(open_for_reading(file), file, "open it: missing, truncated or no HDF5 file"),
-            H5Fclose) {}
-
-hid_t Hdf5Reader::check(hid_t result, const std::string& what) const {
-  return checked(result, path_, what);
-}
-
-Hdf5Id Hdf5Reader::open(const std::string& name) const {
-  return Hdf5Id(check(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), "find " + name), H5Dclose);
-}
-
-bool Hdf5Reader::has(const std::string& name) const {
-  return Hdf5Id(H5Oopen(file_, name.c_str(), H5P_DEFAULT), H5Oclose) >= 0;
-}
-
-Hdf5Shape Hdf5Reader::shape(const std::string& name) const {
-  const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
-  Hdf5Shape shape(
-      static_cast<size_t>(check(H5Sget_simple_extent_ndims(space), "give the shape of " + name)));
-  H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-  return shape;
-}
-
-std::vector<double> Hdf5Reader::read(const std::string& name) const {
-  std::vector<double> values(product(shape(name)));
-  if (!values.empty())
-    check(H5Dread(open(name), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-          "read " + name);
-  return values;
-}
-
-std::vector<double> Hdf5Reader::read_slice(const std::string& name, hsize_t index) const {
-  Hdf5Shape count = shape(name), start(count.size(), 0);
-  count.at(0) = 1;
-  start[0] = index;
-  std::vector<double> values(product(count));
-  const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
-  const Hdf5Id memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
-                      H5Sclose);
-  const std::string what = "read slice " + std::to_string(index) + " of " + name;
-  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
-        what);
-  check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), what);
-  return values;
-}
-
-std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
-  std::vector<char*> pointers(product(shape(name)), nullptr);
-  const Hdf5Id dataset = open(name), type = text_type(), space(H5Dget_space(dataset), H5Sclose);
-  check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "read " + name);
-  std::vector<std::string> texts(pointers.begin(), pointers.end());
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
-  return texts;
-}
-
-std::string Hdf5Reader::read_text(const std::string& object, const std::string& attribute) const {
-  const std::string what = "read the attribute " + attribute + " of " + object;
-  const Hdf5Id id(
-      check(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-            what),
-      H5Aclose);
-  const Hdf5Id type = text_type(), space(H5Aget_space(id), H5Sclose);
-  char* value = nullptr;
-  check(H5Aread(id, type, &value), what);
-  std::string text = value ? value : "";
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, &value);
-  return text;
+unsigned long long Hdf5File::product(const Hdf5Shape& shape) {
+  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
 
 }  // namespace ballast

@@ -1,112 +1,70 @@
 #pragma once
-// The little of HDF5's C API that records need. Every failure is a Error that names the file; HDF5
-// itself says nothing.
-
-#include <hdf5.h>
+// The little of HDF5's C interface that records and problem files need, without its header. Every
+// failure is an Error that begins with the file and names the dataset; HDF5 itself prints nothing.
+//
+// Why not H5Cpp, which Debian has too: it wraps neither the memory of a file in memory nor the
+// switch that leaves times of day out, so half of the writer would be C all the same; its header
+// costs 0.3 s in each includer (this one: none of HDF5's), its library is one more package.
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace ballast {
 
-/// Owns one HDF5 handle.
+/// Owns one HDF5 handle (hid_t) and closes it.
 class Hdf5Id {
  public:
-  using Close = herr_t (*)(hid_t);
-  Hdf5Id(hid_t id, Close closer) : id_(id), close_(closer) {}
+  using Close = int (*)(std::int64_t);
+  Hdf5Id(std::int64_t id, Close closer) : id_(id), close_(closer) {}
   ~Hdf5Id() {
     if (id_ >= 0) close_(id_);
   }
   Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Hdf5Id& operator=(Hdf5Id&&) = delete;
-  operator hid_t() const { return id_; }
-  herr_t close() { return close_(std::exchange(id_, -1)); }
+  operator std::int64_t() const { return id_; }
+  /// Closes it now; negative when that fails.
+  int close() { return close_(std::exchange(id_, -1)); }
 
  private:
-  hid_t id_;
+  std::int64_t id_;
   Close close_;
 };
 
-/// While alive, HDF5 prints no error stacks.
-class Hdf5Silence {
+/// Sizes along the dimensions (hsize_t).
+using Hdf5Shape = std::vector<unsigned long long>;
+
+/// What Hdf5Reader and Hdf5Writer share: the name for errors, and silence while they live.
+class Hdf5File {
  public:
-  Hdf5Silence();
-  ~Hdf5Silence();
-  Hdf5Silence(const Hdf5Silence&) = delete;
-  Hdf5Silence& operator=(const Hdf5Silence&) = delete;
+  /// Throws Error "<file>: <what>".
+  [[noreturn]] void fail(const std::string& what) const;
+
+ protected:
+  explicit Hdf5File(const std::filesystem::path& path);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+  /// `result`, unless it is negative: then Error "<file>: HDF5 cannot <action>".
+  std::int64_t check(std::int64_t result, const std::string& action) const;
+
+  /// UTF-8 of any length.
+  static Hdf5Id text_type();
+  /// The space of an array of that shape.
+  static Hdf5Id space_of(const Hdf5Shape& shape);
+  /// Selects slice `index` along the first dimension of `space` and returns its shape; empty when
+  /// there is no such slice.
+  static Hdf5Shape select_slice(const Hdf5Id& space, size_t index);
+  /// Number of entries.
+  static unsigned long long product(const Hdf5Shape& shape);
+
+  const std::filesystem::path path_;
 
  private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
-
-using Hdf5Shape = std::vector<hsize_t>;
-
-/// Builds an HDF5 file in memory and writes it to disk whole: HDF5 cannot recover from a disk that
-/// fills up while it writes. The format is HDF5 1.8's, with checksums of metadata and of compressed
-/// data, and without times of day: equal contents are equal bytes.
-class Hdf5Writer {
- public:
-  explicit Hdf5Writer(const std::filesystem::path& target);
-
-  void add_group(const std::string& name);
-  /// Attribute of a group or dataset; "/" is the file.
-  void add_text(const std::string& object, const std::string& attribute, const std::string& text);
-
-  void add(const std::string& name, std::span<const double> values, const Hdf5Shape& shape);
-  void add(const std::string& name, std::span<const std::int32_t> values, const Hdf5Shape& shape);
-  void add(const std::string& name, std::span<const std::int64_t> values, const Hdf5Shape& shape);
-  void add(const std::string& name, const std::vector<std::string>& texts);
-
-  /// A dataset of doubles that is filled slice by slice along its first dimension.
-  Hdf5Id add_slices(const std::string& name, const Hdf5Shape& shape);
-  void write_slice(const Hdf5Id& dataset, hsize_t index, std::span<const double> values);
-
-  /// Writes beside the target and renames. All datasets handed out must be closed by then; nothing
-  /// can be added afterwards.
-  void commit();
-
-  /// The bytes of the file in memory, which HDF5 leaves to us when it closes the file.
-  struct Image {
-    unsigned char* bytes = nullptr;
-    ~Image();
-  };
-
- private:
-  Hdf5Id make_dataset(const std::string& name, hid_t type, const Hdf5Shape& shape);
-  void write(const std::string& name, hid_t stored, hid_t given, const void* values,
-             const Hdf5Shape& shape);
-  hid_t check(hid_t result, const std::string& what) const;
-
-  Hdf5Silence silence_;
-  std::filesystem::path target_;
-  Image image_;  // outlives file_
-  Hdf5Id file_;
-};
-
-class Hdf5Reader {
- public:
-  explicit Hdf5Reader(const std::filesystem::path& file);
-
-  bool has(const std::string& name) const;
-  Hdf5Shape shape(const std::string& name) const;
-  std::vector<double> read(const std::string& name) const;
-  /// Slice `index` along the first dimension.
-  std::vector<double> read_slice(const std::string& name, hsize_t index) const;
-  std::vector<std::string> read_texts(const std::string& name) const;
-  std::string read_text(const std::string& object, const std::string& attribute) const;
-
- private:
-  Hdf5Id open(const std::string& name) const;
-  hid_t check(hid_t result, const std::string& what) const;
-
-  Hdf5Silence silence_;
-  std::filesystem::path path_;
-  Hdf5Id file_;
+  int (*old_report_)(std::int64_t, void*) = nullptr;  // how HDF5 spoke of errors before us
+  void* old_client_ = nullptr;
 };
 
 }  // namespace ballast

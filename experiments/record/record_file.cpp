@@ -4,7 +4,8 @@
 #include <map>
 
 #include "platform/error.hpp"
-#include "platform/hdf5_file.hpp"
+#include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_writer.hpp"
 
 namespace ballast {
 
@@ -27,8 +28,8 @@ constexpr size_t parts_per_body = 13, leading = 2;  // step and time lead a pose
 
 void describe(Hdf5Writer& file, const std::string& dataset, const char* unit,
               const char* description) {
-  file.add_text(dataset, "unit", unit);
-  file.add_text(dataset, "description", description);
+  file.add_attribute(dataset, "unit", unit);
+  file.add_attribute(dataset, "description", description);
 }
 
 void add(Hdf5Writer& file, const std::string& name, const std::vector<double>& values,
@@ -51,7 +52,7 @@ void add_steps(Hdf5Writer& file, RowReader& rows) {
 
 void add_poses(Hdf5Writer& file, RowReader& rows, size_t bodies) {
   file.add_group("poses");
-  const auto frames = static_cast<hsize_t>(rows.safe_count());
+  const auto frames = static_cast<size_t>(rows.safe_count());
   std::vector<Hdf5Id> datasets;
   for (const PoseBlock& block : pose_blocks) {
     const std::string name = std::string("poses/") + block.name;
@@ -92,7 +93,7 @@ void add_bodies(Hdf5Writer& file, const MechanicalSystem& system) {
     normal.insert(normal.end(), into_free_side.begin(), into_free_side.end());
     shape.push_back(body.is_wall() ? -1 : shape_index.at(body.shape.polyhedron));
   }
-  const hsize_t count = names.size();
+  const size_t count = names.size();
   file.add_group("bodies");
   file.add("bodies/name", names);
   add(file, "bodies/mass", mass, {count}, "kg", "mass; of a driven wall: the wall's");
@@ -176,10 +177,10 @@ PoseFrame unpack_pose_row(std::span<const double> row) {
 void write_record_file(const std::filesystem::path& path, const MechanicalSystem& system,
                        RowReader& steps, RowReader& poses, const std::string& scene_text,
                        const std::string& manifest_text) {
-  Hdf5Writer file(path);
-  file.add_text("/", "format", "ballast record 2");
-  file.add_text("/", "scene", scene_text);
-  file.add_text("/", "manifest", manifest_text);
+  Hdf5Writer file(path, Hdf5Storage::compressed);
+  file.add_attribute("/", "format", "ballast record 2");
+  file.add_attribute("/", "scene", scene_text);
+  file.add_attribute("/", "manifest", manifest_text);
   add_steps(file, steps);
   add_poses(file, poses, system.bodies.size());
   add_bodies(file, system);
@@ -191,7 +192,7 @@ std::vector<StepRecord> read_record_steps(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
   std::vector<StepRecord> steps;
   for (const StepColumn& column : step_columns()) {
-    const std::vector<double> values = file.read(std::string("steps/") + column.name);
+    const std::vector<double> values = file.read_doubles(std::string("steps/") + column.name);
     if (&column == &step_columns().front()) steps.resize(values.size());
     if (values.size() != steps.size())
       throw Error(path.string() + ": steps/" + column.name + " has another length than the rest");
@@ -202,7 +203,8 @@ std::vector<StepRecord> read_record_steps(const std::filesystem::path& path) {
 
 std::vector<PoseFrame> read_record_poses(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
-  const std::vector<double> time = file.read("poses/time"), step = file.read("poses/step");
+  const std::vector<double> time = file.read_doubles("poses/time"),
+                            step = file.read_doubles("poses/step");
   const Hdf5Shape shape = file.shape("poses/position");
   if (shape.size() != 3 || shape[0] != time.size() || step.size() != time.size())
     throw Error(path.string() + ": the datasets of /poses do not fit together");

@@ -1,23 +1,23 @@
 #include "problems/files/captured_problem.hpp"
 
-#include <system_error>
 #include <variant>
 
+#include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_writer.hpp"
 #include "problems/files/fclib_file.hpp"
-#include "problems/files/hdf5_arrays.hpp"
 #include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
 namespace {
 
-const std::string group = "/ballast";
+const std::string side_group = "/ballast";
 
-std::string path_of(const char* name) { return group + "/" + name; }
+std::string path_of(const char* name) { return side_group + "/" + name; }
 
 /// Reads arrays whose sizes are known and says which one is wrong.
 class SideReader {
  public:
-  explicit SideReader(const std::filesystem::path& file) : file_(file, Hdf5Arrays::Mode::read) {}
+  explicit SideReader(const std::filesystem::path& file) : file_(file) {}
 
   std::vector<double> doubles(const char* name, std::size_t size) const {
     return sized(name, file_.read_doubles(path_of(name)), size);
@@ -42,7 +42,7 @@ class SideReader {
                  std::to_string(size));
     return values;
   }
-  Hdf5Arrays file_;
+  Hdf5Reader file_;
 };
 
 /// dof_begin and the masses, taken out of M.
@@ -102,56 +102,44 @@ Impulses read_rows(const SideReader& side, const char* name, const FrictionProbl
   return Eigen::Map<const Eigen::VectorXd>(values.data(), problem.row_count());
 }
 
-void write_side_group(Hdf5Arrays& file, const CapturedProblem& captured) {
+void write_side_group(Hdf5Writer& file, const CapturedProblem& captured) {
   const auto number = [&](const char* name, double value) {
-    file.write(path_of(name), std::vector<double>{value});
+    file.add(path_of(name), std::vector<double>{value});
   };
-  file.make_group(group);
+  file.add_group(side_group);
   number("h", captured.h);
   number("g", captured.g);
   number("time", captured.time);
   number("wall_x", captured.wall_x);
   number("wall_v", captured.wall_v);
   number("load", captured.load);
-  file.write(path_of("step"), std::vector<int>{captured.step});
-  file.write(path_of("phase"), captured.phase);
+  file.add(path_of("step"), std::vector<int>{captured.step});
+  file.add_text(path_of("phase"), captured.phase);
   const DynamicsForm& dynamics = captured.problem.dynamics;
-  file.write(path_of("dof_begin"), dynamics.dof_begin);
-  file.write(path_of("body_a"), dynamics.body_a);
-  file.write(path_of("body_b"), dynamics.body_b);
+  file.add(path_of("dof_begin"), dynamics.dof_begin);
+  file.add(path_of("body_a"), dynamics.body_a);
+  file.add(path_of("body_b"), dynamics.body_b);
   std::vector<int> rows;
   for (int c = 0; c < captured.problem.contact_count(); ++c)
     rows.push_back(captured.problem.contact_rows(c));
-  file.write(path_of("rows"), rows);
-  file.write(path_of("v_free"), as_vector(dynamics.v_free));
-  file.write(path_of("start"), as_vector(captured.start));
-  file.write(path_of("solution"), as_vector(captured.solution));
-  file.write(path_of("gap"), captured.gap);
-  file.write(path_of("frame"), captured.frame);
-  file.write(path_of("position"), captured.position);
-  file.write(path_of("key"), captured.key);
-  file.write(path_of("id_a"), captured.id_a);
-  file.write(path_of("id_b"), captured.id_b);
+  file.add(path_of("rows"), rows);
+  file.add(path_of("v_free"), as_vector(dynamics.v_free));
+  file.add(path_of("start"), as_vector(captured.start));
+  file.add(path_of("solution"), as_vector(captured.solution));
+  file.add(path_of("gap"), captured.gap);
+  file.add(path_of("frame"), captured.frame);
+  file.add(path_of("position"), captured.position);
+  file.add(path_of("key"), captured.key);
+  file.add(path_of("id_a"), captured.id_a);
+  file.add(path_of("id_b"), captured.id_b);
 }
 
-}  // namespace
-
-bool is_captured(const std::filesystem::path& file) {
-  const std::string extension = file.extension().string();
-  if (extension != ".hdf5" && extension != ".h5") return false;
-  try {
-    return Hdf5Arrays(file, Hdf5Arrays::Mode::read).has(group);
-  } catch (const ProblemFileError&) {
-    return false;
-  }
-}
-
-CapturedProblem read_captured(const std::filesystem::path& path) {
+CapturedProblem read_side_group(const std::filesystem::path& path) {
   const auto stored = read_fclib(path);
   const SideReader side(path);
   const GlobalProblem* global = std::get_if<GlobalProblem>(&stored);
   if (!global)
-    side.fail("has " + group + " beside a local problem: it belongs beside a global one");
+    side.fail("has " + side_group + " beside a local problem: it belongs beside a global one");
   CapturedProblem captured;
   captured.problem.has_dynamics = true;
   restore_bodies(side, *global, captured.problem.dynamics);
@@ -181,12 +169,28 @@ CapturedProblem read_captured(const std::filesystem::path& path) {
   return captured;
 }
 
+}  // namespace
+
+bool is_captured(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  if (extension != ".hdf5" && extension != ".h5") return false;
+  try {
+    return Hdf5Reader(file).has(side_group);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+CapturedProblem read_captured(const std::filesystem::path& path) {
+  return with_problem_file_errors([&] { return read_side_group(path); });
+}
+
 void write_captured(const std::filesystem::path& file, const CapturedProblem& captured) {
   captured.problem.validate();
   if (!captured.problem.has_dynamics)
     throw InvalidProblem(file.string() + ": only a dynamics form can be captured");
   write_problem(file, captured.problem,
-                [&](Hdf5Arrays& opened) { write_side_group(opened, captured); });
+                [&](Hdf5Writer& opened) { write_side_group(opened, captured); });
 }
 
 }  // namespace ballast

@@ -2,13 +2,12 @@
 // A friction problem as a run met it: the FCLIB file that everybody reads, and beside it the group
 // /ballast with what the format has no place for.
 //
-//   /ballast/h, g, time, wall_x, wall_v, load          one double each: [s] [m/s^2] [s] [m] [m/s]
-//   [N] /ballast/step                                      one int /ballast/phase text
-//   /ballast/dof_begin, body_a, body_b, rows, v_free   the dynamics form as it was (DynamicsForm;
-//   rows: 1 or 3 per contact) /ballast/start, solution                           stacked impulses,
-//   rows as in the problem [N s] /ballast/gap (contacts)  frame (9 per contact: rows N, T1, T2 in
-//   the world)  position (3 per contact) /ballast/key (contacts, 64 bit)  id_a, id_b        feature
-//   key, and the bodies by their place in the scene
+//   h, g, time, wall_x, wall_v, load           one double each [s] [m/s^2] [s] [m] [m/s] [N]
+//   step, phase                                one int; one text
+//   dof_begin, body_a, body_b, rows, v_free    the dynamics form as it was (see DynamicsForm)
+//   start, solution                            stacked impulses, rows as in the problem [N s]
+//   gap, frame, position                       per contact 1, 9 (rows N, T1, T2) and 3, world frame
+//   key, id_a, id_b                            feature key (64 bit); bodies by place in the scene
 
 #include <cstdint>
 #include <filesystem>
@@ -31,12 +30,11 @@ struct CapturedProblem {
   std::string phase;                              ///< of the motion: see experiments/capture.hpp
   double wall_x = 0.0, wall_v = 0.0, load = 0.0;  ///< of the driven wall, as in the run's record
 
-  std::vector<double> gap;       ///< per contact [m]; negative: overlap
-  std::vector<double> frame;     ///< 9 per contact: N, T1, T2 in the world frame
-  std::vector<double> position;  ///< 3 per contact, world frame [m]
-  std::vector<std::uint64_t>
-      key;                      ///< which features touch: the same from step to step while they do
-  std::vector<int> id_a, id_b;  ///< bodies of the scene, walls included
+  std::vector<double> gap;         ///< per contact [m]; negative: overlap
+  std::vector<double> frame;       ///< 9 per contact: N, T1, T2 in the world frame
+  std::vector<double> position;    ///< 3 per contact, world frame [m]
+  std::vector<std::uint64_t> key;  ///< which features touch: stays while they do
+  std::vector<int> id_a, id_b;     ///< bodies of the scene, walls included
 
   /// What errors are quoted relative to: g h, or 1 m/s without gravity.
   double velocity_scale() const { return g > 0.0 ? g * h : 1.0; }

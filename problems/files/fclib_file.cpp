@@ -2,9 +2,10 @@
 
 #include <cmath>
 #include <string>
-#include <system_error>
 
-#include "problems/files/hdf5_arrays.hpp"
+#include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_writer.hpp"
+#include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
 namespace {
@@ -14,14 +15,14 @@ constexpr int compressed_columns = -1, compressed_rows = -2;
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-void require_size(const Hdf5Arrays& file, const std::string& path, std::size_t size,
+void require_size(const Hdf5Reader& file, const std::string& path, std::size_t size,
                   std::size_t expected) {
   if (size != expected)
     file.fail(path + " has " + std::to_string(size) + " entries, must have " +
               std::to_string(expected));
 }
 
-std::vector<double> read_vector(const Hdf5Arrays& file, const std::string& path, std::size_t size) {
+std::vector<double> read_vector(const Hdf5Reader& file, const std::string& path, std::size_t size) {
   std::vector<double> values = file.read_doubles(path);
   require_size(file, path, values.size(), size);
   for (std::size_t i = 0; i < size; ++i)
@@ -35,7 +36,7 @@ std::vector<double> read_vector(const Hdf5Arrays& file, const std::string& path,
 /// or nz, decides.
 class MatrixReader {
  public:
-  MatrixReader(const Hdf5Arrays& file, std::string group)
+  MatrixReader(const Hdf5Reader& file, std::string group)
       : file_(file),
         group_(std::move(group)),
         rows_(file.read_int(group_ + "/m")),
@@ -107,14 +108,14 @@ class MatrixReader {
         by_rows ? add(entries, line, i_[k], k) : add(entries, i_[k], line, k);
   }
 
-  const Hdf5Arrays& file_;
+  const Hdf5Reader& file_;
   std::string group_;
   int rows_, columns_, nz_;
   std::vector<int> p_, i_;
   std::vector<double> x_;
 };
 
-void require_shape(const Hdf5Arrays& file, const std::string& group, const MatrixReader& matrix,
+void require_shape(const Hdf5Reader& file, const std::string& group, const MatrixReader& matrix,
                    int rows, int columns) {
   if (matrix.rows() != rows || matrix.columns() != columns)
     file.fail(group + " is " + std::to_string(matrix.rows()) + " x " +
@@ -122,7 +123,7 @@ void require_shape(const Hdf5Arrays& file, const std::string& group, const Matri
               std::to_string(columns));
 }
 
-void require_unilateral_3d(const Hdf5Arrays& file, const std::string& root) {
+void require_unilateral_3d(const Hdf5Reader& file, const std::string& root) {
   const int dimension = file.read_int(root + "/spacedim");
   if (dimension != 3)
     file.fail(root + "/spacedim = " + std::to_string(dimension) + ": only 3 is supported");
@@ -131,13 +132,13 @@ void require_unilateral_3d(const Hdf5Arrays& file, const std::string& root) {
       file.fail(root + bilateral + ": bilateral constraints are not supported");
 }
 
-int contact_count(const Hdf5Arrays& file, const std::string& group, int rows) {
+int contact_count(const Hdf5Reader& file, const std::string& group, int rows) {
   if (rows % 3 != 0)
     file.fail(group + " has " + std::to_string(rows) + " contact rows, which is no multiple of 3");
   return rows / 3;
 }
 
-LocalProblem read_local(const Hdf5Arrays& file) {
+LocalProblem read_local(const Hdf5Reader& file) {
   const std::string root = "/fclib_local";
   require_unilateral_3d(file, root);
   const MatrixReader w(file, root + "/W");
@@ -152,7 +153,7 @@ LocalProblem read_local(const Hdf5Arrays& file) {
   return local;
 }
 
-GlobalProblem read_global(const Hdf5Arrays& file) {
+GlobalProblem read_global(const Hdf5Reader& file) {
   const std::string root = "/fclib_global";
   require_unilateral_3d(file, root);
   const MatrixReader m(file, root + "/M"), h(file, root + "/H");
@@ -173,81 +174,78 @@ GlobalProblem read_global(const Hdf5Arrays& file) {
 
 /// Compressed: unlike triplets, the order of whose index arrays the format leaves open.
 template <typename Matrix>
-void write_matrix(Hdf5Arrays& file, const std::string& group, Matrix matrix) {
+void write_matrix(Hdf5Writer& file, const std::string& group, Matrix matrix) {
   matrix.makeCompressed();
   const int entries = static_cast<int>(matrix.nonZeros());
-  file.make_group(group);
-  file.write(group + "/m", std::vector<int>{static_cast<int>(matrix.rows())});
-  file.write(group + "/n", std::vector<int>{static_cast<int>(matrix.cols())});
-  file.write(group + "/nz",
-             std::vector<int>{Matrix::IsRowMajor ? compressed_rows : compressed_columns});
-  file.write(group + "/nzmax", std::vector<int>{entries});
-  file.write(group + "/p", std::vector<int>(matrix.outerIndexPtr(),
-                                            matrix.outerIndexPtr() + matrix.outerSize() + 1));
-  file.write(group + "/i",
-             std::vector<int>(matrix.innerIndexPtr(), matrix.innerIndexPtr() + entries));
-  file.write(group + "/x", std::vector<double>(matrix.valuePtr(), matrix.valuePtr() + entries));
+  file.add_group(group);
+  file.add(group + "/m", std::vector<int>{static_cast<int>(matrix.rows())});
+  file.add(group + "/n", std::vector<int>{static_cast<int>(matrix.cols())});
+  file.add(group + "/nz",
+           std::vector<int>{Matrix::IsRowMajor ? compressed_rows : compressed_columns});
+  file.add(group + "/nzmax", std::vector<int>{entries});
+  file.add(group + "/p", std::vector<int>(matrix.outerIndexPtr(),
+                                          matrix.outerIndexPtr() + matrix.outerSize() + 1));
+  file.add(group + "/i",
+           std::vector<int>(matrix.innerIndexPtr(), matrix.innerIndexPtr() + entries));
+  file.add(group + "/x", std::vector<double>(matrix.valuePtr(), matrix.valuePtr() + entries));
 }
 
-void write_head(Hdf5Arrays& file, const std::string& root) {
-  file.make_group(root);
-  file.write(root + "/spacedim", std::vector<int>{3});
-  file.make_group(root + "/vectors");
-  file.make_group(root + "/info");
-  file.write(root + "/info/title", std::string("ballast"));
-  file.write(root + "/info/description", std::string("frictional contact problem, normal first"));
-  file.write(root + "/info/math_info", std::string("-"));
+void write_head(Hdf5Writer& file, const std::string& root) {
+  file.add_group(root);
+  file.add(root + "/spacedim", std::vector<int>{3});
+  file.add_group(root + "/vectors");
+  file.add_group(root + "/info");
+  file.add_text(root + "/info/title", "ballast");
+  file.add_text(root + "/info/description", "frictional contact problem, normal first");
+  file.add_text(root + "/info/math_info", "-");
+}
+
+void add_fclib(Hdf5Writer& file, const LocalProblem& local) {
+  write_head(file, "/fclib_local");
+  write_matrix(file, "/fclib_local/W", local.w);
+  file.add("/fclib_local/vectors/q", as_vector(local.q));
+  file.add("/fclib_local/vectors/mu", local.mu);
+}
+
+void add_fclib(Hdf5Writer& file, const GlobalProblem& global) {
+  write_head(file, "/fclib_global");
+  write_matrix(file, "/fclib_global/M", global.m);
+  write_matrix(file, "/fclib_global/H", global.h);
+  file.add("/fclib_global/vectors/f", as_vector(global.f));
+  file.add("/fclib_global/vectors/w", as_vector(global.w));
+  file.add("/fclib_global/vectors/mu", global.mu);
 }
 
 }  // namespace
 
 std::variant<LocalProblem, GlobalProblem> read_fclib(const std::filesystem::path& path) {
-  const Hdf5Arrays file(path, Hdf5Arrays::Mode::read);
-  if (file.has("/fclib_local")) return read_local(file);
-  if (file.has("/fclib_global")) return read_global(file);
-  file.fail("has neither /fclib_local nor /fclib_global");
+  using Stored = std::variant<LocalProblem, GlobalProblem>;
+  return with_problem_file_errors([&]() -> Stored {
+    const Hdf5Reader file(path);
+    if (file.has("/fclib_local")) return read_local(file);
+    if (file.has("/fclib_global")) return read_global(file);
+    file.fail("has neither /fclib_local nor /fclib_global");
+  });
 }
 
-void write_fclib(const std::filesystem::path& path, const LocalProblem& local) {
-  Hdf5Arrays file(path, Hdf5Arrays::Mode::create);
-  write_head(file, "/fclib_local");
-  write_matrix(file, "/fclib_local/W", local.w);
-  file.write("/fclib_local/vectors/q", as_vector(local.q));
-  file.write("/fclib_local/vectors/mu", local.mu);
-  file.close();
-}
-
-void write_fclib(const std::filesystem::path& path, const GlobalProblem& global) {
-  Hdf5Arrays file(path, Hdf5Arrays::Mode::create);
-  write_head(file, "/fclib_global");
-  write_matrix(file, "/fclib_global/M", global.m);
-  write_matrix(file, "/fclib_global/H", global.h);
-  file.write("/fclib_global/vectors/f", as_vector(global.f));
-  file.write("/fclib_global/vectors/w", as_vector(global.w));
-  file.write("/fclib_global/vectors/mu", global.mu);
-  file.close();
+void write_fclib(const std::filesystem::path& path,
+                 const std::variant<LocalProblem, GlobalProblem>& problem,
+                 const std::function<void(Hdf5Writer&)>& add) {
+  with_problem_file_errors([&] {
+    Hdf5Writer file(path, Hdf5Storage::plain);
+    std::visit([&](const auto& form) { add_fclib(file, form); }, problem);
+    if (add) add(file);
+    file.commit();
+  });
 }
 
 void write_problem(const std::filesystem::path& file, const FrictionProblem& problem,
-                   const std::function<void(Hdf5Arrays&)>& add) {
+                   const std::function<void(Hdf5Writer&)>& add) {
   problem.validate();
-  const std::filesystem::path beside = file.string() + ".tmp";
-  try {
-    if (problem.has_dynamics)
-      write_fclib(beside, to_global_problem(problem));
-    else
-      write_fclib(beside, to_local_problem(problem));
-    if (add) {
-      Hdf5Arrays opened(beside, Hdf5Arrays::Mode::extend);
-      add(opened);
-      opened.close();
-    }
-    std::filesystem::rename(beside, file);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    throw ProblemFileError(file.string() + ": " + error.what());
-  }
+  if (problem.has_dynamics)
+    write_fclib(file, to_global_problem(problem), add);
+  else
+    write_fclib(file, to_local_problem(problem), add);
 }
 
 }  // namespace ballast

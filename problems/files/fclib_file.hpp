@@ -10,19 +10,22 @@
 
 namespace ballast {
 
-class Hdf5Arrays;
+class Hdf5Writer;
 
 /// Throws ProblemFileError: not HDF5, a dataset that is missing, has the wrong size or holds NaN,
 /// 2-D, bilateral parts.
 std::variant<LocalProblem, GlobalProblem> read_fclib(const std::filesystem::path& file);
 
-void write_fclib(const std::filesystem::path& file, const LocalProblem& local);
-void write_fclib(const std::filesystem::path& file, const GlobalProblem& global);
+/// The whole file or none: written beside and renamed. `add` adds what else shall be in it. Throws
+/// ProblemFileError.
+void write_fclib(const std::filesystem::path& file,
+                 const std::variant<LocalProblem, GlobalProblem>& problem,
+                 const std::function<void(Hdf5Writer&)>& add = nullptr);
 
-/// Writes FCLIB HDF5, local when the problem has only the Delassus form, global otherwise; written
-/// beside and renamed. One-row contacts become three rows with mu = 0 there (the format knows no
-/// others). `add` writes what else shall be in the file, before it gets its name.
+/// The same for any problem: local when it has only the Delassus form, global otherwise. One-row
+/// contacts become three rows with mu = 0 there (the format knows no others). Throws
+/// ProblemFileError; InvalidProblem before anything is written.
 void write_problem(const std::filesystem::path& file, const FrictionProblem& problem,
-                   const std::function<void(Hdf5Arrays&)>& add = nullptr);
+                   const std::function<void(Hdf5Writer&)>& add = nullptr);
 
 }  // namespace ballast

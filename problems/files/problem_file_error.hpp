@@ -11,4 +11,14 @@ class ProblemFileError : public Error {
   using Error::Error;
 };
 
+/// work(), with every Error of it (a file that cannot be read or written) as a ProblemFileError.
+template <typename Work>
+auto with_problem_file_errors(const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw ProblemFileError(error.what());
+  }
+}
+
 }  // namespace ballast

@@ -28,7 +28,7 @@ const std::vector<std::pair<std::string, Words>> law = {
 const std::vector<std::pair<std::string, Words>> third_party = {
     {"Eigen/", {"geometry/", "problems/", "solvers/", "experiments/", "tests/"}},
     {"libqhull_r/", {"geometry/shape/convex_hull"}},
-    {"hdf5.h", {"platform/hdf5", "problems/files/hdf5", "tests/"}},
+    {"hdf5.h", {"platform/hdf5", "tests/"}},
     {"toml++/", {"problems/scene/"}},
     {"CLI/", {"experiments/commands/"}},
     {"benchmark/", {"experiments/bench/kernels"}},

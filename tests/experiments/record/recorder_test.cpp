@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "platform/hdf5_file.hpp"
+#include "platform/hdf5_reader.hpp"
 #include "tests/support/sample_record.hpp"
 
 using namespace ballast;
@@ -55,30 +55,31 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
       manifest = "{\"µ\": 1}";  // longer than a compact attribute may be
   recorder.finish(scene, manifest);
   const Hdf5Reader file(folder.path() / "record.h5");
-  CHECK(file.read_text("/", "scene") == scene);
-  CHECK(file.read_text("/", "manifest") == manifest);
+  CHECK(file.read_attribute("/", "scene") == scene);
+  CHECK(file.read_attribute("/", "manifest") == manifest);
   for (const StepColumn& column : step_columns()) {
     const std::string name = std::string("steps/") + column.name;
-    CHECK(file.read_text(name, "unit") == column.unit);
-    CHECK(file.read_text(name, "description") == column.description);
+    CHECK(file.read_attribute(name, "unit") == column.unit);
+    CHECK(file.read_attribute(name, "description") == column.description);
   }
   CHECK(file.shape("poses/position") == Hdf5Shape{3, 9, 3});
   CHECK(file.shape("poses/rotation") == Hdf5Shape{3, 9, 4});
-  CHECK(file.read("poses/step") == std::vector<double>{0, 5, 10});
-  CHECK(file.read_text("poses/spin", "unit") == "rad/s");
+  CHECK(file.read_doubles("poses/step") == std::vector<double>{0, 5, 10});
+  CHECK(file.read_attribute("poses/spin", "unit") == "rad/s");
   const auto names = file.read_texts("bodies/name");
   CHECK((names.size() == 9 && names[1] == "grain 1" && names[6] == "x_max"));
-  CHECK(file.read("bodies/shape") == std::vector<double>{0, 1, 1, -1, -1, -1, -1, -1, -1});
-  CHECK(file.read("bodies/mass")[2] == system.bodies[2].mass);
-  CHECK(file.read("bodies/volume")[0] == system.bodies[0].volume);
-  CHECK(file.read("bodies/inertia")[4] == system.bodies[1].inertia.y());
-  CHECK(file.read("bodies/wall_normal")[3 * 6] == -1.0);
-  const auto vertices = file.read("shapes/vertices"), triangles = file.read("shapes/triangles");
-  const auto vertex_begin = file.read("shapes/vertex_begin"),
-             triangle_begin = file.read("shapes/triangle_begin");
+  CHECK(file.read_doubles("bodies/shape") == std::vector<double>{0, 1, 1, -1, -1, -1, -1, -1, -1});
+  CHECK(file.read_doubles("bodies/mass")[2] == system.bodies[2].mass);
+  CHECK(file.read_doubles("bodies/volume")[0] == system.bodies[0].volume);
+  CHECK(file.read_doubles("bodies/inertia")[4] == system.bodies[1].inertia.y());
+  CHECK(file.read_doubles("bodies/wall_normal")[3 * 6] == -1.0);
+  const auto vertices = file.read_doubles("shapes/vertices"),
+             triangles = file.read_doubles("shapes/triangles");
+  const auto vertex_begin = file.read_doubles("shapes/vertex_begin"),
+             triangle_begin = file.read_doubles("shapes/triangle_begin");
   REQUIRE((vertex_begin.size() == 3 && triangle_begin.size() == 3));
-  REQUIRE(file.shape("shapes/vertices") == Hdf5Shape{static_cast<hsize_t>(vertex_begin[2]), 3});
-  REQUIRE(file.shape("shapes/triangles") == Hdf5Shape{static_cast<hsize_t>(triangle_begin[2]), 3});
+  REQUIRE(file.shape("shapes/vertices") == Hdf5Shape{static_cast<size_t>(vertex_begin[2]), 3});
+  REQUIRE(file.shape("shapes/triangles") == Hdf5Shape{static_cast<size_t>(triangle_begin[2]), 3});
   for (int k = 0; k < 2; ++k) {
     CHECK(vertex_begin[k + 1] - vertex_begin[k] == system.shapes[k]->vertex_count());
     // the volume by the divergence theorem: vertices, triangles and their orientation all have to

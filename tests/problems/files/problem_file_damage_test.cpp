@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "problems/files/hdf5_arrays.hpp"
+#include "platform/hdf5_reader.hpp"
 #include "tests/problems/files/problem_file_support.hpp"
 
 using namespace ballast;
@@ -91,8 +91,8 @@ TEST_CASE("indices out of range are refused") {
   const fs::path file = folder / "indices.hdf5";
   const FrictionProblem problem = only_delassus(small().problem);
   write_problem(file, problem);
-  std::vector<int> i = Hdf5Arrays(file, Hdf5Arrays::Mode::read).read_ints("/fclib_local/W/i");
-  std::vector<int> p = Hdf5Arrays(file, Hdf5Arrays::Mode::read).read_ints("/fclib_local/W/p");
+  std::vector<int> i = Hdf5Reader(file).read_ints("/fclib_local/W/i");
+  std::vector<int> p = Hdf5Reader(file).read_ints("/fclib_local/W/p");
   const int good = i[4];
   for (const int bad : {-1, 18}) {
     i[4] = bad;
@@ -127,8 +127,7 @@ TEST_CASE("each broken global file is refused") {
   CHECK(broken("/fclib_global/vectors/w", std::vector<double>(3))
             .rfind("/fclib_global/vectors/w has 3", 0) == 0);
   write_problem(file, small().problem);
-  std::vector<double> x =
-      Hdf5Arrays(file, Hdf5Arrays::Mode::read).read_doubles("/fclib_global/M/x");
+  std::vector<double> x = Hdf5Reader(file).read_doubles("/fclib_global/M/x");
   x[0] = -1.0;
   CHECK(broken("/fclib_global/M/x", x).rfind("M(0, 0) = -1", 0) == 0);
 }

@@ -1,0 +1,126 @@
+#include "platform/hdf5_reader.hpp"
+
+#include <hdf5.h>
+
+namespace ballast {
+namespace {
+
+hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) file.fail("no such file");
+  if (H5Fis_hdf5(path.c_str()) <= 0) file.fail("not an HDF5 file");
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0) file.fail("damaged or truncated HDF5 file");
+  return id;
+}
+
+}  // namespace
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
+    : Hdf5File(file), file_(open_for_reading(*this, file), H5Fclose) {}
+
+/// Asks group after group: HDF5 fails on a path whose parent is missing.
+bool Hdf5Reader::has(const std::string& name) const {
+  for (size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+Hdf5Id Hdf5Reader::open(const std::string& name) const {
+  if (!has(name)) fail(name + ": no such dataset");
+  Hdf5Id dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (dataset < 0) fail(name + ": not a dataset");
+  return dataset;
+}
+
+Hdf5Shape Hdf5Reader::shape(const std::string& name) const {
+  const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
+  Hdf5Shape shape(
+      static_cast<size_t>(check(H5Sget_simple_extent_ndims(space), "give the shape of " + name)));
+  H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  return shape;
+}
+
+template <typename Value>
+std::vector<Value> Hdf5Reader::read(const std::string& name, std::int64_t type) const {
+  const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose),
+               stored(H5Dget_type(dataset), H5Tclose);
+  const H5T_class_t kind = stored >= 0 ? H5Tget_class(stored) : H5T_NO_CLASS;
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(name + ": does not hold numbers");
+  // More entries than any file of ours has: a damaged header, not a dataset.
+  const hssize_t size = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
+  if (size < 0 || size > (hssize_t{1} << 31)) fail(name + ": has no readable extent");
+  std::vector<Value> values(static_cast<size_t>(size));
+  if (size > 0 && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail(name + ": cannot be read (damaged or truncated)");
+  return values;
+}
+
+std::vector<double> Hdf5Reader::read_doubles(const std::string& name) const {
+  return read<double>(name, H5T_NATIVE_DOUBLE);
+}
+
+std::vector<int> Hdf5Reader::read_ints(const std::string& name) const {
+  return read<int>(name, H5T_NATIVE_INT);
+}
+
+std::vector<std::uint64_t> Hdf5Reader::read_keys(const std::string& name) const {
+  return read<std::uint64_t>(name, H5T_NATIVE_UINT64);
+}
+
+int Hdf5Reader::read_int(const std::string& name) const {
+  const std::vector<int> values = read_ints(name);
+  if (values.size() != 1)
+    fail(name + " has " + std::to_string(values.size()) + " entries, must have 1");
+  return values[0];
+}
+
+std::string Hdf5Reader::read_text(const std::string& name) const {
+  const Hdf5Id dataset = open(name), type(H5Dget_type(dataset), H5Tclose);
+  if (type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+    fail(name + ": is no text of fixed length");
+  const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
+  if (space < 0 || H5Sget_simple_extent_npoints(space) != 1) fail(name + ": is not one text");
+  std::string text(H5Tget_size(type), '\0');
+  if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+    fail(name + ": cannot be read (damaged or truncated)");
+  return text.substr(0, text.find('\0'));
+}
+
+std::vector<double> Hdf5Reader::read_slice(const std::string& name, size_t index) const {
+  const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
+  const std::string what = "read slice " + std::to_string(index) + " of " + name;
+  const Hdf5Shape slice = select_slice(space, index);
+  if (slice.empty()) fail("HDF5 cannot " + what);
+  std::vector<double> values(product(slice));
+  const Hdf5Id memory = space_of(slice);
+  check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), what);
+  return values;
+}
+
+std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
+  std::vector<char*> pointers(product(shape(name)), nullptr);
+  const Hdf5Id dataset = open(name), type = text_type(), space(H5Dget_space(dataset), H5Sclose);
+  check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "read " + name);
+  std::vector<std::string> texts(pointers.begin(), pointers.end());
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  return texts;
+}
+
+std::string Hdf5Reader::read_attribute(const std::string& object,
+                                       const std::string& attribute) const {
+  const std::string what = "read the attribute " + attribute + " of " + object;
+  const Hdf5Id id(
+      check(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+            what),
+      H5Aclose);
+  const Hdf5Id type = text_type(), space(H5Aget_space(id), H5Sclose);
+  char* value = nullptr;
+  check(H5Aread(id, type, &value), what);
+  std::string text = value ? value : "";
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, &value);
+  return text;
+}
+
+}  // namespace ballast
