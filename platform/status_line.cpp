@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <iostream>
 
 namespace ballast {
@@ -43,19 +41,6 @@ void StatusLine::end() {
   if (open_) out_ << '\n' << std::flush;
   open_ = false;
   length_ = 0;
-}
-
-std::string duration_text(double seconds) {
-  if (!(seconds < 1e6)) return "?";
-  const long s = std::lround(seconds);
-  char text[40];
-  if (s < 60)
-    std::snprintf(text, sizeof text, "%ld s", s);
-  else if (s < 3600)
-    std::snprintf(text, sizeof text, "%ld min %02ld s", s / 60, s % 60);
-  else
-    std::snprintf(text, sizeof text, "%ld h %02ld min", s / 3600, s / 60 % 60);
-  return text;
 }
 
 std::string bar_text(double fraction) {

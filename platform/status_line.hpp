@@ -35,8 +35,6 @@ class StatusLine {
   size_t length_ = 0;
 };
 
-/// "59 s", "3 min 05 s", "2 h 10 min"; "?" when it is not known.
-std::string duration_text(double seconds);
 /// "[####........] "
 std::string bar_text(double fraction);
 

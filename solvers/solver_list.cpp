@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/text.hpp"
 #include "solvers/backends/admm.hpp"
 #include "solvers/backends/anderson_pgs.hpp"
 #include "solvers/backends/apgd.hpp"
@@ -121,8 +122,7 @@ const std::vector<SolverEntry>& entries() {
 
 std::string all_names() {
   std::string names;
-  for (const SolverEntry& entry : entries())
-    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  for (const SolverEntry& entry : entries()) add_to_list(names, entry.name);
   return names;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/step/step_record.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -11,12 +12,8 @@ namespace {
 AccuracyRow row_of(const Trajectory& trajectory, double scale) {
   AccuracyRow row;
   row.solver = trajectory.solver;
-  char limit[40];
-  if (trajectory.max_iterations > 0)
-    std::snprintf(limit, sizeof limit, "%d iterations", trajectory.max_iterations);
-  else
-    std::snprintf(limit, sizeof limit, "tolerance %g", trajectory.tolerance);
-  row.limit = limit;
+  row.limit = trajectory.max_iterations > 0 ? printed("%d iterations", trajectory.max_iterations)
+                                            : printed("tolerance %g", trajectory.tolerance);
   row.complete = trajectory.is_complete();
   double seconds = 0.0;
   for (const StepRecord& s : trajectory.steps) {

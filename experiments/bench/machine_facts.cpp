@@ -3,9 +3,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
+
+#include "platform/clock.hpp"
 
 // Vectors stay inside inlined functions, so GCC's note about their calling convention does not
 // apply.
@@ -22,10 +23,6 @@ namespace ballast {
 namespace {
 
 using Vector8 = double __attribute__((vector_size(64)));
-
-double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Keeps a result from being optimised away.
 volatile double kept;
@@ -71,9 +68,9 @@ template <typename Work>
 double best_seconds(int passes, const Work& work) {
   double best = 1e300;
   for (int pass = 0; pass < passes; ++pass) {
-    const double begin = seconds_now();
+    const Stopwatch watch;
     work();
-    best = std::min(best, seconds_now() - begin);
+    best = std::min(best, watch.seconds());
   }
   return best;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <stdexcept>
 
@@ -11,7 +10,9 @@
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -27,11 +28,7 @@ Json json_of(const MachineFacts& facts) {
   return json;
 }
 
-std::string in_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string in_digits(double value) { return printed("%.4g", value); }
 
 }  // namespace
 
@@ -62,7 +59,9 @@ void write_bench_result(const std::filesystem::path& folder, const std::string& 
   json["command"] = command;
   json["measured_machine"] = json_of(facts);
   json["measurements"] = Json::array();
-  std::string csv = "group,name,unit,median,mean,quartile_low,quartile_high,samples\n";
+  CsvWriter csv;
+  csv.add_row(std::vector<std::string>{"group", "name", "unit", "median", "mean", "quartile_low",
+                                       "quartile_high", "samples"});
   for (const Measurement& m : measurements) {
     json["measurements"].push_back({{"group", m.group},
                                     {"name", m.name},
@@ -72,14 +71,14 @@ void write_bench_result(const std::filesystem::path& folder, const std::string& 
                                     {"low", m.low},
                                     {"high", m.high},
                                     {"samples", m.samples}});
-    char numbers[160];
-    std::snprintf(numbers, sizeof numbers, ",%.6g,%.6g,%.6g,%.6g,%ld\n", m.median, m.mean, m.low,
-                  m.high, m.samples);
-    csv += m.group + ',' + m.name + ',' + m.unit + numbers;
+    for (const std::string* text : {&m.group, &m.name, &m.unit}) csv.add(*text);
+    for (const double value : {m.median, m.mean, m.low, m.high}) csv.add(value, 6);
+    csv.add(m.samples);
+    csv.end_row();
   }
   write_whole_file(folder / (kind + ".json"),
                    json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  write_whole_file(folder / (kind + ".csv"), csv);
+  write_whole_file(folder / (kind + ".csv"), csv.take());
 }
 
 BenchResult read_bench_result(const std::filesystem::path& file) {
@@ -135,11 +134,8 @@ std::string bench_ratio_table(const BenchResult& a, const BenchResult& b) {
 std::string measurement_table(const std::vector<Measurement>& measurements) {
   std::string table;
   for (const Measurement& m : measurements) {
-    char line[300];
-    std::snprintf(line, sizeof line, "%-58s %11.5g  mean %11.5g  [%.4g, %.4g] %s, %ld\n",
-                  m.full_name().c_str(), m.median, m.mean, m.low, m.high, m.unit.c_str(),
-                  m.samples);
-    table += line;
+    table += printed("%-58s %11.5g  mean %11.5g  [%.4g, %.4g] %s, %ld\n", m.full_name().c_str(),
+                     m.median, m.mean, m.low, m.high, m.unit.c_str(), m.samples);
   }
   return table;
 }

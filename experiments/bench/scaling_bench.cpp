@@ -3,13 +3,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "experiments/run/run.hpp"
 #include "experiments/step/step_record.hpp"
 #include "platform/child_process.hpp"
+#include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/pack.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"
@@ -37,10 +37,9 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
   sweep.load(problem, start);
   std::vector<double> seconds;
   for (int k = 0; k < sweeps; ++k) {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     sweep.sweep();
-    seconds.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    seconds.push_back(watch.seconds());
   }
   return median_of(std::move(seconds));
 }

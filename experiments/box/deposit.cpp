@@ -1,9 +1,8 @@
 // The deposit: rain to rest, lid down, lid up, settle. See vibrated_box.hpp.
 
-#include <chrono>
-
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"
+#include "platform/clock.hpp"
 #include "platform/content_key.hpp"
 #include "platform/error.hpp"
 
@@ -141,17 +140,15 @@ class Depositor {
     const MechanicalSystem system = box_system(scene_, rain_, at.stage, at.lid);
     const StepSettings settings = stage_settings(scene_, at.stage);
     TimeStepper stepper(system, settings, -1);
-    auto saved = std::chrono::steady_clock::now();
+    Stopwatch since_saved;
     const long last = std::lround(duration / settings.h);
     while (at.motion.step < last) {
       const StepRecord record = stepper.step(at.motion, at.memory);
       rms_velocity_ = grain_rms_velocity(system, at.motion);
       const bool goes_on = progress_(at.stage, at.motion.time, rms_velocity_, record);
-      const auto now = std::chrono::steady_clock::now();
-      if (!goes_on ||
-          std::chrono::duration<double>(now - saved).count() > scene_.record.checkpoint_seconds) {
+      if (!goes_on || since_saved.seconds() > scene_.record.checkpoint_seconds) {
         save(part_, key_, at);
-        saved = now;
+        since_saved.restart();
       }
       if (!goes_on) return false;
       if (stop(at.motion.time, rms_velocity_)) break;

@@ -1,10 +1,10 @@
 #include "experiments/box/packing_cache.hpp"
 
-#include <chrono>
 #include <iostream>
 
 #include "experiments/record/progress.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/clock.hpp"
 #include "platform/file_lock.hpp"
 
 namespace ballast {
@@ -43,7 +43,6 @@ fs::path packing_file(const fs::path& cache, const std::string& key) {
 
 bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order, Packing& packing,
                   double& deposit_seconds) {
-  using Clock = std::chrono::steady_clock;
   const std::string key = packing_key(scene);
   const fs::path file = packing_file(order.cache, key), part = file.string() + ".part";
   if (!order.anew && find_packing(file, key, packing)) return true;
@@ -61,11 +60,11 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   if (find_packing(file, key, packing)) return true;  // made by whoever held the lock
   std::cout << "depositing " << rain.grains.size() << " grains (kept in " << file.string() << ")"
             << std::endl;
-  const auto begin = Clock::now();
+  const Stopwatch watch;
   if (!deposit_visibly(scene, rain, part, order.goes_on, packing)) return false;
   write_packing(file, key, packing);
   fs::remove(part);
-  deposit_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  deposit_seconds = watch.seconds();
   return true;
 }
 

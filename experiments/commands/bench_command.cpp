@@ -12,6 +12,7 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/text.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -122,11 +123,9 @@ ExitCode bench_scaling(const BenchWords& words) {
               << " B a grain" << std::endl;
   });
   const Figure figure = scaling_figure(options, points);
-  char rest[120];
-  std::snprintf(rest, sizeof rest,
-                " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d%s", words.steps,
-                words.warm_up, words.tolerance, words.max_iterations,
-                words.cold_start ? " --cold" : "");
+  const std::string rest = printed(
+      " --steps %ld --warm-up %ld --tolerance %g --max-iterations %d%s", words.steps, words.warm_up,
+      words.tolerance, words.max_iterations, words.cold_start ? " --cold" : "");
   return finish(
       words, "scaling",
       command_of(words, "scaling --grains " + words.grains + " --threads " + words.threads + rest),
@@ -154,9 +153,8 @@ ExitCode bench_accuracy(const BenchWords& words) {
     return !InterruptGuard::requested();
   });
   const Figure figure = accuracy_figure(rows);
-  char window[80];
-  std::snprintf(window, sizeof window, "accuracy --from %g --duration %g", words.from,
-                words.duration);
+  const std::string window =
+      printed("accuracy --from %g --duration %g", words.from, words.duration);
   const std::string limits = " --solvers " + words.solvers + " --tolerances " + words.tolerances +
                              " --iterations " + words.iterations;
   return finish(words, "accuracy", command_of(words, window + limits), measure_machine(),

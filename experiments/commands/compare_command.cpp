@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -20,6 +19,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/text.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -60,13 +60,12 @@ void become_single_threaded(std::vector<std::string> words) {
 }
 
 bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done, count,
-                row.case_name.c_str(), row.solver.c_str(), row.tolerance, name_of(row.start),
-                name_of(row.outcome), row.seconds(), row.error, was_there ? "  (was there)" : "",
-                row.is_false_success() ? "  JUDGE DISAGREES" : "");
-  std::cout << text << std::endl;
+  std::cout << printed("%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done,
+                       count, row.case_name.c_str(), row.solver.c_str(), row.tolerance,
+                       name_of(row.start), name_of(row.outcome), row.seconds(), row.error,
+                       was_there ? "  (was there)" : "",
+                       row.is_false_success() ? "  JUDGE DISAGREES" : "")
+            << std::endl;
   return !InterruptGuard::requested();
 }
 

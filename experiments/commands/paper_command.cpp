@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -11,7 +10,9 @@
 #include "experiments/paper/make_campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "experiments/plans/sweep.hpp"
+#include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -24,12 +25,6 @@ struct PaperOptions {
   SweepOptions sweep;
   fs::path output;
 };
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 void print_plan(const Campaign& campaign, const fs::path& results) {
   const PaperData data(campaign, results);
@@ -54,12 +49,11 @@ void print_plan(const Campaign& campaign, const fs::path& results) {
 
 /// Stage by stage, so that time running out leaves whole figures.
 ExitCode run_stages(const Campaign& campaign, const PaperOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   ExitCode worst = ExitCode::ok;
   for (const Plan& stage : stages_of(campaign, options.target)) {
     SweepOptions sweep = options.sweep;
-    sweep.max_seconds -=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    sweep.max_seconds -= watch.seconds();
     if (!(sweep.max_seconds > 0.0)) return ExitCode::time_limit;
     std::cout << "stage " << stage.name << ": " << stage.runs.size() << " runs" << std::endl;
     const ExitCode code = run_sweep(stage, sweep);

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/command.hpp"
+#include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
@@ -126,7 +127,7 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
     if (s.run.success) continue;
     ++count;
     only_time = only_time && s.run.solved.reason == StopReason::time_limit;
-    failures += (failures.empty() ? "" : ", ") + s.file + " (" + name_of(s.run.solved.reason) + ")";
+    add_to_list(failures, s.file + " (" + name_of(s.run.solved.reason) + ")");
   }
   if (count == 0) return ExitCode::ok;
   std::cerr << "ballast: " << count << " of " << solved.size()

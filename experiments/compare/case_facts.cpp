@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "experiments/compare/compare_case.hpp"
 #include "platform/content_key.hpp"
+#include "platform/text.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 
@@ -31,11 +31,7 @@ class ContentHash {
   void add(const Values& values) {
     add(values.data(), static_cast<size_t>(values.size()) * sizeof(*values.data()));
   }
-  std::string key() const {
-    char hex[17];
-    std::snprintf(hex, sizeof hex, "%016llx", static_cast<unsigned long long>(hash_));
-    return hex;
-  }
+  std::string key() const { return printed("%016llx", static_cast<unsigned long long>(hash_)); }
 
  private:
   std::uint64_t hash_ = fnv1a("");

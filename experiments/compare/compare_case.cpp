@@ -3,11 +3,11 @@
 #include <glob.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"
 
@@ -30,10 +30,8 @@ LoadedCase load_captured(const fs::path& file) {
   loaded.describe_contact = [captured](int c) {
     if (c < 0) return std::string();
     const size_t k = static_cast<size_t>(c);
-    char text[96];
-    std::snprintf(text, sizeof text, "contact %d (bodies %d and %d, gap %.2g m)", c,
-                  captured->id_a[k], captured->id_b[k], captured->gap[k]);
-    return std::string(text);
+    return printed("contact %d (bodies %d and %d, gap %.2g m)", c, captured->id_a[k],
+                   captured->id_b[k], captured->gap[k]);
   };
   return loaded;
 }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <set>
+
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -13,9 +14,8 @@ constexpr const char* seconds_axis = "time  (s)";
 
 /// "cold_1e-08": no two tolerances alike.
 std::string suffix_of(const CompareTable& table) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.0e", table.tolerance);
-  if (std::atof(text) != table.tolerance) std::snprintf(text, sizeof text, "%g", table.tolerance);
+  std::string text = printed("%.0e", table.tolerance);
+  if (parsed_number(text) != table.tolerance) text = printed("%g", table.tolerance);
   return std::string(name_of(table.start)) + "_" + figure_name(text);
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "platform/text.hpp"
+
 namespace ballast {
 namespace {
 
@@ -23,11 +25,7 @@ const CompareRow* nearest(const std::vector<CompareCell>& line) {
   return best;
 }
 
-Html names(const std::vector<std::string>& list) {
-  std::string all;
-  for (const std::string& name : list) all += (all.empty() ? "" : ", ") + name;
-  return escaped(all);
-}
+Html names(const std::vector<std::string>& list) { return escaped(joined(list)); }
 
 }  // namespace
 

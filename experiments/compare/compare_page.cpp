@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/compare_html.hpp"
 #include "experiments/compare/page_drawing.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -34,9 +34,7 @@ std::vector<StartKind> starts_in(std::span<const CompareRow> rows) {
 }
 
 std::string heading_of(const CompareTable& table) {
-  char text[64];
-  std::snprintf(text, sizeof text, "Tolerance %g, %s start", table.tolerance, name_of(table.start));
-  return text;
+  return printed("Tolerance %g, %s start", table.tolerance, name_of(table.start));
 }
 
 Html header(std::span<const CompareRow> rows, const RunData& data) {
@@ -132,29 +130,25 @@ void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows
 std::string compare_summary(std::span<const CompareRow> rows,
                             std::span<const ReferenceTimes> reference) {
   std::string text;
-  char line[200];
   const double limit = limit_of(rows);
   const std::vector<CompareTable> tables = compare_tables(rows);
   for (const CompareTable& table : tables) {
     text += heading_of(table) + ", " + std::to_string(table.cases.size()) + " cases\n";
     for (const BackendSummary& s : backend_summaries(table, limit)) {
-      std::snprintf(line, sizeof line,
-                    "  %-16s solved %4d   mean %10.4g ms   over fastest %8.3g   timeouts %d, "
-                    "crashes %d, not taken %d%s\n",
-                    s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.mean_ratio, s.timeouts,
-                    s.crashes, s.unsupported, s.false_successes ? "   CLAIMS DENIED" : "");
-      text += line;
+      text += printed(
+          "  %-16s solved %4d   mean %10.4g ms   over fastest %8.3g   timeouts %d, "
+          "crashes %d, not taken %d%s\n",
+          s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.mean_ratio, s.timeouts, s.crashes,
+          s.unsupported, s.false_successes ? "   CLAIMS DENIED" : "");
     }
   }
   for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
     for (const double shift : mean_shifts) {
-      std::snprintf(line, sizeof line,
-                    "reference, tolerance %g, shift %g ms: our fastest / theirs %.3g, auto / "
-                    "theirs %.3g (%zu problems, %zu not solved by us)\n",
-                    comparison.tolerance, 1e3 * shift, comparison.ratio(shift, limit, false),
-                    comparison.ratio(shift, limit, true), comparison.lines.size(),
-                    comparison.missing.size());
-      text += line;
+      text += printed(
+          "reference, tolerance %g, shift %g ms: our fastest / theirs %.3g, auto / "
+          "theirs %.3g (%zu problems, %zu not solved by us)\n",
+          comparison.tolerance, 1e3 * shift, comparison.ratio(shift, limit, false),
+          comparison.ratio(shift, limit, true), comparison.lines.size(), comparison.missing.size());
     }
   return text;
 }

@@ -1,13 +1,14 @@
 #include "experiments/compare/compare_row.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
+#include "platform/csv.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -21,12 +22,9 @@ constexpr const char* outcome_names[] = {"solved",  "stopped",       "timeout",
 
 template <typename Enum, size_t count>
 Enum by_name(const char* const (&names)[count], const std::string& name, const char* what) {
-  std::string all;
-  for (size_t k = 0; k < count; ++k) {
+  for (size_t k = 0; k < count; ++k)
     if (name == names[k]) return static_cast<Enum>(k);
-    all += (k ? ", " : "") + std::string(names[k]);
-  }
-  throw std::invalid_argument("'" + name + "' is no " + what + "; there are: " + all);
+  throw std::invalid_argument("'" + name + "' is no " + what + "; there are: " + joined(names));
 }
 
 /// Calls f(name, member) for every member that the JSON keeps: written and read by the same list.
@@ -85,22 +83,6 @@ void take(const Json& json, Value& value) {
   value = json.get<Value>();
 }
 
-std::string print(const char* format, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return result + '"';
-}
-
 }  // namespace
 
 const char* name_of(Measure measure) { return measure_names[static_cast<size_t>(measure)]; }
@@ -121,45 +103,45 @@ const std::vector<CompareColumn>& compare_columns() {
       {"solver", "backend", [](R r) { return r.solver; }},
       {"law", "that the backend solves; each is judged on Coulomb's", [](R r) { return r.law; }},
       {"measure", "what the tolerance bounds", [](R r) { return std::string(name_of(r.measure)); }},
-      {"tolerance", "relative", [](R r) { return print("%g", r.tolerance); }},
+      {"tolerance", "relative", [](R r) { return printed("%g", r.tolerance); }},
       {"start", "cold: zero; warm: the run's", [](R r) { return std::string(name_of(r.start)); }},
       {"repeat", "from 0", [](R r) { return std::to_string(r.repeat); }},
-      {"max_seconds", "the limit", [](R r) { return print("%g", r.max_seconds); }},
+      {"max_seconds", "the limit", [](R r) { return printed("%g", r.max_seconds); }},
       {"outcome", "solved: claimed and judged",
        [](R r) { return std::string(name_of(r.outcome)); }},
       {"reason", "why the backend stopped", [](R r) { return r.reason; }},
       {"claimed", "1: the backend says that it is done",
        [](R r) { return std::to_string(r.claimed); }},
       {"judged", "1: the judge finds it so", [](R r) { return std::to_string(r.judged); }},
-      {"error", "in the measure", [](R r) { return print("%.6g", r.error); }},
+      {"error", "in the measure", [](R r) { return printed("%.6g", r.error); }},
       {"seconds", "prepare and solve, fastest run in the child",
-       [](R r) { return print("%.6g", r.seconds()); }},
-      {"prepare_seconds", "", [](R r) { return print("%.6g", r.prepare_seconds); }},
-      {"solve_seconds", "", [](R r) { return print("%.6g", r.solve_seconds); }},
+       [](R r) { return printed("%.6g", r.seconds()); }},
+      {"prepare_seconds", "", [](R r) { return printed("%.6g", r.prepare_seconds); }},
+      {"solve_seconds", "", [](R r) { return printed("%.6g", r.solve_seconds); }},
       {"first_seconds", "of the child's first run",
-       [](R r) { return print("%.6g", r.first_seconds); }},
+       [](R r) { return printed("%.6g", r.first_seconds); }},
       {"runs", "solves in the child", [](R r) { return std::to_string(r.runs); }},
       {"iterations", "", [](R r) { return std::to_string(r.iterations); }},
       {"rounds", "of falling natural-map tolerance (measure fclib)",
        [](R r) { return std::to_string(r.rounds); }},
-      {"natural_map_rms", "[m/s]", [](R r) { return print("%.6g", r.natural_map_rms); }},
-      {"natural_map_max", "[m/s]", [](R r) { return print("%.6g", r.natural_map_max); }},
-      {"fclib", "what Siconos prints", [](R r) { return print("%.6g", r.fclib); }},
-      {"cone_violation", "[N s]", [](R r) { return print("%.6g", r.cone_violation); }},
-      {"min_normal_velocity", "[m/s]", [](R r) { return print("%.6g", r.min_normal_velocity); }},
+      {"natural_map_rms", "[m/s]", [](R r) { return printed("%.6g", r.natural_map_rms); }},
+      {"natural_map_max", "[m/s]", [](R r) { return printed("%.6g", r.natural_map_max); }},
+      {"fclib", "what Siconos prints", [](R r) { return printed("%.6g", r.fclib); }},
+      {"cone_violation", "[N s]", [](R r) { return printed("%.6g", r.cone_violation); }},
+      {"min_normal_velocity", "[m/s]", [](R r) { return printed("%.6g", r.min_normal_velocity); }},
       {"own_residual", "the backend's own: no evidence",
-       [](R r) { return print("%.6g", r.own_residual); }},
+       [](R r) { return printed("%.6g", r.own_residual); }},
       {"worst", "contact of natural_map_max", [](R r) { return r.worst; }},
-      {"peak_memory_MB", "of the child", [](R r) { return print("%.4g", r.peak_memory_MB); }},
+      {"peak_memory_MB", "of the child", [](R r) { return printed("%.4g", r.peak_memory_MB); }},
       {"contacts", "", [](R r) { return std::to_string(r.facts.contacts); }},
       {"rows", "", [](R r) { return std::to_string(r.facts.rows); }},
       {"dofs", "unknowns of bodies in contact; 0: only W is known",
        [](R r) { return std::to_string(r.facts.dofs); }},
       {"rank_deficiency", "1 - rank(W)/rows",
-       [](R r) { return print("%.4g", r.facts.rank_deficiency); }},
+       [](R r) { return printed("%.4g", r.facts.rank_deficiency); }},
       {"mass_ratio", "of bodies in contact; where only W is known, of lambda_max(W_cc)",
-       [](R r) { return print("%.4g", r.facts.mass_ratio); }},
-      {"velocity_scale", "[m/s]", [](R r) { return print("%.6g", r.facts.velocity_scale); }},
+       [](R r) { return printed("%.4g", r.facts.mass_ratio); }},
+      {"velocity_scale", "[m/s]", [](R r) { return printed("%.6g", r.facts.velocity_scale); }},
       {"note", "", [](R r) { return r.note; }},
       {"key", "of problem, backend, options and binary", [](R r) { return r.key; }},
   };
@@ -167,18 +149,14 @@ const std::vector<CompareColumn>& compare_columns() {
 }
 
 std::string compare_csv(const std::vector<CompareRow>& rows) {
-  std::string text;
-  const auto add_line = [&](const auto& cell_of) {
-    for (const CompareColumn& column : compare_columns()) {
-      text += cell_of(column);
-      text += ',';
-    }
-    text.back() = '\n';
-  };
-  add_line([](const CompareColumn& column) { return std::string(column.name); });
-  for (const CompareRow& row : rows)
-    add_line([&](const CompareColumn& column) { return quoted(column.text(row)); });
-  return text;
+  CsvWriter csv;
+  for (const CompareColumn& column : compare_columns()) csv.add(column.name);
+  csv.end_row();
+  for (const CompareRow& row : rows) {
+    for (const CompareColumn& column : compare_columns()) csv.add(column.text(row));
+    csv.end_row();
+  }
+  return csv.take();
 }
 
 std::string to_json(const CompareRow& row) {

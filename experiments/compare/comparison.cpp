@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <set>
 
@@ -11,6 +10,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -38,10 +38,10 @@ std::vector<Attempt> attempts_of(const CompareOptions& options, const LoadedCase
 std::string key_of(const CompareOptions& options, const std::string& binary,
                    const CompareCase& tried, const CaseFacts& facts, const Attempt& attempt,
                    int repeat) {
-  char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "%.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance,
-                options.max_seconds, options.max_iterations, options.limits.memory_MB,
-                options.limits.warm_seconds, options.limits.most_runs, repeat);
+  const std::string numbers =
+      printed("%.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance, options.max_seconds,
+              options.max_iterations, options.limits.memory_MB, options.limits.warm_seconds,
+              options.limits.most_runs, repeat);
   return content_key("compare row 1|" + binary + '|' + tried.name + '|' + facts.content + '|' +
                      attempt.solver->name + '|' + name_of(options.measure) + '|' +
                      name_of(attempt.start) + '|' + numbers);
@@ -165,9 +165,7 @@ std::string loaded_blas() {
          {"libopenblas", "libblas", "liblapack", "libmkl", "libblis", "libatlas", "libcblas"})
       if (line.find('/') != std::string::npos && name.rfind(beginning, 0) == 0) found.insert(name);
   }
-  std::string all;
-  for (const std::string& name : found) all += (all.empty() ? "" : ", ") + name;
-  return all.empty() ? "none" : all;
+  return found.empty() ? "none" : joined(found);
 }
 
 }  // namespace ballast

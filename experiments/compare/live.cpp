@@ -1,9 +1,7 @@
 #include "experiments/compare/live.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "experiments/box/vibrated_box.hpp"
@@ -14,16 +12,17 @@
 #include "experiments/run/simulation.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/child_process.hpp"
+#include "platform/clock.hpp"
 #include "platform/content_key.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* out_of_time = "time limit";
 
@@ -42,10 +41,8 @@ void make_start(const LiveOptions& options, const Scene& scene) {
   RunOptions run_options;
   run_options.scene = options.scene;
   run_options.overrides = options.overrides;
-  char duration[64];
-  std::snprintf(duration, sizeof duration, "scene.duration=%.17g",
-                std::max(options.start, scene.step));
-  run_options.overrides.push_back(duration);
+  run_options.overrides.push_back(
+      printed("scene.duration=%.17g", std::max(options.start, scene.step)));
   run_options.output = options.folder / "start";
   run_options.packing_cache =
       options.packing_cache.empty() ? options.folder / "packings" : options.packing_cache;
@@ -88,10 +85,10 @@ void step_on(const LiveOptions& options, const Scene& scene, Start start,
   TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
   const long count = std::max(1L, std::lround(options.duration / settings.h)),
              frame_every = std::max(1L, count / 100);
-  const auto begin = Clock::now();
+  const Stopwatch watch;
   append_frame(start.state, start.system.grain_count, trajectory);
   for (long step = 1; step <= count; ++step) {
-    if (std::chrono::duration<double>(Clock::now() - begin).count() > options.trajectory_seconds) {
+    if (watch.seconds() > options.trajectory_seconds) {
       trajectory.ended = out_of_time;
       return;
     }
@@ -131,9 +128,9 @@ void step_in_child(const LiveOptions& options, const Scene& scene, const Start& 
 Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start,
                          const std::string& binary, const ComparedSolver& solver,
                          double tolerance) {
-  char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "|%.17g %.17g %.17g %.17g %d", tolerance, options.duration,
-                options.max_seconds, options.trajectory_seconds, options.max_iterations);
+  const std::string numbers =
+      printed("|%.17g %.17g %.17g %.17g %d", tolerance, options.duration, options.max_seconds,
+              options.trajectory_seconds, options.max_iterations);
   const fs::path file =
       options.folder / "trajectories" /
       (content_key("trajectory 3|" + binary + '|' + start.key + '|' + solver.name + numbers) +

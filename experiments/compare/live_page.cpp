@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/page_drawing.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "experiments/step/step_record.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
 
 namespace ballast {
 namespace {
@@ -67,38 +67,50 @@ LiveRow row_of(const Trajectory& t, const LiveComparison& comparison) {
 }
 
 std::string csv_of(const std::vector<LiveRow>& rows) {
-  std::string text =
-      "solver,law,tolerance,ended,steps,error_mean,error_max,missed,wall_x_end,wall_force_mean,"
-      "penetration_max,kinetic_energy_end,"
-      "energy_residual,solid_fraction_end,iterations_mean,ms_per_step,solve_ms_per_step,distance_"
-      "end\n";
-  for (const LiveRow& r : rows) {
-    char line[600];
-    std::snprintf(
-        line, sizeof line,
-        "%s,%s,%g,%s,%zu,%.6g,%.6g,%.6g,%.9g,%.9g,%.6g,%.9g,%.6g,%.9g,%.6g,%.6g,%.6g,%.6g\n",
-        r.trajectory->solver.c_str(), r.trajectory->law.c_str(), r.trajectory->tolerance,
-        r.trajectory->ended.c_str(), r.trajectory->steps.size(), r.error_mean, r.error_max,
-        r.missed, r.wall_x, r.force_mean, r.penetration_max, r.kinetic_energy, r.energy_residual,
-        r.solid_fraction, r.iterations, r.ms_per_step, r.solve_ms_per_step, r.distance);
-    text += line;
+  struct Column {
+    const char* name;
+    double LiveRow::*value;
+    int digits;
+  };
+  constexpr Column columns[] = {{"error_mean", &LiveRow::error_mean, 6},
+                                {"error_max", &LiveRow::error_max, 6},
+                                {"missed", &LiveRow::missed, 6},
+                                {"wall_x_end", &LiveRow::wall_x, 9},
+                                {"wall_force_mean", &LiveRow::force_mean, 9},
+                                {"penetration_max", &LiveRow::penetration_max, 6},
+                                {"kinetic_energy_end", &LiveRow::kinetic_energy, 9},
+                                {"energy_residual", &LiveRow::energy_residual, 6},
+                                {"solid_fraction_end", &LiveRow::solid_fraction, 9},
+                                {"iterations_mean", &LiveRow::iterations, 6},
+                                {"ms_per_step", &LiveRow::ms_per_step, 6},
+                                {"solve_ms_per_step", &LiveRow::solve_ms_per_step, 6},
+                                {"distance_end", &LiveRow::distance, 6}};
+  CsvWriter csv;
+  for (const char* name : {"solver", "law", "tolerance", "ended", "steps"}) csv.add(name);
+  for (const Column& column : columns) csv.add(column.name);
+  csv.end_row();
+  for (const LiveRow& row : rows) {
+    const Trajectory& trajectory = *row.trajectory;
+    csv.add(trajectory.solver);
+    csv.add(trajectory.law);
+    csv.add(trajectory.tolerance, 6);
+    csv.add(trajectory.ended);
+    csv.add(static_cast<long>(trajectory.steps.size()));
+    for (const Column& column : columns) csv.add(row.*column.value, column.digits);
+    csv.end_row();
   }
-  return text;
+  return csv.take();
 }
 
 std::string steps_csv_of(const Trajectory& t) {
-  std::string text;
-  for (const StepColumn& column : step_columns()) text += std::string(column.name) + ',';
-  text.back() = '\n';
+  CsvWriter csv;
+  for (const StepColumn& column : step_columns()) csv.add(column.name);
+  csv.end_row();
   for (const StepRecord& step : t.steps) {
-    for (const StepColumn& column : step_columns()) {
-      char cell[40];
-      std::snprintf(cell, sizeof cell, "%.17g,", step.*column.value);
-      text += cell;
-    }
-    text.back() = '\n';
+    for (const StepColumn& column : step_columns()) csv.add(step.*column.value, 17);
+    csv.end_row();
   }
-  return text;
+  return csv.take();
 }
 
 Html table_of(const std::vector<LiveRow>& rows, const LiveComparison& comparison) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "experiments/compare/compare_case.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/stress_problems.hpp"
 
@@ -84,10 +84,9 @@ void add_known_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   const int count = word.take_count("count", 1, 1);
   word.finish();
   for (int k = 0; k < count; ++k, ++settings.seed) {
-    char name[96];
-    std::snprintf(name, sizeof name, "known-b%d-c%dx%d-R%g-s%llu", settings.bodies,
-                  settings.contacts, settings.copies, settings.mass_ratio,
-                  static_cast<unsigned long long>(settings.seed));
+    const std::string name =
+        printed("known-b%d-c%dx%d-R%g-s%llu", settings.bodies, settings.contacts, settings.copies,
+                settings.mass_ratio, static_cast<unsigned long long>(settings.seed));
     cases.push_back(
         {name, "known", [settings] { return load_case(make_known_solution(settings).problem); }});
   }
@@ -113,7 +112,6 @@ void add_all_stress_cases(std::vector<CompareCase>& cases) {
 /// stack: n boxes of 1 kg, the uppermost of `ratio` kg. chain: grains between walls. table: four
 /// legs.
 void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
-  char name[80];
   if (word.what() == "all") {
     word.finish();
     add_all_stress_cases(cases);
@@ -124,23 +122,23 @@ void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
     word.finish();
     std::vector<double> masses(static_cast<size_t>(n), 1.0);
     masses.back() = ratio;
-    std::snprintf(name, sizeof name, "stack-n%d-R%g-rows%d", n, ratio, rows);
     add_stress_case(
-        name, "stack", [masses, rows] { return mass_stack(masses, rows); }, cases);
+        printed("stack-n%d-R%g-rows%d", n, ratio, rows), "stack",
+        [masses, rows] { return mass_stack(masses, rows); }, cases);
   } else if (word.what() == "chain") {
     const int grains = word.take_count("grains", 20, 1);
     const double force = word.take("force", 1e3);
     word.finish();
-    std::snprintf(name, sizeof name, "chain-n%d-F%g", grains, force);
     add_stress_case(
-        name, "chain", [grains, force] { return jammed_chain(grains, force); }, cases);
+        printed("chain-n%d-F%g", grains, force), "chain",
+        [grains, force] { return jammed_chain(grains, force); }, cases);
   } else if (word.what() == "table") {
     const int copies = word.take_count("copies", 1, 1);
     const double mu = word.take("mu", 0.5), speed = word.take("speed", 0.0);
     word.finish();
-    std::snprintf(name, sizeof name, "table-x%d-mu%g-v%g", copies, mu, speed);
     add_stress_case(
-        name, "table", [mu, speed, copies] { return four_legged_table(mu, speed, copies); }, cases);
+        printed("table-x%d-mu%g-v%g", copies, mu, speed), "table",
+        [mu, speed, copies] { return four_legged_table(mu, speed, copies); }, cases);
   } else {
     word.fail("expected stress:all, stress:stack, stress:chain or stress:table");
   }

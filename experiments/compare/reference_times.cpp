@@ -1,32 +1,21 @@
 #include "experiments/compare/reference_times.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
-std::vector<std::string> cells_of(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> cells;
-  for (size_t begin = 0; begin <= line.size();) {
-    const size_t end = std::min(line.find(',', begin), line.size());
-    cells.push_back(line.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return cells;
-}
-
-bool parse_number(const std::string& text, double& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value) &&
-         value >= 0.0;
+/// A finite number >= 0; anything else is NaN.
+double time_of(std::string_view text) {
+  const double value = parsed_number(text).value_or(-1.0);
+  return std::isfinite(value) && value >= 0.0 ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -39,36 +28,30 @@ std::string problem_stem(std::string name) {
 }
 
 std::vector<ReferenceTimes> read_reference_times(const std::filesystem::path& file) {
-  std::istringstream lines(read_whole_file(file));
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> head = cells_of(line);
-  const auto fail = [&](int number, const std::string& what) {
-    throw Error(file.string() + ": line " + std::to_string(number) + ": " + what);
-  };
-  if (head.size() < 3 || head[0] != "problem" || head.size() % 2 == 0)
-    fail(1, "expected the header problem,ms_<tolerance>,solver_<tolerance>,...");
+  CsvReader reader(file);
+  reader.next();
+  const size_t columns = reader.cells().size();
+  if (columns < 3 || reader.cells()[0] != "problem" || columns % 2 == 0)
+    reader.fail("expected the header problem,ms_<tolerance>,solver_<tolerance>,...");
   std::vector<ReferenceTimes> times;
-  for (size_t k = 1; k < head.size(); k += 2) {
-    ReferenceTimes column;
-    if (head[k].rfind("ms_", 0) != 0 || !parse_number(head[k].substr(3), column.tolerance))
-      fail(1, "'" + head[k] + "': expected ms_<tolerance>");
-    times.push_back(column);
+  for (size_t k = 1; k < columns; k += 2) {
+    const std::string_view name = reader.cells()[k];
+    times.emplace_back().tolerance = time_of(name.substr(std::min<size_t>(3, name.size())));
+    if (!name.starts_with("ms_") || std::isnan(times.back().tolerance))
+      reader.fail("'" + std::string(name) + "': expected ms_<tolerance>");
   }
-  for (int number = 2; std::getline(lines, line); ++number) {
-    if (line.empty() || line == "\r") continue;
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != head.size())
-      fail(number, "expected " + std::to_string(head.size()) + " cells");
-    for (size_t k = 1; k < cells.size(); k += 2) {
-      double ms = 0.0;
-      if (cells[k].empty()) {
-        times[k / 2].unsolved.insert(problem_stem(cells[0]));
+  while (reader.next()) {
+    reader.require_cells(columns);
+    const std::string problem = problem_stem(std::string(reader.cells()[0]));
+    for (size_t k = 1; k < columns; k += 2) {
+      const std::string_view cell = reader.cells()[k];
+      if (cell.empty()) {
+        times[k / 2].unsolved.insert(problem);
         continue;
       }
-      if (!parse_number(cells[k], ms))
-        fail(number, "'" + cells[k] + "': expected milliseconds >= 0");
-      times[k / 2].entries[problem_stem(cells[0])] = {1e-3 * ms, cells[k + 1]};
+      const double ms = time_of(cell);
+      if (std::isnan(ms)) reader.fail("'" + std::string(cell) + "': expected milliseconds >= 0");
+      times[k / 2].entries[problem] = {1e-3 * ms, std::string(reader.cells()[k + 1])};
     }
   }
   return times;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <string>
 
 #include "experiments/export/vtp_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 
@@ -60,9 +60,7 @@ void ParaviewSeries::recover(Series& series, long last_step) {
 }
 
 fs::path ParaviewSeries::frame_file(const Series& series, long step) const {
-  char name[64];
-  std::snprintf(name, sizeof name, "%s_%08ld.vtp", series.name, step);
-  return folder_ / name;
+  return folder_ / printed("%s_%08ld.vtp", series.name, step);
 }
 
 void ParaviewSeries::write_collection(const Series& series) const {

@@ -6,6 +6,7 @@
 #include "experiments/export/vtp_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 
@@ -164,7 +165,7 @@ ExportFormat export_format(const std::string& name) {
   std::string names;
   for (const auto& [known, format] : format_names) {
     if (name == known) return format;
-    names.append(names.empty() ? "" : ", ").append(known);
+    add_to_list(names, known);
   }
   throw Error("no export format '" + name + "': there are " + names);
 }

@@ -1,12 +1,13 @@
 #include "experiments/measure/run_data.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "experiments/record/recorder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -14,45 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (size_t begin = 0;;) {
-    const size_t comma = line.find(',', begin);
-    fields.push_back(line.substr(begin, comma - begin));
-    if (comma == std::string_view::npos) return fields;
-    begin = comma + 1;
-  }
-}
-
-/// Takes the next line off `text`.
-std::string_view take_line(std::string_view& text) {
-  const size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
-}
-
-[[noreturn]] void fail(const fs::path& file, long line, const std::string& what) {
-  throw Error(file.string() + ':' + std::to_string(line) + ": " + what);
-}
-
-double number(const fs::path& file, long line, const char* column, std::string_view field) {
-  while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
-  while (!field.empty() && field.back() == ' ') field.remove_suffix(1);
-  double value = not_known;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size())
-    fail(file, line,
-         std::string(column) + " is not a number: \"" + std::string(field.substr(0, 40)) + '"');
-  return value;
-}
-
 /// For each field of the header the column it fills, nullptr where none.
-std::vector<const StepColumn*> match_header(const fs::path& file, std::string_view header,
+std::vector<const StepColumn*> match_header(const CsvReader& header,
                                             std::vector<std::string>& notices) {
   std::vector<const StepColumn*> columns;
-  for (std::string_view name : split(header)) {
+  for (std::string_view name : header.cells()) {
     columns.push_back(nullptr);
     for (const StepColumn& column : step_columns())
       if (name == column.name) columns.back() = &column;
@@ -62,8 +29,8 @@ std::vector<const StepColumn*> match_header(const fs::path& file, std::string_vi
     bool is_there = false;
     for (const StepColumn* found : columns) is_there = is_there || found == &column;
     if (is_there) continue;
-    if (std::string_view(column.name) == "time") fail(file, 1, "the column \"time\" is missing");
-    missing += (missing.empty() ? "" : ", ") + std::string(column.name);
+    if (std::string_view(column.name) == "time") header.fail("the column \"time\" is missing");
+    add_to_list(missing, column.name);
   }
   if (!missing.empty())
     notices.push_back("steps.csv has no column " + missing + ": what needs it is left out.");
@@ -167,24 +134,17 @@ double RunData::summary_number(const std::string& name) const {
 }
 
 std::vector<StepRecord> read_steps_csv(const fs::path& file, std::vector<std::string>& notices) {
-  const std::string content = read_whole_file(file);
-  std::string_view text = content;
-  if (text.empty()) throw Error(file.string() + ": is empty: no record");
-  const auto columns = match_header(file, take_line(text), notices);
+  CsvReader reader(file);
+  if (!reader.next()) throw Error(file.string() + ": is empty: no record");
+  const auto columns = match_header(reader, notices);
   StepRecord unknown;
   for (const StepColumn& column : step_columns()) unknown.*column.value = not_known;
   std::vector<StepRecord> steps;
-  for (long line = 2; !text.empty(); ++line) {
-    const std::string_view row = take_line(text);
-    if (row.empty()) continue;
-    const auto fields = split(row);
-    if (fields.size() != columns.size())
-      fail(file, line,
-           std::to_string(fields.size()) + " fields, expected " + std::to_string(columns.size()));
+  while (reader.next()) {
+    reader.require_cells(columns.size());
     steps.push_back(unknown);
     for (size_t c = 0; c < columns.size(); ++c)
-      if (columns[c])
-        steps.back().*columns[c]->value = number(file, line, columns[c]->name, fields[c]);
+      if (columns[c]) steps.back().*columns[c]->value = reader.number(c, columns[c]->name);
   }
   if (steps.empty()) throw Error(file.string() + ": holds no step");
   return steps;

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <utility>
 
 #include "experiments/page/page_style.hpp"
 #include "experiments/page/plot.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -65,19 +65,17 @@ std::string without_trailing_zeros(std::string digits) {
 std::string number_text(double value, int digits, bool is_exact) {
   if (!std::isfinite(value)) return "<span class=\"unknown\">–</span>";
   if (value == 0.0) return "0";
-  char text[64];
   // the rounded value decides, so that 999999.9 isn't printed as 1.00e+06
-  std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
-  const char* mark = std::strchr(text, 'e');
-  const int exponent = std::atoi(mark + 1);
+  const std::string text = printed("%.*e", digits - 1, value);
+  const size_t mark = text.find('e');
+  const int exponent = std::atoi(text.c_str() + mark + 1);
   const bool has_power = exponent < -3 || exponent >= 6;
-  std::string result(text, static_cast<size_t>(mark - text)), power;
+  std::string result = text.substr(0, mark), power;
   if (has_power) {
     power = "×10<sup>" + std::string(exponent < 0 ? "−" : "") + std::to_string(std::abs(exponent)) +
             "</sup>";
   } else {
-    std::snprintf(text, sizeof text, "%.*f", std::max(0, digits - 1 - exponent), value);
-    result = text;
+    result = printed("%.*f", std::max(0, digits - 1 - exponent), value);
   }
   if (is_exact) result = without_trailing_zeros(result);
   if (result[0] == '-') result.replace(0, 1, "−");
@@ -95,10 +93,7 @@ std::string colour_rules(const std::string& rgb, const std::string& variable) {
 
 std::string attribute_form(const char* hex) {
   const long value = std::strtol(hex + 1, nullptr, 16);
-  char text[32];
-  std::snprintf(text, sizeof text, "rgb(%ld,%ld,%ld)", value >> 16, (value >> 8) & 255,
-                value & 255);
-  return text;
+  return printed("rgb(%ld,%ld,%ld)", value >> 16, (value >> 8) & 255, value & 255);
 }
 
 std::string palette_rules() {

@@ -2,27 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <stdexcept>
 
 #include "experiments/page/plot.hpp"
+
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
 // pixels
 constexpr double left_margin = 98.0, right_margin = 22.0, key_row = 22.0;
-
-std::string print(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string print(const char* format, ...) {
-  char text[512];
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 /// In single quotes gnuplot expands nothing (double quotes would run what is between backquotes).
 std::string quoted(const std::string& text) {
@@ -34,7 +24,7 @@ std::string quoted(const std::string& text) {
   return result + '\'';
 }
 
-std::string number(double value) { return std::isfinite(value) ? print("%.7g", value) : "NaN"; }
+std::string number(double value) { return std::isfinite(value) ? printed("%.7g", value) : "NaN"; }
 
 /// What an axis must show.
 struct Extent {
@@ -109,7 +99,7 @@ std::string colour(Ink ink, double opacity) {
   const int transparency =
       static_cast<int>(std::lround(255.0 * (1.0 - std::clamp(opacity, 0.0, 1.0))));
   if (transparency == 0) return std::string("'") + rgb_of(ink) + "'";
-  return print("'#%02x%s'", transparency, rgb_of(ink) + 1);
+  return printed("'#%02x%s'", transparency, rgb_of(ink) + 1);
 }
 
 std::string plot_command(const std::string& block, const Curve& curve) {
@@ -117,17 +107,17 @@ std::string plot_command(const std::string& block, const Curve& curve) {
   const std::string ink = colour(curve.ink, curve.opacity);
   switch (curve.mark) {
     case Mark::line:
-      text += print(" using 1:2 with lines lc rgb %s lw %.3g%s", ink.c_str(), curve.width,
-                    curve.dashed ? " dt (8,5)" : "");
+      text += printed(" using 1:2 with lines lc rgb %s lw %.3g%s", ink.c_str(), curve.width,
+                      curve.dashed ? " dt (8,5)" : "");
       break;
     case Mark::points:
-      text += curve.y_error.empty() ? print(" using 1:2 with points pt 7 ps %.3g lc rgb %s",
-                                            0.35 * curve.width, ink.c_str())
-                                    : print(" using 1:2:3 with yerrorbars pt 7 ps %.3g lc rgb %s",
-                                            0.35 * curve.width, ink.c_str());
+      text += curve.y_error.empty() ? printed(" using 1:2 with points pt 7 ps %.3g lc rgb %s",
+                                              0.35 * curve.width, ink.c_str())
+                                    : printed(" using 1:2:3 with yerrorbars pt 7 ps %.3g lc rgb %s",
+                                              0.35 * curve.width, ink.c_str());
       break;
     case Mark::area:
-      text += print(" using 1:2:3 with filledcurves fs solid noborder fc rgb %s", ink.c_str());
+      text += printed(" using 1:2:3 with filledcurves fs solid noborder fc rgb %s", ink.c_str());
       break;
   }
   return text + (curve.title.empty() ? " notitle" : " title " + quoted(curve.title));
@@ -205,10 +195,10 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
   std::string text =
       "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n";
   const double right = 1.0 - right_margin / figure.width;
-  text += print("set lmargin at screen %.5f\nset rmargin at screen %.5f\n",
-                left_margin / figure.width, right);
-  text += print("set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
-                place.top / figure.height, place.bottom / figure.height);
+  text += printed("set lmargin at screen %.5f\nset rmargin at screen %.5f\n",
+                  left_margin / figure.width, right);
+  text += printed("set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
+                  place.top / figure.height, place.bottom / figure.height);
   text += "set xrange [" + number(x.low) + ':' + number(x.high) + "]\nset yrange [" +
           number(y.low) + ':' + number(y.high) + "]\n";
   if (panel.log_x) text += "set logscale x\nset format x '10^{%L}'\n";
@@ -217,7 +207,7 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
                         : "set xlabel ''\nset format x ''\n";
   text += "set ylabel " + quoted(panel.y_label) + '\n';
   // above the box, to the right
-  text += print(
+  text += printed(
       "set key at screen %.5f, screen %.5f right center horizontal maxcols %d samplen 1.6 spacing "
       "1.0\n",
       right, (place.top + 5.0 + 0.5 * key_row * place.key.rows) / figure.height, place.key.columns);
@@ -280,16 +270,16 @@ std::string gnuplot_script(const Figure& figure, PlotFormat format) {
   std::string id = figure.name;  // gnuplot takes no hyphen here
   std::replace(id.begin(), id.end(), '-', '_');
   if (format == PlotFormat::svg)
-    text += print(
+    text += printed(
         "set terminal svg size %d,%d dynamic enhanced rounded font 'sans-serif,15' name '%s'\n",
         figure.width, figure.height, id.c_str());
   else  // a pixel is 1/96 inch, 3/4 point
-    text +=
-        print("set terminal pdfcairo size %.4fin,%.4fin enhanced rounded font 'sans-serif,11.25'\n",
-              figure.width / 96.0, figure.height / 96.0);
+    text += printed(
+        "set terminal pdfcairo size %.4fin,%.4fin enhanced rounded font 'sans-serif,11.25'\n",
+        figure.width / 96.0, figure.height / 96.0);
   text += "set border 3 lw 1 lc rgb '#767676'\nset tics nomirror out scale 0.6 tc rgb '#1a1a1a'\n";
   text += "set grid lw 0.6 lt 1 lc rgb '#e0e0e0'\n";
-  text += print("set multiplot\n");
+  text += printed("set multiplot\n");
   const size_t count = figure.panels.size();
   // the key above each box; tick labels and x label below the last, or below each when the axes
   // differ

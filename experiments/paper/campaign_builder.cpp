@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -40,11 +40,7 @@ double estimate(const RunSettings& s, long steps) {
 
 }  // namespace
 
-std::string campaign_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+std::string campaign_number(double value) { return printed("%g", value); }
 
 double duration_at(double frequency) { return std::max(1.0, 3.0 / frequency); }
 

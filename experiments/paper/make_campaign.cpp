@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "experiments/paper/campaign_builder.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -231,9 +232,7 @@ std::vector<size_t> runs_for(const Campaign& campaign, const std::string& name) 
   const auto found = std::find_if(targets().begin(), targets().end(),
                                   [&](const Target& target) { return target.name == name; });
   if (found == targets().end()) {
-    std::string all;
-    for (const std::string& target : paper_targets()) all += (all.empty() ? "" : ", ") + target;
-    throw std::invalid_argument("paper: '" + name + "' is not one of " + all);
+    throw std::invalid_argument("paper: '" + name + "' is not one of " + joined(paper_targets()));
   }
   std::set<size_t> needed;
   if (found->motion) needed.insert(campaign.motion.begin(), campaign.motion.end());

@@ -7,6 +7,8 @@
 
 #include "experiments/paper/stored_states.hpp"
 
+#include "platform/text.hpp"
+
 namespace ballast {
 namespace {
 
@@ -124,8 +126,8 @@ PaperSection packing_section(PaperData& data) {
   for (size_t p = 0; p < force_phases.size(); ++p) {
     if (histograms[p].total == 0.0) continue;
     panel.curves.push_back(histograms[p].curve(force_phases[p].second, inks[p]));
-    tails += (tails.empty() ? "" : ", ") + std::string(force_phases[p].second) +
-             " β = " + digits(-histograms[p].tail().slope);
+    add_to_list(
+        tails, std::string(force_phases[p].second) + " β = " + digits(-histograms[p].tail().slope));
   }
   if (panel.curves.empty()) return section;
   PaperFigure figure;

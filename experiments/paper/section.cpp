@@ -1,34 +1,21 @@
 #include "experiments/paper/section.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+#include "platform/csv.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
-std::string print(const char* format, int precision, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, precision, value);
-  return text;
-}
-
-/// For a cell of CSV: quoted, quotes doubled.
-std::string cell(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return quoted + '"';
-}
-
-std::string csv_number(double value) {
-  if (!std::isfinite(value)) return "";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
+/// The k-th value as a cell; empty where there is none or it is not finite.
+void add_value(CsvWriter& csv, const std::vector<double>& values, size_t k) {
+  if (k < values.size() && std::isfinite(values[k]))
+    csv.add(values[k], 10);
+  else
+    csv.add("");
 }
 
 }  // namespace
@@ -57,10 +44,10 @@ PaperSection new_section(const std::string& id, const std::string& heading) {
 std::string digits(double value, int count) {
   if (!std::isfinite(value)) return "–";
   if (value == 0.0) return "0";
-  std::string text = print("%.*e", count - 1, value);
+  std::string text = printed("%.*e", count - 1, value);
   const int exponent = std::atoi(std::strchr(text.c_str(), 'e') + 1);
   if (exponent >= -3 && exponent < 6)
-    text = print("%.*f", std::max(0, count - 1 - exponent), value);
+    text = printed("%.*f", std::max(0, count - 1 - exponent), value);
   if (text[0] == '-') text.replace(0, 1, "−");
   if (const size_t mark = text.find('e'); mark != std::string::npos)  // "5e-04" to "5e-4"
     text = text.substr(0, mark + 1) + std::to_string(exponent);
@@ -72,9 +59,9 @@ std::string with_error(double value, double error) {
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(error))));
   if (exponent < -6 || exponent > 5) return digits(value) + " ± " + digits(error, 2);
   const int places = std::max(0, 1 - exponent);
-  std::string text = print("%.*f", places, value);
+  std::string text = printed("%.*f", places, value);
   if (text[0] == '-') text.replace(0, 1, "−");
-  return text + " ± " + print("%.*f", places, error);
+  return text + " ± " + printed("%.*f", places, error);
 }
 
 std::string percent(double relative) {
@@ -113,21 +100,25 @@ Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double
 }
 
 std::string figure_csv(const Figure& figure) {
-  std::string text = "panel,y_label,curve,x_label,x,y,y_error,y_low\n";
+  CsvWriter csv;
+  csv.add_row(std::vector<std::string>{"panel", "y_label", "curve", "x_label", "x", "y", "y_error",
+                                       "y_low"});
   for (size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
     for (size_t c = 0; c < panel.curves.size(); ++c) {
       const Curve& curve = panel.curves[c];
-      const std::string lead = std::to_string(p + 1) + ',' + cell(panel.y_label) + ',' +
-                               cell(curve.title.empty() ? std::to_string(c + 1) : curve.title) +
-                               ',' + cell(panel.x_label) + ',';
-      for (size_t k = 0; k < curve.x.size(); ++k)
-        text += lead + csv_number(curve.x[k]) + ',' + csv_number(curve.y[k]) + ',' +
-                (curve.y_error.empty() ? "" : csv_number(curve.y_error[k])) + ',' +
-                (curve.y_low.empty() ? "" : csv_number(curve.y_low[k])) + '\n';
+      for (size_t k = 0; k < curve.x.size(); ++k) {
+        csv.add(static_cast<long>(p + 1));
+        csv.add(panel.y_label);
+        csv.add(curve.title.empty() ? std::to_string(c + 1) : curve.title);
+        csv.add(panel.x_label);
+        for (const auto* values : {&curve.x, &curve.y, &curve.y_error, &curve.y_low})
+          add_value(csv, *values, k);
+        csv.end_row();
+      }
     }
   }
-  return text;
+  return csv.take();
 }
 
 }  // namespace ballast

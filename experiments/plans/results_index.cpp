@@ -8,7 +8,9 @@
 #include "experiments/run/manifest.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -20,9 +22,7 @@ fs::path plans_folder(const fs::path& results) { return results / "plans"; }
 
 std::string number_text(double x) {
   if (std::isnan(x)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
+  return printed("%.6g", x);
 }
 
 struct Facts {
@@ -52,24 +52,21 @@ Facts facts_of(const fs::path& path, const std::string& key, long steps, bool fa
 }
 
 /// The rows of one plan.
-std::string rows_of(const fs::path& results, const fs::path& file,
-                    const std::map<std::string, std::string>& failed) {
-  std::string rows;
+void add_rows(CsvWriter& csv, const fs::path& results, const fs::path& file,
+              const std::map<std::string, std::string>& failed) {
   try {
     const Json plan = Json::parse(read_whole_file(file));
     for (const Json& run : plan.at("runs")) {
       const std::string key = run.at("key");
       const long steps = run.at("steps");
       const Facts facts = facts_of(results / "runs" / key, key, steps, failed.contains(key));
-      rows += plan.at("plan").get<std::string>() + ',' + run.at("name").get<std::string>() + ',' +
-              key + ',' + facts.state + ',' + std::to_string(facts.steps_done) + ',' +
-              std::to_string(steps) + ',' + facts.seconds + ',' + facts.error + ',' + facts.commit +
-              '\n';
+      csv.add_row(std::vector<std::string>{plan.at("plan"), run.at("name"), key, facts.state,
+                                           std::to_string(facts.steps_done), std::to_string(steps),
+                                           facts.seconds, facts.error, facts.commit});
     }
   } catch (const Json::exception& error) {
     throw Error(file.string() + ": is no plan that ballast noted: " + error.what());
   }
-  return rows;
 }
 
 }  // namespace
@@ -95,9 +92,11 @@ void write_index(const fs::path& results, const std::map<std::string, std::strin
   for (const fs::directory_entry& entry : fs::directory_iterator(plans_folder(results)))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  std::string text = "plan,name,key,state,steps_done,steps,seconds,error_mean,commit\n";
-  for (const fs::path& file : files) text += rows_of(results, file, failed);
-  write_whole_file(results / "index.csv", text);
+  CsvWriter csv;
+  csv.add_row(std::vector<std::string>{"plan", "name", "key", "state", "steps_done", "steps",
+                                       "seconds", "error_mean", "commit"});
+  for (const fs::path& file : files) add_rows(csv, results, file, failed);
+  write_whole_file(results / "index.csv", csv.take());
 }
 
 }  // namespace ballast

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -13,17 +12,17 @@
 #include "experiments/plans/sweep_progress.hpp"
 #include "experiments/plans/tasks.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/file_lock.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/text.hpp"
 #include "platform/worker.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 class Engine {
  public:
@@ -55,7 +54,7 @@ class Engine {
   const std::vector<Task>& tasks() const { return tasks_; }
 
  private:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  double seconds() const { return watch_.seconds(); }
 
   /// False when nothing was there to start; failed deposits take their runs with them.
   bool start_what_can(bool may_start) {
@@ -121,7 +120,7 @@ class Engine {
   fs::path program_;
   std::vector<Task> tasks_;
   SweepProgress progress_;
-  Clock::time_point begin_ = Clock::now();
+  Stopwatch watch_;
   double indexed_ = 0.0;
   std::map<size_t, std::unique_ptr<Worker>> workers_;  // by task
   std::map<size_t, double> begun_;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
+
+#include "platform/text.hpp"
 
 namespace ballast {
 
@@ -36,10 +37,9 @@ std::string SweepProgress::text(double now) const {
   }
   const double done = work_done(), gained = done - work_before_;
   const double fraction = all_work_ > 0.0 ? done / all_work_ : 1.0;
-  char numbers[120];
-  std::snprintf(numbers, sizeof numbers, "%3.0f %%  %zu of %zu runs, %zu running",
-                std::floor(100.0 * fraction), finished, runs, running);
-  std::string text = (line_.style() == StatusLine::Style::bar ? bar_text(fraction) : "") + numbers;
+  std::string text = line_.style() == StatusLine::Style::bar ? bar_text(fraction) : "";
+  text += printed("%3.0f %%  %zu of %zu runs, %zu running", std::floor(100.0 * fraction), finished,
+                  runs, running);
   if (deposits > 0) text += ", " + std::to_string(deposits) + " depositing";
   if (failed > 0) text += ", " + std::to_string(failed) + " FAILED";
   if (gained > 0.0) text += "  " + duration_text(now * (all_work_ - done) / gained) + " left";

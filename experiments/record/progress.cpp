@@ -1,30 +1,17 @@
 #include "experiments/record/progress.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
+
+#include "platform/clock.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 
-namespace {
-
-double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
-}  // namespace
-
 Progress::Progress(bool quiet)
-    : Progress(quiet ? Style::quiet : StatusLine::style_of_stderr(), std::cerr, steady_seconds) {}
+    : Progress(quiet ? Style::quiet : StatusLine::style_of_stderr(), std::cerr,
+               [watch = Stopwatch()] { return watch.seconds(); }) {}
 
 Progress::Progress(Style style, std::ostream& out, std::function<double()> clock)
     : line_(style, out), clock_(std::move(clock)) {}
@@ -70,12 +57,12 @@ std::string Progress::line(double now) const {
                fraction = total_ > 0.0 ? std::clamp(time_ / total_, 0.0, 1.0) : 0.0;
   std::string text = label_ + " ";
   if (line_.style() == Style::bar) text += bar_text(fraction);
-  text += formatted("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time_, total_);
+  text += printed("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time_, total_);
   if (time_ > first_time_ && time_ < total_)
     text += "  " + duration_text(elapsed * (total_ - time_) / (time_ - first_time_)) + " left";
-  if (steps_ > 0) text += formatted("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));
-  text += formatted("  error %.1e m/s  %.0f contacts", error_, contacts_);
-  if (!std::isnan(velocity_)) text += formatted("  %.1e m/s rms", velocity_);
+  if (steps_ > 0) text += printed("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));
+  text += printed("  error %.1e m/s  %.0f contacts", error_, contacts_);
+  if (!std::isnan(velocity_)) text += printed("  %.1e m/s rms", velocity_);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include "experiments/record/record_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
+#include "platform/csv.hpp"
 #include "platform/error.hpp"
 #include "platform/row_log.hpp"
 
@@ -81,17 +82,16 @@ RowWriter continue_poses(const fs::path& file, const RowLogHeader& header, long 
 
 void write_table(const fs::path& target, RowReader& rows) {
   AtomicFile file(target);
-  const char* separator = "";
-  for (const StepColumn& column : step_columns()) {
-    file.print("%s%s", separator, column.name);
-    separator = ",";
-  }
-  file.write("\n");
+  CsvWriter csv;
+  for (const StepColumn& column : step_columns()) csv.add(column.name);
+  csv.end_row();
   rows.rewind();
   for (auto row = rows.next(); !row.empty(); row = rows.next()) {
-    for (size_t c = 0; c < row.size(); ++c) file.print(c == 0 ? "%.17g" : ",%.17g", row[c]);
-    file.write("\n");
+    for (const double value : row) csv.add(value, 17);
+    csv.end_row();
+    file.write(csv.take());
   }
+  file.write(csv.take());  // where there is no row
   file.commit();
 }
 

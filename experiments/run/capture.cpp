@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 #include "experiments/measure/wall_cycles.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -102,9 +102,7 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
     for (int row = 0; row < 3; ++row)
       for (int axis = 0; axis < 3; ++axis) captured.frame.push_back(frame(row, axis));
   create_folder(folder_);
-  char name[32];
-  std::snprintf(name, sizeof name, "step_%07ld.hdf5", state.step);
-  write_captured(folder_ / name, captured);
+  write_captured(folder_ / printed("step_%07ld.hdf5", state.step), captured);
 }
 
 }  // namespace ballast

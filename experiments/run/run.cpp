@@ -2,7 +2,6 @@
 
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -17,6 +16,7 @@
 #include "experiments/run/run_folder.hpp"
 #include "experiments/run/simulation.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/clock.hpp"
 #include "platform/content_key.hpp"
 #include "platform/error.hpp"
 #include "platform/file_lock.hpp"
@@ -27,12 +27,6 @@
 
 namespace ballast {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point t) {
-  return std::chrono::duration<double>(Clock::now() - t).count();
-}
 
 /// The run as its loop needs it.
 struct Prepared {
@@ -79,7 +73,7 @@ class Run {
   }
 
  private:
-  double seconds_left() const { return options_.max_seconds - seconds_since(begin_); }
+  double seconds_left() const { return options_.max_seconds - watch_.seconds(); }
 
   LoopEnd why_stopped() const {
     return InterruptGuard::requested() ? LoopEnd::interrupted : LoopEnd::time_limit;
@@ -209,14 +203,14 @@ class Run {
     loop.before_checkpoint = [&] { recorder.flush(); };
     loop.observe = [&](const MotionState& state, StepRecord& record) {
       if (run_.control_volume) {
-        const auto begin = Clock::now();
+        const Stopwatch watch;
         record.solid_fraction = run_.control_volume->solid_fraction(run_.system, state);
-        record.seconds_other += seconds_since(begin);
+        record.seconds_other += watch.seconds();
       }
       if (capture) {
-        const auto begin = Clock::now();
+        const Stopwatch watch;
         capture->observe(stepper, state, record);
-        record.seconds_other += seconds_since(begin);
+        record.seconds_other += watch.seconds();
       }
       recorder.add_step(record);
       if (state.step % pose_every == 0) store_pose();
@@ -225,13 +219,13 @@ class Run {
                          drive_checkpoint(key_, loop.phase, state, run_.memory));
       progress.show(scene_.name, state.time, scene_.duration, record);
     };
-    const auto begin = Clock::now();
+    const Stopwatch watch;
     const long first = run_.state.step;
     const LoopEnd end = run_loop(loop, stepper, run_.state, run_.memory);
     progress.finish();
     if (run_.state.step > first)
       manifest_.summary("ms_per_step",
-                        1e3 * seconds_since(begin) / static_cast<double>(run_.state.step - first));
+                        1e3 * watch.seconds() / static_cast<double>(run_.state.step - first));
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     manifest_.summary("peak_memory_MB", usage.ru_maxrss / 1024.0);
@@ -269,7 +263,7 @@ class Run {
   }
 
   RunOptions options_;
-  Clock::time_point begin_ = Clock::now();
+  Stopwatch watch_;
   Scene scene_;
   std::string text_, key_;
   RunFolder folder_;

@@ -1,10 +1,9 @@
 #include "experiments/run/run_folder.hpp"
 
-#include <cstdio>
-
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -36,11 +35,7 @@ void RunFolder::begin(const std::string& scene_text, bool overwrite) const {
   write_whole_file(scene(), scene_text);
 }
 
-fs::path RunFolder::state_at(long step) const {
-  char name[40];
-  std::snprintf(name, sizeof name, "step_%08ld.bin", step);
-  return states() / name;
-}
+fs::path RunFolder::state_at(long step) const { return states() / printed("step_%08ld.bin", step); }
 
 void RunFolder::reopen(const std::string& scene_text) const {
   if (!has_run())

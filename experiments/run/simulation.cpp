@@ -1,9 +1,9 @@
 #include "experiments/run/simulation.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 
@@ -36,16 +36,12 @@ StepMemory memory_of(Checkpoint& checkpoint, const std::filesystem::path& file) 
 
 LoopEnd run_loop(const SimulationLoop& loop, TimeStepper& stepper, MotionState& state,
                  StepMemory& memory) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point t) {
-    return std::chrono::duration<double>(Clock::now() - t).count();
-  };
   const auto save = [&] {
     loop.before_checkpoint();
     write_checkpoint(loop.checkpoint, drive_checkpoint(loop.key, loop.phase, state, memory));
   };
-  const auto begin = Clock::now();
-  auto saved = begin;
+  const Stopwatch since_begin;
+  Stopwatch since_saved;
   LoopEnd end = LoopEnd::finished;
   while (state.step < loop.last_step) {
     StepRecord record = stepper.step(state, memory);
@@ -54,12 +50,12 @@ LoopEnd run_loop(const SimulationLoop& loop, TimeStepper& stepper, MotionState& 
       continue;
     if (InterruptGuard::requested())
       end = LoopEnd::interrupted;
-    else if (seconds_since(begin) > loop.max_seconds)
+    else if (since_begin.seconds() > loop.max_seconds)
       end = LoopEnd::time_limit;
     if (end != LoopEnd::finished) break;
-    if (seconds_since(saved) > loop.checkpoint_seconds) {
+    if (since_saved.seconds() > loop.checkpoint_seconds) {
       save();
-      saved = Clock::now();
+      since_saved.restart();
     }
   }
   save();

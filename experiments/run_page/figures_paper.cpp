@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/run_page/figures.hpp"
 #include "experiments/step/step_record.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
-
-std::string print(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /// Samples of one phase in the loop, the others NaN so that the line breaks between them. The first
 /// sample after a phase is taken along: no gaps where the colour changes.
@@ -199,7 +193,7 @@ ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
   if (has_gain) {
     // from the first period's begin to the last one's end: its slope is the mean gain
     Curve line;
-    line.title = "gain per period " + print("%.3g", compaction.gain);
+    line.title = "gain per period " + printed("%.3g", compaction.gain);
     line.ink = Ink::vermilion;
     line.dashed = true;
     line.width = 1.8;

@@ -1,5 +1,7 @@
 #include "experiments/run_page/report_origin.hpp"
 
+#include "platform/text.hpp"
+
 namespace ballast {
 namespace {
 
@@ -18,8 +20,7 @@ std::string readable(const nlohmann::ordered_json& value) {
   if (!value.is_structured()) return value.dump();
   std::string text;
   for (const auto& [name, part] : value.items())
-    text += (text.empty() ? "" : ", ") + (value.is_object() ? name + ' ' : std::string()) +
-            readable(part);
+    add_to_list(text, (value.is_object() ? name + ' ' : std::string()) + readable(part));
   return text;
 }
 
@@ -173,7 +174,7 @@ Html files_table(const RunData& data) {
 std::string made_by(const RunData& data) {
   std::string text;
   const auto add = [&](const std::string& before, const std::string& part) {
-    if (!part.empty()) text += (text.empty() ? "" : ", ") + before + part;
+    if (!part.empty()) add_to_list(text, before + part);
   };
   add("ballast ", text_at(data.manifest, "ballast", "version"));
   add("commit ", text_at(data.manifest, "ballast", "commit").substr(0, 12));

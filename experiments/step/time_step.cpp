@@ -1,28 +1,14 @@
 #include "experiments/step/time_step.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "geometry/contact/contact_tracker.hpp"
+#include "platform/clock.hpp"
 #include "solvers/seam/island_solver.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
-
-/// Splits the wall clock of a step into phases: each call returns the seconds since the one before.
-class PhaseClock {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// Bound on how far any point of the body moves in h, with what gravity and forces of the order of
 /// g may add.
@@ -205,7 +191,7 @@ void TimeStepper::account(const MotionState& before, const StepMemory& memory, S
 
 StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   StepRecord record;
-  PhaseClock clock;
+  Stopwatch clock;  // restart() ends a phase and begins the next
   const double h = settings_.h;
   const double mid_time = state.time + 0.5 * h, end_time = (state.step + 1) * h;
   resting_.begin(memory);
@@ -213,15 +199,15 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   for (size_t b = 0; b < state.pose.size(); ++b)
     if (!resting_.is_asleep(static_cast<int>(b)))
       mid_.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
-  record.seconds_other = clock.lap();
+  record.seconds_other = clock.restart();
   detect(mid_, memory);
-  record.seconds_detect = clock.lap();
+  record.seconds_detect = clock.restart();
   free_motion(state, mid_time);
-  record.seconds_other += clock.lap();
+  record.seconds_other += clock.restart();
   assembler_.assemble(mid_, v_free_, h, end_time, contacts_, problem_);
-  record.seconds_assemble = clock.lap();
+  record.seconds_assemble = clock.restart();
   solve(memory, record);
-  record.seconds_judge = clock.lap() - record.seconds_solve;
+  record.seconds_judge = clock.restart() - record.seconds_solve;
 
   v_after_ = runner_.body_velocity();
   account(state, memory, record);
@@ -234,13 +220,13 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   }
   ++state.step;
   state.time = end_time;
-  record.seconds_other += clock.lap();
+  record.seconds_other += clock.restart();
   record.work_correction = correction_.apply(assembler_, problem_, contacts_, v_after_, h, state);
-  record.seconds_correct = clock.lap();
+  record.seconds_correct = clock.restart();
   const double stopped = resting_.settle(state, memory);
   record.kinetic_energy -= stopped;
   record.energy_residual -= stopped;
-  record.seconds_other += clock.lap();
+  record.seconds_other += clock.restart();
 
   record.time = state.time;
   if (driven_wall_ >= 0) {

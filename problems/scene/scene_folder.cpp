@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
 
@@ -43,7 +44,7 @@ fs::path find_scene(const std::string& name_or_path) {
   const fs::path named = scene_folder() / (name_or_path + ".toml");
   if (fs::is_regular_file(named)) return named;
   std::string there;
-  for (const auto& [name, title] : list_scenes()) there += (there.empty() ? "" : ", ") + name;
+  for (const auto& [name, title] : list_scenes()) add_to_list(there, name);
   throw SceneFileError(name_or_path + ": no scene of this name, expected a file or one of " +
                        there);
 }

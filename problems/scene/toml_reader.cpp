@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "platform/text.hpp"
 #include "problems/scene/scene_file_error.hpp"
 #include "problems/scene/toml_text.hpp"
 
@@ -26,12 +27,6 @@ size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 std::string unit_text(const char* unit) { return *unit ? std::string(" [") + unit + "]" : ""; }

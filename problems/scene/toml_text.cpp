@@ -1,10 +1,10 @@
 #include "problems/scene/toml_text.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
+
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -28,10 +28,7 @@ std::string string_text(const std::string& s) {
       text += '\\';
       text += c;
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      std::array<char, 8> escaped;
-      std::snprintf(escaped.data(), escaped.size(), "\\u%04X",
-                    static_cast<unsigned>(static_cast<unsigned char>(c)));
-      text += escaped.data();
+      text += printed("\\u%04X", static_cast<unsigned>(static_cast<unsigned char>(c)));
     } else {
       text += c;
     }
@@ -54,13 +51,12 @@ std::string inline_text(const toml::node& node) {
   if (const auto* value = node.as_string()) return string_text(value->get());
   std::string text;
   if (const auto* array = node.as_array()) {
-    for (const toml::node& element : *array)
-      text += (text.empty() ? "" : ", ") + inline_text(element);
+    for (const toml::node& element : *array) add_to_list(text, inline_text(element));
     return "[" + text + "]";
   }
   if (const auto* table = node.as_table()) {
     for (const auto& [key, value] : *table)
-      text += (text.empty() ? "" : ", ") + key_text(key.str()) + " = " + inline_text(value);
+      add_to_list(text, key_text(key.str()) + " = " + inline_text(value));
     return "{" + text + "}";
   }
   std::ostringstream date;  // dates and times: in no scene, but a wrong type must be printable

@@ -1,10 +1,10 @@
 #include "solvers/seam/island_solver.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "platform/clock.hpp"
 #include "problems/algebra/islands.hpp"
 
 namespace ballast {
@@ -41,8 +41,7 @@ class IslandSolver final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     if (!is_split_) return backend_->solve(problem, std::move(start), budget);
-    using Clock = std::chrono::steady_clock;
-    const auto begin = Clock::now();
+    const Stopwatch watch;
     Solved whole;
     whole.reason = StopReason::reached_tolerance;
     whole.impulses.setZero(problem.row_count());
@@ -50,8 +49,7 @@ class IslandSolver final : public Solver {
     for (int i = 0; i < islands_.count(); ++i) {
       Budget own = budget;
       own.keep_history = false;
-      own.max_seconds = std::max(
-          0.0, budget.max_seconds - std::chrono::duration<double>(Clock::now() - begin).count());
+      own.max_seconds = std::max(0.0, budget.max_seconds - watch.seconds());
       const Solved solved = solve_island(problem, i, start, own, whole.impulses);
       const double size = static_cast<double>(islands_.contacts(i).size());
       contacts += size;

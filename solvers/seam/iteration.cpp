@@ -5,19 +5,18 @@
 #include <limits>
 #include <utility>
 
+#include "platform/clock.hpp"
+
 namespace ballast {
 
 Iteration::Iteration(const Budget& budget, const CheckSchedule& schedule, int patience)
     : budget_(budget),
       schedule_(schedule),
-      begin_(std::chrono::steady_clock::now()),
       next_check_(schedule.first),
       patience_(patience),
       error_(std::numeric_limits<double>::quiet_NaN()) {}
 
-double Iteration::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
+double Iteration::seconds() const { return watch_.seconds(); }
 
 bool Iteration::next() {
   if (stopped_) return false;

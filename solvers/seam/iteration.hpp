@@ -2,8 +2,9 @@
 // The bookkeeping that every iterative backend shares: budget, clock, when to look at the error,
 // why to stop, history.
 
-#include <chrono>
 #include <vector>
+
+#include "platform/clock.hpp"
 
 #include "solvers/seam/solver.hpp"
 
@@ -52,7 +53,7 @@ class Iteration {
  private:
   Budget budget_;
   CheckSchedule schedule_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch watch_;
   int count_ = 0;
   int next_check_, patience_;
   bool stopped_ = false, out_of_time_ = false;

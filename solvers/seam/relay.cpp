@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "platform/clock.hpp"
+
 namespace ballast {
 
 Budget rest_of(const Budget& whole, int iterations, double seconds) {
@@ -12,15 +14,12 @@ Budget rest_of(const Budget& whole, int iterations, double seconds) {
   return rest;
 }
 
-Relay::Relay(const Budget& budget, Impulses start)
-    : budget_(budget), begin_(std::chrono::steady_clock::now()) {
+Relay::Relay(const Budget& budget, Impulses start) : budget_(budget) {
   solved_.impulses = std::move(start);
   solved_.reason = StopReason::stalled;
 }
 
-double Relay::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
+double Relay::seconds() const { return watch_.seconds(); }
 
 double Relay::run(const Leg& leg) {
   const double began = seconds();

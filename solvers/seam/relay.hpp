@@ -2,8 +2,9 @@
 // One solve as a relay: several solvers, one after the other, each from where the others have come
 // and within what they have left of one budget.
 
-#include <chrono>
 #include <functional>
+
+#include "platform/clock.hpp"
 
 #include "solvers/seam/solver.hpp"
 
@@ -44,7 +45,7 @@ class Relay {
   void book_history(const std::vector<HistoryPoint>& leg, double began);
 
   Budget budget_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch watch_;
   Solved solved_;
   double error_ = 1e300;
   bool reached_ = false, failed_ = false;

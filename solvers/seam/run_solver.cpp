@@ -1,19 +1,14 @@
 #include "solvers/seam/run_solver.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <new>
 #include <string>
 #include <utility>
 
+#include "platform/clock.hpp"
+
 namespace ballast {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 void validate_start(const FrictionProblem& problem, Impulses& start) {
   if (start.size() == 0) start.setZero(problem.row_count());
@@ -59,12 +54,12 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
   problem.validate();
   validate_start(problem, start);
   return guarded(problem, budget, [&](SolverRun& run) {
-    Clock::time_point begin = Clock::now();
+    Stopwatch watch;
     solver.prepare(problem);
-    run.prepare_seconds = seconds_since(begin);
-    begin = Clock::now();
+    run.prepare_seconds = watch.seconds();
+    watch.restart();
     run.solved = solver.solve(problem, std::move(start), budget);
-    run.solve_seconds = seconds_since(begin);
+    run.solve_seconds = watch.seconds();
   });
 }
 
@@ -72,9 +67,9 @@ SolverRun SolverRunner::run_again(Solver& solver, const FrictionProblem& problem
                                   const Budget& budget) {
   validate_start(problem, start);
   return guarded(problem, budget, [&](SolverRun& run) {
-    const Clock::time_point begin = Clock::now();
+    const Stopwatch watch;
     run.solved = solver.solve(problem, std::move(start), budget);
-    run.solve_seconds = seconds_since(begin);
+    run.solve_seconds = watch.seconds();
   });
 }
 

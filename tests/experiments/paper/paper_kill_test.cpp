@@ -7,6 +7,7 @@
 #include "experiments/paper/make_campaign.hpp"
 #include "experiments/run/run.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/clock.hpp"
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/killed_program.hpp"
@@ -75,9 +76,9 @@ TEST_CASE(
                  log = folder.path() / "log";
   const Campaign campaign = make_campaign(small_campaign());
   const PlannedRun& run = campaign.runs[campaign.motion.front()].planned;
-  const auto begin = Clock::now();
+  const Stopwatch watch;
   REQUIRE(run_and_kill(200.0, fig3(whole), log) == 0);
-  const double undisturbed = seconds_since(begin);
+  const double undisturbed = watch.seconds();
   const auto states = stored_states(folder_of(whole, run));
   REQUIRE(states.size() > 90);  // 1 s at 100 Hz
 

@@ -1,6 +1,7 @@
 // Killed with -9 at random moments, a sweep ends with the bits of an undisturbed one.
 
 #include "experiments/plans/plan.hpp"
+#include "platform/clock.hpp"
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/plans/small_sweep.hpp"
@@ -32,9 +33,9 @@ TEST_CASE("a sweep killed with -9 twenty times at random ends with the same bits
   const TemporaryFolder folder;
   const fs::path file = folder.write("plan.toml", small_sweep), whole = folder.path() / "whole";
   const Plan plan = read_plan(file);
-  const auto begin = Clock::now();
+  const Stopwatch watch;
   REQUIRE(sweep_for(100.0, file, whole) == 0);
-  const double undisturbed = seconds_since(begin);
+  const double undisturbed = watch.seconds();
   const std::vector<std::string> bits = bits_of(plan, whole);
   REQUIRE(bits[0] != bits[1]);
 
@@ -75,11 +76,11 @@ TEST_CASE("children die with a sweep that is killed") {
   const fs::path results = folder.path() / "results";
   const PlannedRun run = read_plan(file).runs[0];
   const fs::path log = results / "logs" / (run_key(run) + ".log");
-  Clock::time_point begin = Clock::now();
+  Stopwatch watch;
   {
     Worker sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string()},
                  folder.path() / "log");
-    while (!fs::exists(log) && seconds_since(begin) < 60.0 && !sweep.has_ended()) usleep(2000);
+    while (!fs::exists(log) && watch.seconds() < 60.0 && !sweep.has_ended()) usleep(2000);
     REQUIRE(fs::exists(log));
   }
   // the folder can be had again: nobody holds its lock
@@ -88,8 +89,8 @@ TEST_CASE("children die with a sweep that is killed") {
                folder_of(results, run).string(), "--packing-cache", (results / "packings").string(),
                "--continue", "--no-report", "--max-seconds", "0.2"},
               folder.path() / "next.log");
-  begin = Clock::now();
-  while (!next.has_ended() && seconds_since(begin) < 30.0) usleep(2000);
+  watch.restart();
+  while (!next.has_ended() && watch.seconds() < 30.0) usleep(2000);
   REQUIRE(next.has_ended());
   CHECK(next.status() == 3);
 }

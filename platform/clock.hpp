@@ -1,0 +1,29 @@
+#pragma once
+// Wall clock: time that passes for the user, in seconds, never set back.
+
+#include <chrono>
+
+namespace ballast {
+
+/// Runs from the moment it is made.
+class Stopwatch {
+ public:
+  /// Since it was made or restarted [s].
+  double seconds() const { return to_seconds(Clock::now() - begin_); }
+
+  /// The same, and begins again at zero: laps without a gap between them.
+  double restart() {
+    const Clock::time_point now = Clock::now();
+    const double lap = to_seconds(now - begin_);
+    begin_ = now;
+    return lap;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double to_seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+  Clock::time_point begin_ = Clock::now();
+};
+
+}  // namespace ballast

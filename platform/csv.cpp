@@ -1,0 +1,111 @@
+#include "platform/csv.hpp"
+
+#include <algorithm>
+
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
+#include "platform/text.hpp"
+
+namespace ballast {
+
+void CsvWriter::separate() {
+  if (in_row_) text_ += ',';
+  in_row_ = true;
+}
+
+void CsvWriter::add(std::string_view cell) {
+  separate();
+  const bool is_quoted = cell.find_first_of(",\"\n\r") != std::string_view::npos;
+  if (is_quoted) text_ += '"';
+  for (const char c : cell) {
+    if (c == '"') text_ += '"';
+    text_ += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  if (is_quoted) text_ += '"';
+}
+
+void CsvWriter::add(double value, int digits) {
+  separate();
+  text_ += printed("%.*g", digits, value);
+}
+
+void CsvWriter::add(long value) {
+  separate();
+  text_ += std::to_string(value);
+}
+
+void CsvWriter::end_row() {
+  text_ += '\n';
+  in_row_ = false;
+}
+
+void CsvWriter::add_row(std::span<const std::string> cells) {
+  for (const std::string& cell : cells) add(cell);
+  end_row();
+}
+
+std::string CsvWriter::take() {
+  std::string text;
+  text.swap(text_);
+  return text;
+}
+
+CsvReader::CsvReader(const std::filesystem::path& file)
+    : file_(file.string()), text_(read_whole_file(file)) {}
+
+bool CsvReader::next() {
+  while (at_ < text_.size()) {
+    const size_t end = std::min(text_.find('\n', at_), text_.size());
+    std::string_view line = std::string_view(text_).substr(at_, end - at_);
+    at_ = end + 1;
+    ++line_;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.empty()) continue;
+    split(line);
+    return true;
+  }
+  return false;
+}
+
+void CsvReader::split(std::string_view line) {
+  cells_.clear();
+  unquoted_.clear();
+  for (size_t at = 0;;) {
+    if (at < line.size() && line[at] == '"') {
+      // A doubled quote is a quote; a single one ends the cell.
+      std::string& cell = unquoted_.emplace_back();
+      for (++at;; ++at) {
+        if (at >= line.size()) fail("a quote is not closed");
+        if (line[at] == '"' && (++at >= line.size() || line[at] != '"')) break;
+        cell += line[at];
+      }
+      cells_.push_back(cell);
+      if (at < line.size() && line[at] != ',') fail("a comma is missing after a quoted cell");
+    } else {
+      const size_t end = std::min(line.find(',', at), line.size());
+      cells_.push_back(line.substr(at, end - at));
+      at = end;
+    }
+    if (at >= line.size()) return;
+    ++at;
+  }
+}
+
+double CsvReader::number(size_t cell, std::string_view column) const {
+  const auto value = parsed_number(cells_[cell]);
+  if (!value)
+    fail(std::string(column) + " is not a number: \"" + std::string(cells_[cell].substr(0, 40)) +
+         '"');
+  return *value;
+}
+
+void CsvReader::require_cells(size_t count) const {
+  if (cells_.size() != count)
+    fail(std::to_string(cells_.size()) + " fields, expected " + std::to_string(count));
+}
+
+void CsvReader::fail(const std::string& what) const {
+  throw Error(file_ + ":" + std::to_string(std::max(line_, 1L)) + ": " + what);
+}
+
+}  // namespace ballast

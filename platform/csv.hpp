@@ -1,0 +1,63 @@
+#pragma once
+// Tables as comma-separated values (RFC 4180): cells with a comma or a quote stand in quotes. A
+// cell is one line: line ends in it become blanks.
+
+#include <deque>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ballast {
+
+/// Writes rows into a text.
+class CsvWriter {
+ public:
+  void add(std::string_view cell);
+  /// In so many digits as printf's %g has them; 17 keep every bit.
+  void add(double value, int digits);
+  void add(long value);
+  void end_row();
+  void add_row(std::span<const std::string> cells);
+
+  /// What has been written since the last call.
+  std::string take();
+
+ private:
+  void separate();
+
+  std::string text_;
+  bool in_row_ = false;
+};
+
+/// Reads a file row by row; empty lines are skipped.
+class CsvReader {
+ public:
+  /// Throws Error when the file cannot be read.
+  explicit CsvReader(const std::filesystem::path& file);
+  CsvReader(const CsvReader&) = delete;
+  CsvReader& operator=(const CsvReader&) = delete;
+
+  /// Goes to the next row; false after the last.
+  bool next();
+  /// Of this row, without their quotes; valid until next().
+  std::span<const std::string_view> cells() const { return cells_; }
+  /// The same as a number. Throws Error naming `column`, when it is none.
+  double number(size_t cell, std::string_view column) const;
+  /// Throws Error unless the row has `count` cells.
+  void require_cells(size_t count) const;
+  /// Throws Error "<file>:<line>: <what>".
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  void split(std::string_view line);
+
+  std::string file_, text_;
+  size_t at_ = 0;  // the next line's beginning in text_
+  long line_ = 0;
+  std::vector<std::string_view> cells_;
+  std::deque<std::string> unquoted_;  // what cells_ refers to where quotes were doubled
+};
+
+}  // namespace ballast

@@ -1,0 +1,44 @@
+#include "platform/text.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace ballast {
+
+std::string printed(const char* format, ...) {
+  std::va_list arguments, again;
+  va_start(arguments, format);
+  va_copy(again, arguments);
+  const int length = std::vsnprintf(nullptr, 0, format, arguments);
+  va_end(arguments);
+  std::string text(length > 0 ? static_cast<size_t>(length) : 0, '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
+  return text;
+}
+
+void add_to_list(std::string& list, std::string_view item) {
+  if (!list.empty()) list += ", ";
+  list += item;
+}
+
+std::optional<double> parsed_number(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string duration_text(double seconds) {
+  if (!(seconds < 1e6)) return "?";
+  const long s = std::lround(seconds);
+  if (s < 60) return printed("%ld s", s);
+  if (s < 3600) return printed("%ld min %02ld s", s / 60, s % 60);
+  return printed("%ld h %02ld min", s / 3600, s / 60 % 60);
+}
+
+}  // namespace ballast

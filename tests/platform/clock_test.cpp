@@ -1,0 +1,25 @@
+#include "platform/clock.hpp"
+
+#include <thread>
+
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("a stopwatch runs in seconds, and its laps add up") {
+  const Stopwatch whole;
+  Stopwatch laps;
+  double sum = 0.0;
+  for (int lap = 0; lap < 3; ++lap) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    CHECK(laps.seconds() >= 0.0099);
+    const double time = laps.restart();
+    CHECK(time >= 0.0099);
+    sum += time;
+  }
+  const double all = whole.seconds();
+  CHECK(all >= sum);
+  CHECK(all < 60.0);  // not milliseconds
+  CHECK(all - sum < 0.5 * all + 0.01);
+  CHECK(whole.seconds() >= all);
+}

@@ -1,0 +1,54 @@
+#include "platform/interrupt.hpp"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("a signal is kept for whoever asks, and a new guard begins without one") {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const InterruptGuard guard;
+    CHECK_FALSE(InterruptGuard::requested());
+    raise(number);
+    CHECK(InterruptGuard::requested());
+  }
+  const InterruptGuard guard;
+  CHECK_FALSE(InterruptGuard::requested());
+}
+
+namespace {
+
+/// How a process ends that does `work`: 128 + signal, or its exit code.
+template <typename Work>
+int end_of(const Work& work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    work();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+TEST_CASE("the second signal of a kind ends the program, and so does one without a guard") {
+  CHECK(end_of([] {
+          const InterruptGuard guard;
+          raise(SIGINT);
+          raise(SIGTERM);
+        }) == 0);
+  CHECK(end_of([] {
+          const InterruptGuard guard;
+          raise(SIGINT);
+          raise(SIGINT);
+        }) == 128 + SIGINT);
+  CHECK(end_of([] {
+          { const InterruptGuard guard; }
+          raise(SIGTERM);
+        }) == 128 + SIGTERM);
+}

@@ -1,0 +1,52 @@
+#include "platform/text.hpp"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("printed() is as long as it needs") {
+  CHECK(printed("%s %d %.3g", "a", 7, 0.25) == "a 7 0.25");
+  CHECK(printed("%s", "").empty());
+  const std::string many(100000, 'x');
+  CHECK(printed("%s!", many.c_str()) == many + "!");
+  const double x = 0.1 + 0.2;
+  CHECK(parsed_number(printed("%.17g", x)) == x);
+}
+
+TEST_CASE("lists have a separator between their items alone") {
+  CHECK(joined(std::vector<std::string>{}).empty());
+  CHECK(joined(std::vector<std::string>{"one"}) == "one");
+  CHECK(joined(std::vector<const char*>{"one", "", "three"}) == "one, , three");
+  CHECK(joined(std::vector<std::string>{"", "two"}) == ", two");
+  CHECK(joined(std::set<std::string>{"b", "a"}) == "a, b");
+  std::string list;
+  add_to_list(list, "a");
+  add_to_list(list, "b");
+  CHECK(list == "a, b");
+}
+
+TEST_CASE("a number is all of a text, or it is none") {
+  CHECK(parsed_number("  -1.5e-3 ") == -1.5e-3);
+  CHECK(parsed_number("5e-324") == std::numeric_limits<double>::denorm_min());
+  CHECK(std::isnan(parsed_number("nan").value()));
+  CHECK(parsed_number("-inf") == -std::numeric_limits<double>::infinity());
+  for (const char* text : {"", " ", "1,5", "1.5x", "0x10", "1 2", "+", "1e999"}) {
+    CAPTURE(text);
+    CHECK_FALSE(parsed_number(text));
+  }
+}
+
+TEST_CASE("durations are told in two units") {
+  CHECK(duration_text(0.4) == "0 s");
+  CHECK(duration_text(59.4) == "59 s");
+  CHECK(duration_text(59.6) == "1 min 00 s");
+  CHECK(duration_text(185) == "3 min 05 s");
+  CHECK(duration_text(7800) == "2 h 10 min");
+  CHECK(duration_text(1e7) == "?");
+  CHECK(duration_text(std::nan("")) == "?");
+}
