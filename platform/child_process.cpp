@@ -1,12 +1,5 @@
 #include "platform/child_process.hpp"
 
-#include <cerrno>
-#include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <stdexcept>
-
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -14,116 +7,171 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "platform/clock.hpp"
+#include "platform/error.hpp"
+
 namespace ballast {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+[[noreturn]] void throw_no_child() {
+  throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
+}
 
-/// Before the answer: a word that says that it follows, and its size in bytes. After it: the same
-/// word once more.
+/// Before the answer: that it follows, and its length. After it: the same word once more.
 struct Head {
   std::uint64_t word;
-  std::uint64_t size;
+  std::uint64_t length;
 };
 constexpr std::uint64_t mark = 0x62616c6c61737421ull;
 
-bool write_all(int pipe, const void* data, std::size_t size) {
+bool write_all(int pipe, const void* data, size_t size) {
   const char* next = static_cast<const char*>(data);
   while (size > 0) {
     const ssize_t written = write(pipe, next, size);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return false;
     next += written;
-    size -= static_cast<std::size_t>(written);
+    size -= static_cast<size_t>(written);
   }
   return true;
 }
 
-/// Never returns: the parent's destructors, exit handlers and unwritten output are not the child's.
-[[noreturn]] void be_child(int pipe, pid_t parent, const std::function<std::string()>& work) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);  // the parent died before the line above
-  for (const int number : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGFPE}) signal(number, SIG_DFL);
-  const int nowhere = open("/dev/null", O_WRONLY);
+/// In the child: the answer goes into the pipe, everything that is printed nowhere.
+void answer_into(int pipe, const std::function<std::string()>& work) {
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  std::string answer;
-  try {
-    answer = work();
-  } catch (...) {
-    _exit(1);
-  }
+  const std::string answer = work();
   const Head head{mark, answer.size()};
-  const bool whole = write_all(pipe, &head, sizeof head) &&
-                     write_all(pipe, answer.data(), answer.size()) &&
-                     write_all(pipe, &mark, sizeof mark);
-  _exit(whole ? 0 : 1);
+  const bool is_whole = write_all(pipe, &head, sizeof head) &&
+                        write_all(pipe, answer.data(), answer.size()) &&
+                        write_all(pipe, &mark, sizeof mark);
+  _exit(is_whole ? 0 : 1);
 }
 
-/// Reads until the other end is closed; false when the time is over first.
-bool read_until_closed(int pipe, Clock::time_point begin, double max_seconds, std::string& bytes) {
-  char buffer[65536];
-  for (;;) {
-    const double left = max_seconds - std::chrono::duration<double>(Clock::now() - begin).count();
-    if (left <= 0.0) return false;
-    pollfd waited{pipe, POLLIN, 0};
-    const int wait_ms = left < 1e6 ? static_cast<int>(std::ceil(left * 1e3)) : -1;
-    const int ready = poll(&waited, 1, wait_ms);
-    if (ready < 0 && errno != EINTR) return true;
-    if (ready <= 0) continue;
-    const ssize_t count = read(pipe, buffer, sizeof buffer);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return true;
-    bytes.append(buffer, static_cast<std::size_t>(count));
-  }
-}
-
-/// The answer between head and last word; false when something of it is missing.
+/// What stands between the two marks; false when something is missing.
 bool take_answer(const std::string& bytes, std::string& answer) {
   Head head;
   std::uint64_t last;
   if (bytes.size() < sizeof head + sizeof last) return false;
   std::memcpy(&head, bytes.data(), sizeof head);
-  if (head.word != mark || bytes.size() != sizeof head + head.size + sizeof last) return false;
+  if (head.word != mark || bytes.size() - sizeof head - sizeof last != head.length) return false;
   std::memcpy(&last, bytes.data() + bytes.size() - sizeof last, sizeof last);
   if (last != mark) return false;
-  answer = bytes.substr(sizeof head, head.size);
+  answer = bytes.substr(sizeof head, head.length);
   return true;
 }
 
 }  // namespace
 
 ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work) {
-  const Clock::time_point begin = Clock::now();
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
-  const pid_t parent = getpid(), child = fork();
-  if (child < 0) {
-    const int error = errno;
-    close(ends[0]);
-    close(ends[1]);
-    throw std::runtime_error(std::string("fork: ") + std::strerror(error));
-  }
-  if (child == 0) {
-    close(ends[0]);
-    be_child(ends[1], parent, work);
-  }
-  close(ends[1]);
-  std::string bytes;
-  const bool closed = read_until_closed(ends[0], begin, max_seconds, bytes);
-  close(ends[0]);
-  // Harmless for a child that is through: it has written, and is about to exit or already waits to
-  // be collected.
-  kill(child, SIGKILL);
-  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  Pipe pipe;
+  const ChildProcess child([&] { answer_into(pipe.write_end(), work); });
+  pipe.close_write_end();
+  const bool is_closed =
+      Pipe::read_until_closed({&pipe}, max_seconds, std::numeric_limits<size_t>::max());
+  // The child is killed below, which is harmless when it is through: it has written, and is about
+  // to leave.
   ChildResult result;
-  if (take_answer(bytes, result.answer))
+  if (take_answer(pipe.text, result.answer))
     result.end = ChildEnd::complete;
   else
-    result.end = closed ? ChildEnd::crashed : ChildEnd::out_of_time;
+    result.end = is_closed ? ChildEnd::crashed : ChildEnd::out_of_time;
   return result;
+}
+
+ChildProcess::ChildProcess(const std::function<void()>& live) {
+  const pid_t parent = getpid();
+  child_ = fork();
+  if (child_ < 0) throw_no_child();
+  if (child_ > 0) return;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // the parent died before the line above
+  for (const int number : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGFPE}) signal(number, SIG_DFL);
+  try {
+    live();
+  } catch (...) {
+  }
+  _exit(1);
+}
+
+ChildProcess::~ChildProcess() {
+  send(SIGKILL);
+  collect(true);
+}
+
+void ChildProcess::send(int signal) const {
+  if (child_ > 0) kill(child_, signal);
+}
+
+bool ChildProcess::collect(bool waits) {
+  if (child_ < 0) return true;
+  int status = 0;
+  pid_t ended;
+  do ended = waitpid(child_, &status, waits ? 0 : WNOHANG);
+  while (ended < 0 && errno == EINTR);
+  if (ended == 0) return false;
+  child_ = -1;
+  if (ended < 0)
+    status_ = 127;  // somebody else waited for it
+  else
+    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return true;
+}
+
+Pipe::Pipe() {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw_no_child();
+  read_end_ = ends[0];
+  write_end_ = ends[1];
+}
+
+Pipe::~Pipe() {
+  close(read_end_);
+  close_write_end();
+}
+
+void Pipe::close_write_end() {
+  if (write_end_ >= 0) close(write_end_);
+  write_end_ = -1;
+}
+
+/// Takes what is there; false when the other end has been closed.
+bool Pipe::take() {
+  char block[1 << 16];
+  const ssize_t got = read(read_end_, block, sizeof block);
+  if (got > 0) text.append(block, static_cast<size_t>(got));
+  return got > 0 || (got < 0 && errno == EINTR);
+}
+
+bool Pipe::read_until_closed(std::initializer_list<Pipe*> pipes, double max_seconds,
+                             size_t most_bytes) {
+  const Stopwatch watch;
+  std::vector<Pipe*> open(pipes);
+  std::vector<pollfd> waiting;
+  while (!open.empty()) {
+    const double left = max_seconds - watch.seconds();
+    size_t bytes = 0;
+    for (const Pipe* pipe : pipes) bytes += pipe->text.size();
+    if (!(left > 0.0) || bytes > most_bytes) return false;
+    waiting.clear();
+    for (const Pipe* pipe : open) waiting.push_back({pipe->read_end_, POLLIN, 0});
+    if (poll(waiting.data(), waiting.size(),
+             static_cast<int>(std::ceil(std::min(1e3 * left, 1e6)))) <= 0)
+      continue;
+    for (size_t k = open.size(); k-- > 0;)
+      if (waiting[k].revents != 0 && !open[k]->take())
+        open.erase(open.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  return true;
 }
 
 }  // namespace ballast

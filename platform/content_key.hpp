@@ -2,9 +2,10 @@
 // Keys of what a cached result depends on: 64-bit FNV-1a, as 16 hexadecimal digits.
 
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <string_view>
+
+#include "platform/text.hpp"
 
 namespace ballast {
 
@@ -13,10 +14,10 @@ inline std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29c
   return hash;
 }
 
-inline std::string content_key(std::string_view text) {
-  char hex[17];
-  std::snprintf(hex, sizeof hex, "%016llx", static_cast<unsigned long long>(fnv1a(text)));
-  return hex;
+inline std::string hash_text(std::uint64_t hash) {
+  return printed("%016llx", static_cast<unsigned long long>(hash));
 }
+
+inline std::string content_key(std::string_view text) { return hash_text(fnv1a(text)); }
 
 }  // namespace ballast

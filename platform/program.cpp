@@ -1,140 +1,174 @@
 #include "platform/program.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
+#include <fstream>
+#include <string_view>
 
+#include "platform/atomic_file.hpp"
+#include "platform/clock.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
+namespace fs = std::filesystem;
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// How many threads OpenBLAS and OpenMP take.
+constexpr const char* algebra_threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"};
 
-std::vector<std::string> child_environment() {
+/// A program, its arguments and its environment as exec wants them: made before the fork, after
+/// which no memory may be asked for when there are threads.
+class Call {
+ public:
+  Call(const std::string& program, const std::vector<std::string>& arguments,
+       std::vector<std::string> environment)
+      : words_{program}, environment_(std::move(environment)) {
+    words_.insert(words_.end(), arguments.begin(), arguments.end());
+    for (std::string& word : words_) word_pointers_.push_back(word.data());
+    for (std::string& variable : environment_) variable_pointers_.push_back(variable.data());
+    word_pointers_.push_back(nullptr);
+    variable_pointers_.push_back(nullptr);
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+  /// In the child: becomes the program, with standard input empty. Returns errno when it cannot.
+  int execute(int output, int errors) const {
+    dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(errors, STDERR_FILENO);
+    execvpe(word_pointers_[0], word_pointers_.data(), variable_pointers_.data());
+    return errno;
+  }
+
+ private:
+  std::vector<std::string> words_, environment_;
+  std::vector<char*> word_pointers_, variable_pointers_;
+};
+
+/// Ours, with nothing that changes what gnuplot writes.
+std::vector<std::string> plain_environment() {
   std::vector<std::string> variables{"LC_ALL=C"};
   for (char** entry = environ; *entry; ++entry) {
-    const std::string variable = *entry;
-    if (variable.rfind("LC_ALL=", 0) == 0 || variable.rfind("GNUPLOT", 0) == 0 ||
-        variable.rfind("GNUTERM=", 0) == 0)
-      continue;
-    variables.push_back(variable);
+    const std::string_view variable = *entry;
+    if (!variable.starts_with("LC_ALL=") && !variable.starts_with("GNUPLOT") &&
+        !variable.starts_with("GNUTERM="))
+      variables.emplace_back(variable);
   }
   return variables;
 }
 
-std::vector<char*> pointers(std::vector<std::string>& strings) {
-  std::vector<char*> result;
-  for (std::string& s : strings) result.push_back(s.data());
-  result.push_back(nullptr);
-  return result;
+std::vector<std::string> environment_with_one_algebra_thread() {
+  std::vector<std::string> variables;
+  for (char** entry = environ; *entry; ++entry) variables.emplace_back(*entry);
+  for (const std::string name : algebra_threads)
+    if (!getenv(name.c_str())) variables.push_back(name + "=1");
+  return variables;
 }
 
-struct Pipe {
-  int read_end = -1, write_end = -1;
-  Pipe() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-      throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
-    read_end = ends[0];
-    write_end = ends[1];
+/// A log to append to; closed with it.
+struct Log {
+  explicit Log(const fs::path& file)
+      : descriptor(open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
+    if (descriptor < 0) throw_file_error(file, "open");
   }
-  ~Pipe() {
-    close(read_end);
-    close_write_end();
-  }
-  void close_write_end() {
-    if (write_end >= 0) close(write_end);
-    write_end = -1;
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
+  ~Log() { close(descriptor); }
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+  const int descriptor;
 };
 
-/// Takes what is there; false when the other end has been closed.
-bool take(int descriptor, std::string& text) {
-  char block[1 << 16];
-  const ssize_t got = read(descriptor, block, sizeof block);
-  if (got > 0) text.append(block, static_cast<size_t>(got));
-  return got > 0 || (got < 0 && errno == EINTR);
-}
-
-/// Reads both until the child closes them; false when time is up or it is too much.
-bool read_both(const Pipe& output, const Pipe& errors, Clock::time_point deadline,
-               ProgramResult& result) {
-  constexpr size_t most = 256u << 20;
-  pollfd waiting[2] = {{output.read_end, POLLIN, 0}, {errors.read_end, POLLIN, 0}};
-  std::string* texts[2] = {&result.output, &result.errors};
-  while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0 || result.output.size() + result.errors.size() > most) return false;
-    if (poll(waiting, 2, static_cast<int>(std::min<long long>(left, 1000))) <= 0) continue;
-    for (int k = 0; k < 2; ++k)
-      if (waiting[k].fd >= 0 && waiting[k].revents != 0 && !take(waiting[k].fd, *texts[k]))
-        waiting[k].fd = -1;
-  }
-  return true;
-}
-
-/// A child may close both and go on: still no waiting for ever.
-int wait_for(pid_t child, Clock::time_point deadline, bool& timed_out) {
-  int status = 0;
-  for (;;) {
-    const pid_t ended = waitpid(child, &status, timed_out ? 0 : WNOHANG);
-    if (ended == child) break;
-    if (ended < 0 && errno != EINTR) return 127;
-    if (ended == 0 && Clock::now() > deadline) {
-      timed_out = true;
-      kill(child, SIGKILL);
-    } else if (ended == 0) {
-      usleep(1000);
-    }
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+ChildProcess start_beside(const fs::path& program, const std::vector<std::string>& arguments,
+                          const fs::path& file) {
+  const Log log(file);
+  const Call call(program.string(), arguments, environment_with_one_algebra_thread());
+  return ChildProcess([&] {
+    setpgid(0, 0);
+    const int error = call.execute(log.descriptor, log.descriptor);
+    dprintf(STDERR_FILENO, "ballast: %s: cannot be started: %s\n", program.c_str(),
+            std::strerror(error));
+    _exit(127);
+  });
 }
 
 }  // namespace
 
-ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments,
-                        double seconds) {
-  Pipe output, errors;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, output.write_end, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, errors.write_end, STDERR_FILENO);
-  std::vector<std::string> words{program}, environment = child_environment();
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, pointers(words).data(),
-                                 pointers(environment).data());
-  posix_spawn_file_actions_destroy(&actions);
-  output.close_write_end();
-  errors.close_write_end();
+ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          double seconds) {
+  constexpr size_t most_bytes = 256u << 20;
+  Pipe output, errors, failure;  // failure: why the program could not be started
+  const Call call(program, arguments, plain_environment());
+  const Stopwatch watch;
+  ChildProcess child([&] {
+    const int error = call.execute(output.write_end(), errors.write_end());
+    _exit(write(failure.write_end(), &error, sizeof error) == sizeof error ? 127 : 1);
+  });
+  for (Pipe* pipe : {&output, &errors, &failure}) pipe->close_write_end();
   ProgramResult result;
-  if (error != 0) {
+  const bool is_closed = Pipe::read_until_closed({&output, &errors, &failure}, seconds, most_bytes);
+  if (int error = 0; failure.text.size() == sizeof error) {
+    std::memcpy(&error, failure.text.data(), sizeof error);
     result.was_found = false;
     result.status = 127;
     result.errors = std::strerror(error);
     return result;
   }
-  const auto deadline =
-      Clock::now() + std::chrono::milliseconds(static_cast<long long>(1e3 * seconds));
-  if (!read_both(output, errors, deadline, result)) {
-    result.timed_out = true;
-    kill(child, SIGKILL);
+  // It may have closed its output and still go on: no waiting for ever.
+  result.timed_out = !is_closed;
+  while (!child.has_ended()) {
+    if (watch.seconds() > seconds) result.timed_out = true;
+    if (result.timed_out) child.send(SIGKILL);
+    usleep(1000);
   }
-  result.status = wait_for(child, deadline, result.timed_out);
+  result.status = child.status();
+  result.output = std::move(output.text);
+  result.errors = std::move(errors.text);
   return result;
+}
+
+BackgroundProgram::BackgroundProgram(const fs::path& program,
+                                     const std::vector<std::string>& arguments, const fs::path& log)
+    : child_(start_beside(program, arguments, log)) {}
+
+void BackgroundProgram::stop() const { child_.send(SIGTERM); }
+
+std::string last_line(const fs::path& log) {
+  std::ifstream stream(log);
+  std::string last;
+  for (std::string line; std::getline(stream, line);)
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  constexpr std::string_view prefix = "ballast: ";
+  return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
+}
+
+fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
+
+std::vector<std::string> own_words() {
+  std::vector<std::string> words;
+  const std::string text = read_whole_file("/proc/self/cmdline");
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find('\0', begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+void restart_with_one_algebra_thread() {
+  std::vector<std::string> words = own_words();
+  if (getenv(algebra_threads[0]) || words.empty()) return;
+  for (const char* name : algebra_threads) setenv(name, "1", 0);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv("/proc/self/exe", pointers.data());
+  throw Error("cannot start anew with OPENBLAS_NUM_THREADS=1");
 }
 
 }  // namespace ballast

@@ -1,8 +1,12 @@
 #pragma once
-// A program run as a child, without a shell.
+// Other programs as children, without a shell: one whose output is waited for, one that runs beside
+// us and writes into a log, and this program anew.
 
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "platform/child_process.hpp"
 
 namespace ballast {
 
@@ -18,7 +22,39 @@ struct ProgramResult {
 /// Runs program (looked up on PATH) with arguments, standard input empty, in the C locale and
 /// without the variables GNUPLOT* and GNUTERM; kills it after `seconds`, or when it has written
 /// more than 256 MB. Throws Error when there can be no child at all.
-ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments,
-                        double seconds);
+ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          double seconds);
+
+/// A program that runs beside this one and writes into a log. It is in a process group of its own,
+/// so that Ctrl-C reaches it only by stop(); it dies with this process.
+class BackgroundProgram {
+ public:
+  /// `program`: a path. What it writes is appended to `log`. Linear algebra in one thread
+  /// (OPENBLAS_NUM_THREADS=1 ...) unless the environment says otherwise. Throws Error when there
+  /// can be no child.
+  BackgroundProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                    const std::filesystem::path& log);
+
+  /// It has ended; status() holds then.
+  bool has_ended() { return child_.has_ended(); }
+  /// Exit code; 128 + signal when a signal ended it; 127 when it could not be started.
+  int status() const { return child_.status(); }
+  /// Asks it to end (SIGTERM): runs write a checkpoint first.
+  void stop() const;
+
+ private:
+  ChildProcess child_;
+};
+
+/// The last line of a log that says anything; without "ballast: ".
+std::string last_line(const std::filesystem::path& log);
+
+/// This program's file.
+std::filesystem::path own_program();
+/// The command line of this process, as it was given.
+std::vector<std::string> own_words();
+/// This program begins again with linear algebra in one thread, unless the environment says how
+/// many: a threaded BLAS reads that when it is loaded. Throws Error.
+void restart_with_one_algebra_thread();
 
 }  // namespace ballast

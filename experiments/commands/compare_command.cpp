@@ -2,9 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <stdlib.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -16,9 +13,9 @@
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/run/manifest.hpp"
 #include "experiments/run_page/report_origin.hpp"
-#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -33,31 +30,6 @@ struct CompareWords {
   CompareOptions comparison;
   bool report = true;
 };
-
-/// The command line of this process, as it was given.
-std::vector<std::string> own_words() {
-  std::vector<std::string> words;
-  const std::string text = read_whole_file("/proc/self/cmdline");
-  for (size_t begin = 0; begin < text.size();) {
-    const size_t end = std::min(text.find('\0', begin), text.size());
-    words.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
-}
-
-/// A threaded BLAS reads its number of threads when it is loaded: where nothing is said, this
-/// program begins again with one.
-void become_single_threaded(std::vector<std::string> words) {
-  if (getenv("OPENBLAS_NUM_THREADS") || words.empty()) return;
-  setenv("OPENBLAS_NUM_THREADS", "1", 0);
-  setenv("OMP_NUM_THREADS", "1", 0);
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  execv("/proc/self/exe", pointers.data());
-  throw Error("cannot start anew with OPENBLAS_NUM_THREADS=1");
-}
 
 bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
   std::cout << printed("%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done,
@@ -134,8 +106,8 @@ ExitCode compare_live(const CompareWords& options) {
 
 ExitCode compare(CompareWords options) {
   parse(options);
+  restart_with_one_algebra_thread();
   const std::vector<std::string> words = own_words();
-  become_single_threaded(words);
   options.comparison.folder = options.output;
   for (const std::string& word : words)
     options.comparison.command += (options.comparison.command.empty() ? "" : " ") +

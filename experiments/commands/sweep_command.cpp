@@ -12,7 +12,7 @@
 #include "experiments/plans/snakemake.hpp"
 #include "experiments/plans/sweep.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "platform/worker.hpp"
+#include "platform/program.hpp"
 
 namespace ballast {
 namespace {

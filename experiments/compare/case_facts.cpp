@@ -10,7 +10,6 @@
 
 #include "experiments/compare/compare_case.hpp"
 #include "platform/content_key.hpp"
-#include "platform/text.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 
@@ -31,7 +30,7 @@ class ContentHash {
   void add(const Values& values) {
     add(values.data(), static_cast<size_t>(values.size()) * sizeof(*values.data()));
   }
-  std::string key() const { return printed("%016llx", static_cast<unsigned long long>(hash_)); }
+  std::string key() const { return hash_text(hash_); }
 
  private:
   std::uint64_t hash_ = fnv1a("");

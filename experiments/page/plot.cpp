@@ -46,7 +46,7 @@ std::string run_gnuplot(const Figure& figure, PlotFormat format, const fs::path&
   }
   create_folder(commands.parent_path());
   write_whole_file(commands, script);
-  ProgramResult child = run_child("gnuplot", {"-d", commands.string()}, seconds);
+  ProgramResult child = run_program("gnuplot", {"-d", commands.string()}, seconds);
   if (!child.succeeded()) throw Error("figure " + figure.name + ": " + why(child, seconds));
   return std::move(child.output);
 }
@@ -54,7 +54,7 @@ std::string run_gnuplot(const Figure& figure, PlotFormat format, const fs::path&
 }  // namespace
 
 std::string gnuplot_version() {
-  const ProgramResult child = run_child("gnuplot", {"--version"}, 10.0);
+  const ProgramResult child = run_program("gnuplot", {"--version"}, 10.0);
   return child.succeeded() ? child.output.substr(0, child.output.find('\n')) : std::string();
 }
 

@@ -16,8 +16,8 @@
 #include "platform/error.hpp"
 #include "platform/file_lock.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/program.hpp"
 #include "platform/text.hpp"
-#include "platform/worker.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -69,7 +69,7 @@ class Engine {
       }
       const bool ready = !deposit || deposit->state == TaskState::finished;
       if (!may_start || !ready || workers_.size() >= static_cast<size_t>(options_.jobs)) continue;
-      workers_.emplace(k, std::make_unique<Worker>(program_, task.arguments, task.log));
+      workers_.emplace(k, std::make_unique<BackgroundProgram>(program_, task.arguments, task.log));
       task.state = TaskState::running;
       begun_[k] = seconds();
       started = true;
@@ -122,7 +122,7 @@ class Engine {
   SweepProgress progress_;
   Stopwatch watch_;
   double indexed_ = 0.0;
-  std::map<size_t, std::unique_ptr<Worker>> workers_;  // by task
+  std::map<size_t, std::unique_ptr<BackgroundProgram>> workers_;  // by task
   std::map<size_t, double> begun_;
 };
 

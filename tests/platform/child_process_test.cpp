@@ -151,8 +151,7 @@ TEST_CASE("a child dies with the process that made it") {
 TEST_CASE("pipes are read together until all are closed, or it is too long or too much") {
   Pipe a, b;
   const auto write_to = [](Pipe& pipe, const std::string& text) {
-    REQUIRE(write(pipe.write_end(), text.data(), text.size()) ==
-            static_cast<ssize_t>(text.size()));
+    REQUIRE(write(pipe.write_end(), text.data(), text.size()) == static_cast<ssize_t>(text.size()));
   };
   write_to(a, "one");
   write_to(b, "two");

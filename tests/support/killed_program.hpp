@@ -9,7 +9,7 @@
 
 #include "platform/clock.hpp"
 
-#include "platform/worker.hpp"
+#include "platform/program.hpp"
 
 namespace ballast {
 
@@ -17,7 +17,7 @@ namespace ballast {
 /// when it was killed.
 inline int run_and_kill(double seconds, const std::vector<std::string>& arguments,
                         const std::filesystem::path& log) {
-  Worker program(BALLAST_PROGRAM, arguments, log);
+  BackgroundProgram program(BALLAST_PROGRAM, arguments, log);
   const Stopwatch watch;
   while (!program.has_ended()) {
     if (watch.seconds() > seconds) return -1;  // the destructor kills

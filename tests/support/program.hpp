@@ -12,14 +12,14 @@
 namespace ballast {
 
 inline ProgramResult ballast_program(const std::vector<std::string>& arguments) {
-  return run_child(BALLAST_PROGRAM, arguments, 120.0);
+  return run_program(BALLAST_PROGRAM, arguments, 120.0);
 }
 
 /// The same with a shell's words before it: limits, redirections. `words` ends in the call of "$@".
 inline ProgramResult ballast_in_shell(const std::string& words,
                                       std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"-c", words, "sh", BALLAST_PROGRAM});
-  return run_child("/bin/sh", arguments, 120.0);
+  return run_program("/bin/sh", arguments, 120.0);
 }
 
 /// It failed as failures shall: this exit code and one line on standard error, which names all of

@@ -52,7 +52,7 @@ TEST_CASE("a figure becomes an SVG, and a script that makes it again") {
   CHECK_THAT(svg, Contains("<svg") && Contains("a title") && Contains("(mm)"));
   CHECK(read_whole_file(figures / "simple.svg") == svg);
   const ProgramResult again =
-      run_child("gnuplot", {"-d", (figures / "simple.gnuplot").string()}, 30.0);
+      run_program("gnuplot", {"-d", (figures / "simple.gnuplot").string()}, 30.0);
   CHECK(again.output == svg);
   CHECK(std::distance(fs::directory_iterator(figures), fs::directory_iterator()) == 2);
 }

@@ -6,7 +6,7 @@
 
 #include "experiments/plans/plan.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/worker.hpp"
+#include "platform/program.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/plans/small_sweep.hpp"
 #include "tests/support/program.hpp"
@@ -137,8 +137,9 @@ TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else swee
                                     "[[run]]\nname = \"long\"\nset = [\"scene.duration=100\", "
                                     "\"record.checkpoint_seconds=1000\"]\n");
   const fs::path run = folder_of(results, read_plan(file).runs[0]);
-  Worker long_sweep(BALLAST_PROGRAM,
-                    {"sweep", file.string(), "--output", results.string(), "--only", "long"}, log);
+  BackgroundProgram long_sweep(
+      BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string(), "--only", "long"},
+      log);
   for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_sweep.has_ended();
        ++k)
     usleep(10'000);

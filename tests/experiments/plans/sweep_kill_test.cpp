@@ -78,17 +78,18 @@ TEST_CASE("children die with a sweep that is killed") {
   const fs::path log = results / "logs" / (run_key(run) + ".log");
   Stopwatch watch;
   {
-    Worker sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string()},
-                 folder.path() / "log");
+    BackgroundProgram sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string()},
+                            folder.path() / "log");
     while (!fs::exists(log) && watch.seconds() < 60.0 && !sweep.has_ended()) usleep(2000);
     REQUIRE(fs::exists(log));
   }
   // the folder can be had again: nobody holds its lock
-  Worker next(BALLAST_PROGRAM,
-              {"run", run.scene, "--set", run.overrides[0], "--output",
-               folder_of(results, run).string(), "--packing-cache", (results / "packings").string(),
-               "--continue", "--no-report", "--max-seconds", "0.2"},
-              folder.path() / "next.log");
+  BackgroundProgram next(
+      BALLAST_PROGRAM,
+      {"run", run.scene, "--set", run.overrides[0], "--output", folder_of(results, run).string(),
+       "--packing-cache", (results / "packings").string(), "--continue", "--no-report",
+       "--max-seconds", "0.2"},
+      folder.path() / "next.log");
   watch.restart();
   while (!next.has_ended() && watch.seconds() < 30.0) usleep(2000);
   REQUIRE(next.has_ended());

@@ -1,6 +1,7 @@
 // Every way in which a stored problem can be broken is one line that says where.
 
-#include <cstdio>
+#include "problems/files/fclib_file.hpp"
+
 #include <functional>
 
 #include "platform/hdf5_reader.hpp"
@@ -130,25 +131,4 @@ TEST_CASE("each broken global file is refused") {
   std::vector<double> x = Hdf5Reader(file).read_doubles("/fclib_global/M/x");
   x[0] = -1.0;
   CHECK(broken("/fclib_global/M/x", x).rfind("M(0, 0) = -1", 0) == 0);
-}
-
-TEST_CASE("HDF5 prints nothing of its own, and speaks again afterwards") {
-  const Folder folder;
-  write_problem(folder / "p.hdf5", small().problem);
-  remove(folder / "p.hdf5", "/fclib_global/M/x");
-  const fs::path log = folder / "stderr.txt";
-  const int saved = ::dup(STDERR_FILENO);
-  REQUIRE(std::freopen(log.c_str(), "w", stderr) != nullptr);
-  const std::string text = complaint(folder / "p.hdf5");
-  std::fflush(stderr);
-  const auto silent = fs::file_size(log);
-  H5Fopen((folder / "absent").c_str(), H5F_ACC_RDONLY,
-          H5P_DEFAULT);  // not through us: HDF5 complains as it was told to
-  std::fflush(stderr);
-  const auto loud = fs::file_size(log);
-  ::dup2(saved, STDERR_FILENO);
-  ::close(saved);
-  CHECK(text == "/fclib_global/M/x: no such dataset");
-  CHECK(silent == 0);
-  CHECK(loud > 0);
 }

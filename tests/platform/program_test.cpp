@@ -1,0 +1,139 @@
+#include "platform/program.hpp"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "platform/atomic_file.hpp"
+#include "platform/clock.hpp"
+#include "platform/error.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+ProgramResult shell(const std::string& script, double seconds = 30.0) {
+  return run_program("sh", {"-c", script}, seconds);
+}
+
+int status_of(BackgroundProgram& program) {
+  const Stopwatch watch;
+  while (!program.has_ended() && watch.seconds() < 30.0) usleep(1000);
+  REQUIRE(program.has_ended());
+  return program.status();
+}
+
+}  // namespace
+
+TEST_CASE("output, errors and exit code of a program come back") {
+  const ProgramResult result = shell("echo out; echo err >&2; exit 3");
+  CHECK(result.was_found);
+  CHECK_FALSE(result.timed_out);
+  CHECK_FALSE(result.succeeded());
+  CHECK(result.status == 3);
+  CHECK(result.output == "out\n");
+  CHECK(result.errors == "err\n");
+  CHECK(shell("true").succeeded());
+  CHECK(shell("kill -TERM $$").status == 128 + SIGTERM);
+  CHECK(run_program("printf", {"%s|%s", "a b", "$HOME"}, 30.0).output == "a b|$HOME");
+}
+
+TEST_CASE("much output on both channels does not block") {
+  const ProgramResult result =
+      shell("head -c 3000000 /dev/zero; head -c 3000000 /dev/zero >&2; cat; echo end");
+  CHECK(result.succeeded());
+  CHECK(result.output.size() == 3000004);  // `cat` found its input empty
+  CHECK(result.errors.size() == 3000000);
+}
+
+TEST_CASE("a program that is not there is told apart from one that fails") {
+  const ProgramResult result = run_program("ballast-no-such-program", {}, 30.0);
+  CHECK_FALSE(result.was_found);
+  CHECK_FALSE(result.succeeded());
+  CHECK(result.status == 127);
+  CHECK(result.errors == "No such file or directory");
+  CHECK(shell("exit 127").was_found);
+}
+
+TEST_CASE("a program that takes too long is killed, even when it has closed its output") {
+  for (const char* script : {"sleep 60", "exec >&- 2>&-; sleep 60"}) {
+    CAPTURE(script);
+    const Stopwatch watch;
+    const ProgramResult result = shell(std::string("exec 0<&-; ") + script, 0.2);
+    CHECK(result.timed_out);
+    CHECK(result.status == 128 + SIGKILL);
+    CHECK(watch.seconds() < 20.0);
+  }
+}
+
+TEST_CASE("programs whose output is read find the C locale and nothing of gnuplot's") {
+  setenv("GNUPLOT_LIB", "somewhere", 1);
+  setenv("GNUTERM", "x11", 1);
+  setenv("BALLAST_TEST_VARIABLE", "kept", 1);
+  const ProgramResult result =
+      shell("echo \"$LC_ALL|$GNUPLOT_LIB|$GNUTERM|$BALLAST_TEST_VARIABLE\"");
+  for (const char* name : {"GNUPLOT_LIB", "GNUTERM", "BALLAST_TEST_VARIABLE"}) unsetenv(name);
+  CHECK(result.output == "C|||kept\n");
+}
+
+TEST_CASE("a program beside us appends to its log") {
+  const TemporaryFolder folder;
+  const fs::path log = folder.write("log", "before\n");
+  BackgroundProgram program("/bin/sh", {"-c", "echo out; echo err >&2; exit 4"}, log);
+  CHECK(status_of(program) == 4);
+  CHECK(read_whole_file(log) == "before\nout\nerr\n");
+  CHECK_THROWS_AS(BackgroundProgram("/bin/sh", {}, folder.path() / "absent" / "log"), Error);
+}
+
+TEST_CASE("a program beside us ends when it is asked, and with its object") {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "log";
+  BackgroundProgram asked(
+      "/bin/sh", {"-c", "trap 'exit 9' TERM; echo ready; while :; do sleep 0.01; done"}, log);
+  const Stopwatch watch;
+  while (read_whole_file(log).empty() && watch.seconds() < 30.0) usleep(1000);
+  asked.stop();
+  CHECK(status_of(asked) == 9);
+  const Stopwatch since;
+  { const BackgroundProgram left("/bin/sleep", {"60"}, log); }
+  CHECK(since.seconds() < 20.0);
+}
+
+TEST_CASE("a program beside us has one thread of linear algebra, where nothing else is said") {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "log";
+  const char* old = getenv("OPENBLAS_NUM_THREADS");
+  const std::string kept = old ? old : "";
+  unsetenv("OPENBLAS_NUM_THREADS");
+  setenv("OMP_NUM_THREADS", "2", 1);
+  BackgroundProgram program("/bin/sh", {"-c", "echo $OPENBLAS_NUM_THREADS $OMP_NUM_THREADS"}, log);
+  CHECK(status_of(program) == 0);
+  unsetenv("OMP_NUM_THREADS");
+  if (old) setenv("OPENBLAS_NUM_THREADS", kept.c_str(), 1);
+  CHECK(read_whole_file(log) == "1 2\n");
+}
+
+TEST_CASE("what cannot be started says so in the log") {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "log", absent = folder.path() / "absent";
+  BackgroundProgram program(absent, {}, log);
+  CHECK(status_of(program) == 127);
+  CHECK(last_line(log) == absent.string() + ": cannot be started: No such file or directory");
+}
+
+TEST_CASE("the last line of a log that says anything") {
+  const TemporaryFolder folder;
+  CHECK(last_line(folder.path() / "absent").empty());
+  CHECK(last_line(folder.write("log", "one\ntwo\n \n\t\n")) == "two");
+  CHECK(last_line(folder.write("log", "one\nballast: two")) == "two");
+}
+
+TEST_CASE("this program knows its file and its words") {
+  CHECK(own_program().filename() == "platform_test");
+  const std::vector<std::string> words = own_words();
+  REQUIRE_FALSE(words.empty());
+  CHECK(fs::path(words[0]).filename() == "platform_test");
+}
