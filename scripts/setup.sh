@@ -1,5 +1,5 @@
-# Sourced by run.sh and test.sh: installs the Debian packages that are missing, configures and builds.
-# Usage: ballast_setup PRESET TARGET [--no-install]
+# Sourced by run.sh, test.sh and .ci/run: installs the Debian packages that are missing, configures
+# and builds.
 
 say() { printf '== %s\n' "$*"; }
 die() { printf 'ballast: %s\n' "$*" >&2; exit 1; }
@@ -7,33 +7,63 @@ die() { printf 'ballast: %s\n' "$*" >&2; exit 1; }
 # Threaded BLAS makes supernodal factorisations slower, and results depend on it.
 export OPENBLAS_NUM_THREADS=1
 
+# missing_packages LIST...: the packages of these files that are not installed.
 missing_packages() {
   local package
-  grep -v '^ *\(#\|$\)' "$root/apt-packages.txt" | while read -r package; do
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || echo "$package"
+  grep -hv '^ *\(#\|$\)' "$@" | while read -r package; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' ||
+      echo "$package"
   done
 }
 
+# install_packages LIST...
 install_packages() {
-  command -v dpkg-query >/dev/null || { say "not a Debian system: assuming that what apt-packages.txt lists is there"; return; }
+  command -v dpkg-query >/dev/null || {
+    say "not a Debian system: assuming that what apt-packages.txt lists is there"
+    return
+  }
   local missing as_root=()
-  missing=$(missing_packages)
+  missing=$(missing_packages "$@")
   [ -z "$missing" ] && return
   [ "$(id -u)" = 0 ] || as_root=(sudo)
   say "installing:" $missing
   "${as_root[@]}" apt-get update -qq || die "apt-get update failed"
   # shellcheck disable=SC2086
-  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends $missing >/dev/null ||
-    die "could not install: $missing"
+  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends \
+    $missing >/dev/null || die "could not install: $missing"
 }
 
+# show_progress LOG: copies the build's output into LOG and says how far it is, on a terminal on one
+# line that rewrites itself, elsewhere a line for every tenth.
+show_progress() {
+  local terminal=0
+  [ -t 1 ] && terminal=1
+  awk -v log_file="$1" -v terminal="$terminal" '
+    { print >> log_file }
+    match($0, /^\[[0-9]+\/[0-9]+\]/) {
+      split(substr($0, 2, RLENGTH - 2), part, "/")
+      tenth = int(10 * part[1] / part[2])
+      if (terminal) {
+        printf "\r   %d of %d", part[1], part[2]; fflush(); open = 1
+      } else if (tenth > last) {
+        printf "   %d of %d\n", part[1], part[2]; fflush()
+      }
+      last = tenth
+    }
+    END { if (open) printf "\r\033[K" }'
+}
+
+# ballast_setup PRESET TARGET [--no-install]
 ballast_setup() {
-  local preset=$1 target=$2
-  [ "${3:-}" = --no-install ] || install_packages
+  local preset=$1 target=$2 log begin=$SECONDS
+  [ "${3:-}" = --no-install ] || install_packages "$root/apt-packages.txt"
   cd "$root" || exit 1
+  log=$root/build-$preset.log
   say "building (preset $preset)"
-  cmake --preset "$preset" >"$root/build-$preset.log" 2>&1 && cmake --build --preset "$preset" --target "$target" >>"$root/build-$preset.log" 2>&1 || {
-    tail -n 40 "$root/build-$preset.log" >&2
+  cmake --preset "$preset" >"$log" 2>&1 &&
+    cmake --build --preset "$preset" --target "$target" 2>&1 | show_progress "$log" || {
+    tail -n 40 "$log" >&2
     die "the build failed; the whole log is build-$preset.log"
   }
+  say "ready after $((SECONDS - begin)) s"
 }
