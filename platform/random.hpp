@@ -1,7 +1,7 @@
 #pragma once
 // Seeded random numbers, the same on every machine: integer arithmetic and additions only, where
 // the standard library's distributions may differ from one library to the next.
-// (Random::log_uniform also asks libm for a power: its last bit may differ.)
+// (RandomNumbers::log_uniform also asks libm for a power: its last bit may differ.)
 
 #include <bit>
 #include <cmath>
@@ -28,11 +28,10 @@ class SplitMix64 {
   std::uint64_t state_;
 };
 
-/// xoshiro256++ (Blackman & Vigna 2019), its state filled by splitmix64. Packings depend on every
-/// bit of it. Directions and rotations: geometry/shape/random_direction.hpp.
-class Random {
+/// xoshiro256++ (Blackman & Vigna 2019), its state filled by splitmix64.
+class Xoshiro256 {
  public:
-  explicit Random(std::uint64_t seed) {
+  explicit Xoshiro256(std::uint64_t seed) {
     SplitMix64 words(seed);
     for (std::uint64_t& word : state_) word = words.next();
   }
@@ -48,15 +47,25 @@ class Random {
     state_[3] = std::rotl(state_[3], 45);
     return result;
   }
+  /// In {0, ..., n-1}. The bias of the scaled uniform is below n/2^53.
+  int below(int n) { return static_cast<int>(static_cast<double>(next() >> 11) * 0x1p-53 * n); }
+
+ private:
+  std::uint64_t state_[4];
+};
+
+/// Real numbers from a source of 64-bit words.
+template <class Words>
+class RandomNumbers : public Words {
+ public:
+  using Words::Words;
 
   /// In [0, 1), 53 random bits.
-  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+  double uniform() { return static_cast<double>(this->next() >> 11) * 0x1p-53; }
   /// In [low, high).
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// Between low and high, both > 0, uniform in the logarithm.
   double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
-  /// In {0, ..., n-1}. The bias of the scaled uniform is below n/2^53.
-  int below(int n) { return static_cast<int>(uniform() * n); }
 
   /// Mean 0, variance 1, |x| <= 6: the sum of twelve uniforms less six, which needs no logarithm.
   double normal() {
@@ -64,9 +73,14 @@ class Random {
     for (int i = 0; i < 12; ++i) sum += uniform();
     return sum;
   }
-
- private:
-  std::uint64_t state_[4];
 };
+
+/// The generator to use. Packings depend on every bit of it. Directions and rotations:
+/// geometry/shape/random_direction.hpp.
+using Random = RandomNumbers<Xoshiro256>;
+
+/// What made problems (problems/algebra/known_solutions) are drawn with: a case "known:7" of a
+/// published table is the same problem today.
+using ProblemRandom = RandomNumbers<SplitMix64>;
 
 }  // namespace ballast

@@ -8,7 +8,7 @@
 namespace ballast {
 namespace {
 
-Eigen::Vector3d random_direction(Random& random) {
+Eigen::Vector3d random_direction(ProblemRandom& random) {
   for (;;) {  // rejection from the cube
     const Eigen::Vector3d x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const double length = x.norm();
@@ -17,7 +17,7 @@ Eigen::Vector3d random_direction(Random& random) {
 }
 
 /// Rows n, t1, t2 of a right-handed frame.
-Eigen::Matrix3d random_frame(Random& random) {
+Eigen::Matrix3d random_frame(ProblemRandom& random) {
   const Eigen::Vector3d n = random_direction(random);
   Eigen::Vector3d other = random_direction(random);
   while (std::abs(n.dot(other)) > 0.9) other = random_direction(random);
@@ -35,7 +35,7 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& x) {
 
 /// A rigid body of about unit size: mass m, inertia about m/10, turned, so that its block is not
 /// diagonal.
-void add_body(double mass, Random& random, DynamicsForm& dynamics) {
+void add_body(double mass, ProblemRandom& random, DynamicsForm& dynamics) {
   const Eigen::Vector3d inertia(random.uniform(0.05, 0.15), random.uniform(0.05, 0.15),
                                 random.uniform(0.05, 0.15));
   const Eigen::Matrix3d axes = random_frame(random);
@@ -49,7 +49,7 @@ void add_body(double mass, Random& random, DynamicsForm& dynamics) {
 }
 
 /// Rows of the relative velocity of b against a at a point half a size away from each centre.
-void add_contact(int a, int b, int rows, Random& random, FrictionProblem& problem) {
+void add_contact(int a, int b, int rows, ProblemRandom& random, FrictionProblem& problem) {
   DynamicsForm& dynamics = problem.dynamics;
   const Eigen::Matrix3d frame = random_frame(random);
   const std::array<int, 2> bodies{a, b};
@@ -69,8 +69,8 @@ void add_contact(int a, int b, int rows, Random& random, FrictionProblem& proble
 }
 
 /// (r, u) of one contact that obeys Coulomb's law to rounding: leaves, slips or sticks.
-void choose_solution(const KnownSolutionSettings& settings, double mu, int rows, Random& random,
-                     double* r, double* u) {
+void choose_solution(const KnownSolutionSettings& settings, double mu, int rows,
+                     ProblemRandom& random, double* r, double* u) {
   const double kind = random.uniform(), angle = 2.0 * M_PI * random.uniform();
   const double t1 = std::cos(angle), t2 = std::sin(angle);
   const double force = random.uniform(0.1, 1.0), speed = random.uniform(0.1, 1.0);
@@ -99,7 +99,7 @@ void choose_solution(const KnownSolutionSettings& settings, double mu, int rows,
 }  // namespace
 
 KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
-  Random random(settings.seed);
+  ProblemRandom random(settings.seed);
   KnownSolution known;
   FrictionProblem& problem = known.problem;
   DynamicsForm& dynamics = problem.dynamics;
