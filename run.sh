@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the paper's experiment: 1200 polyhedral grains in a box, driven at 5 Hz for 1 s.
+# Installs what is missing, builds, and runs the paper's experiment: 1200 polyhedral grains in a
+# box, driven at 5 Hz for 1 s.
 #
 #   ./run.sh [--no-install] [arguments of `ballast run`, default: vibrated_box]
 #
@@ -10,7 +11,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 install=
 if [ "${1:-}" = --no-install ]; then install=--no-install; shift; fi
-if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0; fi
+if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
+  sed -n '2,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  exit 0
+fi
 ballast_setup default ballast $install
 
 [ $# -gt 0 ] || set -- vibrated_box
@@ -18,5 +22,8 @@ ballast=$root/build/default/bin/ballast
 # a run that was stopped goes on; a finished one is not done again
 if [ $# = 1 ] && [ -e "$root/results/$1/checkpoint.bin" ]; then set -- "$1" --resume; fi
 # the same bits on one thread; a third finds nothing to do in 1200 grains
-case " $* " in *" --threads "* | *" --threads="*) ;; *) [ "$(nproc)" -lt 2 ] || set -- "$@" --threads 2 ;; esac
+case " $* " in
+  *" --threads "* | *" --threads="*) ;;
+  *) [ "$(nproc)" -lt 2 ] || set -- "$@" --threads 2 ;;
+esac
 exec "$ballast" run "$@"

@@ -2,8 +2,10 @@
 add_library(ballast_options INTERFACE)
 target_include_directories(ballast_options INTERFACE ${CMAKE_SOURCE_DIR})
 # Same bits on every machine: no fused multiply-add chosen by the compiler, no reassociation.
-# Nobody reads errno after std::sqrt; without this each root is a branch and no loop with one is vectorised.
-target_compile_options(ballast_options INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+# Nobody reads errno after std::sqrt; without this each root is a branch and no loop with one is
+# vectorised.
+target_compile_options(ballast_options INTERFACE
+  -ffp-contract=off -fno-math-errno -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
 # Eigen's asserts stay out of release builds; -O3 vectorises the sweep.
 target_compile_options(ballast_options INTERFACE $<$<CONFIG:Release>:-O3>)
 if(BALLAST_WARNINGS_AS_ERRORS)

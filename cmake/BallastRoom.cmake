@@ -1,14 +1,14 @@
 # ballast_room(NAME FOLDER [DOORS rooms...] [LIBRARIES targets...] [EXCEPT files...])
 #
-# The library ballast_NAME of one room of the house: all .cpp files of FOLDER, except those named (the
-# ones that need an optional library: the caller adds them where the library is found).
+# The library ballast_NAME of one room of the house: all .cpp files of FOLDER, except those named.
+# (They need an optional library: the caller adds them where it is found.)
 #   DOORS      the rooms whose headers it may include; what is not named here does not link
 #   LIBRARIES  third-party libraries that only its sources see
 # Sources are compiled in batches (unity build), and the headers that nearly all of them need are
 # read once (precompiled).
 #
-# QUICK_TO_COMPILE: rooms without a hot loop are compiled with -O1, the others with -O3. Both give the
-# same bits: no option here lets the compiler change the order of floating-point operations.
+# QUICK_TO_COMPILE: rooms without a hot loop are compiled with -O1, the others with -O3. Both give
+# the same bits: no option here lets the compiler change the order of floating-point operations.
 function(ballast_room name folder)
   cmake_parse_arguments(ROOM "QUICK_TO_COMPILE" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
@@ -44,7 +44,7 @@ foreach(level O1 O3)
   if(level STREQUAL O1)
     target_compile_options(ballast_headers_O1 PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
-  target_precompile_headers(ballast_headers_${level} PRIVATE <Eigen/Dense> <Eigen/Sparse> <algorithm>
-    <chrono> <cmath> <filesystem> <fstream> <functional> <iostream> <map> <memory> <optional> <set>
+  target_precompile_headers(ballast_headers_${level} PRIVATE
+    <Eigen/Dense> <Eigen/Sparse> <algorithm> <chrono> <cmath> <filesystem> <fstream> <functional> <iostream> <map> <memory> <optional> <set>
     <span> <sstream> <string> <variant> <vector>)
 endforeach()

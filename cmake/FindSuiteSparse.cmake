@@ -1,5 +1,5 @@
-# SuiteSparse 5.12 (Debian 12) has no CMake config. Defines SuiteSparse_FOUND and the target SuiteSparse::SuiteSparse
-# (CHOLMOD, UMFPACK).
+# SuiteSparse 5.12 (Debian 12) has no CMake config. Defines SuiteSparse_FOUND and the target
+# SuiteSparse::SuiteSparse (CHOLMOD, UMFPACK).
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 find_library(SuiteSparse_CHOLMOD cholmod)
 find_library(SuiteSparse_UMFPACK umfpack)
@@ -12,6 +12,7 @@ find_package_handle_standard_args(SuiteSparse
 if(SuiteSparse_FOUND AND NOT TARGET SuiteSparse::SuiteSparse)
   add_library(SuiteSparse::SuiteSparse INTERFACE IMPORTED)
   target_include_directories(SuiteSparse::SuiteSparse INTERFACE ${SuiteSparse_INCLUDE_DIR})
-  target_link_libraries(SuiteSparse::SuiteSparse INTERFACE ${SuiteSparse_UMFPACK} ${SuiteSparse_CHOLMOD})
+  target_link_libraries(SuiteSparse::SuiteSparse INTERFACE
+    ${SuiteSparse_UMFPACK} ${SuiteSparse_CHOLMOD})
 endif()
 mark_as_advanced(SuiteSparse_INCLUDE_DIR SuiteSparse_CHOLMOD SuiteSparse_UMFPACK)
