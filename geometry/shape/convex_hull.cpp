@@ -1,14 +1,11 @@
 #include "geometry/shape/convex_hull.hpp"
 
-#include <libqhull_r/qhull_ra.h>
-
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
-#include <numeric>
-#include <sstream>
-#include <utility>
+#include <cmath>
+#include <string>
+
+#include "geometry/shape/close_pairs.hpp"
+#include "geometry/shape/qhull_loops.hpp"
 
 namespace ballast {
 
@@ -29,104 +26,6 @@ constexpr double kMerge[] = {1e-10, 1e-14};
 /// would make needles, whose planes mean nothing. Above Polyhedron's tolerance of 1e-9 of a size
 /// that is at most 2 sqrt(3) half-extents.
 constexpr double kCorner = 4e-9;
-
-using Loops = std::vector<std::vector<int>>;
-
-/// A message stream in memory: qhull writes its complaints there instead of to stderr.
-class Messages {
- public:
-  Messages() : file_(open_memstream(&text_, &length_)) {
-    if (!file_) throw std::bad_alloc();
-  }
-  ~Messages() {
-    std::fclose(file_);
-    std::free(text_);
-  }
-  Messages(const Messages&) = delete;
-  Messages& operator=(const Messages&) = delete;
-  FILE* file() { return file_; }
-  std::string first_line() {
-    std::fflush(file_);
-    const std::string all(text_, length_);
-    return all.substr(0, all.find('\n', all.find_first_not_of('\n')));
-  }
-
- private:
-  char* text_ = nullptr;
-  size_t length_ = 0;
-  FILE* file_;
-};
-
-/// One qhull run and its memory.
-class QhullRun {
- public:
-  QhullRun(std::vector<double>& coordinates, double merge) {
-    qh_zero(&qh_, messages_.file());
-    std::ostringstream command;
-    command << "qhull Pp E" << merge;  // Pp: no warnings about precision
-    std::string text = command.str();  // qhull wants it writable
-    const int code =
-        qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False,
-                     text.data(), nullptr, messages_.file());
-    if (code != qh_ERRnone) {
-      const std::string reason = messages_.first_line();
-      release();
-      throw InvalidPolyhedron(reason);
-    }
-  }
-  ~QhullRun() { release(); }
-  QhullRun(const QhullRun&) = delete;
-  QhullRun& operator=(const QhullRun&) = delete;
-
-  /// Vertex loops of the merged facets, in qhull's order of facets; orientation and starting vertex
-  /// as they come.
-  Loops loops() {
-    Loops result;
-    qhT* qh = &qh_;  // the name that qhull's macros expect
-    facetT* facet;
-    FORALLfacets { result.push_back(loop(facet)); }
-    return result;
-  }
-
- private:
-  void release() {
-    qh_freeqhull(&qh_, !qh_ALL);
-    int blocks, bytes;
-    qh_memfreeshort(&qh_, &blocks, &bytes);
-  }
-
-  std::vector<int> loop(facetT* facet) {
-    qhT* qh = &qh_;
-    std::vector<int> vertices;
-    vertexT *vertex, **vertexp;
-    FOREACHvertex_(facet->vertices) vertices.push_back(qh_pointid(qh, vertex->point));
-    if (facet->simplicial) return vertices;
-    // a merged facet's vertices are unordered: chain its ridges, which are its edges in 3-d
-    std::vector<std::pair<int, int>> links;
-    ridgeT *ridge, **ridgep;
-    FOREACHridge_(facet->ridges) {
-      links.emplace_back(qh_pointid(qh, SETfirstt_(ridge->vertices, vertexT)->point),
-                         qh_pointid(qh, SETsecondt_(ridge->vertices, vertexT)->point));
-    }
-    std::vector<int> chain{links.front().first};
-    for (int at = links.front().second; at != chain.front();) {
-      chain.push_back(at);
-      const auto next = std::find_if(links.begin(), links.end(), [&](const auto& link) {
-        const int previous = chain[chain.size() - 2];
-        return (link.first == at && link.second != previous) ||
-               (link.second == at && link.first != previous);
-      });
-      if (next == links.end() || chain.size() > links.size()) {
-        throw InvalidPolyhedron("a face of the hull is no simple loop");
-      }
-      at = next->first == at ? next->second : next->first;
-    }
-    return chain;
-  }
-
-  Messages messages_;
-  qhT qh_;
-};
 
 /// Throws on NaN and on too few points; returns the points moved to their box's centre and scaled
 /// to half-extent 1, so that qhull's tolerances are relative.
@@ -171,21 +70,10 @@ void check_spatial(const std::vector<Vec3>& points) {
 }
 
 /// Ascending indices of the points, without those within kWeld of one that stays (the smaller index
-/// stays). A sweep along a direction in which no usual set has many equal heights.
+/// stays).
 std::vector<int> distinct(const std::vector<Vec3>& points) {
-  const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
-  std::vector<std::pair<double, int>> order;
-  for (size_t i = 0; i < points.size(); ++i)
-    order.emplace_back(direction.dot(points[i]), static_cast<int>(i));
-  std::sort(order.begin(), order.end());
   std::vector<bool> dropped(points.size(), false);
-  for (size_t i = 0; i < order.size(); ++i) {
-    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * kWeld;
-         ++j) {
-      const int a = order[i].second, b = order[j].second;
-      if ((points[a] - points[b]).norm() <= kWeld) dropped[std::max(a, b)] = true;
-    }
-  }
+  for (const auto& [first, second] : close_pairs(points, kWeld)) dropped[second] = true;
   std::vector<int> kept;
   for (size_t i = 0; i < points.size(); ++i) {
     if (!dropped[i]) kept.push_back(static_cast<int>(i));
@@ -252,7 +140,7 @@ Loops hull_loops(const std::vector<Vec3>& points, double merge) {
     std::vector<double> coordinates;
     for (const int i : kept)
       coordinates.insert(coordinates.end(), points[i].begin(), points[i].end());
-    Loops loops = QhullRun(coordinates, merge).loops();
+    Loops loops = qhull_loops(coordinates, merge);
     for (auto& loop : loops)
       for (int& v : loop) v = kept[v];
     make_canonical(loops, points);

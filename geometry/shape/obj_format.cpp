@@ -1,11 +1,9 @@
-// Wavefront OBJ: the statements v and f; texture, normals, groups and materials are passed over.
+#include "geometry/shape/obj_format.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "geometry/shape/mesh_formats.hpp"
-
-namespace ballast::mesh_formats {
+namespace ballast::raw_mesh {
 
 namespace {
 
@@ -58,7 +56,7 @@ RawMesh read_obj(const std::filesystem::path& file, std::string_view text) {
       place.fail("unknown OBJ statement " + quoted(keyword));
     }
   }
-  // only now: a face may name vertices that come after it
+  // Indices are checked at the end: a face may name vertices that come after it.
   const int count = static_cast<int>(mesh.vertices.size());
   for (size_t f = 0; f < mesh.faces.size(); ++f) {
     for (const int v : mesh.faces[f]) {
@@ -70,19 +68,4 @@ RawMesh read_obj(const std::filesystem::path& file, std::string_view text) {
   return mesh;
 }
 
-std::string obj_text(const Polyhedron& polyhedron) {
-  std::string text = "# convex polyhedron, faces counter-clockwise from outside, metres\n";
-  for (const Vec3& p : polyhedron.vertices()) {
-    text += "v";
-    for (const double x : p) append_number(text += ' ', x);
-    text += '\n';
-  }
-  for (int f = 0; f < polyhedron.face_count(); ++f) {
-    text += "f";
-    for (const int v : polyhedron.face(f)) text.append(1, ' ').append(std::to_string(v + 1));
-    text += '\n';
-  }
-  return text;
-}
-
-}  // namespace ballast::mesh_formats
+}  // namespace ballast::raw_mesh

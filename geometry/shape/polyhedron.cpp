@@ -3,26 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
-#include <sstream>
 #include <tuple>
 #include <utility>
+
+#include "geometry/shape/mesh_checks.hpp"
 
 namespace ballast {
 
 namespace {
 
-/// Where a defect lies: a face, a vertex, or neither.
-struct At {
-  int face = -1, vertex = -1;
-};
-
-template <class... Parts>
-[[noreturn]] void invalid(At at, const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw InvalidPolyhedron(message.str(), at.face, at.vertex);
-}
+using mesh_checks::At;
+using mesh_checks::invalid;
 
 Vec3 mean(std::span<const Vec3> points) {
   Vec3 sum = Vec3::Zero();
@@ -30,31 +21,12 @@ Vec3 mean(std::span<const Vec3> points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Sorts each bucket of (bucket, value) pairs and lays them out one after another:
-/// begin[b]..begin[b+1] of `values`.
-void fill_buckets(std::vector<std::pair<int, int>> pairs, int buckets, std::vector<int>& begin,
-                  std::vector<int>& values) {
-  std::sort(pairs.begin(), pairs.end());
-  begin.assign(buckets + 1, 0);
-  values.clear();
-  for (const auto& [bucket, value] : pairs) {
-    ++begin[bucket + 1];
-    values.push_back(value);
-  }
-  for (int b = 0; b < buckets; ++b) begin[b + 1] += begin[b];
-}
-
 }  // namespace
 
 Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
                        double tolerance)
     : vertices_(std::move(vertices)) {
-  for (int v = 0; v < vertex_count(); ++v) {
-    if (!vertices_[v].allFinite())
-      invalid(At{.vertex = v}, "vertex ", v, " has a coordinate that is NaN or infinite");
-  }
-  if (vertices_.size() < 4)
-    invalid(At{}, "a polyhedron needs at least 4 vertices, got ", vertices_.size());
+  mesh_checks::check_coordinates(vertices_);
   const Vec3 centre = mean(vertices_);
   for (const Vec3& p : vertices_) {
     size_ = std::max(size_, (p - centre).norm());
@@ -63,54 +35,14 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   if (!(size_ > 0.0)) invalid(At{}, "all vertices coincide");
   if (!std::isfinite(size_ * size_ * size_))
     invalid(At{}, "coordinates are too large: the volume overflows");
-  check_input(faces, tolerance);
+  mesh_checks::check_indices(vertex_count(), faces);
+  mesh_checks::check_distinct(vertices_, tolerance * size_);
   build_faces(faces);
   build_edges();
-  build_vertex_lists();
+  build_vertex_faces();
   check_one_piece();
   const std::vector<double> thinness = build_planes(tolerance);
   check_convex(tolerance, thinness);
-}
-
-/// Indices in range, no vertex twice in a face, none unused, none twice in space.
-void Polyhedron::check_input(const std::vector<std::vector<int>>& faces, double tolerance) const {
-  std::vector<bool> used(vertices_.size(), false);
-  for (size_t f = 0; f < faces.size(); ++f) {
-    if (faces[f].size() < 3)
-      invalid(At{.face = static_cast<int>(f)}, "face ", f, " has ", faces[f].size(),
-              " vertices: at least 3 are needed");
-    std::set<int> seen;
-    for (const int v : faces[f]) {
-      if (v < 0 || v >= vertex_count())
-        invalid(At{.face = static_cast<int>(f)}, "face ", f, " names vertex ", v, " of ",
-                vertex_count());
-      if (!seen.insert(v).second)
-        invalid(At{.face = static_cast<int>(f)}, "face ", f, " passes through vertex ", v,
-                " twice");
-      used[v] = true;
-    }
-  }
-  for (int v = 0; v < vertex_count(); ++v) {
-    if (!used[v]) invalid(At{.vertex = v}, "vertex ", v, " belongs to no face");
-  }
-  // sweep along a direction in which no usual mesh has many equal heights: only close heights can
-  // coincide
-  const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
-  std::vector<std::pair<double, int>> order;
-  for (int v = 0; v < vertex_count(); ++v)
-    order.emplace_back(direction.dot(vertices_[v] - vertices_[0]), v);
-  std::sort(order.begin(), order.end());
-  const double reach = tolerance * size_;
-  for (size_t i = 0; i < order.size(); ++i) {
-    // twice the reach: the heights are rounded
-    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * reach;
-         ++j) {
-      const int a = order[i].second, b = order[j].second;
-      if ((vertices_[a] - vertices_[b]).norm() <= reach)
-        invalid(At{.vertex = std::max(a, b)}, "vertices ", std::min(a, b), " and ", std::max(a, b),
-                " coincide");
-    }
-  }
 }
 
 void Polyhedron::build_faces(const std::vector<std::vector<int>>& faces) {
@@ -170,18 +102,18 @@ void Polyhedron::build_edges() {
   }
 }
 
-void Polyhedron::build_vertex_lists() {
-  std::vector<std::pair<int, int>> pairs;
-  for (const Edge& edge : edges_) {
-    pairs.emplace_back(edge.tail, edge.head);
-    pairs.emplace_back(edge.head, edge.tail);
-  }
-  fill_buckets(pairs, vertex_count(), neighbour_begin_, vertex_neighbours_);
-  pairs.clear();
+void Polyhedron::build_vertex_faces() {
+  std::vector<std::pair<int, int>> pairs;  // (vertex, face)
   for (int f = 0; f < face_count(); ++f) {
     for (const int v : face(f)) pairs.emplace_back(v, f);
   }
-  fill_buckets(pairs, vertex_count(), vertex_face_begin_, vertex_faces_);
+  std::sort(pairs.begin(), pairs.end());
+  vertex_face_begin_.assign(vertex_count() + 1, 0);
+  for (const auto& [vertex, face] : pairs) {
+    ++vertex_face_begin_[vertex + 1];
+    vertex_faces_.push_back(face);
+  }
+  for (int v = 0; v < vertex_count(); ++v) vertex_face_begin_[v + 1] += vertex_face_begin_[v];
 }
 
 /// Faces connected across edges and Euler's V - E + F = 2: together they leave only the sphere, as
@@ -212,9 +144,8 @@ void Polyhedron::check_one_piece() const {
 std::vector<double> Polyhedron::build_planes(double tolerance) {
   std::vector<double> thinness;
   inradius_ = std::numeric_limits<double>::infinity();
-  double volume6 =
-      0.0;  // 6 x signed volume, about a point inside so that far meshes lose no digits
-  double surface2 = 0.0;  // 2 x surface
+  // 6 x signed volume, about a point inside so that far meshes lose no digits; 2 x surface
+  double volume6 = 0.0, surface2 = 0.0;
   const Vec3 inside = mean(vertices_);
   for (int f = 0; f < face_count(); ++f) {
     // Newell's normal: the area vector, twice; about the first vertex against cancellation
@@ -238,7 +169,7 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
     volume6 += area2.dot(centre - inside);
     surface2 += length;
     thinness.push_back(extent / length);
-    check_face(f, tolerance);
+    mesh_checks::check_loop(vertices_, f, loop, normals_[f], offsets_[f], size_, tolerance);
   }
   const double thickness =
       2.0 / 3.0 * volume6 / surface2;  // of a plate: volume over half the surface
@@ -248,61 +179,17 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
   return thinness;
 }
 
-/// Flat, and strictly convex at each corner. Corners that all turn left by less than pi, once
-/// around, make the loop a simple convex polygon.
-void Polyhedron::check_face(int f, double tolerance) const {
-  const std::span<const int> loop = face(f);
-  const size_t n = loop.size();
-  if (n == 3) return;
-  for (const int v : loop) {
-    const double height = normals_[f].dot(vertices_[v]) - offsets_[f];
-    if (std::abs(height) > tolerance * size_)
-      invalid(At{.face = f}, "face ", f, " is not flat: vertex ", v, " lies ",
-              std::abs(height) / size_, " of the size off its plane");
-  }
-  double turning = 0.0;
-  for (size_t k = 0; k < n; ++k) {
-    const Vec3 in = vertices_[loop[k]] - vertices_[loop[(k + n - 1) % n]];
-    const Vec3 out = vertices_[loop[(k + 1) % n]] - vertices_[loop[k]];
-    const double sine = normals_[f].dot(in.cross(out)) / (in.norm() * out.norm());
-    if (!(sine > 1e-12))
-      invalid(At{.face = f}, "face ", f, " is not strictly convex at vertex ", loop[k],
-              " (straight or re-entrant corner)");
-    turning += std::atan2(sine, in.normalized().dot(out.normalized()));
-  }
-  constexpr double pi = 3.14159265358979323846;
-  if (turning > 3.0 * pi) invalid(At{.face = f}, "face ", f, " winds around itself more than once");
-}
-
-/// Every vertex behind every face. With distinct vertices, convex faces and one sphere this is
-/// enough: a surface that covered the hull more than once would need each corner of the hull twice.
+/// Thin faces know their plane badly: an error of one rounding over the height of the face tilts it
+/// by that angle.
 void Polyhedron::check_convex(double tolerance, const std::vector<double>& thinness) const {
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (circumradius_ + size_);
+  std::vector<int> first;
+  std::vector<double> allowed;
   for (int f = 0; f < face_count(); ++f) {
-    // Thin faces know their plane badly: an error of one rounding over the height of the face tilts
-    // it by that angle.
-    const double allowed = tolerance * size_ + rounding * (1.0 + 2.0 * size_ * thinness[f]);
-    const Vec3& first = vertices_[face(f)[0]];
-    for (int v = 0; v < vertex_count(); ++v) {
-      const double height = normals_[f].dot(vertices_[v] - first);
-      if (height > allowed)
-        invalid(At{.face = f}, "not convex: vertex ", v, " lies ", height / size_,
-                " of the size in front of face ", f);
-    }
+    first.push_back(face(f)[0]);
+    allowed.push_back(tolerance * size_ + rounding * (1.0 + 2.0 * size_ * thinness[f]));
   }
-}
-
-int Polyhedron::support(const Vec3& d) const {
-  int best = 0;
-  double best_height = d.dot(vertices_[0]);
-  for (int v = 1; v < vertex_count(); ++v) {
-    const double height = d.dot(vertices_[v]);
-    if (height > best_height) {
-      best = v;
-      best_height = height;
-    }
-  }
-  return best;
+  mesh_checks::check_convex(vertices_, first, normals_, allowed, size_);
 }
 
 Polyhedron make_box(const Vec3& size) {

@@ -1,26 +1,13 @@
 #pragma once
 // A convex polyhedron with everything that contact detection walks along: faces, edges, neighbours.
 
-#include <array>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "geometry/shape/invalid_polyhedron.hpp"
 #include "geometry/shape/pose.hpp"
 
 namespace ballast {
-
-/// A mesh that is not a closed convex outward non-degenerate polyhedron; what() names the face,
-/// edge or vertex.
-class InvalidPolyhedron : public std::runtime_error {
- public:
-  explicit InvalidPolyhedron(const std::string& what, int at_face = -1, int at_vertex = -1)
-      : std::runtime_error(what), face(at_face), vertex(at_vertex) {}
-
-  int face,
-      vertex;  ///< where, for readers that know the line; -1 when it is no single face or vertex
-};
 
 /// Convex polyhedron, immutable, in its own frame [m]. Built once, shared by all bodies of its
 /// shape.
@@ -34,14 +21,17 @@ class Polyhedron {
   };
 
   /// `faces`: vertex loops, counter-clockwise seen from outside, any length >= 3 (coplanar polygons
-  /// stay polygons). Throws InvalidPolyhedron unless the mesh is closed (each directed edge once,
-  /// its reverse once), one piece (Euler), flat-faced, convex, outward, without zero-area faces,
-  /// unused or repeated vertices, NaN or infinity. Neighbouring faces may be coplanar, but a face's
-  /// corners must be strictly convex: only then does walking uphill along edges always end at the
-  /// support vertex. `tolerance`, relative to the size (largest distance of a vertex from the
-  /// vertices' mean): how far a vertex may lie off its face's plane or in front of another's, and
-  /// below which edges and the heights of faces count as zero. Very thin faces are granted, on top,
-  /// what the rounding of coordinates does to their plane.
+  /// stay polygons).
+  ///
+  /// Throws InvalidPolyhedron unless the mesh is closed (each directed edge once, its reverse
+  /// once), one piece (Euler), flat-faced, convex, outward, without zero-area faces, unused or
+  /// repeated vertices, NaN or infinity. Neighbouring faces may be coplanar, but a face's corners
+  /// must be strictly convex.
+  ///
+  /// `tolerance` is relative to the size (largest distance of a vertex from the vertices' mean): so
+  /// far may a vertex lie off its face's plane or in front of another's, and shorter edges and
+  /// lower faces count as zero. Very thin faces may miss by the rounding of their plane in
+  /// addition.
   Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
              double tolerance = 1e-9);
 
@@ -69,11 +59,6 @@ class Polyhedron {
   std::span<const Vec3> normals() const { return normals_; }
 
   std::span<const Edge> edges() const { return edges_; }
-  /// Vertices that share an edge with v, ascending.
-  std::span<const int> vertex_neighbours(int v) const {
-    return {vertex_neighbours_.data() + neighbour_begin_[v],
-            static_cast<size_t>(neighbour_begin_[v + 1] - neighbour_begin_[v])};
-  }
   /// Faces that meet at v, ascending.
   std::span<const int> vertex_faces(int v) const {
     return {vertex_faces_.data() + vertex_face_begin_[v],
@@ -85,28 +70,21 @@ class Polyhedron {
   double circumradius() const { return circumradius_; }
   double inradius() const { return inradius_; }
 
-  /// Index of a vertex with the largest d.x (smallest index among equals). O(vertices); the obvious
-  /// oracle.
-  int support(const Vec3& d) const;
-
  private:
-  void check_input(const std::vector<std::vector<int>>& faces, double tolerance) const;
   void build_faces(const std::vector<std::vector<int>>& faces);
   void build_edges();
-  void build_vertex_lists();
+  void build_vertex_faces();
   void check_one_piece() const;
   std::vector<double> build_planes(double tolerance);
-  void check_face(int f, double tolerance) const;
   void check_convex(double tolerance, const std::vector<double>& thinness) const;
 
   std::vector<Vec3> vertices_;
-  double size_ =
-      0.0;  // largest distance of a vertex from the vertices' mean: the scale of the tolerances
+  // Largest distance of a vertex from the vertices' mean: the scale of the tolerances [m].
+  double size_ = 0.0;
   std::vector<int> face_begin_, face_vertices_, face_neighbours_;
   std::vector<Vec3> normals_;
   std::vector<double> offsets_;
   std::vector<Edge> edges_;
-  std::vector<int> neighbour_begin_, vertex_neighbours_;
   std::vector<int> vertex_face_begin_, vertex_faces_;
   double circumradius_ = 0.0, inradius_ = 0.0;
 };

@@ -1,5 +1,4 @@
-// STL: a soup of triangles, as text or binary (80 bytes of header, count, 50 bytes per triangle,
-// little-endian). Normals are passed over: the order of the corners says what is outside.
+#include "geometry/shape/stl_format.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,15 +6,15 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/shape/mesh_formats.hpp"
+#include "geometry/shape/close_pairs.hpp"
 
-namespace ballast::mesh_formats {
+namespace ballast::raw_mesh {
 
 namespace {
 
-constexpr double kWeld =
-    1e-6;  // of the largest extent; the corners are single precision in binary files
-constexpr size_t kHeader = 84, kRecord = 50;
+/// Corners this close, relative to the largest extent, are one: binary files are single precision.
+constexpr double kSameCorner = 1e-6;
+constexpr size_t kHeader = 84, kRecord = 50;  // [bytes], the count included
 
 /// Corners of the triangles, three by three, and each triangle's line (0 in binary files).
 struct Soup {
@@ -127,7 +126,7 @@ Soup read_text(const std::filesystem::path& file, std::string_view content) {
   return soup;
 }
 
-/// For each corner the first corner of the soup that it agrees with to kWeld of the size.
+/// For each corner the first corner of the soup that it agrees with to kSameCorner of the size.
 std::vector<int> first_equals(const std::vector<Vec3>& corners) {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   if (!corners.empty()) low = high = corners[0];
@@ -135,24 +134,12 @@ std::vector<int> first_equals(const std::vector<Vec3>& corners) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const double reach = kWeld * (high - low).maxCoeff();
-  // sweep along a direction in which no usual mesh has many equal heights
-  const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
-  std::vector<std::pair<double, int>> order;
-  for (size_t i = 0; i < corners.size(); ++i)
-    order.emplace_back(direction.dot(corners[i] - low), static_cast<int>(i));
-  std::sort(order.begin(), order.end());
+  const double reach = kSameCorner * (high - low).maxCoeff();
   std::vector<int> first(corners.size());
   std::iota(first.begin(), first.end(), 0);
-  for (size_t i = 0; i < order.size(); ++i) {
-    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * reach;
-         ++j) {
-      const auto [a, b] = std::minmax(order[i].second, order[j].second);
-      if ((corners[a] - corners[b]).norm() <= reach) first[b] = std::min(first[b], a);
-    }
-  }
-  for (size_t i = 0; i < first.size(); ++i)
-    first[i] = first[first[i]];  // smaller ones are resolved already
+  for (const auto& [a, b] : close_pairs(corners, reach)) first[b] = std::min(first[b], a);
+  // Smaller indices are resolved already.
+  for (size_t i = 0; i < first.size(); ++i) first[i] = first[first[i]];
   return first;
 }
 
@@ -185,23 +172,4 @@ RawMesh read_stl(const std::filesystem::path& file, std::string_view content) {
   return mesh;
 }
 
-std::string stl_text(const Polyhedron& polyhedron) {
-  std::string text = "solid ballast\n";
-  const auto append = [&](const char* keyword, const Vec3& p) {
-    text += keyword;
-    for (const double x : p) append_number(text += ' ', x);
-    text += '\n';
-  };
-  for (int f = 0; f < polyhedron.face_count(); ++f) {
-    const std::span<const int> loop = polyhedron.face(f);
-    for (size_t k = 2; k < loop.size(); ++k) {
-      append("facet normal", polyhedron.normal(f));
-      text += "outer loop\n";
-      for (const int v : {loop[0], loop[k - 1], loop[k]}) append("vertex", polyhedron.vertex(v));
-      text += "endloop\nendfacet\n";
-    }
-  }
-  return text + "endsolid ballast\n";
-}
-
-}  // namespace ballast::mesh_formats
+}  // namespace ballast::raw_mesh

@@ -6,6 +6,7 @@
 #include "geometry/shape/convex_hull.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/contact/detection_support.hpp"
+#include "tests/geometry/shape/support_vertex.hpp"
 
 using namespace ballast;
 using namespace ballast::testing;
@@ -42,7 +43,7 @@ TEST_CASE("tables agree with the polyhedron they come from") {
       const Vec3 normal = shape.faces().xyz(f);
       CHECK(normal.norm() == Approx(1.0).epsilon(1e-14));
       CHECK(-shape.faces().w(f) ==
-            Approx(normal.dot(polyhedron.vertex(polyhedron.support(normal)))).epsilon(1e-13));
+            Approx(normal.dot(support_vertex(polyhedron, normal))).epsilon(1e-13));
       CHECK(normal.dot(shape.bounds().ball_centre) + shape.faces().w(f) <=
             -shape.bounds().ball_radius + small);
       for (int k = 0; k < shape.face(f).corner_count; ++k) {

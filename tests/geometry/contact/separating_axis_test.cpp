@@ -6,6 +6,7 @@
 #include "geometry/contact/axis_search.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/contact/detection_support.hpp"
+#include "tests/geometry/shape/support_vertex.hpp"
 
 using namespace ballast;
 using namespace ballast::testing;
@@ -97,9 +98,9 @@ TEST_CASE("two edges form a facet exactly if both are supports along their commo
         for (double sign : {1.0, -1.0}) {
           const Vec3 n = sign * cross.normalized(), n_b = -(c.b_in_a.rotation.transpose() * n);
           const double lacks_a =
-              n.dot(poly_a.vertex(poly_a.support(n)) - a.vertices().xyz(a.edges()[ea].tail));
+              n.dot(support_vertex(poly_a, n) - a.vertices().xyz(a.edges()[ea].tail));
           const double lacks_b =
-              n_b.dot(poly_b.vertex(poly_b.support(n_b)) - b.vertices().xyz(b.edges()[eb].tail));
+              n_b.dot(support_vertex(poly_b, n_b) - b.vertices().xyz(b.edges()[eb].tail));
           worst_margin = std::max(worst_margin, -std::max(lacks_a, lacks_b));
         }
         if (std::abs(worst_margin) < 1e-10 && worst_margin < -1e-15) continue;  // too close to tell

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/catch.hpp"
+#include "tests/geometry/shape/support_vertex.hpp"
 
 using namespace ballast;
 
@@ -22,7 +23,7 @@ bool same_bits(const PrincipalShape& a, const PrincipalShape& b) {
 std::array<double, 3> extents(const Polyhedron& p) {
   std::array<double, 3> length;
   for (int x = 0; x < 3; ++x)
-    length[x] = p.vertex(p.support(Vec3::Unit(x)))[x] - p.vertex(p.support(-Vec3::Unit(x)))[x];
+    length[x] = support_vertex(p, Vec3::Unit(x))[x] - support_vertex(p, -Vec3::Unit(x))[x];
   std::sort(length.rbegin(), length.rend());
   return length;
 }

@@ -15,9 +15,9 @@ TEST_CASE("every broken mesh is one line that names the file, the line and the d
     std::string name, content, place, defect;
   };
   const std::string box = [] {
-    const Folder folder;
-    write_mesh(folder.path / "box.stl", make_box({1, 2, 3}));
-    return load(folder.path / "box.stl");
+    const TemporaryFolder folder;
+    write_mesh(folder.path() / "box.stl", make_box({1, 2, 3}));
+    return load(folder.path() / "box.stl");
   }();
   const std::string binary = binary_stl(make_box({1, 2, 3}));
   std::string binary_nan = binary;
@@ -101,9 +101,9 @@ TEST_CASE("every broken mesh is one line that names the file, the line and the d
       {"grain.ply", kCube, "", "unknown suffix '.ply'"},
       {"grain", kCube, "", "unknown suffix ''"},
   };
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const Broken& b : table) {
-    const fs::path file = folder.path / b.name;
+    const fs::path file = folder.path() / b.name;
     save(file, b.content);
     const std::string said = complaint([&] { read_mesh(file); });
     CAPTURE(b.name, said);
@@ -112,23 +112,23 @@ TEST_CASE("every broken mesh is one line that names the file, the line and the d
     CHECK(said.find('\n') == std::string::npos);
     CHECK(said.size() > file.string().size() + 10);
   }
-  const fs::path missing = folder.path / "missing.obj";
+  const fs::path missing = folder.path() / "missing.obj";
   CHECK(complaint([&] { read_mesh(missing); }) ==
         missing.string() + ": cannot read: No such file or directory");
-  fs::create_directory(folder.path / "folder.obj");
-  CHECK(complaint([&] { read_mesh(folder.path / "folder.obj"); }).find("Is a directory") !=
+  fs::create_directory(folder.path() / "folder.obj");
+  CHECK(complaint([&] { read_mesh(folder.path() / "folder.obj"); }).find("Is a directory") !=
         std::string::npos);
 }
 
 TEST_CASE("mutilated files are read or refused, never worse") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Random random(9);
   const Polyhedron grain = make_grain({}, 1.0, 1).shape;
-  write_mesh(folder.path / "a.obj", grain);
-  write_mesh(folder.path / "a.stl", grain);
+  write_mesh(folder.path() / "a.obj", grain);
+  write_mesh(folder.path() / "a.stl", grain);
   const std::vector<std::pair<std::string, std::string>> sources = {
-      {"b.obj", load(folder.path / "a.obj")},
-      {"b.stl", load(folder.path / "a.stl")},
+      {"b.obj", load(folder.path() / "a.obj")},
+      {"b.stl", load(folder.path() / "a.stl")},
       {"b.stl", binary_stl(grain)}};
   int refused = 0;
   for (int trial = 0; trial < 1500; ++trial) {
@@ -146,9 +146,9 @@ TEST_CASE("mutilated files are read or refused, never worse") {
           content.insert(at, content.substr(random.below(static_cast<int>(content.size())), 10));
       }
     }
-    save(folder.path / name, content);
-    refused += complaint([&] { read_mesh(folder.path / name); }) != "";
-    complaint([&] { read_mesh_hull(folder.path / name); });
+    save(folder.path() / name, content);
+    refused += complaint([&] { read_mesh(folder.path() / name); }) != "";
+    complaint([&] { read_mesh_hull(folder.path() / name); });
   }
   CHECK(refused > 1000);
 }

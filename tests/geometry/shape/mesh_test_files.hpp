@@ -1,30 +1,19 @@
 #pragma once
-// Mesh files for the tests of mesh_file: written, mutilated and read in a folder that goes away.
+// Mesh files for the tests of mesh_file and of the formats: written, mutilated and read.
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "geometry/shape/mesh_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/geometry/shape/write_mesh.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace ballast {
-
-/// A folder that goes away with the test.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "ballast_mesh_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 inline void save(const std::filesystem::path& file, const std::string& content) {
   std::ofstream out(file, std::ios::binary);

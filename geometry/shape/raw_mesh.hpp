@@ -1,6 +1,6 @@
 #pragma once
-// What mesh_file.cpp needs from each format: text in, raw mesh out, and back. Not for use
-// elsewhere.
+// A mesh as it stands in a file, and the words and numbers that the formats are made of. For
+// mesh_file.cpp and the readers of the formats.
 
 #include <algorithm>
 #include <charconv>
@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "geometry/shape/mesh_file_error.hpp"
-#include "geometry/shape/polyhedron.hpp"
+#include "geometry/shape/pose.hpp"
 
-namespace ballast::mesh_formats {
+namespace ballast::raw_mesh {
 
 /// A mesh as it stands in the file, nothing checked but indices. Lines count from 1; 0 in files
 /// without lines.
@@ -76,17 +76,4 @@ inline double parse_coordinate(std::string_view word, const Place& place) {
   return value;
 }
 
-/// Appends the shortest decimal number that reads back as the same double.
-inline void append_number(std::string& text, double value) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
-RawMesh read_obj(const std::filesystem::path& file, std::string_view text);
-std::string obj_text(const Polyhedron& polyhedron);
-
-/// Text or binary, told apart by the content; vertices welded.
-RawMesh read_stl(const std::filesystem::path& file, std::string_view content);
-std::string stl_text(const Polyhedron& polyhedron);
-
-}  // namespace ballast::mesh_formats
+}  // namespace ballast::raw_mesh

@@ -1,0 +1,87 @@
+#include "geometry/shape/mesh_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "geometry/shape/close_pairs.hpp"
+
+namespace ballast::mesh_checks {
+
+void check_coordinates(std::span<const Vec3> vertices) {
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    if (!vertices[v].allFinite())
+      invalid(At{.vertex = static_cast<int>(v)}, "vertex ", v,
+              " has a coordinate that is NaN or infinite");
+  }
+  if (vertices.size() < 4)
+    invalid(At{}, "a polyhedron needs at least 4 vertices, got ", vertices.size());
+}
+
+void check_indices(int vertex_count, const std::vector<std::vector<int>>& faces) {
+  std::vector<bool> used(vertex_count, false);
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const At here{.face = static_cast<int>(f)};
+    if (faces[f].size() < 3)
+      invalid(here, "face ", f, " has ", faces[f].size(), " vertices: at least 3 are needed");
+    std::set<int> seen;
+    for (const int v : faces[f]) {
+      if (v < 0 || v >= vertex_count)
+        invalid(here, "face ", f, " names vertex ", v, " of ", vertex_count);
+      if (!seen.insert(v).second) invalid(here, "face ", f, " passes through vertex ", v, " twice");
+      used[v] = true;
+    }
+  }
+  for (int v = 0; v < vertex_count; ++v) {
+    if (!used[v]) invalid(At{.vertex = v}, "vertex ", v, " belongs to no face");
+  }
+}
+
+void check_distinct(std::span<const Vec3> vertices, double reach) {
+  const std::vector<std::pair<int, int>> pairs = close_pairs(vertices, reach);
+  if (pairs.empty()) return;
+  const auto [a, b] = pairs.front();
+  invalid(At{.vertex = b}, "vertices ", a, " and ", b, " coincide");
+}
+
+/// Corners that all turn left by less than pi, once around, make the loop a simple convex polygon.
+void check_loop(std::span<const Vec3> vertices, int face, std::span<const int> loop,
+                const Vec3& normal, double offset, double size, double tolerance) {
+  const size_t n = loop.size();
+  if (n == 3) return;
+  for (const int v : loop) {
+    const double height = normal.dot(vertices[v]) - offset;
+    if (std::abs(height) > tolerance * size)
+      invalid(At{.face = face}, "face ", face, " is not flat: vertex ", v, " lies ",
+              std::abs(height) / size, " of the size off its plane");
+  }
+  double turning = 0.0;  // [rad]
+  for (size_t k = 0; k < n; ++k) {
+    const Vec3 in = vertices[loop[k]] - vertices[loop[(k + n - 1) % n]];
+    const Vec3 out = vertices[loop[(k + 1) % n]] - vertices[loop[k]];
+    const double sine = normal.dot(in.cross(out)) / (in.norm() * out.norm());
+    if (!(sine > 1e-12))
+      invalid(At{.face = face}, "face ", face, " is not strictly convex at vertex ", loop[k],
+              " (straight or re-entrant corner)");
+    turning += std::atan2(sine, in.normalized().dot(out.normalized()));
+  }
+  if (turning > 3.0 * std::numbers::pi)
+    invalid(At{.face = face}, "face ", face, " winds around itself more than once");
+}
+
+/// With distinct vertices, convex faces and one sphere this is enough: a surface that covered the
+/// hull more than once would need each corner of the hull twice.
+void check_convex(std::span<const Vec3> vertices, std::span<const int> first,
+                  std::span<const Vec3> normals, std::span<const double> allowed, double size) {
+  for (size_t f = 0; f < normals.size(); ++f) {
+    for (size_t v = 0; v < vertices.size(); ++v) {
+      const double height = normals[f].dot(vertices[v] - vertices[first[f]]);
+      if (height > allowed[f])
+        invalid(At{.face = static_cast<int>(f)}, "not convex: vertex ", v, " lies ", height / size,
+                " of the size in front of face ", f);
+    }
+  }
+}
+
+}  // namespace ballast::mesh_checks
