@@ -45,5 +45,7 @@ TEST_CASE("OBJ: damage is named with its line") {
                     "a.obj: line 2: face has 2 vertices: at least 3 are needed");
   CHECK_THROWS_WITH(read("v 0 0 0\nf 1 1 2\n"), "a.obj: line 2: face names vertex 2 of 1");
   CHECK_THROWS_WITH(read("v 0 0 0\nf 1 1 -2\n"), "a.obj: line 2: face names vertex -2 of 1");
-  CHECK_THROWS_WITH(read("\n\x01\x02\n"), "a.obj: line 2: unknown OBJ statement '??'");
+  CHECK_THROWS_WITH(read("\n\x01\x02\n"),
+                    "a.obj: line 2: unknown OBJ statement '?"
+                    "?'");
 }

@@ -4,17 +4,12 @@
 #include <cmath>
 #include <set>
 
-#include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
 
 namespace {
-
-const std::vector<Vec3> kTetrahedron = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-const Faces kTetrahedronFaces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 /// All lists of the polyhedron against what a search through its faces says.
 void check_topology(const Polyhedron& p) {
@@ -76,8 +71,10 @@ TEST_CASE("topology of grains agrees with a search through the faces") {
 }
 
 TEST_CASE("the inradius is negative when the origin lies outside") {
-  std::vector<Vec3> moved = kTetrahedron;
-  for (Vec3& p : moved) p += Vec3(0.0, 0.0, 2.0);
-  CHECK(Polyhedron(moved, kTetrahedronFaces).inradius() == Approx(-2.0));
-  CHECK(Polyhedron(kTetrahedron, kTetrahedronFaces).inradius() == 0.0);
+  const auto tetrahedron = [](double z) {
+    return Polyhedron({{0, 0, z}, {1, 0, z}, {0, 1, z}, {0, 0, z + 1}},
+                      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  };
+  CHECK(tetrahedron(2.0).inradius() == Approx(-2.0));
+  CHECK(tetrahedron(0.0).inradius() == 0.0);
 }
