@@ -39,7 +39,7 @@ void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotat
                         std::span<const double> reach) {
   if (still_valid(poses, reach)) return;
   grow_boxes(poses, rotations, reach);
-  sweep();
+  find_overlaps();
   std::swap(pairs_, old_pairs_);
   sort_pairs();
   carry_memory();
@@ -71,8 +71,9 @@ void BroadPhase::grow_boxes(std::span<const Pose> poses, std::span<const Mat3> r
   }
 }
 
-/// Along the axis on which the bodies are spread out most.
-void BroadPhase::sweep() {
+/// Sort and prune, along the axis on which the bodies are spread out most: only boxes that overlap
+/// along it are compared in the other two directions.
+void BroadPhase::find_overlaps() {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
   for (const int i : order_) {
     low = low.cwiseMin(boxes_[i].low);

@@ -69,7 +69,7 @@ class BroadPhase {
   bool still_valid(std::span<const Pose> poses, std::span<const double> reach) const;
   void grow_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
                   std::span<const double> reach);
-  void sweep();
+  void find_overlaps();
   void sort_pairs();
   void carry_memory();
 

@@ -30,23 +30,18 @@ struct ContactDetector::State {
   State(std::vector<ContactShape> shapes, const DetectionSettings& detection)
       : settings(detection),
         bodies(std::move(shapes), detection.use_cache ? detection.reuse_motion : 0.0),
-        broad_phase(broad_phase_bodies(bodies), chosen_skin(settings.skin, bodies.tables.tables)),
-        wide_reach(bodies.margin.size()),
+        broad_phase(broad_phase_bodies(bodies), chosen_skin(settings.skin, bodies.tables)),
         part_of(bodies.shapes.size(), 0) {
     parts.emplace_back(bodies, settings);
     share();
   }
 
   void check(std::span<const Pose> poses, std::span<const double> reach) const;
-  void take(std::span<const Pose> poses, std::span<const double> reach);
-  void advance(std::span<const Pose> poses);
   void share();
 
   DetectionSettings settings;
   DetectedBodies bodies;
   BroadPhase broad_phase;
-  std::vector<Pose> previous;      // poses of the last call
-  std::vector<double> wide_reach;  // with the margins that held points need
   WorkerTeam* team = nullptr;
   std::vector<DetectionPart> parts;
   std::vector<int> part_of;  // part that remembers the pairs (a, b) of body a
@@ -77,11 +72,10 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   State& s = *state_;
   s.check(poses, reach);
   contacts.clear();
-  s.take(poses, reach);
+  s.bodies.take(poses, reach);
   const long rebuilds = s.broad_phase.rebuilds();
   s.broad_phase.update(poses, s.bodies.rotations, s.bodies.reach);
   if (s.broad_phase.rebuilds() != rebuilds) s.share();
-  s.advance(poses);
   run_parts(s.team, static_cast<int>(s.parts.size()), [&](int k) {
     std::vector<ContactPoint>& found = k == 0 ? contacts : s.parts[k].found;
     found.clear();
@@ -108,25 +102,6 @@ void ContactDetector::State::check(std::span<const Pose> poses,
       throw std::invalid_argument("detect: pose or reach of body " + std::to_string(i) +
                                   " is not a finite number");
   }
-}
-
-void ContactDetector::State::take(std::span<const Pose> poses, std::span<const double> reach) {
-  bodies.poses = poses;
-  bodies.given_reach = bodies.reach = reach;
-  for (size_t i = 0; i < poses.size(); ++i)
-    bodies.rotations[i] = poses[i].rotation.toRotationMatrix();
-  if (!bodies.holds()) return;
-  for (size_t i = 0; i < poses.size(); ++i) wide_reach[i] = reach[i] + bodies.margin[i];
-  bodies.reach = wide_reach;
-}
-
-void ContactDetector::State::advance(std::span<const Pose> poses) {
-  for (size_t i = 0; i < previous.size(); ++i) {
-    const Travel step = step_bound(previous[i], poses[i]);
-    bodies.travel[i].shift += step.shift;
-    bodies.travel[i].turn += step.turn;
-  }
-  previous.assign(poses.begin(), poses.end());
 }
 
 /// Deals the bodies out to the parts, each about the same work, and brings the records into the

@@ -2,12 +2,13 @@
 // Shapes and poses -> contact points: broad phase, separating axis, face clipping, in one call per
 // step.
 
-#include <iosfwd>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "geometry/contact/contact_point.hpp"
+#include "geometry/contact/contact_shape.hpp"
+#include "geometry/contact/detection_settings.hpp"
 
 namespace ballast {
 

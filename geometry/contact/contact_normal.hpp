@@ -42,7 +42,7 @@
 // to later poses, detection_part.cpp turns them to the world frame. The proofs of lone_point.hpp
 // hold for every rule whose gaps are at least the heights along d; another one must drop them.
 
-#include "geometry/contact/contact_point.hpp"
+#include "geometry/contact/contact_shape.hpp"
 #include "geometry/contact/face_clipping.hpp"
 
 namespace ballast {

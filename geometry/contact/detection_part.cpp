@@ -1,20 +1,14 @@
 #include "geometry/contact/detection_part.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace ballast {
 
-DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies, double reuse_motion)
-    : shapes(std::move(bodies)), tables(shapes), travel(shapes.size()), rotations(shapes.size()) {
-  for (int i = 0; i < count(); ++i) bounds.push_back(shape(i) ? shape(i)->bounds() : BodyBounds{});
-  if (reuse_motion > 0.0)
-    for (const BodyBounds& body : bounds) margin.push_back(reuse_motion * body.circumradius);
-}
-
 DetectionPart::DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings)
-    : bodies_(bodies), settings_(settings), search_(bodies.tables.tables) {
+    : bodies_(bodies), settings_(settings), search_(bodies.tables) {
   size_t vertices = 0;
-  for (const CollisionShape& shape : bodies.tables.tables)
+  for (const CollisionShape& shape : bodies.tables)
     vertices = std::max(vertices, static_cast<size_t>(shape.vertices().padded()));
   heights_.resize(vertices);
 }

@@ -2,40 +2,17 @@
 // A share of the pairs that a detection looks at: what it remembers of them, and scratch memory of
 // its own, so that shares can be looked at side by side.
 
-#include <utility>
 #include <vector>
 
 #include "geometry/contact/axis_search.hpp"
-#include "geometry/contact/broad_phase.hpp"
 #include "geometry/contact/contact_manifold.hpp"
+#include "geometry/contact/contact_point.hpp"
+#include "geometry/contact/detected_bodies.hpp"
+#include "geometry/contact/detection_settings.hpp"
 #include "geometry/contact/held_manifold.hpp"
-#include "geometry/contact/shape_tables.hpp"
 #include "geometry/contact/touching_pair.hpp"
 
 namespace ballast {
-
-/// The bodies as a detection finds them: read by all parts, written by none.
-struct DetectedBodies {
-  DetectedBodies(std::vector<ContactShape> bodies, double reuse_motion);
-
-  const CollisionShape* shape(int body) const {
-    return tables.index[body] < 0 ? nullptr : &tables.tables[tables.index[body]];
-  }
-  int count() const { return static_cast<int>(shapes.size()); }
-
-  std::vector<ContactShape> shapes;
-  ShapeTables tables;
-  std::vector<BodyBounds> bounds;  ///< of all bodies, in one place; zero for planes
-  std::vector<Travel> travel;      ///< since the first call
-  std::vector<Mat3> rotations;     ///< R_WB at the poses of this call
-  std::span<const Pose> poses;     ///< of this call, as the reaches
-  std::span<const double> reach;   ///< with margins, where points are held on to
-
-  bool holds() const { return !margin.empty(); }
-  std::span<const double> given_reach;
-  std::vector<double>
-      margin;  ///< how far each body may move while points are held on to [m]; empty: they are not
-};
 
 /// The planes and pairs of a range of bodies a. Part 0's contacts, part 1's and so on are in the
 /// order of all.

@@ -42,7 +42,7 @@ struct Packing {
   void relax() {
     ContactDetector detector(shapes, {});
     std::vector<ContactPoint> contacts;
-    for (int sweep = 0; sweep < 400; ++sweep) {
+    for (int round = 0; round < 400; ++round) {
       detector.detect(poses, reach, contacts);
       for (const ContactPoint& c : contacts) {
         const double depth = std::max(0.0, -c.gap);
