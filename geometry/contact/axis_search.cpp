@@ -60,8 +60,8 @@ AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const Separa
   if (start) add_witnesses_of(pair, *start);
   bool apart = search_faces(pair, 0, alert) || search_faces(pair, 1, alert);
   if (!apart) {
-    // the best axis so far touches near where an edge pair could do better: its corners are the
-    // tightest witnesses
+    // An edge pair that does better lies near the best axis so far: that axis' corners are the
+    // tightest witnesses.
     if (!start || !(best_feature_ == start->feature))
       add_witnesses_of(pair, *evaluate_axis(pair, best_feature_, heights_));
     apart = search_edges(pair, alert);
@@ -73,7 +73,7 @@ AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const Separa
   return AxisOutcome::found;
 }
 
-/// First bound of a face: the other body contains a ball.
+/// The first bound of each face comes from the ball inside the other body.
 void AxisSearch::start_side(const ShapePair& pair, int own) {
   const CollisionShape& other = *pair.shape[1 - own];
   const AffineRows& faces = pair.shape[own]->faces();
@@ -98,7 +98,7 @@ void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) 
   side.witnesses = slot + 1;
 }
 
-/// The corners that make up the axis' facet, each to the other body.
+/// Makes the corners of the axis' facet witnesses, each for the other body's faces.
 void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& axis) {
   if (axis.feature.kind == AxisKind::edges) {
     const CollisionShape::Edge& edge_a = pair.shape[0]->edges()[axis.feature.a];
@@ -113,15 +113,15 @@ void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& a
   add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(axis.support));
   const std::span<const CollisionShape::Corner> corners =
       pair.shape[own]->corners(axis.feature.face());
-  // a few of a large face's corners are enough
+  // A few of a large face's corners are enough.
   const size_t stride = 1 + (corners.size() - 1) / 4;
   for (size_t k = 0; k < corners.size(); k += stride)
     add_witness(pair, 1 - own,
                 pair.other[1 - own] * pair.shape[own]->vertices().xyz(corners[k].vertex));
 }
 
-/// Faces of body `own`, most promising first, until no bound reaches the best. True as soon as one
-/// separates.
+/// Evaluates faces of body `own`, the one with the highest bound first, until no bound reaches the
+/// best separation. True as soon as one separates.
 bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
   Side& side = side_[own];
   const int padded = pair.shape[own]->faces().padded();
@@ -141,15 +141,16 @@ bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
   }
 }
 
-/// Edges of body `own` whose arc of normals has a part that all witnesses let reach the best. On
-/// the arc n = m / |m| with m = (1 - l) n_left + l n_right, 0 <= l <= 1, |m| <= 1, and a witness
-/// asks for m.(w - edge) >= |m| s, which is at least min(s, 0): linear in l, with the faces'
-/// heights at the ends.
+/// Collects the edges of body `own` that could still reach the best separation s: those on whose
+/// arc of normals some direction is ruled out by no witness. On the arc n = m / |m| with
+/// m = (1 - l) n_left + l n_right, 0 <= l <= 1, |m| <= 1. A witness w leaves the directions with
+/// m.(w - edge) >= |m| s, hence >= min(s, 0). This is linear in l, with the heights of w over the
+/// two faces at the ends, so that each witness leaves an interval of l.
 void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   const CollisionShape& shape = *pair.shape[own];
   Side& side = side_[own];
   const size_t stride = shape.faces().padded();
-  // 1e-8 covers that nearly parallel edges know their normal to rounding / kParallelSine only
+  // 1e-8: the normal of nearly parallel edges is known to rounding / kParallelSine only.
   const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.bounds().unevenness;
   side.edges.clear();
   const std::span<const CollisionShape::Edge> edges = shape.edges();
@@ -175,7 +176,8 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
     turned_.push_back({e, rotation * edge.along, -(rotation * edge.left_normal),
                        -(rotation * edge.right_normal)});
   }
-  // A cheap look at the arcs first: edge_separation decides, in its own rounding.
+  // A cheap look at the arcs comes first and lets doubtful pairs pass: edge_separation decides, in
+  // its own rounding.
   const double blur = 1e-12;
   for (const int ea : side_[0].edges) {
     const CollisionShape::Edge& edge = a.edges()[ea];
@@ -200,8 +202,8 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
   return false;
 }
 
-/// Among all axes within the tie tolerance of the best: faces before edges, a's before b's, the
-/// smallest index.
+/// Chooses among all axes within the tie tolerance of the best: faces before edges, a's before b's,
+/// then the smallest index.
 AxisFeature AxisSearch::choose(const ShapePair& pair) const {
   const double enough = best_ - tie_tolerance(pair);
   for (int own : {0, 1}) {

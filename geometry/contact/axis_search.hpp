@@ -1,6 +1,7 @@
 #pragma once
-// The best separating axis of a pair: last step's if it can be proved to be the best still,
-// otherwise an exact search that bounds before it evaluates.
+// The best separating axis of a pair. Last step's axis is kept if it is proved to be the best one
+// again; otherwise an exact search finds it, which evaluates only facets whose upper bound reaches
+// the best one so far.
 
 #include <vector>
 
@@ -24,16 +25,17 @@ class AxisSearch {
   /// `shapes`: all that will be asked for, to size the scratch.
   explicit AxisSearch(std::span<const CollisionShape> shapes);
 
-  /// The best axis of the pair, unless some facet's separation exceeds `alert` [m]: then no more
-  /// than that is found out: of `axis` then the separation alone is set, that of the facet found.
-  /// `hint`: a facet to start from, of any kind or none; on return the one that decided. Outcome
-  /// (separated or not) and, unless separated, axis do not depend on the hint, to the last bit.
+  /// Finds the best axis of the pair. As soon as some facet's separation exceeds `alert` [m], the
+  /// bodies are separated and the search stops: then only the separation of `axis` is set, to that
+  /// of the facet. `hint`: a facet to start from, of any kind or none; on return the one that
+  /// decided. Whether the bodies are separated and, if not, the axis do not depend on the hint, to
+  /// the last bit.
   AxisOutcome find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis);
 
  private:
-  /// What is known of the facets on one body's side. A witness is a point of the other body, in
-  /// this body's frame: as a face f of this body is its support along n_f, s(n_f) <= n_f.w -
-  /// offset_f.
+  /// Bounds and values of one body's facets during a search. A witness w is a point of the other
+  /// body, in this body's frame. The other body's lowest point over a face f is at most as high as
+  /// w, so that s(n_f) <= n_f.w - offset_f.
   struct Side {
     std::vector<double> bound;  // per face: upper bound of its separation; -infinity once evaluated
     std::vector<double> value;  // per face: its separation, -infinity unless evaluated

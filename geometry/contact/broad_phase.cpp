@@ -56,8 +56,8 @@ bool BroadPhase::still_valid(std::span<const Pose> poses, std::span<const double
   return true;
 }
 
-/// Fast bodies get a margin of several steps' reach: one of them must not cause a new list in every
-/// step.
+/// Fast bodies get a margin of several steps' reach, so that one of them does not cause a new list
+/// in every step.
 void BroadPhase::grow_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
                             std::span<const double> reach) {
   listed_pose_.assign(poses.begin(), poses.end());
@@ -102,7 +102,7 @@ void BroadPhase::find_overlaps() {
   }
 }
 
-/// By a with counting, then by b within each a.
+/// Sorts the pairs by a with counting, then by b within each a.
 void BroadPhase::sort_pairs() {
   std::fill(first_.begin(), first_.end(), 0);
   for (const auto& [a, b] : found_) ++first_[a + 1];
@@ -118,6 +118,7 @@ void BroadPhase::sort_pairs() {
   }
 }
 
+/// Both lists are sorted by (a, b): one merge finds the pairs that stay.
 void BroadPhase::carry_memory() {
   size_t old = 0;
   for (CandidatePair& pair : pairs_) {

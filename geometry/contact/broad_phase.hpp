@@ -28,10 +28,10 @@ struct Travel {
 /// 2 sin(phi/4) is the distance of the unit quaternions.
 Travel step_bound(const Pose& from, const Pose& to);
 
-/// Two polyhedra that may touch, a < b, and what is remembered of them.
+/// Two polyhedra that may touch, a < b, and the memory of their last detection.
 struct CandidatePair {
   int a, b;
-  AxisFeature axis;  ///< last step's
+  AxisFeature axis;  ///< the one that decided last time
   /// Proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a + reach_b
   /// stays below this [m].
   double apart_below = -1.0;
@@ -53,8 +53,7 @@ class BroadPhase {
   /// `skin` [m]: least sum of the margins of two bodies.
   BroadPhase(std::vector<Body> bodies, double skin);
 
-  /// Brings the list up to date; what is remembered of pairs is carried over. `rotations`: R_WB of
-  /// the poses.
+  /// Brings the list up to date; pairs that stay keep their memory. `rotations`: R_WB of the poses.
   void update(std::span<const Pose> poses, std::span<const Mat3> rotations,
               std::span<const double> reach);
 

@@ -100,6 +100,7 @@ std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
   return patch;
 }
 
+/// Writes one face per patch, with its corners, and how isolated each face's normal is.
 void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   const int count = 1 + *std::max_element(patch.begin(), patch.end());
   std::vector<int> members(count, 0), seed(count, 0);
@@ -135,6 +136,7 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
   }
 }
 
+/// Writes the edges between patches, and for each of them a side of the two faces beside it.
 void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   sides_.resize(corners_.size());
   const auto add_side = [&](int f, int from, int to) {
@@ -154,8 +156,9 @@ void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector
     add_side(left, edge.tail, edge.head);
     add_side(right, edge.head, edge.tail);
     const Vec3 &left_normal = faces_[left].normal, &right_normal = faces_[right].normal;
-    // n = p left_normal + q right_normal with p, q = |right_normal.u|, |left_normal.u| times length
-    // / (sine |along x u|)
+    // Edge::drop: the common normal with an edge u is n = p left_normal + q right_normal with p, q
+    // = |right_normal.u|, |left_normal.u| times length / (sine |along x u|), so that the least sum
+    // of a vertex's depths below both faces bounds its depth along n.
     double below = kFar;
     for (int v = 0; v < polyhedron.vertex_count(); ++v) {
       if (v == edge.tail || v == edge.head) continue;

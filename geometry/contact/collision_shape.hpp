@@ -1,6 +1,6 @@
 #pragma once
-// A convex polyhedron laid out for contact detection: tables that the compiler sweeps with vector
-// instructions.
+// A convex polyhedron laid out for contact detection, in tables that vector instructions run
+// through.
 
 #include <cstddef>
 #include <span>
@@ -35,13 +35,13 @@ class AffineRows {
   std::vector<double> table_;
 };
 
-/// What every test of a pair asks of a body: one cache line.
+/// The sizes of a body that every test of a pair needs, in one cache line.
 struct alignas(64) BodyBounds {
   Vec3 ball_centre = Vec3::Zero();  ///< of a ball inside the solid
   double ball_radius = 0.0;
   double circumradius = 0.0;  ///< largest distance of a vertex from the frame's origin
-  double unevenness = 0.0;    ///< largest distance of a corner from its face's plane [m]: rounding,
-                              ///< or what the polyhedron's tolerance allowed
+  double unevenness = 0.0;    ///< largest distance of a corner from its face's plane [m]: by
+                              ///< rounding, or within the polyhedron's tolerance
 };
 
 /// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated
@@ -52,8 +52,8 @@ class CollisionShape {
   /// Two faces whose normals differ by less than this angle [rad] are one.
   static constexpr double coplanar_angle = 1e-9;
 
-  /// Records hold all that one visit asks for, in one place: of 1200 shapes only a few are in the
-  /// cache.
+  // Each record holds everything that a visit to the feature needs, in one place: of 1200 shapes
+  // only a few are in the cache.
   struct Face {
     Vec3 normal;       ///< outward, unit
     double offset;     ///< support of the whole polyhedron along the normal

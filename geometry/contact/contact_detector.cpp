@@ -81,6 +81,7 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
     found.clear();
     s.parts[k].detect(s.broad_phase, found);
   });
+  // Part 0 has written to `contacts`; the others' follow in order.
   s.counters = DetectionCounters{};
   s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
   for (size_t k = 0; k < s.parts.size(); ++k) {
@@ -104,10 +105,11 @@ void ContactDetector::State::check(std::span<const Pose> poses,
   }
 }
 
-/// Deals the bodies out to the parts, each about the same work, and brings the records into the
-/// order of the list; those of pairs that left it are dropped.
+/// Deals the bodies out to the parts, so that each has about the same work. The memory of touching
+/// pairs comes into the order of the list; that of pairs no longer listed is dropped.
 void ContactDetector::State::share() {
-  const size_t plane_work = 1 + bodies.shapes.size() / 64;  // in pairs
+  // A plane looks at all bodies: as much work as one pair for every 64 of them.
+  const size_t plane_work = 1 + bodies.shapes.size() / 64;
   const auto work_of = [&](int a) {
     return (bodies.shape(a) ? 0 : plane_work) +
            static_cast<size_t>(broad_phase.first(a + 1) - broad_phase.first(a));

@@ -1,6 +1,6 @@
 #pragma once
-// Shapes and poses -> contact points: broad phase, separating axis, face clipping, in one call per
-// step.
+// Shapes and poses -> contact points, in one call per step: candidate pairs (broad_phase.hpp), best
+// axis of each (axis_search.hpp), normal, gaps and points (contact_normal.hpp).
 
 #include <memory>
 #include <span>
@@ -14,9 +14,9 @@ namespace ballast {
 
 class WorkerTeam;
 
-/// Contact detection for one set of bodies, coherent from step to step. Contacts depend only on the
-/// poses and reaches given (never on the cache), unless reuse_motion is set, and come sorted by
-/// (body_a, body_b, feature).
+/// Contact detection for one set of bodies, with a memory from step to step. The memory makes it
+/// fast and changes nothing: contacts depend only on the poses and reaches given, unless
+/// reuse_motion is set. They come sorted by (body_a, body_b, feature).
 class ContactDetector {
  public:
   ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings);

@@ -134,8 +134,9 @@ struct EdgesMeeting {
 
 // ---- the same at later poses
 
-/// The normal and the points of a pair whose bodies have moved a little, with the same features:
-/// the normal turns with what defines it, each point stays on the material of both bodies.
+/// The normal and the points of a pair whose bodies have moved a little, by the same features as
+/// before: the normal turns with the face or the edges that define it, and each point stays on the
+/// material of both bodies.
 class CarriedContact {
  public:
   CarriedContact() = default;

@@ -23,7 +23,8 @@ bool has_feature(std::span<const ContactPoint> pair, std::uint64_t feature) {
   return false;
 }
 
-/// Nearest point that no old point has by name, or the nearest of all if every one has.
+/// Index of the nearest point whose key no old point has, or of the nearest of all if every key is
+/// known.
 size_t nearest(std::span<const ContactPoint> candidates, std::span<const ContactPoint> old_pair,
                const Vec3& position) {
   size_t best = 0, best_any = 0;

@@ -49,13 +49,13 @@ void DetectionPart::detect(BroadPhase& broad_phase, std::vector<ContactPoint>& c
   }
 }
 
-/// What the bodies of a pair have used up of its bound, less their reaches.
+/// How far the bodies of a pair can have come closer since the first call, by their travel [m].
 double DetectionPart::bound_use(const CandidatePair& pair) const {
   const Travel &a = bodies_.travel[pair.a], &b = bodies_.travel[pair.b];
   return (a.shift + b.shift) + (pair.arm_a * a.turn + pair.arm_b * b.turn);
 }
 
-/// All candidates but those whose separation is proved without a look at their shapes.
+/// Chooses all candidates except those that are proved apart by the bodies' travel alone.
 void DetectionPart::choose_pairs(const BroadPhase& broad_phase) {
   chosen_.clear();
   const std::span<const CandidatePair> pairs = broad_phase.pairs();
@@ -71,7 +71,8 @@ void DetectionPart::choose_pairs(const BroadPhase& broad_phase) {
   }
 }
 
-/// `separation` shrinks by no more than the origins move and the arms times the turns.
+/// Notes that the pair is `separation` [m] apart now, which shrinks by no more than the origins
+/// move and the arms times the turns.
 void DetectionPart::bound_separation(CandidatePair& pair, double arm_a, double arm_b,
                                      double separation) const {
   pair.arm_a = arm_a;
@@ -83,11 +84,11 @@ void DetectionPart::bound_separation(CandidatePair& pair, double arm_a, double a
       1e-9 * (bodies_.bounds[pair.a].circumradius + bodies_.bounds[pair.b].circumradius + use);
 }
 
-/// Of a pair whose axis separates it, at this `distance` of the origins. A face's separation is the
-/// least n.(x - p) of the other body's points x, less the face's offset: it shrinks by no more than
-/// x and the face's body p move, and by that body's turn times |x - p|. A separating face is found
-/// whatever the hint, hence the outcome is the one without a bound. An edge pair may cease to be a
-/// facet: no bound.
+/// The same for a pair that its axis separates, with the origins `distance` [m] apart. A face's
+/// separation is the least n.(x - p) over the other body's points x, less the face's offset, with p
+/// the origin of the face's body. It shrinks by no more than x and p move and by that body's turn
+/// times |x - p|. A separating face is found whatever the hint, so that a bound does not change the
+/// outcome. Two edges may cease to be a facet: they give no bound.
 void DetectionPart::bound_separated(CandidatePair& pair, double distance, double separation) const {
   const double radius_a = bodies_.bounds[pair.a].circumradius,
                radius_b = bodies_.bounds[pair.b].circumradius;
@@ -97,7 +98,7 @@ void DetectionPart::bound_separated(CandidatePair& pair, double distance, double
     bound_separation(pair, radius_a, distance + radius_a, separation);
 }
 
-/// Every vertex within reach is a point.
+/// Contacts of all bodies with a plane: every vertex within reach is a point.
 void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts) {
   const std::span<const Pose> poses = bodies_.poses;
   const std::span<const double> reach = bodies_.given_reach;  // never held on to
@@ -134,8 +135,8 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
     return;
   }
 
-  // as products with transposes: a transposed copy would add in another order, and published runs
-  // have these bits
+  // Written as products with transposes: a transposed copy would add in another order, and
+  // published runs have these bits.
   const Mat3& rotation = bodies_.rotations[a];
   const RelativePose b_in_a{rotation.transpose() * bodies_.rotations[b],
                             rotation.transpose() * between};
@@ -166,16 +167,16 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   if (outcome == AxisOutcome::separated || outcome == AxisOutcome::found) ++counters_.full_tests;
   if (is_separated(outcome)) return bound_separated(candidate, between.norm(), axis.separation);
   // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says.
-  // Which of them count must not depend on which the broad phase happened to list: those that it
-  // lists with no margin at all.
+  // Whether they count must not depend on the margin with which the broad phase listed them: they
+  // count if it would list them without any margin.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, alert)) return;
   if (settings_.use_cache) remember(candidate, pair, axis, turn);
   append(candidate, pair, axis, manifold_.points(pair, axis, alert, settings_.max_points),
          contacts);
 }
 
-/// Points found within the wide reach; where they are held on to, only those within the given one
-/// are contacts now.
+/// Appends points that the search found within `reach`. Where points are held on to, that is the
+/// wide reach, and only those within the given one are contacts now.
 void DetectionPart::append(const CandidatePair& candidate, const PairFrame& frame,
                            const SeparatingAxis& axis, std::span<const ManifoldPoint> points,
                            std::vector<ContactPoint>& contacts) {
@@ -200,7 +201,8 @@ void DetectionPart::append(const CandidatePair& candidate, const Vec3& normal,
   if (contacts.size() > before) ++counters_.manifolds;
 }
 
-/// False: nothing is held, or no longer; then it is let go.
+/// Appends the pair's held points. False if it has none, or none that are still valid; these are
+/// then dropped.
 bool DetectionPart::append_held(const CandidatePair& candidate, const RelativePose& b_in_a,
                                 std::vector<ContactPoint>& contacts) {
   if (!bodies_.holds() || candidate.touching < 0) return false;
@@ -227,8 +229,8 @@ void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair,
   records_.touching[candidate.touching].record(pair, axis, turn);
 }
 
-/// The record is needed four pairs from now; the list of pairs is read in order, its records nearly
-/// so.
+/// Asks the cache for the record of a pair that is looked at a few pairs from now: the list of
+/// pairs is read in order, its records nearly so.
 void DetectionPart::fetch(const BroadPhase& broad_phase, size_t next) const {
   if (next >= chosen_.size()) return;
   const int record = broad_phase.pairs()[chosen_[next]].touching;

@@ -1,6 +1,6 @@
 #pragma once
-// A share of the pairs that a detection looks at: what it remembers of them, and scratch memory of
-// its own, so that shares can be looked at side by side.
+// A share of the pairs that a detection looks at, with its memory of them and scratch memory of its
+// own, so that threads can look at several shares at the same time.
 
 #include <vector>
 
@@ -14,19 +14,19 @@
 
 namespace ballast {
 
-/// The planes and pairs of a range of bodies a. Part 0's contacts, part 1's and so on are in the
-/// order of all.
+/// The planes and pairs whose first body a lies in a range. The contacts of part 0, then those of
+/// part 1 and so on, are in the order of all contacts.
 class DetectionPart {
  public:
   DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings);
 
-  /// Bodies begin <= a < end from now on, with so many pairs; records of pairs are taken over by
-  /// adopt().
+  /// From now on its bodies are begin <= a < end, with this number of pairs. The memory of their
+  /// pairs comes by adopt().
   void take_range(int begin, int end, size_t pairs);
   int begin() const { return begin_; }
   int end() const { return end_; }
-  /// Lays aside what is remembered of touching pairs, for adopt() by the part that each of them
-  /// belongs to next.
+  /// Lays aside the memory of touching pairs, until the part that each of them belongs to next
+  /// adopts it.
   void lay_aside();
   void adopt(CandidatePair& pair, const DetectionPart& from);
   void drop_held();
@@ -36,7 +36,7 @@ class DetectionPart {
 
   /// Of the last detect().
   const DetectionCounters& counters() const { return counters_; }
-  std::vector<ContactPoint> found;  ///< where the caller may let it put them
+  std::vector<ContactPoint> found;  ///< a place for its contacts, for the caller's use
 
  private:
   void choose_pairs(const BroadPhase& broad_phase);

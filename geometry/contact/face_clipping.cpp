@@ -54,7 +54,7 @@ void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, i
     const double here = distance_[i], there = distance_[next];
     if (here <= thickness) {
       clipped_.push_back(p);
-      // a corner in the plane whose edge leaves: the polygon goes on along the side
+      // A corner in the plane whose edge leaves: the polygon goes on along the side.
       if (here >= -thickness && there > thickness) clipped_.back().next_edge = ~k;
     }
     const bool leaves = here < -thickness && there > thickness,

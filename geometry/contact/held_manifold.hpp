@@ -26,9 +26,9 @@ class HeldManifold {
   bool is_valid(const RelativePose& b_in_a, double radius, double alert) const;
 
   /// The points with gap <= alert at this relative pose, in a's frame, and their normal from a to
-  /// b. Gaps are exact where a vertex meets a face or two edges cross; corners of the common part
-  /// of two faces are taken for points of both bodies, which errs by what the bodies have slid
-  /// times the angle between the faces.
+  /// b. Gaps are exact where a vertex meets a face or two edges cross. Corners of the common part
+  /// of two faces are taken for points of both bodies: their gaps err by the distance slid times
+  /// the angle between the faces.
   std::span<const ManifoldPoint> points(const RelativePose& b_in_a, double alert, Vec3& normal,
                                         std::array<ManifoldPoint, most_points>& storage) const;
 

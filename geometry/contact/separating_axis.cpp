@@ -30,8 +30,8 @@ Lowest lowest(const double* values, int padded) {
   return result;
 }
 
-/// Cross product of two edges, freed of its components along them: of nearly parallel edges these
-/// are all its error that matters, as the edges are long in that direction.
+/// Cross product of two edges, freed of its components along them. Of nearly parallel edges these
+/// components are the only error that matters, as the edges are long in that direction.
 Vec3 refined_cross(const Vec3& u, const Vec3& v) {
   Vec3 n = u.cross(v);
   n -= u * (n.dot(u) / u.squaredNorm());
@@ -67,8 +67,8 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
   const Vec3 between = pair.other[0] * b.from - a.from;
   axis.at_a = between.cross(found.along_b).dot(found.direction) / found.cross;
   axis.at_b = between.cross(a.along).dot(found.direction) / found.cross;
-  // the facet is the parallelogram of the two edges: distances to its sides are lengths times the
-  // sine
+  // The facet is the parallelogram of the two edges: the distances to its sides are lengths times
+  // the sine of the angle between the edges.
   const double cross = std::abs(found.cross);
   axis.inside = cross * std::min(std::min(axis.at_a, 1.0 - axis.at_a) / b.length,
                                  std::min(axis.at_b, 1.0 - axis.at_b) / a.length);
@@ -120,7 +120,8 @@ std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int
   const CollisionShape::Edge &edge_a = a.edges()[ea], &edge_b = b.edges()[eb];
   std::optional<EdgeFacet> facet = edge_facet(pair, edge_a, edge_b);
   if (!facet || !facet->nearly_parallel) return facet;
-  // The arcs' crossing is uncertain by rounding / sine, so the supports are asked.
+  // The direction of nearly parallel edges is uncertain by rounding / sine: the edges may not be
+  // the supports along it. The lowest and highest vertices say how far the bodies are apart.
   const double sign = facet->cross > 0.0 ? 1.0 : -1.0;
   facet->direction = sign * refined_cross(edge_a.along, facet->along_b).normalized();
   a.vertices().evaluate(-facet->direction, heights.data());
@@ -181,12 +182,12 @@ bool is_proved_best(const PairFrame& pair, double face_isolation, const Separati
   const double distance = c.norm();
   const double needed = s0 - margin + pair.bounds[0]->ball_radius + pair.bounds[1]->ball_radius;
   if (!(needed > -distance)) return false;
-  // largest angle from n0 within the cap: the angle n0-c plus the cap's half angle
+  // Largest angle from n0 within the cap: the angle n0-c plus the cap's half angle.
   const double cos_c = std::clamp(axis.direction.dot(c) / distance, -1.0, 1.0);
   const double cos_cap = std::clamp(needed / distance, -1.0, 1.0);
   const double sin_c = std::sqrt(1.0 - cos_c * cos_c), sin_cap = std::sqrt(1.0 - cos_cap * cos_cap);
   const double cos_t = cos_c * cos_cap - sin_c * sin_cap, sin_t = sin_c * cos_cap + cos_c * sin_cap;
-  // 1e-7: a cosine near 1 knows its angle to 1.5e-8 only
+  // 1e-7: a cosine near 1 determines its angle to 1.5e-8 only.
   return sin_t > 0.0 && r * sin_t + s0 * (1.0 - cos_t) > margin + 1e-7 * size;
 }
 

@@ -36,7 +36,7 @@ struct PairFrame {
   double size() const { return bounds[0]->circumradius + bounds[1]->circumradius; }
 };
 
-/// The same with their shapes.
+/// A PairFrame with the shapes' tables.
 struct ShapePair : PairFrame {
   ShapePair(const CollisionShape& a, const CollisionShape& b, const RelativePose& b_in_a)
       : PairFrame(a.bounds(), b.bounds(), b_in_a), shape{&a, &b} {}
@@ -61,8 +61,8 @@ struct AxisFeature {
   bool operator==(const AxisFeature&) const = default;
 };
 
-/// What the search proves of a pair. Which normal, gaps and points a contact has by it is decided
-/// in contact_normal.hpp.
+/// The search's result: a facet, and the bodies' separation along it. The contact's normal, gaps
+/// and points follow from it by the rule of contact_normal.hpp.
 struct SeparatingAxis {
   AxisFeature feature;
   Vec3 direction;     ///< unit, in a's frame, from a to b, across the facet
@@ -79,10 +79,11 @@ struct SeparatingAxis {
                      ///< are [m]; of two edges a lower bound
 };
 
-/// Axes whose separations differ by less than this are equal, and a rule chooses: faces before
-/// edges, a's before b's, the smaller index. Rounding is a hundred times less.
+/// Axes whose separations differ by less than this [m] count as equal, and a rule chooses: faces
+/// before edges, a's before b's, the smaller index. Rounding errors are a hundred times smaller.
 inline double tie_tolerance(const PairFrame& pair) { return 1e-13 * pair.size(); }
-/// Margin of every proof that an axis is not the best: above tie_tolerance by more than rounding.
+/// Margin of every proof that an axis is not the best [m]: above tie_tolerance by more than
+/// rounding.
 inline double proof_margin(const PairFrame& pair) { return 4e-13 * pair.size(); }
 
 /// Edges with a smaller sine of the angle between them count as parallel: their cross product is
@@ -114,8 +115,8 @@ struct EdgeSeparation {
 std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb,
                                               Heights& heights);
 
-/// All that is known of one axis; nothing if the feature is none or (any more) no facet. A pure
-/// function of the pair.
+/// The axis of one feature. Empty if the feature is none, or no facet at this pose. Depends on the
+/// pair alone.
 std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature,
                                             Heights& heights);
 
@@ -123,12 +124,12 @@ std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFea
 double face_isolation(const ShapePair& pair, const AxisFeature& feature);
 
 /// True if it is proved that every other facet's separation is smaller by more than proof_margin.
-/// Sufficient, not necessary; what fails are near-ties and axes whose `inside` is not well above
-/// zero. A lower bound of the axis' clearance proves no more than the clearance does.
+/// The proof is sufficient, not necessary: it fails for near-ties and for axes whose `inside` is
+/// not well above zero. The axis' clearance may be a lower bound.
 bool is_proved_best(const PairFrame& pair, double face_isolation, const SeparatingAxis& axis);
 
-// The same axes from the features' records alone, to the same bits: what is remembered of a pair
-// that touches needs no more.
+// The same axes, to the same bits, from the records of the features alone. The memory of a touching
+// pair (touching_pair.hpp) holds these records and nothing else of the shapes.
 
 /// The facet of two edges, or nothing. Of nearly parallel ones direction and separation are left
 /// out: their shapes decide.
@@ -141,19 +142,19 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
                          const CollisionShape::Edge& a, const CollisionShape::Edge& b,
                          const EdgeSeparation& found);
 
-/// A vertex's height along direction d from the origin of its frame, as in a sweep over all
-/// vertices.
+/// A vertex's height along direction d from the origin of its frame [m], added up in the order of
+/// AffineRows::evaluate.
 inline double vertex_height(const Vec3& d, const Vec3& vertex) {
   return ((d.x() * vertex.x() + d.y() * vertex.y()) + d.z() * vertex.z()) + 0.0;
 }
-/// Of a face of body `own`; `height`: of the other body's lowest vertex, vertex_height along the
-/// face's normal.
+/// The separation along a face of body `own`. `height`: vertex_height of the other body's lowest
+/// vertex along the face's normal.
 inline double face_separation_at(const PairFrame& pair, int own, const CollisionShape::Face& face,
                                  double height) {
   return height + (face.normal.dot(pair.other[own].position) - face.offset);
 }
-/// Support and clearance are left to who knows them. `vertex`: the other body's lowest above the
-/// face, in its own frame.
+/// Leaves support and clearance to the caller. `vertex`: the other body's lowest one over the face,
+/// in its own frame.
 SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature,
                          const CollisionShape::Face& face,
                          std::span<const CollisionShape::Side> sides, const Vec3& vertex,

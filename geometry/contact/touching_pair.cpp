@@ -63,7 +63,8 @@ TouchingPair::Look TouchingPair::look_at(const VertexOnFace& contact, const Pair
                                          double turn, double alert, SeparatingAxis& axis,
                                          ManifoldPoint& point) const {
   const int own = feature_.reference();
-  // 1e-9: far above the rounding of sums of turns over 1e7 steps
+  // Another vertex may come nearer to the face by as much as the bodies have turned since. The term
+  // 1e-9 is far above the rounding of sums of turns over 1e7 steps.
   const double diameter = 2.0 * pair.bounds[1 - own]->circumradius;
   const double clearance =
       contact.clearance - diameter * (turn - contact.turn + 1e-9 * (1.0 + turn));

@@ -51,13 +51,15 @@ struct EdgeAcrossEdge {
 
 class TouchingPair {
  public:
-  /// Records a pair's best axis; `turn`: the two bodies' sum. Another kind of contact leaves
-  /// nothing.
+  /// Records a pair's best axis. `turn`: the sum of both bodies' Travel::turn. A face with too many
+  /// sides is not recorded.
   void record(const ShapePair& pair, const SeparatingAxis& axis, double turn);
 
   enum class Look { undecided, apart, touching };
-  /// apart: the axis separates by more than `alert`. touching: the axis is proved to be the best,
-  /// and `point` is the manifold. axis.clearance is then a lower bound.
+  /// Looks at the pair in its present pose.
+  /// apart: the axis separates by more than `alert` [m]; of `axis` the separation is set.
+  /// touching: the axis is proved to be the best and `point` is the only point; axis.clearance is
+  /// then a lower bound.
   Look look(const PairFrame& pair, double turn, double alert, SeparatingAxis& axis,
             ManifoldPoint& point) const;
 

@@ -37,8 +37,8 @@ double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const 
   }
   if ((low.array() >= hi.array()).any() || (high.array() <= lo.array()).any()) return 0.0;
 
-  // Directions that both planes cut: inside = (below hi) - (below lo). One bit of `choice` for each
-  // of them.
+  // Along a direction that both planes cut, inside = (below hi) - (below lo). Every combination of
+  // such terms is one `choice`: a bit for each of these directions.
   HalfSpace cuts[3];
   int count = 0, both[3], both_count = 0;
   for (int axis = 0; axis < 3; ++axis) {

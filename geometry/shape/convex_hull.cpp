@@ -89,8 +89,8 @@ Vec3 area_vector(const std::vector<int>& loop, const std::vector<Vec3>& points) 
 }
 
 /// The flattest corner of each face where it is flatter than kCorner, straight or re-entrant:
-/// merging leaves such behind too. At most one per face and none beside another, as the hull of
-/// what stays may well keep the neighbour.
+/// merging leaves such behind too. At most one per face and none beside another: once it is gone,
+/// the hull of the other points may well keep the neighbour.
 std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points) {
   std::vector<int> flat;
   const auto listed = [&](int v) { return std::find(flat.begin(), flat.end(), v) != flat.end(); };
@@ -176,7 +176,7 @@ Polyhedron convex_hull(std::span<const Vec3> points) {
   try {
     return assembled(points, hull_loops(scaled, kMerge[0]));
   } catch (const InvalidPolyhedron&) {
-    // the finer attempt below decides
+    // The finer attempt below decides.
   }
   try {
     return assembled(points, hull_loops(scaled, kMerge[1]));

@@ -47,8 +47,8 @@ std::vector<Vec3> spread_directions(int count, Random& random) {
   return directions;
 }
 
-/// One attempt: nothing when the hull has too few or too many vertices, or a face that is no
-/// triangle.
+/// One attempt at a grain: an ellipsoid of random axis ratios, roughened, and the hull of points on
+/// it. Empty when the hull has too few or too many vertices, or a face that is no triangle.
 std::optional<Polyhedron> try_grain(const GrainShapeSettings& s, Random& random) {
   // a few more directions than vertices wanted: some end inside the hull
   const int count = s.min_vertices + random.below(s.max_vertices + 4 - s.min_vertices);

@@ -1,6 +1,6 @@
 #pragma once
-// Seeded ballast-like grains: convex, angular, 8-37 vertices and 12-70 triangular faces as in the
-// paper (sec. 2).
+// Seeded grains that look like ballast: convex, angular, with 8 to 37 vertices and 12 to 70
+// triangular faces, as in the paper (sec. 2).
 
 #include <cstdint>
 #include <vector>

@@ -83,8 +83,8 @@ PrincipalShape to_principal_frame(const Polyhedron& polyhedron) {
   Polyhedron shape = in_frame(polyhedron, axes, origin);
   properties = mass_properties(shape);
 
-  // A mesh far from its origin leaves rounding of its distance behind: one correction, from the now
-  // near shape.
+  // The coordinates of a mesh far from its origin are rounded to that distance, and so are its
+  // centre and axes. The shape is near its origin now: one correction from here removes the error.
   if (properties.centre.norm() > 1e-15 * shape.circumradius() ||
       off_diagonal(properties.inertia) > 1e-12) {
     const Mat3 correction = principal_axes(properties.inertia);

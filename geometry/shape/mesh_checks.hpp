@@ -1,6 +1,6 @@
 #pragma once
-// What a list of faces must satisfy before it is a convex polyhedron: one check per kind of
-// defect. Each throws InvalidPolyhedron with the first defect that it finds.
+// The checks that a list of faces must pass to be a convex polyhedron, one per kind of defect. Each
+// throws InvalidPolyhedron with the first defect that it finds.
 
 #include <span>
 #include <sstream>

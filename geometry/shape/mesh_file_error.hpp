@@ -1,11 +1,11 @@
 #pragma once
+// The error of a mesh file that cannot be read.
 
 #include "platform/error.hpp"
 
 namespace ballast {
 
-/// What is wrong with a mesh file; what() starts with the file's name and says the line or the
-/// face.
+/// what() is one line: the file's name, the line or the face, and the defect.
 class MeshFileError : public Error {
  public:
   using Error::Error;

@@ -55,8 +55,9 @@ void Polyhedron::build_faces(const std::vector<std::vector<int>>& faces) {
   offsets_.assign(faces.size(), 0.0);
 }
 
-/// Pairs the half-edges; edges come out ordered by (smaller vertex, larger vertex), each running
-/// upwards.
+/// Each face runs along its edges once: a half-edge. The two half-edges between the same vertices
+/// make an edge. Edges come out ordered by (smaller vertex, larger vertex), from the smaller to the
+/// larger.
 void Polyhedron::build_edges() {
   struct HalfEdge {
     int low, high;  // its ends
@@ -75,6 +76,7 @@ void Polyhedron::build_edges() {
     return std::tie(a.low, a.high, a.downwards, a.slot) <
            std::tie(b.low, b.high, b.downwards, b.slot);
   });
+  // Sorted, the half-edges of one edge stand side by side, the upward one first.
   face_neighbours_.assign(face_vertices_.size(), -1);
   for (size_t i = 0; i < halves.size();) {
     size_t end = i;
@@ -148,7 +150,7 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
   double volume6 = 0.0, surface2 = 0.0;
   const Vec3 inside = mean(vertices_);
   for (int f = 0; f < face_count(); ++f) {
-    // Newell's normal: the area vector, twice; about the first vertex against cancellation
+    // Newell's normal: twice the area vector, about the first vertex against cancellation.
     Vec3 area2 = Vec3::Zero(), centre = Vec3::Zero();
     const std::span<const int> loop = face(f);
     const Vec3& first = vertices_[loop[0]];
@@ -158,7 +160,7 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
     }
     centre = first + centre / static_cast<double>(loop.size());
     const double length = area2.norm();
-    // height over the longest extent: what makes the area zero, whatever the shape of the face
+    // A face has no area when its height over its longest extent vanishes, whatever its shape.
     double extent = 0.0;
     for (const int v : loop) extent = std::max(extent, (vertices_[v] - first).norm());
     if (!(length > tolerance * size_ * extent))

@@ -15,15 +15,15 @@
 
 namespace ballast::raw_mesh {
 
-/// A mesh as it stands in the file, nothing checked but indices. Lines count from 1; 0 in files
-/// without lines.
+/// A mesh as it stands in the file: its vertex indices are in range, nothing else is checked. Lines
+/// count from 1; in binary files they are 0.
 struct RawMesh {
   std::vector<Vec3> vertices;
   std::vector<std::vector<int>> faces;
   std::vector<int> vertex_lines, face_lines;
 };
 
-/// A place in a file, for messages "file: line N: what is wrong".
+/// A place in a file, for messages "file: line N: defect".
 struct Place {
   const std::filesystem::path& file;
   int line = 0;
