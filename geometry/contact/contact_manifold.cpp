@@ -60,18 +60,19 @@ void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxi
     candidates_.push_back(crossing);
     return;
   }
-  // Flat edges: the corners of the faces' common part, cut along the normal.
+  // Flat edges: the corners of the faces' common part, cut along the axis.
   const int reference = meeting.reference(), face = meeting.reference_face();
-  const Vec3 normal = contact_normal(pair, axis);
-  const Vec3 direction = reference == 0 ? normal : Vec3(-(pair.other[1].rotation * normal));
+  const Vec3 direction =
+      reference == 0 ? axis.direction : Vec3(-(pair.other[1].rotation * axis.direction));
   const std::span<ClippedPoint> corners = clipper_.clip_along(
       pair, reference, face, meeting.incident_face(), direction, clipping_thickness(pair.size()));
-  set_gaps(corners, pair.shape[reference]->face(face), direction);
+  set_heights(corners, pair.shape[reference]->face(face), direction);
   bool has_crossing = false;
   for (ClippedPoint p : corners) {
-    if (p.gap > alert) continue;
+    if (p.height > alert) continue;
     has_crossing |= p.key == crossing.key;
-    if (reference == 1) p.position = from_a_to_b(pair, axis, pair.other[0] * p.position, p.gap);
+    // from a's surface, where the corners of b's face cut, to b's
+    if (reference == 1) p.position = pair.other[0] * p.position + p.height * axis.direction;
     candidates_.push_back(p.key == crossing.key ? crossing : p);
   }
   if (!has_crossing) candidates_.push_back(crossing);
@@ -90,14 +91,14 @@ void ContactManifold::face_candidates(const ShapePair& pair, const SeparatingAxi
   const int incident = incident_face(pair, reference, index, axis.support);
   const std::span<ClippedPoint> corners =
       clipper_.clip(pair, reference, index, incident, clipping_thickness(pair.size()));
-  set_gaps(corners, face);
+  set_heights(corners, face);
   double deepest = alert + pair.size();
   for (const ClippedPoint& point : corners) {
-    deepest = std::min(deepest, point.gap);
-    if (point.gap <= alert) candidates_.push_back(point);
+    deepest = std::min(deepest, point.height);
+    if (point.height <= alert) candidates_.push_back(point);
   }
   // No corner is as deep as the touching vertex: it lies beside the face and was cut off.
-  if (deepest > touching.gap + proof_margin(pair)) {
+  if (deepest > touching.height + proof_margin(pair)) {
     std::erase_if(candidates_,
                   [&](const ClippedPoint& point) { return point.key == touching.key; });
     candidates_.push_back(touching);
@@ -118,7 +119,7 @@ void ContactManifold::reduce(int max_points, double size) {
   chosen_.assign(count, 0);
   int deepest = by_key_[0];
   for (const int i : by_key_) {
-    if (candidates_[i].gap < candidates_[deepest].gap - 1e-13 * size) deepest = i;
+    if (candidates_[i].height < candidates_[deepest].height - 1e-13 * size) deepest = i;
   }
   chosen_[deepest] = 1;
   const auto kept_beside = [&](int i, int step) {

@@ -24,9 +24,10 @@ FaceBesideEdge most_aligned(const CollisionShape::Edge& edge, const Vec3& d) {
 ManifoldPoint contact_at(const PairFrame& pair, const SeparatingAxis& axis,
                          const ClippedPoint& place) {
   const Vec3 normal = contact_normal(pair, axis);
+  const double gap = contact_gap(pair, axis, place.height);
   if (axis.feature.reference() == 1)
-    return {place.key, midway_from_a(pair.other[0] * place.position, place.gap, normal), place.gap};
-  return {place.key, midway_from_b(place.position, place.gap, normal), place.gap};
+    return {place.key, midway_from_a(pair.other[0] * place.position, gap, normal), gap};
+  return {place.key, midway_from_b(place.position, gap, normal), gap};
 }
 
 ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
@@ -34,7 +35,7 @@ ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
   const int reference = axis.feature.reference();
   ClippedPoint place;
   place.position = pair.other[reference] * vertex;
-  place.gap = gap_over_face(face, place.position);
+  place.height = height_over_face(face, place.position);
   place.key = vertex_key(1 - reference, axis.support);
   place.next_edge = -1;
   return place;
@@ -46,9 +47,9 @@ ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
   const Vec3 on_b = pair.other[0] * (b.from + std::clamp(axis.at_b, 0.0, 1.0) * b.along);
   ClippedPoint place;
   place.key = feature_key(PointKind::edges, axis.feature.a, axis.feature.b);
-  place.gap = axis.separation;
-  // half a gap from the middle: on b's surface where the lines' closest points lie on the edges
-  place.position = 0.5 * (on_a + on_b) + 0.5 * place.gap * contact_normal(pair, axis);
+  place.height = axis.separation;
+  // Half the height from the middle is on b's surface, unless the points are held at the ends.
+  place.position = 0.5 * (on_a + on_b) + 0.5 * place.height * axis.direction;
   place.next_edge = -1;
   return place;
 }
@@ -57,9 +58,8 @@ EdgesMeeting::EdgesMeeting(const PairFrame& pair, const SeparatingAxis& axis,
                            const CollisionShape::Edge& a, const CollisionShape::Edge& b) {
   constexpr double flat = 0.99;            // cosine of 8 degrees
   constexpr double across_squared = 0.01;  // squared sine of 6 degrees
-  const Vec3 normal = contact_normal(pair, axis);
-  const FaceBesideEdge beside_a = most_aligned(a, normal);
-  const Vec3 towards_a = -(pair.other[1].rotation * normal);  // b's frame
+  const FaceBesideEdge beside_a = most_aligned(a, axis.direction);
+  const Vec3 towards_a = -(pair.other[1].rotation * axis.direction);  // b's frame
   const FaceBesideEdge beside_b = most_aligned(b, towards_a);
   face_a = beside_a.face;
   face_b = beside_b.face;

@@ -5,29 +5,33 @@
 // The search (axis_search.hpp) proves which facet of the Minkowski difference B - A separates two
 // polyhedra best: a face of a, a face of b, or an edge of each. It hands over that feature, the
 // unit direction d across it (a's frame, from a to b) and the separation s along d. From the
-// feature, the two bodies' records and their relative pose, this module decides
+// feature, the two bodies' records and their relative pose, this module finds the places where the
+// bodies are near each other, with their heights h_i along d, min h_i = s, and decides
 //
 //   the normal  n    unit, from a to b, one for all points of the pair:  n = d
-//   the gaps    g_i  measured along n [m]; negative where the bodies overlap;  min g_i = s
+//   the gaps    g_i  along n [m]; negative where the bodies overlap:     g_i = h_i
 //   the points  x_i  midway between the two surfaces:  x = x_b - g/2 n = x_a + g/2 n
 //
-// with x_a and x_b the places on the surfaces of a and b. The proof needs d and s alone and the law
-// needs n, g and x alone: another rule changes nothing in the search.
+// with x_a and x_b the places on the surfaces of a and b. The proofs need d, s and h alone and the
+// law needs n, g and x alone: another rule changes contact_normal, contact_gap and contact_at below
+// (and CarriedContact, if points are held on to), and nothing in the search.
 //
-//   case            feature  normal n           points                          gap at a point x
-//   --------------  -------  -----------------  ------------------------------  -----------------
-//   face on face    face f   normal n_f of the  corners of the common part: the  n_f.x - o_f, the
-//   edge on face    of one   reference face f   other body's most opposed face   height over the
-//                   body     (turned round for  at the touching vertex, cut by   plane n_f.x = o_f
-//                            a face of b)       the planes on the sides of f     of f
-//   vertex on face  face f   the same           the touching vertex              the same
-//   edge on edge    an edge  e_a x e_b scaled   closest points of the two lines  n.(x_b - x_a), the
-//                   of each  to 1, a to b       (held within the edges)          separation s
-//   flat edges      an edge  the same           that point, and the corners of   (n_f.x - o_f)
-//                   of each                     the faces' common part, cut      / (n_f.n), the
-//                                               along n; f lies beside the edge  height along n
-//   parallel edges  never a feature: the faces beside the edges separate as well (kParallelSine)
-//   plane           a wall   the plane's n_P    every vertex within reach        n.(x - p)
+// clang-format off
+// case            feature     normal n          places                         height h of a place x
+// --------------  ----------  ----------------  -----------------------------  ---------------------
+// face on face,   face f of   n_f of the        corners of the common part:    n_f.x - o_f, over the
+// edge on face    one body    reference face,   the other body's face at the   plane n_f.x = o_f
+//                             turned round for  touching vertex that opposes
+//                             a face of b       f most, cut by f's sides
+// vertex on face  face f      the same          the touching vertex            the same
+// edge on edge    an edge of  e_a x e_b at      closest points of the two      d.(x_b - x_a), the
+//                 each        length 1, a to b  lines, held within the edges   separation s
+// flat edges      an edge of  the same          that point and the corners of  (n_f.x - o_f) / n_f.d
+//                 each                          the common part of the faces
+//                                               beside the edges, cut along d
+// parallel edges  never a feature (kParallelSine): the faces beside them separate as well
+// plane           a wall      the plane's n_P   every vertex within reach      n_P.(x - p)
+// clang-format on
 //
 // "Flat edges" (EdgesMeeting) lie nearly in a face of the other body. Such an edge touches at both
 // ends of its overlap, not only where the axis happens to see it in this step: without the other
@@ -39,8 +43,8 @@
 //
 // Who asks: contact_manifold.hpp collects the points within reach and keeps the most useful ones,
 // lone_point.hpp proves that the rule gives no more than one, held_manifold.hpp carries points on
-// to later poses, detection_part.cpp turns them to the world frame. The proofs of lone_point.hpp
-// hold for every rule whose gaps are at least the heights along d; another one must drop them.
+// to later poses, detection_part.cpp turns them to the world frame. Places are collected by their
+// heights, so that a rule whose gaps are smaller than the heights misses some at the rim.
 
 #include "geometry/contact/contact_shape.hpp"
 #include "geometry/contact/face_clipping.hpp"
@@ -65,39 +69,25 @@ inline Vec3 contact_normal(const Mat3& rotation, const Plane& plane) {
   return rotation * plane.normal;
 }
 
-// ---- the gaps
+// ---- the places, with their heights along the axis' direction
 
 /// Of a place x on the other body over a reference face, in that face's frame [m].
-inline double gap_over_face(const CollisionShape::Face& face, const Vec3& x) {
+inline double height_over_face(const CollisionShape::Face& face, const Vec3& x) {
   return face.normal.dot(x) - face.offset;
 }
-/// Sets the gaps of all corners of the common part of two faces, which a reference face's own
-/// normal has cut.
-inline void set_gaps(std::span<ClippedPoint> corners, const CollisionShape::Face& face) {
-  for (ClippedPoint& corner : corners) corner.gap = gap_over_face(face, corner.position);
+/// Sets the heights of all corners of the common part of two faces, which the planes on the sides
+/// of the reference face have cut.
+inline void set_heights(std::span<ClippedPoint> corners, const CollisionShape::Face& face) {
+  for (ClippedPoint& corner : corners) corner.height = height_over_face(face, corner.position);
 }
-/// The same for corners cut, and gaps measured, along `direction`: the normal in the frame of the
-/// reference face, out of it.
-inline void set_gaps(std::span<ClippedPoint> corners, const CollisionShape::Face& face,
-                     const Vec3& direction) {
+/// The same for corners cut, and heights measured, along `direction`: a unit vector out of the
+/// reference face, in its frame.
+inline void set_heights(std::span<ClippedPoint> corners, const CollisionShape::Face& face,
+                        const Vec3& direction) {
   const double scale = 1.0 / face.normal.dot(direction);
-  for (ClippedPoint& corner : corners) corner.gap = gap_over_face(face, corner.position) * scale;
+  for (ClippedPoint& corner : corners)
+    corner.height = height_over_face(face, corner.position) * scale;
 }
-
-// ---- the points
-
-/// Midway between the surfaces, from the place on b's surface or on a's.
-inline Vec3 midway_from_b(const Vec3& on_b, double gap, const Vec3& normal) {
-  return on_b - 0.5 * gap * normal;
-}
-inline Vec3 midway_from_a(const Vec3& on_a, double gap, const Vec3& normal) {
-  return on_a + 0.5 * gap * normal;
-}
-/// The contact point of a place on the surface of the body beside the reference, whose frame it is
-/// given in: of b for a face of a and for two edges, of a for a face of b.
-ManifoldPoint contact_at(const PairFrame& pair, const SeparatingAxis& axis,
-                         const ClippedPoint& place);
-
 /// The axis' support vertex over its face. `vertex`: in its own body's frame [m].
 ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
                             const CollisionShape::Face& face, const Vec3& vertex);
@@ -105,11 +95,6 @@ ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
 /// bodies apart may be closest beyond the edges' ends: the points are then held at the ends.
 ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
                          const CollisionShape::Edge& a, const CollisionShape::Edge& b);
-/// A place on a's surface (a's frame) moved along the normal to b's.
-inline Vec3 from_a_to_b(const PairFrame& pair, const SeparatingAxis& axis, const Vec3& on_a,
-                        double gap) {
-  return on_a + gap * contact_normal(pair, axis);
-}
 
 /// How the two edges of an axis and the faces beside them lie: a crossing, or flat on one another.
 struct EdgesMeeting {
@@ -131,6 +116,25 @@ struct EdgesMeeting {
   int reference_face() const { return flat_on_a ? face_a : face_b; }
   int incident_face() const { return flat_on_a ? face_b : face_a; }
 };
+
+// ---- the gaps and the points
+
+/// Along the normal [m], of a place at this height along the axis' direction.
+inline double contact_gap(const PairFrame& /*pair*/, const SeparatingAxis& /*axis*/,
+                          double height) {
+  return height;
+}
+/// Midway between the surfaces, from the place on b's surface or on a's.
+inline Vec3 midway_from_b(const Vec3& on_b, double gap, const Vec3& normal) {
+  return on_b - 0.5 * gap * normal;
+}
+inline Vec3 midway_from_a(const Vec3& on_a, double gap, const Vec3& normal) {
+  return on_a + 0.5 * gap * normal;
+}
+/// The contact point of a place on the surface of the body beside the reference, in the
+/// reference's frame: on b for a face of a and for two edges, on a for a face of b.
+ManifoldPoint contact_at(const PairFrame& pair, const SeparatingAxis& axis,
+                         const ClippedPoint& place);
 
 // ---- the same at later poses
 

@@ -63,7 +63,7 @@ void FaceClipper::clip_by_side(const ShapePair& pair, int reference, int face, i
     ClippedPoint crossing;
     crossing.position =
         p.position + (polygon_[next].position - p.position) * (here / (here - there));
-    crossing.gap = 0.0;
+    crossing.height = 0.0;
     crossing.key = crossing_key(pair, reference, face, k, p.next_edge);
     crossing.next_edge = leaves ? ~k : p.next_edge;
     clipped_.push_back(crossing);

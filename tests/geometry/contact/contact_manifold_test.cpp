@@ -151,9 +151,9 @@ TEST_CASE("the short cut for one vertex on a face returns what clipping returns"
     std::vector<std::uint64_t> keys;
     for (const int incident : pair.shape[1 - reference]->vertex_faces(found.axis.support)) {
       const auto corners = clipper.clip(pair, reference, face, incident, 1e-9 * c.size());
-      set_gaps(corners, pair.shape[reference]->face(face));
+      set_heights(corners, pair.shape[reference]->face(face));
       for (const ClippedPoint& p : corners)
-        if (p.gap <= alert) keys.push_back(p.key);
+        if (p.height <= alert) keys.push_back(p.key);
     }
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());

@@ -40,9 +40,9 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
     const CollisionShape& other = *pair.shape[1 - reference];
     for (int f = 0; f < other.faces().count(); ++f) {
       const auto corners = clipper.clip(pair, reference, face, f, clipping_thickness(c.size()));
-      set_gaps(corners, pair.shape[reference]->face(face));
+      set_heights(corners, pair.shape[reference]->face(face));
       for (const ClippedPoint& p : corners)
-        others += p.key != vertex_key(1 - reference, axis->support) && p.gap <= alert;
+        others += p.key != vertex_key(1 - reference, axis->support) && p.height <= alert;
     }
     alone += others == 0;
     if (!is_lone_vertex(pair, *axis, alert)) continue;
@@ -73,10 +73,10 @@ TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their cr
         reference == 0 ? axis->direction : Vec3(-(pair.other[1].rotation * axis->direction));
     const auto corners = clipper.clip_along(pair, reference, face, meeting.incident_face(),
                                             direction, clipping_thickness(c.size()));
-    set_gaps(corners, pair.shape[reference]->face(face), direction);
+    set_heights(corners, pair.shape[reference]->face(face), direction);
     const auto crossing = feature_key(PointKind::edges, feature.a, feature.b);
     int others = 0;
-    for (const ClippedPoint& p : corners) others += p.key != crossing && p.gap <= alert;
+    for (const ClippedPoint& p : corners) others += p.key != crossing && p.height <= alert;
     alone += others == 0;
     if (!is_lone_crossing(pair, *axis, meeting,
                           edge_of_face(*pair.shape[0], feature.a, meeting.face_a),
