@@ -11,14 +11,14 @@ using namespace ballast::testing;
 
 namespace {
 
-constexpr double alert = 1e-4;
+constexpr double reach = 1e-4;
 
-/// The pair's best axis, if it does not separate the bodies by more than the alert distance.
+/// The pair's best axis, if it does not separate the bodies by more than the reach distance.
 std::optional<SeparatingAxis> best_axis(const ShapePair& pair) {
   static AxisSearch search(collision_pool());
   AxisFeature hint;
   SeparatingAxis axis;
-  if (is_separated(search.find(pair, alert, hint, axis))) return std::nullopt;
+  if (is_separated(search.find(pair, reach, hint, axis))) return std::nullopt;
   return axis;
 }
 
@@ -42,10 +42,10 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
       const auto corners = clipper.clip(pair, reference, face, f, clipping_thickness(c.size()));
       set_heights(corners, pair.shape[reference]->face(face));
       for (const ClippedPoint& p : corners)
-        others += p.key != vertex_key(1 - reference, axis->support) && p.height <= alert;
+        others += p.key != vertex_key(1 - reference, axis->support) && p.height <= reach;
     }
     alone += others == 0;
-    if (!is_lone_vertex(pair, *axis, alert)) continue;
+    if (!is_lone_vertex(pair, *axis, reach)) continue;
     ++proved;
     if (others > 0) FAIL_CHECK("case " << i << ": " << others << " other points within reach");
   }
@@ -76,11 +76,11 @@ TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their cr
     set_heights(corners, pair.shape[reference]->face(face), direction);
     const auto crossing = feature_key(PointKind::edges, feature.a, feature.b);
     int others = 0;
-    for (const ClippedPoint& p : corners) others += p.key != crossing && p.height <= alert;
+    for (const ClippedPoint& p : corners) others += p.key != crossing && p.height <= reach;
     alone += others == 0;
     if (!is_lone_crossing(pair, *axis, meeting,
                           edge_of_face(*pair.shape[0], feature.a, meeting.face_a),
-                          edge_of_face(*pair.shape[1], feature.b, meeting.face_b), alert))
+                          edge_of_face(*pair.shape[1], feature.b, meeting.face_b), reach))
       continue;
     ++proved;
     if (others > 0) FAIL_CHECK("case " << i << ": " << others << " other corners within reach");

@@ -20,7 +20,7 @@ std::vector<Vec3> vertices_of(const Polyhedron& p) {
   return {p.vertices().begin(), p.vertices().end()};
 }
 
-Faces faces_of(const Polyhedron& p) {
+Faces loops_of(const Polyhedron& p) {
   Faces faces;
   for (int f = 0; f < p.face_count(); ++f) faces.emplace_back(p.face(f).begin(), p.face(f).end());
   return faces;
@@ -47,7 +47,7 @@ const Faces kTetrahedronFaces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 void append(std::vector<Vec3>& vertices, Faces& faces, const Polyhedron& other, const Vec3& shift) {
   const int first = static_cast<int>(vertices.size());
   for (const Vec3& p : other.vertices()) vertices.push_back(p + shift);
-  for (std::vector<int> face : faces_of(other)) {
+  for (std::vector<int> face : loops_of(other)) {
     for (int& v : face) v += first;
     faces.push_back(face);
   }
@@ -181,7 +181,7 @@ TEST_CASE("defects of the surface are named") {
 TEST_CASE("defects of the shape are named") {
   const Polyhedron box = make_box({2, 2, 2});
   std::vector<Vec3> v = vertices_of(box);
-  Faces f = faces_of(box);
+  Faces f = loops_of(box);
   std::string expected;
   SECTION("face not flat") {
     v[7] += Vec3(0.1, 0.1, 0.1);
@@ -215,7 +215,7 @@ TEST_CASE("defects of the shape are named") {
 
 TEST_CASE("dents count relative to the size, wherever the mesh lies") {
   const std::vector<Vec3> corners = vertices_of(make_box({2, 2, 2}));
-  Faces fan = faces_of(make_box({2, 2, 2}));
+  Faces fan = loops_of(make_box({2, 2, 2}));
   fan.pop_back();
   fan.insert(fan.end(), {{4, 5, 8}, {5, 7, 8}, {7, 6, 8}, {6, 4, 8}});
   for (const double scale : {1e-6, 1.0, 1e6}) {
@@ -242,7 +242,7 @@ TEST_CASE("thin and stretched grains are accepted") {
     std::vector<Vec3> v = vertices_of(grain);
     for (Vec3& p : v) p = turn * p.cwiseProduct(Vec3(1.0, 0.5, thinness)) + Vec3(3, 4, 5);
     CAPTURE(seed, thinness);
-    CHECK(complaint(v, faces_of(grain)) == "");
+    CHECK(complaint(v, loops_of(grain)) == "");
   }
 }
 

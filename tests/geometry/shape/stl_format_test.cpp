@@ -11,7 +11,7 @@ using raw_mesh::RawMesh;
 
 namespace {
 
-RawMesh read(std::string_view content) { return raw_mesh::read_stl("a.stl", content); }
+RawMesh read_stl_text(std::string_view content) { return raw_mesh::read_stl("a.stl", content); }
 
 /// One facet of a text STL.
 std::string facet(const std::string& p, const std::string& q, const std::string& r) {
@@ -23,7 +23,7 @@ std::string facet(const std::string& p, const std::string& q, const std::string&
 
 TEST_CASE("STL: text and binary hold the same triangles of welded corners") {
   const Polyhedron grain = make_grain({}, 0.02, 5).shape;  // all faces are triangles
-  const RawMesh text = read(stl_text(grain)), binary = read(binary_stl(grain));
+  const RawMesh text = read_stl_text(stl_text(grain)), binary = read_stl_text(binary_stl(grain));
   for (const RawMesh* mesh : {&text, &binary}) {
     REQUIRE(static_cast<int>(mesh->vertices.size()) == grain.vertex_count());
     REQUIRE(static_cast<int>(mesh->faces.size()) == grain.face_count());
@@ -41,7 +41,7 @@ TEST_CASE("STL: corners weld to a millionth of the size, not farther") {
   const auto vertices_with = [](const std::string& near_corner) {
     const std::string text = "solid\n" + facet("0 0 0", "1 0 0", "0 1 0") +
                              facet(near_corner, "0 1 0", "0 0 1") + "endsolid\n";
-    return read(text).vertices.size();
+    return read_stl_text(text).vertices.size();
   };
   CHECK(vertices_with("1 0 0") == 4);
   CHECK(vertices_with("1 0 9e-7") == 4);
@@ -50,10 +50,10 @@ TEST_CASE("STL: corners weld to a millionth of the size, not farther") {
 
 TEST_CASE("STL: damage is named") {
   const std::string binary = binary_stl(make_box({1, 2, 3}));
-  CHECK_THROWS_WITH(read(binary.substr(0, binary.size() - 1)),
+  CHECK_THROWS_WITH(read_stl_text(binary.substr(0, binary.size() - 1)),
                     Catch::Matchers::Contains("12 triangles take 684 bytes, the file has 683"));
-  CHECK_THROWS_WITH(read("solid\nfacet normal 0 0 0\nouter loop\nvertex 0 0 x\n"),
+  CHECK_THROWS_WITH(read_stl_text("solid\nfacet normal 0 0 0\nouter loop\nvertex 0 0 x\n"),
                     "a.stl: line 4: 'x' is no number in range");
-  CHECK_THROWS_WITH(read("solid\n" + facet("0 0 0", "1 0 0", "0 1 0")),
+  CHECK_THROWS_WITH(read_stl_text("solid\n" + facet("0 0 0", "1 0 0", "0 1 0")),
                     Catch::Matchers::Contains("the file ends where 'facet' or 'endsolid'"));
 }
