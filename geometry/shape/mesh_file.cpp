@@ -30,11 +30,12 @@ Format format_of(const std::filesystem::path& file) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (suffix == ".obj") return Format::obj;
   if (suffix == ".stl") return Format::stl;
-  Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read");
+  Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read and written");
 }
 
-[[noreturn]] void fail_to_read(const std::filesystem::path& file, int code) {
-  Place{file}.fail("cannot read: " + std::generic_category().message(code));
+[[noreturn]] void fail_errno(const std::filesystem::path& file, const std::string& doing,
+                             int code) {
+  Place{file}.fail("cannot " + doing + ": " + std::generic_category().message(code));
 }
 
 struct Close {
@@ -43,11 +44,11 @@ struct Close {
 
 std::string content_of(const std::filesystem::path& file) {
   const std::unique_ptr<std::FILE, Close> in(std::fopen(file.c_str(), "rb"));
-  if (!in) fail_to_read(file, errno);
+  if (!in) fail_errno(file, "read", errno);
   std::string content;
   char block[65536];
   while (const size_t n = std::fread(block, 1, sizeof block, in.get())) content.append(block, n);
-  if (std::ferror(in.get())) fail_to_read(file, errno);
+  if (std::ferror(in.get())) fail_errno(file, "read", errno);
   if (content.empty()) Place{file}.fail("the file is empty");
   return content;
 }
@@ -118,6 +119,24 @@ Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale) {
   } catch (const InvalidPolyhedron& error) {
     Place{file}.fail(error.what());
   }
+}
+
+void write_mesh(const std::filesystem::path& file, const Polyhedron& polyhedron) {
+  const Format format = format_of(file);
+  const std::string text =
+      format == Format::obj ? raw_mesh::obj_text(polyhedron) : raw_mesh::stl_text(polyhedron);
+  const std::filesystem::path beside = file.string() + ".tmp";
+  std::FILE* out = std::fopen(beside.c_str(), "wb");
+  if (!out) fail_errno(file, "write", errno);
+  // a full disk may show only when the last block is flushed or the file is closed
+  int code = 0;
+  if (std::fwrite(text.data(), 1, text.size(), out) != text.size() || std::fflush(out) != 0)
+    code = errno;
+  if (std::fclose(out) != 0 && code == 0) code = errno;
+  if (code == 0 && std::rename(beside.c_str(), file.c_str()) != 0) code = errno;
+  if (code == 0) return;
+  std::remove(beside.c_str());
+  fail_errno(file, "write", code);
 }
 
 }  // namespace ballast

@@ -10,7 +10,6 @@
 
 #include "geometry/shape/mesh_file.hpp"
 #include "tests/catch.hpp"
-#include "tests/geometry/shape/write_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace ballast {

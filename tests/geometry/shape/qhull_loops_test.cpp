@@ -11,7 +11,7 @@ using namespace ballast;
 namespace {
 
 /// The corners of a unit cube, bit 0 of the index: +x, bit 1: +y, bit 2: +z.
-std::vector<double> cube_corners() {
+std::vector<double> cube_coordinates() {
   std::vector<double> coordinates;
   for (int i = 0; i < 8; ++i)
     for (int axis = 0; axis < 3; ++axis) coordinates.push_back(i >> axis & 1);
@@ -21,9 +21,9 @@ std::vector<double> cube_corners() {
 }  // namespace
 
 TEST_CASE("a cube's faces are six squares, each once around") {
-  std::vector<double> coordinates = cube_corners();
+  std::vector<double> coordinates = cube_coordinates();
   const Loops loops = qhull_loops(coordinates, 1e-10);
-  CHECK(coordinates == cube_corners());
+  CHECK(coordinates == cube_coordinates());
   REQUIRE(loops.size() == 6);
   std::set<std::set<int>> faces;
   for (const std::vector<int>& loop : loops) {
@@ -38,7 +38,7 @@ TEST_CASE("a cube's faces are six squares, each once around") {
 }
 
 TEST_CASE("a corner raised by more than the merging length breaks the top into triangles") {
-  std::vector<double> coordinates = cube_corners();
+  std::vector<double> coordinates = cube_coordinates();
   coordinates[3 * 7 + 2] += 1e-7;
   CHECK(qhull_loops(coordinates, 1e-6).size() == 6);
   CHECK(qhull_loops(coordinates, 1e-10).size() == 7);

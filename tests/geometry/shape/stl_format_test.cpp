@@ -23,7 +23,8 @@ std::string facet(const std::string& p, const std::string& q, const std::string&
 
 TEST_CASE("STL: text and binary hold the same triangles of welded corners") {
   const Polyhedron grain = make_grain({}, 0.02, 5).shape;  // all faces are triangles
-  const RawMesh text = read_stl_text(stl_text(grain)), binary = read_stl_text(binary_stl(grain));
+  const RawMesh text = read_stl_text(raw_mesh::stl_text(grain)),
+                binary = read_stl_text(binary_stl(grain));
   for (const RawMesh* mesh : {&text, &binary}) {
     REQUIRE(static_cast<int>(mesh->vertices.size()) == grain.vertex_count());
     REQUIRE(static_cast<int>(mesh->faces.size()) == grain.face_count());

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "geometry/shape/mesh_file.hpp"
 #include "tests/catch.hpp"
-#include "tests/geometry/shape/write_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
