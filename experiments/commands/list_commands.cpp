@@ -12,6 +12,7 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/run/build_info.hpp"
 #include "problems/scene/scene_file.hpp"
+#include "problems/scene/scene_keys_page.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -100,7 +101,7 @@ void add_scenes_command(CLI::App& program, Action& action) {
   struct Options {
     std::string name;
     std::vector<std::string> overrides;
-    bool resolved = false;
+    bool resolved = false, keys = false;
   };
   auto options = std::make_shared<Options>();
   command->add_option("name", options->name, "The scene to print: a start for one of your own");
@@ -112,12 +113,18 @@ void add_scenes_command(CLI::App& program, Action& action) {
       ->take_all()
       ->expected(1)
       ->needs("name");
+  command
+      ->add_flag("--keys", options->keys,
+                 "Every key of a scene file as Markdown: unit, default, what is expected, meaning")
+      ->excludes("name");
   command->footer(
       "Examples:\n  ballast scenes\n  ballast scenes incline > mine.toml\n  ballast scenes "
       "vibrated_box --resolved");
   command->callback([options, &action] {
     action = [options] {
-      if (options->name.empty())
+      if (options->keys)
+        std::cout << scene_keys_markdown();
+      else if (options->name.empty())
         print_scenes();
       else
         print_scene(options->name, options->overrides, options->resolved);

@@ -4,121 +4,108 @@
 #include <set>
 
 #include "geometry/shape/mesh_file.hpp"
+#include "problems/scene/scene_keys.hpp"
 
 namespace ballast {
 namespace {
 
-constexpr std::int64_t any_seed = std::numeric_limits<std::int64_t>::max();
-
-/// A direction: any length but zero.
-Vec3 direction(TomlTable& table, const char* key, const Vec3& fallback) {
-  const Vec3 v = table.vector(key, "", fallback);
-  if (v.norm() == 0.0) table.fail(key, "has no direction, expected a vector that is not zero");
-  return v.normalized();
-}
-
 HarmonicLoad read_load(TomlTable& wall) {
   TomlTable table = wall.section("load");
   HarmonicLoad load;
-  load.f_max = table.number("f_max", not_negative, "N");
-  load.f_min = table.number("f_min", not_negative, "N", 0.0);
-  load.frequency = table.number("frequency", not_negative, "Hz");
+  read_keys(table, load_keys(), load);
   if (load.f_min > load.f_max) table.fail("f_min", "larger than f_max, expected f_min <= f_max");
   table.finish();
   return load;
 }
 
+void check_direction(TomlTable& table, const char* key, const Vec3& v) {
+  if (v.norm() == 0.0) table.fail(key, "has no direction, expected a vector that is not zero");
+}
+
 WallSpec read_wall(TomlTable& table, const std::string& default_name) {
+  WallText given;
+  given.name = default_name;
+  read_keys(table, wall_keys(), given);
+  check_direction(table, "normal", given.normal);
   WallSpec wall;
-  wall.name = table.text("name", default_name);
-  const Vec3 given = table.vector("normal", "");
-  wall.normal = direction(table, "normal", given);
+  wall.name = given.name;
+  wall.normal = given.normal.normalized();
   // the plane is normal.x = offset with the normal as given in the file, whatever its length
-  wall.offset = table.number("offset", any_number, "m", 0.0) / given.norm();
-  wall.friction = table.number("friction", not_negative, "", 0.0);
-  const std::string motion = table.choice("motion", {"fixed", "prescribed", "driven"}, "fixed");
-  if (motion == "prescribed") {
+  wall.offset = given.offset / given.normal.norm();
+  wall.friction = given.friction;
+  if (given.motion == "prescribed") {
     wall.motion = WallMotion::prescribed;
-    wall.amplitude = table.vector("amplitude", "m");
-    wall.frequency = table.number("frequency", not_negative, "Hz");
-  } else if (motion == "driven") {
+    read_keys(table, prescribed_wall_keys(), wall);
+  } else if (given.motion == "driven") {
     wall.motion = WallMotion::driven;
-    wall.mass = table.number("mass", positive, "kg");
+    read_keys(table, driven_wall_keys(), wall);
     wall.load = read_load(table);
   }
   table.finish();
   return wall;
 }
 
-ForceSpec read_force(TomlTable& body) {
-  TomlTable table = body.section("force");
+ForceSpec read_force(TomlTable table) {
   ForceSpec force;
-  force.constant = table.vector("constant", "N", Vec3::Zero());
-  force.amplitude = table.vector("amplitude", "N", Vec3::Zero());
-  force.frequency = table.number("frequency", not_negative, "Hz", 0.0);
-  force.phase = table.number("phase", any_number, "rad", 0.0);
+  read_keys(table, force_keys(), force);
   table.finish();
   return force;
 }
 
-Quat read_orientation(TomlTable& body) {
-  TomlTable table = body.section("orientation");
-  const Vec3 axis = direction(table, "axis", Vec3::UnitZ());
-  const double degrees = table.number("angle_degrees", any_number, "degrees", 0.0);
+Quat read_orientation(TomlTable table) {
+  OrientationText given;
+  read_keys(table, orientation_keys(), given);
+  check_direction(table, "axis", given.axis);
   table.finish();
-  return Quat(Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis)).normalized();
+  const double angle = given.angle_degrees * std::numbers::pi / 180.0;
+  return Quat(Eigen::AngleAxisd(angle, given.axis.normalized())).normalized();
 }
 
-PrincipalShape read_mesh_shape(TomlTable& table, const std::filesystem::path& folder) {
-  const std::string path = mesh_path(folder, table.text("file"));
-  const double scale = table.number("scale", positive, "m per unit of the file", 1.0);
-  const bool hull = table.flag("hull", false);
+PrincipalShape read_mesh_shape(TomlTable& table, const ShapeText& given,
+                               const std::filesystem::path& folder) {
+  const std::string path = mesh_path(folder, given.file);
   table.replace_resolved("file", toml::value<std::string>(path));
   try {
-    return to_principal_frame(hull ? read_mesh_hull(path, scale) : read_mesh(path, scale));
+    return to_principal_frame(given.hull ? read_mesh_hull(path, given.scale)
+                                         : read_mesh(path, given.scale));
   } catch (const MeshFileError& error) {
     table.fail("file", error.what());
   }
 }
 
-PrincipalShape read_shape_of_kind(TomlTable& table, const std::string& kind,
-                                  const std::filesystem::path& folder) {
-  if (kind == "box") {
-    const Vec3 size = table.vector("size", "m");
-    if (!(size.minCoeff() > 0.0))
-      table.fail("size", "out of range, expected three lengths > 0 [m]");
-    return to_principal_frame(make_box(size));
-  }
-  if (kind == "mesh") return read_mesh_shape(table, folder);
-  const double radius = table.number("radius", positive, "m");
-  if (kind == "sphere") {
-    const auto subdivisions = static_cast<int>(table.whole("subdivisions", 0, 6, 3));
-    return to_principal_frame(make_sphere(radius, subdivisions));
-  }
-  return make_grain(GrainShapeSettings{}, radius,
-                    static_cast<std::uint64_t>(table.whole("seed", 0, any_seed, 1)));
-}
-
-PrincipalShape read_shape(TomlTable& table, const std::filesystem::path& folder) {
-  const std::string kind = table.choice("shape", {"box", "sphere", "grain", "mesh"});
+PrincipalShape read_shape(TomlTable& table, const std::string& kind,
+                          const std::filesystem::path& folder) {
+  ShapeText given;
+  read_keys(table, shape_keys(kind), given);
+  if (kind == "box" && !(given.size.minCoeff() > 0.0))
+    table.fail("size", "out of range, expected three lengths > 0 [m]");
   try {
-    return read_shape_of_kind(table, kind, folder);
+    if (kind == "box") return to_principal_frame(make_box(given.size));
+    if (kind == "mesh") return read_mesh_shape(table, given, folder);
+    if (kind == "sphere") return to_principal_frame(make_sphere(given.radius, given.subdivisions));
+    return make_grain(GrainShapeSettings{}, given.radius, given.seed);
   } catch (const InvalidPolyhedron& error) {  // a box a million times thinner than wide, say
     table.fail("shape", error.what());
   }
 }
 
-/// Either `mass` or `density`; a body that cannot move needs neither.
-double read_mass(TomlTable& table, double volume, bool can_move) {
-  if (table.has("mass") && table.has("density"))
+/// From either `mass` or `density`; a body that cannot move needs neither.
+double mass_of(TomlTable& table, BodyText& given, double volume, bool can_move) {
+  const bool has_mass = table.has("mass"), has_density = table.has("density");
+  if (has_mass && has_density)
     table.fail("mass", "given together with density, expected one of the two");
-  if (table.has("mass")) return table.number("mass", positive, "kg");
-  if (!can_move && !table.has("density")) return 0.0;
-  return volume * table.number("density", positive, "kg/m^3");
+  if (can_move && !has_mass && !has_density) {  // reading it as required says what is missing
+    SceneKey<BodyText> density =
+        *std::find_if(body_keys().begin(), body_keys().end(),
+                      [](const auto& key) { return std::string_view(key.name) == "density"; });
+    density.presence = Presence::required;
+    read_key(table, density, given);
+  }
+  return has_mass ? given.mass : volume * given.density;
 }
 
-void read_locks(TomlTable& table, BodySpec& body) {
-  for (const std::string& lock : table.texts("locked")) {
+void set_locks(TomlTable& table, const std::vector<std::string>& locked, BodySpec& body) {
+  for (const std::string& lock : locked) {
     if (lock == "x")
       body.free_x = false;
     else if (lock == "y")
@@ -145,25 +132,27 @@ void check_locked_velocity(TomlTable& table, const BodySpec& body, const Vec3& s
 
 BodySpec read_body(TomlTable& table, const std::filesystem::path& folder,
                    const std::string& default_name) {
+  BodyText given;
+  given.name = default_name;
+  read_keys(table, body_keys(), given);
+  PrincipalShape shape = read_shape(table, given.shape, folder);
   BodySpec body;
-  body.name = table.text("name", default_name);
-  PrincipalShape shape = read_shape(table, folder);
+  body.name = given.name;
   body.shape = std::make_shared<const Polyhedron>(std::move(shape.shape));
-  read_locks(table, body);
+  set_locks(table, given.locked, body);
   const bool can_move = body.free_x || body.free_y || body.free_z || body.free_rotation;
-  body.mass = read_mass(table, shape.volume, can_move);
+  body.mass = mass_of(table, given, shape.volume, can_move);
   body.inertia = body.mass / shape.volume * shape.inertia;
 
   // pose of the shape as given, then of its principal frame within it
-  const Pose given{table.vector("position", "m", Vec3::Zero()), read_orientation(table)};
-  body.pose.position = given * shape.pose.position;
-  body.pose.rotation = (given.rotation * shape.pose.rotation).normalized();
+  const Pose pose{given.position, read_orientation(table.section("orientation"))};
+  body.pose.position = pose * shape.pose.position;
+  body.pose.rotation = (pose.rotation * shape.pose.rotation).normalized();
 
-  body.velocity = table.vector("velocity", "m/s", Vec3::Zero());
-  const Vec3 spin_W = table.vector("spin", "rad/s", Vec3::Zero());
-  body.spin = body.pose.rotation.conjugate() * spin_W;
-  check_locked_velocity(table, body, spin_W);
-  body.force = read_force(table);
+  body.velocity = given.velocity;
+  body.spin = body.pose.rotation.conjugate() * given.spin;
+  check_locked_velocity(table, body, given.spin);
+  body.force = read_force(table.section("force"));
   table.finish();
   return body;
 }

@@ -104,11 +104,11 @@ std::string TomlTable::text(std::string_view key, std::optional<std::string> fal
   return value;
 }
 
-std::string TomlTable::choice(std::string_view key, std::initializer_list<const char*> words,
+std::string TomlTable::choice(std::string_view key, const std::vector<const char*>& words,
                               std::optional<std::string> fallback) {
   std::string expected = "one of ";
   for (const char* word : words)
-    expected += (word == *words.begin() ? "\"" : ", \"") + std::string(word) + '"';
+    expected += (word == words.front() ? "\"" : ", \"") + std::string(word) + '"';
   if (!fallback && !has(key)) fail_missing(key, expected);
   const std::string value = text(key, std::move(fallback));
   if (std::find(words.begin(), words.end(), value) == words.end())

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -61,7 +60,7 @@ class TomlTable {
                      std::optional<std::int64_t> fallback = {});
   bool flag(std::string_view key, std::optional<bool> fallback = {});
   std::string text(std::string_view key, std::optional<std::string> fallback = {});
-  std::string choice(std::string_view key, std::initializer_list<const char*> words,
+  std::string choice(std::string_view key, const std::vector<const char*>& words,
                      std::optional<std::string> fallback = {});
   Vec3 vector(std::string_view key, const char* unit, std::optional<Vec3> fallback = {});
   std::vector<std::string> texts(std::string_view key);  ///< absent: empty

@@ -192,36 +192,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("an override that is wrong is refused and blamed") {
-  const TemporaryFolder folder;
-  const std::string text =
-      wall_and_gravity + "[[body]]\nshape = \"box\"\nsize = [1, 1, 1]\nmass = 1\n";
-  const std::vector<std::pair<std::string, std::string>> wrongs = {
-      {"scene.step", "expected dotted.key=value"},
-      {"=3", "empty part"},
-      {"scene..step=3", "empty part"},
-      {"scene.step=", "scene.step=: not a TOML value"},
-      {"scene.step=[1", "scene.step=[1: not a TOML value"},
-      {"scene.step=1\nduration=2", "one line"},
-      {"scene.step=-1", "scene.step = -1: out of range"},
-      {"scene.step=fast", "scene.step = \"fast\": not a number"},
-      {"scene.stp=1", "scene.stp = 1: unknown key, did you mean \"step\"?"},
-      {"drve.frequency=1", "drve = {frequency = 1}: unknown key, did you mean \"drive\"?"},
-      {"body.1.mass=2", "no element 1"},
-      {"body.mass=2", "no element mass"},
-      {"body.0=2", "expected a key after the index"},
-      {"body.0.mass.x=2", "mass is not a table"},
-      {"body.0.mas=2", "body.0.mas = 2: unknown key, did you mean \"mass\"?"},
-      {"body=2", "expected a list of tables"},
-  };
-  for (const auto& [override, part] : wrongs) {
-    const std::string message = error_of(folder, text, {override});
-    CHECK_THAT(message, Catch::StartsWith((folder.path() / "scene.toml").string() + " (--set)"));
-    CHECK_THAT(message, Catch::Contains(part));
-    CHECK(message.find('\n') == std::string::npos);
-  }
-}
-
 TEST_CASE("mutilated scenes are read or refused in one line, and nothing else happens") {
   const TemporaryFolder folder;
   std::uint64_t state = 12345;

@@ -2,11 +2,6 @@
 
 #include "problems/scene/scene_file.hpp"
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-
-#include "geometry/shape/mesh_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -16,19 +11,6 @@ namespace {
 
 /// Body and wall enough to be a scene.
 const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
-
-Scene read_text(const TemporaryFolder& folder, const std::string& text,
-                const std::vector<std::string>& overrides = {}) {
-  return read_scene(folder.write("scene.toml", text), overrides);
-}
-
-/// Lowest distance of a body's vertices over a wall [m].
-double gap(const BodySpec& body, const WallSpec& wall) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vec3& vertex : body.shape->vertices())
-    lowest = std::min(lowest, wall.normal.dot(body.pose * vertex) - wall.offset);
-  return lowest;
-}
 
 }  // namespace
 
@@ -74,140 +56,6 @@ TEST_CASE("the vibrated box names the paper's values, and its chosen ones are th
   CHECK(resolved_scene_text(bare, same_title) == resolved_scene_text(find_scene("vibrated_box")));
 }
 
-TEST_CASE("bodies rest on their walls without gap or overlap at the start") {
-  for (const char* name :
-       {"incline", "stick_slip", "shaken_plate", "tipping_box", "sliding_cube", "rolling_sphere"}) {
-    INFO(name);
-    const Scene scene = read_scene(find_scene(name));
-    CHECK(gap(scene.bodies.at(0), scene.walls.at(0)) == 0.0);
-  }
-  const Scene pyramid = read_scene(find_scene("settled_rest"));
-  REQUIRE(pyramid.bodies.size() == 10);
-  for (int i = 0; i < 4; ++i) CHECK(gap(pyramid.bodies[i], pyramid.walls[0]) == 0.0);
-  for (int i = 4; i < 7; ++i) CHECK(gap(pyramid.bodies[i], pyramid.walls[0]) == 0.25);
-  const Scene zeno = read_scene(find_scene("zeno_ball"));
-  CHECK(gap(zeno.bodies[0], zeno.walls[0]) == Approx(0.2).epsilon(1e-15));
-}
-
-TEST_CASE("a body is what its table says") {
-  const TemporaryFolder folder;
-  const Scene scene = read_text(folder, one_wall + R"(
-[[body]]
-name = "slab"
-shape = "box"
-size = [1, 2, 3]
-density = 10
-position = [1, 2, 3]
-orientation = { axis = [0, 0, 5], angle_degrees = 90 }
-velocity = [1, 0, 0]
-spin = [0, 2, 7]
-locked = ["y"]
-force = { constant = [0, 0, 1], amplitude = [3, 0, 0], frequency = 2, phase = 0.5 }
-)");
-  const BodySpec& body = scene.bodies.at(0);
-  CHECK(body.name == "slab");
-  CHECK(body.mass == Approx(60.0).epsilon(1e-14));
-  // a box of sides a, b, c: m (b^2 + c^2)/12, ...
-  CHECK(body.inertia.x() == Approx(60.0 * 13 / 12).epsilon(1e-13));
-  CHECK(body.inertia.y() == Approx(60.0 * 10 / 12).epsilon(1e-13));
-  CHECK(body.inertia.z() == Approx(60.0 * 5 / 12).epsilon(1e-13));
-  CHECK((body.pose * Vec3(1, 0, 0) - Vec3(1, 3, 3)).norm() < 1e-14);
-  CHECK(body.pose.rotation.norm() == Approx(1.0).epsilon(1e-15));
-  // spin is given in the world frame and kept in the body frame: the body's x axis is the world's y
-  CHECK((body.spin - Vec3(2, 0, 7)).norm() < 1e-14);
-  CHECK((body.free_x && !body.free_y && body.free_z && body.free_rotation));
-  CHECK(body.force.at(0.1).x() == Approx(3 * std::cos(2 * std::numbers::pi * 0.2 + 0.5)));
-  CHECK(body.force.at(0.1).z() == 1.0);
-}
-
-TEST_CASE("a mesh is placed by its own frame, scaled, and found beside the scene") {
-  const TemporaryFolder folder;
-  // a box whose own origin is one of its corners
-  const Polyhedron centred = make_box(Vec3(1, 2, 3));
-  std::vector<Vec3> corners(centred.vertices().begin(), centred.vertices().end());
-  std::vector<std::vector<int>> faces;
-  for (int f = 0; f < centred.face_count(); ++f)
-    faces.emplace_back(centred.face(f).begin(), centred.face(f).end());
-  for (Vec3& corner : corners) corner += Vec3(0.5, 1, 1.5);
-  write_mesh(folder.path() / "corner.obj", Polyhedron(corners, faces));
-  const Scene scene = read_text(folder, R"(
-[[body]]
-shape = "mesh"
-file = "corner.obj"
-scale = 0.5
-mass = 2
-position = [10, 0, 0]
-)");
-  const BodySpec& body = scene.bodies.at(0);
-  CHECK((body.pose.position - Vec3(10.25, 0.5, 0.75)).norm() < 1e-13);
-  Eigen::AlignedBox3d bounds;
-  for (const Vec3& vertex : body.shape->vertices()) bounds.extend(body.pose * vertex);
-  CHECK((bounds.min() - Vec3(10, 0, 0)).norm() < 1e-13);
-  CHECK((bounds.max() - Vec3(10.5, 1, 1.5)).norm() < 1e-13);
-
-  // the resolved text finds the mesh from elsewhere
-  const TemporaryFolder elsewhere;
-  const std::string resolved = resolved_scene_text(folder.path() / "scene.toml");
-  CHECK(read_scene(elsewhere.write("scene.toml", resolved)).bodies.size() == 1);
-}
-
-TEST_CASE("a wall is what its table says, whatever the length of its normal") {
-  const TemporaryFolder folder;
-  const Scene scene = read_text(folder, R"(
-[[wall]]
-name = "piston"
-normal = [0, -4, 0]
-offset = -8
-friction = 0.3
-motion = "driven"
-mass = 5
-load = { f_min = 1, f_max = 3, frequency = 2 }
-)");
-  const WallSpec& wall = scene.walls.at(0);
-  CHECK(wall.normal == Vec3(0, -1, 0));
-  CHECK(wall.offset == -2.0);
-  CHECK(wall.friction == 0.3);
-  CHECK(wall.motion == WallMotion::driven);
-  CHECK(wall.mass == 5.0);
-  CHECK(wall.load.at(0.125) == Approx(1.0));  // (3 + 1)/2 - (3 - 1)/2 sin(pi/2)
-}
-
-TEST_CASE("overrides reach every value, and are read as TOML or as a bare word") {
-  const auto file = find_scene("incline");
-  const std::vector<std::string> overrides = {
-      "gravity.direction=[0, 0, -2]", "body.0.velocity=[1, 2, 3]", "solver.name=other",
-      "wall.0.friction=0.7",          "correction.enabled=false",  "scene.duration=2"};
-  const Scene scene = read_scene(file, overrides);
-  CHECK(scene.gravity == Vec3(0, 0, -9.81));
-  CHECK(scene.bodies[0].velocity == Vec3(1, 2, 3));
-  CHECK(scene.solver.name == "other");
-  CHECK(scene.walls[0].friction == 0.7);
-  CHECK(!scene.correction.enabled);
-  CHECK(scene.duration == 2.0);
-  CHECK(resolved_scene_text(file, overrides) != resolved_scene_text(file));
-
-  const Scene grains = read_scene(find_scene("vibrated_box"),
-                                  std::vector<std::string>{"grains.distribution.2.size=0.06"});
-  CHECK(grains.grains->distribution[2].size == 0.06);
-}
-
-TEST_CASE("the resolved text keeps every bit and any text") {
-  const TemporaryFolder folder;
-  const std::string title = "quote \\\" backslash \\\\ tab \\t bell \\u0007 \xc3\xa9";
-  const auto file = folder.write(
-      "odd.toml", one_wall +
-                      "offset = 0.1000000000000000055511151231257827\n[scene]\nstep = 5e-324\n"
-                      "duration = 4e-312\ntitle = \"" +
-                      title + "\"\n[contact]\nfriction = 3\n");
-  const Scene first = read_scene(file);
-  const Scene again = read_scene(folder.write("again.toml", resolved_scene_text(file)));
-  CHECK(again.step == first.step);
-  CHECK(again.title == first.title);
-  CHECK(first.title.find('\a') != std::string::npos);
-  CHECK(again.walls[0].offset == first.walls[0].offset);
-  CHECK(again.friction == 3.0);
-}
-
 TEST_CASE(
     "what is skipped stands in the resolved text only where it was given: older runs keep their "
     "key") {
@@ -230,44 +78,4 @@ TEST_CASE(
   const Scene awake =
       read_scene(bare, std::vector<std::string>{"sleep.enabled=true", "sleep.velocity=0.3"});
   CHECK((awake.sleep.enabled && awake.sleep.velocity == 0.3 && awake.sleep.steps == 100));
-}
-
-TEST_CASE("scenes are found by path, by name, and in the folder that BALLAST_SCENES names") {
-  const TemporaryFolder folder;
-  const auto file = folder.write("mine.toml", "[scene]\ntitle = \"my own\"\n" + one_wall);
-  CHECK(find_scene(file.string()) == file);
-  CHECK_THROWS_WITH(find_scene("mine"), Catch::Contains("mine") && Catch::Contains("vibrated_box"));
-  CHECK_THROWS_WITH(find_scene("none.toml"), Catch::Contains("none.toml"));
-  setenv("BALLAST_SCENES", folder.path().c_str(), 1);
-  CHECK(find_scene("mine") == file);
-  REQUIRE(list_scenes().size() == 1);
-  CHECK(list_scenes()[0] == std::pair<std::string, std::string>("mine", "my own"));
-  unsetenv("BALLAST_SCENES");
-}
-
-TEST_CASE("docs/scenes.md describes every key that a scene can have") {
-  std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/scenes.md");
-  const std::string docs((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
-  REQUIRE(docs.size() > 1000);
-  int keys = 0;
-  for (const char* name :
-       {"vibrated_box", "rolling_sphere", "shaken_plate", "empty_driven_wall", "overhang"}) {
-    std::istringstream resolved(resolved_scene_text(find_scene(name)));
-    std::string section;
-    for (std::string line; std::getline(resolved, line);) {
-      if (line.starts_with('['))
-        section =
-            line.substr(line.find_last_of("[.") + 1, line.find(']') - line.find_last_of("[.") - 1);
-      if (line.find(" = ") == std::string::npos) continue;
-      ++keys;
-      const std::string key = line.substr(0, line.find(" = "));
-      INFO(name << ": " << section << "." << key);
-      // written `section.key`, or `key` alone in the tables of bodies and walls and in pairs of
-      // keys
-      CHECK((docs.find(section + "." + key + "`") != std::string::npos ||
-             docs.find("`" + key + "`") != std::string::npos));
-    }
-  }
-  CHECK(keys > 100);
 }

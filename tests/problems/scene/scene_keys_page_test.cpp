@@ -1,0 +1,62 @@
+// docs/scenes.md is written from the tables by which scenes are read.
+
+#include "problems/scene/scene_keys_page.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "problems/scene/scene_file.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("docs/scenes.md ends with the tables of keys: ballast scenes --keys writes them") {
+  std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/scenes.md");
+  const std::string docs((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
+  CHECK_THAT(docs, Catch::EndsWith(scene_keys_markdown()));
+}
+
+TEST_CASE("the tables say unit, default, what is expected and meaning") {
+  const std::string page = scene_keys_markdown();
+  for (const char* row : {
+           "| `scene.step` | s | 2e-4 | a number > 0 | step h; at most the duration |\n",
+           "| `gravity.direction` |  | [0, 0, -1] | three finite numbers | any length",
+           "| `solver.name` |  | \"nncg\" | a text | as listed",
+           "| `solver.max_seconds` | s | 1e30 | a number > 0 | wall clock",
+           "| `grains.count` |  | required | a whole number from 1 to 1000000 | ",
+           "| `grains.density` | kg/m³ | 2700 | a number > 0 | ",
+           "| `grains.size` |  | \"radius\" | one of \"radius\", \"diameter\" | ",
+           "| `correction.enabled` |  | true | true or false | ",
+           "| `load.f_max` | N | required | a number >= 0 | ",
+           "| `locked` |  | [] | a list of texts | ",
+       })
+    CHECK_THAT(page, Catch::Contains(row));
+}
+
+TEST_CASE("docs/scenes.md describes every key that a scene can have") {
+  std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/scenes.md");
+  const std::string docs((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
+  REQUIRE(docs.size() > 1000);
+  int keys = 0;
+  for (const char* name :
+       {"vibrated_box", "rolling_sphere", "shaken_plate", "empty_driven_wall", "overhang"}) {
+    std::istringstream resolved(resolved_scene_text(find_scene(name)));
+    std::string section;
+    for (std::string line; std::getline(resolved, line);) {
+      if (line.starts_with('['))
+        section =
+            line.substr(line.find_last_of("[.") + 1, line.find(']') - line.find_last_of("[.") - 1);
+      if (line.find(" = ") == std::string::npos) continue;
+      ++keys;
+      const std::string key = line.substr(0, line.find(" = "));
+      INFO(name << ": " << section << "." << key);
+      // written `section.key`, or `key` alone in the tables of bodies and walls and in pairs of
+      // keys
+      CHECK((docs.find(section + "." + key + "`") != std::string::npos ||
+             docs.find("`" + key + "`") != std::string::npos));
+    }
+  }
+  CHECK(keys > 100);
+}
