@@ -71,17 +71,7 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
   Action action = []() -> ExitCode {
     throw UsageError("a subcommand is required (ballast --help)");
   };
-  add_run_command(program, action);
-  add_solve_command(program, action);
-  add_compare_command(program, action);
-  add_sweep_command(program, action);
-  add_paper_command(program, action);
-  add_bench_command(program, action);
-  add_solvers_command(program, action);
-  add_scenes_command(program, action);
-  add_check_command(program, action);
-  add_export_command(program, action);
-  add_version_command(program, action);
+  for (const Command& command : commands()) command.add(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

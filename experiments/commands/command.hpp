@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <span>
 #include <stdexcept>
 
 #include "platform/exit_code.hpp"
@@ -23,18 +24,15 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Each adds one subcommand to `program`; when that is the one given, parsing sets `action`.
-void add_run_command(CLI::App& program, Action& action);
-void add_solve_command(CLI::App& program, Action& action);
-void add_compare_command(CLI::App& program, Action& action);
-void add_bench_command(CLI::App& program, Action& action);
-void add_solvers_command(CLI::App& program, Action& action);
-void add_scenes_command(CLI::App& program, Action& action);
-void add_export_command(CLI::App& program, Action& action);
-void add_paper_command(CLI::App& program, Action& action);
-void add_sweep_command(CLI::App& program, Action& action);
-void add_check_command(CLI::App& program, Action& action);
-void add_version_command(CLI::App& program, Action& action);
+/// One subcommand of the program.
+struct Command {
+  const char* name;  ///< "run"
+  /// Adds the subcommand of this name to `program`; when it is the one given, parsing sets
+  /// `action`.
+  void (*add)(CLI::App& program, Action& action);
+};
+/// In the order of --help. A new command is its file and a row here.
+std::span<const Command> commands();
 
 /// The whole program: parses, acts, and turns every failure into one line "ballast: ..." on `err`
 /// and an exit code.

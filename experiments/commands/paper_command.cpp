@@ -9,6 +9,7 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/paper/make_campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
+#include "experiments/paper/sections.hpp"
 #include "experiments/plans/sweep.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"

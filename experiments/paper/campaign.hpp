@@ -13,7 +13,7 @@
 namespace ballast {
 
 /// What is varied.
-enum class Sweep {
+enum class Varied {
   frequency,
   force,
   gravity,
@@ -48,7 +48,7 @@ struct CampaignRun {
 
 /// One place on an axis, for one seed.
 struct CampaignPoint {
-  Sweep sweep;
+  Varied varied;
   double value = 0.0;  ///< nu [Hz], f_max/(m g0), g [m/s^2], m_w/m, iterations, h [s], mu; size,
                        ///< backend, deposit: number of the case
   std::string label;   ///< "10 Hz", "pgs", ...
@@ -71,8 +71,8 @@ struct Campaign {
 
 /// f_max, g, m_w, solver and the rest are varied at this frequency: many periods in a short run
 /// [Hz].
-inline constexpr double sweep_frequency = 10.0;
-inline constexpr double sweep_duration = 0.7;    ///< [s]
+inline constexpr double varied_frequency = 10.0;
+inline constexpr double varied_duration = 0.7;   ///< [s]
 inline constexpr double motion_frequency = 5.0;  ///< the paper's Figs. 3-7, 12 [Hz]
 inline constexpr double fast_frequency = 60.0;   ///< where a loose solver hurts most [Hz]
 inline constexpr double fast_duration = 0.6;     ///< [s]
@@ -86,8 +86,8 @@ inline constexpr double fine_step = 5e-5;  ///< the finest h [s]
 /// The frequencies at which another deposit, friction and load are driven too [Hz].
 inline constexpr double compared_frequencies[] = {5.0, 10.0, 20.0, 60.0};
 inline constexpr double half_scale_case =
-    1.0;  ///< of Sweep::size: everything at half scale but the lid's gap
-inline constexpr double similar_case = 2.0;     ///< of Sweep::size: the gap too
+    1.0;  ///< of Varied::size: everything at half scale but the lid's gap
+inline constexpr double similar_case = 2.0;     ///< of Varied::size: the gap too
 inline constexpr double base_lid_raise = 0.01;  ///< the paper's gap under the lid [m]
 
 }  // namespace ballast

@@ -33,9 +33,9 @@ std::string name_of(const RunSettings& s, int base_iterations) {
 /// Core-seconds of a drive of the 1200-grain box: a step's fixed part, and an iteration of each
 /// backend, as measured on one machine (docs/measured). Only for telling how long the rest takes.
 double estimate(const RunSettings& s, long steps) {
-  constexpr double fixed = 8e-3, sweep = 0.18e-3;  // [s]
+  constexpr double fixed = 8e-3, iteration = 0.18e-3;  // [s]
   const double factor = s.solver == "nncg" ? 1.0 : s.solver == "anderson_pgs" ? 1.3 : 0.8;
-  return static_cast<double>(steps) * (fixed + factor * sweep * s.iterations);
+  return static_cast<double>(steps) * (fixed + factor * iteration * s.iterations);
 }
 
 }  // namespace
@@ -69,11 +69,11 @@ size_t CampaignBuilder::run(RunSettings s) {
   return campaign.runs.size() - 1;
 }
 
-void CampaignBuilder::point(Sweep sweep, double value, const std::string& label,
+void CampaignBuilder::point(Varied varied, double value, const std::string& label,
                             RunSettings settings, int seeds, TimeWindow window) {
   for (int seed = 1; seed <= seeds; ++seed) {
     settings.seed = seed;
-    campaign.points.push_back({sweep, value, label, seed, run(settings), window});
+    campaign.points.push_back({varied, value, label, seed, run(settings), window});
   }
 }
 

@@ -13,7 +13,7 @@ namespace ballast {
 
 /// Everything in which runs of the campaign differ.
 struct RunSettings {
-  double frequency = sweep_frequency, duration = sweep_duration;  ///< [Hz], [s]
+  double frequency = varied_frequency, duration = varied_duration;  ///< [Hz], [s]
   double force = base_force;  ///< f_max/(m g) at the run's own g
   double gravity = base_gravity, wall_mass = base_wall_mass, step = base_step,
          friction = base_friction;
@@ -28,7 +28,8 @@ struct RunSettings {
 
 /// "%g"
 std::string campaign_number(double value);
-/// Simulated time of a run of the frequency sweep: the paper's 1 s, at least three periods [s].
+/// Simulated time of a run in which the frequency is varied: the paper's 1 s, at least three
+/// periods [s].
 double duration_at(double frequency);
 
 /// Collects runs and points. Equal settings are one run.
@@ -39,8 +40,8 @@ class CampaignBuilder {
 
   /// Index of the run with these settings, added when it is not there yet.
   size_t run(RunSettings settings);
-  /// One value of a sweep, for the first `seeds` samples.
-  void point(Sweep sweep, double value, const std::string& label, RunSettings settings, int seeds,
+  /// One value of what is varied, for the first `seeds` samples.
+  void point(Varied varied, double value, const std::string& label, RunSettings settings, int seeds,
              TimeWindow window = {});
 
   int seeds() const { return campaign.settings.seeds; }

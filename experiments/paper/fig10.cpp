@@ -9,7 +9,7 @@ namespace ballast {
 namespace {
 
 struct Abscissa {
-  Sweep sweep;
+  Varied varied;
   const char* what;      ///< for the note on what is missing
   const char* label;     ///< of the axis
   const char* relation;  ///< "Δx_max ~ f_max^−1"
@@ -18,22 +18,22 @@ struct Abscissa {
 };
 
 /// x of the fit: f_max [N], g [m/s^2], or m/(m + m_w).
-double abscissa_of(const SweepValue& value, Sweep sweep) {
+double abscissa_of(const VariedValue& value, Varied varied) {
   const Observation& seen = value.samples.front();
-  if (sweep == Sweep::gravity) return seen.facts.gravity;
-  if (sweep == Sweep::wall_mass)
+  if (varied == Varied::gravity) return seen.facts.gravity;
+  if (varied == Varied::wall_mass)
     return seen.facts.grain_mass / (seen.facts.grain_mass + seen.facts.wall_mass);
   return value.value;  // f_max over the weight under 9.81 m/s^2: the same for all seeds
 }
 
 void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
                 PaperSection& section) {
-  const std::vector<SweepValue> values = data.sweep(axis.sweep);
-  if (const std::string missing = data.missing(axis.sweep, axis.what); !missing.empty())
+  const std::vector<VariedValue> values = data.values(axis.varied);
+  if (const std::string missing = data.missing(axis.varied, axis.what); !missing.empty())
     section.notes.push_back(missing);
   if (values.size() < 2) return;
-  SweepCurve curve = curve_of_sweep(values, &Observation::rise, 1e3);
-  for (size_t k = 0; k < values.size(); ++k) curve.x[k] = abscissa_of(values[k], axis.sweep);
+  VariedCurve curve = curve_of_values(values, &Observation::rise, 1e3);
+  for (size_t k = 0; k < values.size(); ++k) curve.x[k] = abscissa_of(values[k], axis.varied);
   const PowerFit fit = fit_power(curve.x, curve.y);
   Panel panel;
   panel.x_label = axis.label;
@@ -57,7 +57,7 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
   figure.plot.panels = {panel};
   figure.paper = std::string(axis.relation) + " (" + axis.place + ").";
   figure.found = "Exponent " + words_of(fit) + ", " + misfit_words(fit, curve) + ", at " +
-                 digits(sweep_frequency) + " Hz, periods from 0.3 to " + digits(sweep_duration) +
+                 digits(varied_frequency) + " Hz, periods from 0.3 to " + digits(varied_duration) +
                  " s.";
   section.figures.push_back(figure);
   section.rows.push_back({axis.place, axis.relation,
@@ -68,8 +68,7 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
 }  // namespace
 
 PaperSection fig10_section(PaperData& data) {
-  PaperSection section = new_section(
-      "fig10", "Figure 10: displacement against the force amplitude, gravity and the wall’s mass");
+  PaperSection section;
   section.text = {
       "f_max is quoted in weights of all grains under 9.81 m/s². Gravity is varied at constant "
       "f_max in newtons, from "
@@ -77,14 +76,14 @@ PaperSection fig10_section(PaperData& data) {
       "under 9.81 m/s², so that Eq. 3 expects g². The base is f_max = 3 m g, m_w = m/2, 10 Hz.",
       misfit_meaning};
   add_figure(data,
-             {Sweep::force, "values of f_max", "{/:Italic f}_{max} / {/:Italic m g}",
+             {Varied::force, "values of f_max", "{/:Italic f}_{max} / {/:Italic m g}",
               "Δx_max ~ f_max^−1", "Fig. 10", -1.0},
              "fig10", section);
+  add_figure(
+      data, {Varied::gravity, "values of g", "{/:Italic g}  (m/s^2)", "Δx_max ~ g^2", "Eq. 3", 2.0},
+      "fig10_gravity", section);
   add_figure(data,
-             {Sweep::gravity, "values of g", "{/:Italic g}  (m/s^2)", "Δx_max ~ g^2", "Eq. 3", 2.0},
-             "fig10_gravity", section);
-  add_figure(data,
-             {Sweep::wall_mass, "values of m_w", "{/:Italic m} / ({/:Italic m} + {/:Italic m}_w)",
+             {Varied::wall_mass, "values of m_w", "{/:Italic m} / ({/:Italic m} + {/:Italic m}_w)",
               "Δx_max ~ m/(m + m_w)", "Eq. 3", 1.0},
              "fig10_mass", section);
   return section;

@@ -1,4 +1,4 @@
-// Fig. 11 and Eq. 3: all sweeps on one line?
+// Fig. 11 and Eq. 3: all that is varied on one line?
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +9,20 @@ namespace ballast {
 namespace {
 
 struct Branch {
-  Sweep sweep;
+  Varied varied;
   const char* title;
   Ink ink;
 };
-constexpr Branch branches[] = {{Sweep::frequency, "ν", Ink::blue},
-                               {Sweep::force, "f_{max}", Ink::vermilion},
-                               {Sweep::gravity, "g", Ink::green},
-                               {Sweep::wall_mass, "m_w", Ink::purple}};
+constexpr Branch branches[] = {{Varied::frequency, "ν", Ink::blue},
+                               {Varied::force, "f_{max}", Ink::vermilion},
+                               {Varied::gravity, "g", Ink::green},
+                               {Varied::wall_mass, "m_w", Ink::purple}};
 constexpr const char* branch_names[] = {"ν", "f_max", "g", "m_w"};
 
-/// Points of one sweep: right side of Eq. 3 and Delta x_max [m].
-SweepCurve points_on_eq3(const std::vector<SweepValue>& values) {
-  SweepCurve points;
-  for (const SweepValue& value : values) {
+/// Points of one thing varied: right side of Eq. 3 and Delta x_max [m].
+VariedCurve points_on_eq3(const std::vector<VariedValue>& values) {
+  VariedCurve points;
+  for (const VariedValue& value : values) {
     const SampleMean rise = value.mean(&Observation::rise);
     if (!std::isfinite(rise.mean)) continue;
     std::vector<double> sides;
@@ -39,7 +39,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-Panel eq3_panel(const std::vector<SweepCurve>& all, const Proportion& line, bool is_log) {
+Panel eq3_panel(const std::vector<VariedCurve>& all, const Proportion& line, bool is_log) {
   Panel panel;
   panel.x_label =
       is_log ? "right side of Eq. 3 without {/:Italic C}  (mm)" : "the same, linear  (mm)";
@@ -62,9 +62,9 @@ Panel eq3_panel(const std::vector<SweepCurve>& all, const Proportion& line, bool
   return panel;
 }
 
-double prefactor_by_grain(const std::vector<SweepValue>& values) {
+double prefactor_by_grain(const std::vector<VariedValue>& values) {
   std::vector<double> x, y;
-  for (const SweepValue& value : values)
+  for (const VariedValue& value : values)
     for (const Observation& sample : value.samples) {
       x.push_back(sample.eq3_one_grain());
       y.push_back(sample.rise);
@@ -74,11 +74,11 @@ double prefactor_by_grain(const std::vector<SweepValue>& values) {
 
 /// Slope of the line through the origin on linear axes, as one draws it through the paper's Fig.
 /// 11: its largest points decide.
-double linear_prefactor(const SweepCurve& points) {
+double linear_prefactor(const VariedCurve& points) {
   return project(points.x, points.y, [](double x) { return x; }).amplitude;
 }
 
-SweepCurve without_largest(SweepCurve points) {
+VariedCurve without_largest(VariedCurve points) {
   const auto k = std::max_element(points.x.begin(), points.x.end()) - points.x.begin();
   points.x.erase(points.x.begin() + k);
   points.y.erase(points.y.begin() + k);
@@ -97,7 +97,7 @@ Agreement judge_prefactor(double factor, double low, double high, int points) {
 }  // namespace
 
 PaperSection fig11_section(PaperData& data) {
-  PaperSection section = new_section("fig11", "Figure 11 and Equation 3: one line for all sweeps");
+  PaperSection section;
   section.text = {
       "Eq. 3: Δx_max = C · m/(m + m_w) · m g/f_max · g/ν², with m the mass of all grains in both "
       "places (and beside it "
@@ -107,19 +107,19 @@ PaperSection fig11_section(PaperData& data) {
       "over the points; the "
       "spread is the factor by which a point typically misses the line."};
   const char* names[] = {"frequencies", "values of f_max", "values of g", "values of m_w"};
-  std::vector<SweepCurve> all;
-  SweepCurve pooled;
+  std::vector<VariedCurve> all;
+  VariedCurve pooled;
   TextTable table{"C of each sweep by itself",
                   {"sweep", "points", "C", "95 % interval", "spread (factor)",
                    "exponent (1: proportional)", "of that fit"},
                   {}};
   double by_grain = not_known;
   for (size_t b = 0; b < 4; ++b) {
-    if (const std::string missing = data.missing(branches[b].sweep, names[b]); !missing.empty())
+    if (const std::string missing = data.missing(branches[b].varied, names[b]); !missing.empty())
       section.notes.push_back(missing);
-    const std::vector<SweepValue> values = data.sweep(branches[b].sweep);
+    const std::vector<VariedValue> values = data.values(branches[b].varied);
     all.push_back(points_on_eq3(values));
-    const SweepCurve& points = all.back();
+    const VariedCurve& points = all.back();
     pooled.x.insert(pooled.x.end(), points.x.begin(), points.x.end());
     pooled.y.insert(pooled.y.end(), points.y.begin(), points.y.end());
     pooled.error.insert(pooled.error.end(), points.error.begin(), points.error.end());

@@ -9,7 +9,7 @@
 namespace ballast {
 
 PaperSection fig12_section(PaperData& data) {
-  PaperSection section = new_section("fig12", "Figure 12: solid fraction against time");
+  PaperSection section;
   const std::vector<size_t> runs = data.motion();
   if (runs.size() < data.campaign().motion.size())
     section.notes.push_back("PARTIAL: " + std::to_string(runs.size()) + " of " +

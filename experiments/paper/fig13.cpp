@@ -7,7 +7,7 @@
 namespace ballast {
 namespace {
 
-Panel rate_panel(const SweepCurve& curve, const PeakedRate& fit, const std::string& y_label) {
+Panel rate_panel(const VariedCurve& curve, const PeakedRate& fit, const std::string& y_label) {
   Panel panel = frequency_panel(y_label);
   panel.curves = {
       points_of(curve.x, curve.y, curve.error, "mean over samples ± standard error", Ink::blue)};
@@ -27,13 +27,13 @@ std::string words_of(const PeakedRate& fit) {
 }
 
 /// A corner at the end of the data is none.
-bool has_peak(const SweepCurve& curve, const PeakedRate& fit) {
+bool has_peak(const VariedCurve& curve, const PeakedRate& fit) {
   return std::isfinite(fit.critical) && fit.critical > 1.05 * curve.x.front() &&
          fit.critical < 0.95 * curve.x.back() && fit.high < 0.95 * curve.x.back();
 }
 
-void drop_unknown(SweepCurve& curve) {
-  SweepCurve known;
+void drop_unknown(VariedCurve& curve) {
+  VariedCurve known;
   for (size_t k = 0; k < curve.x.size(); ++k) {
     if (!std::isfinite(curve.y[k])) continue;
     known.x.push_back(curve.x[k]);
@@ -46,7 +46,7 @@ void drop_unknown(SweepCurve& curve) {
 }  // namespace
 
 PaperSection fig13_section(PaperData& data) {
-  PaperSection section = new_section("fig13", "Figure 13 and Equations 4, 5: the compaction rate");
+  PaperSection section;
   section.text = {
       "Eq. 4 over whole periods, so that both ends are at the same phase of the load. The paper "
       "takes each run’s whole "
@@ -55,11 +55,11 @@ PaperSection fig13_section(PaperData& data) {
       "second panel "
       "therefore takes the same "
       "absolute time, 0.4 to 1 s, for all frequencies (1 Hz has no whole period in it)."};
-  const std::vector<SweepValue> values = data.sweep(Sweep::frequency);
-  if (const std::string missing = data.missing(Sweep::frequency, "frequencies"); !missing.empty())
+  const std::vector<VariedValue> values = data.values(Varied::frequency);
+  if (const std::string missing = data.missing(Varied::frequency, "frequencies"); !missing.empty())
     section.notes.push_back(missing);
-  SweepCurve whole = curve_of_sweep(values, &Observation::rate),
-             common = curve_of_sweep(values, &Observation::rate_common);
+  VariedCurve whole = curve_of_values(values, &Observation::rate),
+              common = curve_of_values(values, &Observation::rate_common);
   drop_unknown(whole);
   drop_unknown(common);
   if (whole.x.size() < 2 || common.x.size() < 2) return section;
@@ -86,7 +86,7 @@ PaperSection fig13_section(PaperData& data) {
                   {"ν (Hz)", "samples", "rate, paper’s window (1/s)", "rate, 0.4–1 s (1/s)",
                    "Δρ₁ (10⁻³)", "ρ₀"},
                   {}};
-  for (const SweepValue& value : values) {
+  for (const VariedValue& value : values) {
     const SampleMean rate = value.mean(&Observation::rate),
                      rate_common = value.mean(&Observation::rate_common),
                      gain = value.mean(&Observation::gain);
@@ -97,7 +97,7 @@ PaperSection fig13_section(PaperData& data) {
                           digits(value.mean(&Observation::solid_reference).mean, 4)});
   }
   section.tables = {table};
-  const auto judge = [&](const SweepCurve& curve, const PeakedRate& peak) {
+  const auto judge = [&](const VariedCurve& curve, const PeakedRate& peak) {
     if (peak.samples < 5) return Agreement::reported;
     if (!has_peak(curve, peak) || !(peak.r2 > 0.5))
       return Agreement::differs;  // Eq. 5 must say more than the mean does

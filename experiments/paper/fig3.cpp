@@ -9,11 +9,11 @@
 namespace ballast {
 namespace {
 
-TextTable contraction_table(const std::vector<SweepValue>& values) {
+TextTable contraction_table(const std::vector<VariedValue>& values) {
   TextTable table{"First contraction, means over samples ± standard error",
                   {"ν (Hz)", "samples", "size (mm)", "90 % of it by (s)"},
                   {}};
-  for (const SweepValue& value : values) {
+  for (const VariedValue& value : values) {
     const SampleMean size = value.mean(&Observation::first_contraction),
                      time = value.mean(&Observation::first_time90);
     table.rows.push_back({digits(value.value), std::to_string(value.samples.size()),
@@ -24,9 +24,9 @@ TextTable contraction_table(const std::vector<SweepValue>& values) {
 }
 
 /// Largest deviation of a frequency's mean from the mean of all, relative.
-double spread_over(const std::vector<SweepValue>& values, double low, double high) {
+double spread_over(const std::vector<VariedValue>& values, double low, double high) {
   std::vector<double> sizes;
-  for (const SweepValue& value : values)
+  for (const VariedValue& value : values)
     if (value.value >= low && value.value <= high)
       sizes.push_back(value.mean(&Observation::first_contraction).mean);
   const Statistics all = statistics(sizes);
@@ -36,8 +36,7 @@ double spread_over(const std::vector<SweepValue>& values, double low, double hig
 }  // namespace
 
 PaperSection fig3_section(PaperData& data) {
-  PaperSection section =
-      new_section("fig3", "Figure 3 and Equation 1: the wall under the harmonic load");
+  PaperSection section;
   const std::vector<MotionRun> runs = read_motion(data, section);
   if (!runs.empty()) {
     PaperFigure figure;
@@ -65,8 +64,8 @@ PaperSection fig3_section(PaperData& data) {
          with_error(net.mean, net.error) + " mm a period (rise " + digits(rise.mean) + " mm)",
          net.mean > 0.0 ? Agreement::agrees : Agreement::differs});
   }
-  const std::vector<SweepValue> values = data.sweep(Sweep::frequency);
-  if (const std::string missing = data.missing(Sweep::frequency, "frequencies"); !missing.empty())
+  const std::vector<VariedValue> values = data.values(Varied::frequency);
+  if (const std::string missing = data.missing(Varied::frequency, "frequencies"); !missing.empty())
     section.notes.push_back(missing);
   if (values.size() < 2) return section;
   section.tables.push_back(contraction_table(values));

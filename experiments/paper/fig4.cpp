@@ -37,8 +37,7 @@ Agreement judge_fit(const SampleMean& r2) {
 }  // namespace
 
 PaperSection fig4_section(PaperData& data) {
-  PaperSection section =
-      new_section("fig4", "Figure 4: force on the wall against its displacement");
+  PaperSection section;
   section.text = {
       "Per step, f_g is the sum of the step’s impulses on the wall divided by h, and noisy; the "
       "branches are fitted to "

@@ -125,7 +125,7 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
 }  // namespace
 
 PaperSection fig5_section(PaperData& data) {
-  PaperSection section = new_section("fig5", "Figure 5 and Equation 2: the phenomenological model");
+  PaperSection section;
   section.text = {
       "The wall’s equation m_w dv/dt = f_g − f(t), x outward, with f_g the fitted exponential "
       "while the wall moves out "

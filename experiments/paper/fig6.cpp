@@ -81,8 +81,7 @@ Field draw(const StoredState& state) {
 }  // namespace
 
 PaperSection fig6_section(PaperData& data) {
-  PaperSection section =
-      new_section("fig6", "Figure 6: velocities of the grains in the passive state");
+  PaperSection section;
   section.text = {
       "Mean vorticity of the xz plane: v = v₀ + L (x − x₀) is fitted to all grains’ velocities by "
       "least squares "

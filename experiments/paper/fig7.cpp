@@ -84,8 +84,7 @@ constexpr std::pair<WallPhase, const char*> stress_phases[] = {
 }  // namespace
 
 PaperSection fig7_section(PaperData& data) {
-  PaperSection section =
-      new_section("fig7", "Figure 7: force chains, and the principal directions of the stress");
+  PaperSection section;
   section.text = {
       "Stress σ = (1/V) Σ f ⊗ ℓ over all contacts, f the force on grain b by grain a (sum over the "
       "pair’s contact "

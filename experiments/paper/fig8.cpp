@@ -82,7 +82,7 @@ Panel portrait(const std::vector<std::pair<Orbit, double>>& orbits, const std::s
 }  // namespace
 
 PaperSection fig8_section(PaperData& data) {
-  PaperSection section = new_section("fig8", "Figure 8: phase portraits at 5 and 10 Hz");
+  PaperSection section;
   const auto slow = data.at_frequency(motion_frequency),
              fast = data.at_frequency(2.0 * motion_frequency);
   if (!slow || !fast) {

@@ -7,7 +7,7 @@
 namespace ballast {
 namespace {
 
-Panel scaling_panel(const SweepCurve& curve, const PowerFit& fit, double expected,
+Panel scaling_panel(const VariedCurve& curve, const PowerFit& fit, double expected,
                     const std::string& y_label) {
   Panel panel = frequency_panel(y_label);
   panel.log_y = true;
@@ -29,19 +29,19 @@ Panel scaling_panel(const SweepCurve& curve, const PowerFit& fit, double expecte
 }
 
 /// Exponent over part of the frequencies.
-PowerFit fit_part(const SweepCurve& curve, double low, double high) {
+PowerFit fit_part(const VariedCurve& curve, double low, double high) {
   std::vector<double> x, y;
   for (size_t k = 0; k < curve.x.size(); ++k)
     if (curve.x[k] >= low && curve.x[k] <= high) x.push_back(curve.x[k]), y.push_back(curve.y[k]);
   return fit_power(x, y);
 }
 
-TextTable values_table(const std::vector<SweepValue>& values) {
+TextTable values_table(const std::vector<VariedValue>& values) {
   TextTable table;
   table.caption = "Means over samples ± standard error";
   table.head = {"ν (Hz)",       "samples",           "periods each",    "Δx_max (mm)",
                 "v_max (mm/s)", "Δx_max ν² (mm/s²)", "v_max ν (mm/s²)", "error (g·h)"};
-  for (const SweepValue& value : values) {
+  for (const VariedValue& value : values) {
     const SampleMean rise = value.mean(&Observation::rise),
                      speed = value.mean(&Observation::speed_in);
     const double nu = value.value;
@@ -58,14 +58,13 @@ TextTable values_table(const std::vector<SweepValue>& values) {
 }  // namespace
 
 PaperSection fig9_section(PaperData& data) {
-  PaperSection section =
-      new_section("fig9", "Figure 9: displacement and velocity against frequency");
-  const std::vector<SweepValue> values = data.sweep(Sweep::frequency);
-  if (const std::string missing = data.missing(Sweep::frequency, "frequencies"); !missing.empty())
+  PaperSection section;
+  const std::vector<VariedValue> values = data.values(Varied::frequency);
+  if (const std::string missing = data.missing(Varied::frequency, "frequencies"); !missing.empty())
     section.notes.push_back(missing);
   if (values.size() < 2) return section;
-  const SweepCurve rise = curve_of_sweep(values, &Observation::rise, 1e3),
-                   speed = curve_of_sweep(values, &Observation::speed_in, 1e3);
+  const VariedCurve rise = curve_of_values(values, &Observation::rise, 1e3),
+                    speed = curve_of_values(values, &Observation::speed_in, 1e3);
   const PowerFit rise_fit = fit_power(rise.x, rise.y), speed_fit = fit_power(speed.x, speed.y);
   PaperFigure figure;
   figure.plot.name = "fig09";

@@ -11,11 +11,11 @@
 namespace ballast {
 namespace {
 
-constexpr double slow = sweep_frequency, fast = fast_frequency;
+constexpr double slow_end = varied_frequency, fast_end = fast_frequency;
 
 /// Exponent between 10 and 60 Hz.
 SampleMean overall(const Variant& variant, double Observation::*quantity) {
-  const SweepValue *a = variant.at(slow), *b = variant.at(fast);
+  const VariedValue *a = variant.at(slow_end), *b = variant.at(fast_end);
   return a && b ? exponent_between(*a, *b, quantity) : SampleMean{};
 }
 
@@ -35,13 +35,13 @@ TextTable exponents_table(const std::vector<Variant>& variants) {
        "C at 10 Hz", "C at 60 Hz", "ρ before", "ρ₀"},
       {}};
   for (const Variant& variant : variants) {
-    const SweepCurve rise = curve_of_sweep(variant.values, &Observation::rise),
-                     speed = curve_of_sweep(variant.values, &Observation::speed_in);
-    const auto fit = [](const SweepCurve& curve) {
+    const VariedCurve rise = curve_of_values(variant.values, &Observation::rise),
+                      speed = curve_of_values(variant.values, &Observation::speed_in);
+    const auto fit = [](const VariedCurve& curve) {
       return curve.x.size() < 3 ? std::string("–") : words_of(fit_power(curve.x, curve.y));
     };
-    const SweepValue *a = variant.at(slow), *b = variant.at(fast);
-    const auto of = [](const SweepValue* value, double Observation::*quantity) {
+    const VariedValue *a = variant.at(slow_end), *b = variant.at(fast_end);
+    const auto of = [](const VariedValue* value, double Observation::*quantity) {
       return value ? digits(value->mean(quantity).mean, 4) : std::string("–");
     };
     table.rows.push_back(
@@ -58,7 +58,7 @@ TextTable exponents_table(const std::vector<Variant>& variants) {
 double peak_of(const Variant& variant, double Observation::*rate) {
   double at = not_known, most = -1e300;
   int known = 0;
-  for (const SweepValue& value : variant.values) {
+  for (const VariedValue& value : variant.values) {
     const double mean = value.mean(rate).mean;
     if (!std::isfinite(mean)) continue;
     ++known;
@@ -86,7 +86,7 @@ TextTable rates_table(const std::vector<Variant>& variants) {
                                      std::pair{"0.4–1 s", &Observation::rate_common}}) {
       table.rows.push_back({variant.name, name});
       for (const double frequency : compared_frequencies) {
-        const SweepValue* value = variant.at(frequency);
+        const VariedValue* value = variant.at(frequency);
         table.rows.back().push_back(value ? error_words(value->mean(rate)) : "–");
       }
       const double peak = peak_of(variant, rate);
@@ -133,9 +133,9 @@ void add_effects(const std::vector<Variant>& variants, PaperSection& section) {
   }
 }
 
-Variant part_of(std::string name, const std::vector<SweepValue>& values, bool first_only) {
+Variant part_of(std::string name, const std::vector<VariedValue>& values, bool first_only) {
   Variant variant{std::move(name), {}, -1};
-  for (SweepValue value : values) {
+  for (VariedValue value : values) {
     if (std::find(std::begin(compared_frequencies), std::end(compared_frequencies), value.value) ==
         std::end(compared_frequencies))
       continue;
@@ -150,12 +150,13 @@ Variant part_of(std::string name, const std::vector<SweepValue>& values, bool fi
   return variant;
 }
 
-/// The same case of two sweeps, one at 10 and one at 60 Hz.
-Variant pair_of(std::string name, const std::vector<SweepValue>& at_slow,
-                const std::vector<SweepValue>& at_fast, double which, int reference) {
+/// The same case varied at 10 and at 60 Hz.
+Variant pair_of(std::string name, const std::vector<VariedValue>& at_slow,
+                const std::vector<VariedValue>& at_fast, double which, int reference) {
   Variant variant{std::move(name), {}, reference};
-  for (const auto& [values, frequency] : {std::pair{&at_slow, slow}, std::pair{&at_fast, fast}})
-    for (SweepValue value : *values)
+  for (const auto& [values, frequency] :
+       {std::pair{&at_slow, slow_end}, std::pair{&at_fast, fast_end}})
+    for (VariedValue value : *values)
       if (value.value == which) {
         value.value = frequency;
         variant.values.push_back(value);
@@ -164,36 +165,36 @@ Variant pair_of(std::string name, const std::vector<SweepValue>& at_slow,
 }
 
 struct Cause {
-  Sweep sweep;
+  Varied varied;
   const char *name, *missing;
 };
 constexpr Cause causes[] = {
-    {Sweep::loose_frequency, "looser deposit (lid placed, μ 0.8 while depositing)",
+    {Varied::loose_frequency, "looser deposit (lid placed, μ 0.8 while depositing)",
      "frequencies, looser deposit"},
-    {Sweep::rough_frequency, "friction 0.8", "frequencies, friction 0.8"},
-    {Sweep::strong_frequency, "f_max = 8 m g", "frequencies, f_max = 8 m g"}};
+    {Varied::rough_frequency, "friction 0.8", "frequencies, friction 0.8"},
+    {Varied::strong_frequency, "f_max = 8 m g", "frequencies, f_max = 8 m g"}};
 
 }  // namespace
 
-const SweepValue* Variant::at(double frequency) const {
-  const auto found = std::find_if(values.begin(), values.end(), [&](const SweepValue& value) {
+const VariedValue* Variant::at(double frequency) const {
+  const auto found = std::find_if(values.begin(), values.end(), [&](const VariedValue& value) {
     return value.value == frequency;
   });
   return found == values.end() ? nullptr : &*found;
 }
 
 std::vector<Variant> variants_of(PaperData& data) {
-  const std::vector<SweepValue> all = data.sweep(Sweep::frequency);
+  const std::vector<VariedValue> all = data.values(Varied::frequency);
   std::vector<Variant> variants{part_of("nothing (mean over samples)", all, false),
                                 part_of("nothing (sample 1)", all, true)};
   if (variants[1].values.size() < 2) return {};
   for (const Cause& cause : causes) {
-    Variant variant = part_of(cause.name, data.sweep(cause.sweep), true);
+    Variant variant = part_of(cause.name, data.values(cause.varied), true);
     variant.reference = 1;
     if (!variant.values.empty()) variants.push_back(variant);
   }
-  const std::vector<SweepValue> iterations = data.sweep(Sweep::iterations),
-                                iterations_fast = data.sweep(Sweep::iterations_fast);
+  const std::vector<VariedValue> iterations = data.values(Varied::iterations),
+                                 iterations_fast = data.values(Varied::iterations_fast);
   const double base = data.campaign().settings.iterations;
   const int cut = static_cast<int>(variants.size());
   variants.push_back(pair_of("nothing (sample 1, periods to 0.7 and 0.6 s)", iterations,
@@ -202,19 +203,18 @@ std::vector<Variant> variants_of(PaperData& data) {
     variants.pop_back();
     return variants;
   }
-  for (const SweepValue& value : iterations)
+  for (const VariedValue& value : iterations)
     if (value.value != base)
       variants.push_back(pair_of(value.label + " iterations a step", iterations, iterations_fast,
                                  value.value, cut));
-  variants.push_back(pair_of("h = 5e-5 s", data.sweep(Sweep::time_step),
-                             data.sweep(Sweep::time_step_fast), fine_step, cut));
+  variants.push_back(pair_of("h = 5e-5 s", data.values(Varied::time_step),
+                             data.values(Varied::time_step_fast), fine_step, cut));
   std::erase_if(variants, [](const Variant& variant) { return variant.values.empty(); });
   return variants;
 }
 
 PaperSection investigation_section(PaperData& data) {
-  PaperSection section =
-      new_section("investigation", "Where Ballast and the paper differ, and what we varied");
+  PaperSection section;
   section.text = {
       "Each cause is varied alone, at 10 and 60 Hz at least, on sample 1, and compared with sample "
       "1 without it; a "
@@ -225,9 +225,9 @@ PaperSection investigation_section(PaperData& data) {
       "over the same periods. Gravity and the wall’s mass were varied at 10 Hz alone: no exponent "
       "of ν under them."};
   for (const Cause& cause : causes)
-    if (const std::string missing = data.missing(cause.sweep, cause.missing); !missing.empty())
+    if (const std::string missing = data.missing(cause.varied, cause.missing); !missing.empty())
       section.notes.push_back(missing);
-  if (const std::string missing = data.missing(Sweep::time_step_fast, "steps at 60 Hz");
+  if (const std::string missing = data.missing(Varied::time_step_fast, "steps at 60 Hz");
       !missing.empty())
     section.notes.push_back(missing);
   const std::vector<Variant> variants = variants_of(data);

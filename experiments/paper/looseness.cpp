@@ -10,8 +10,8 @@ namespace ballast {
 namespace {
 
 /// Spread between samples: standard deviation over the base runs' seeds; relative to their mean.
-double relative_spread(const std::vector<SweepValue>& base, double Observation::*quantity) {
-  for (const SweepValue& value : base) {
+double relative_spread(const std::vector<VariedValue>& base, double Observation::*quantity) {
+  for (const VariedValue& value : base) {
     if (value.value != base_force) continue;
     const SampleMean mean = value.mean(quantity);
     return mean.error * std::sqrt(static_cast<double>(mean.samples)) / std::abs(mean.mean);
@@ -20,9 +20,9 @@ double relative_spread(const std::vector<SweepValue>& base, double Observation::
 }
 
 /// The run that the others are compared with: the smallest error.
-const SweepValue* tightest(const std::vector<SweepValue>& values) {
-  const auto least =
-      std::min_element(values.begin(), values.end(), [](const SweepValue& a, const SweepValue& b) {
+const VariedValue* tightest(const std::vector<VariedValue>& values) {
+  const auto least = std::min_element(
+      values.begin(), values.end(), [](const VariedValue& a, const VariedValue& b) {
         return a.samples.front().error_mean < b.samples.front().error_mean;
       });
   return least == values.end() ? nullptr : &*least;
@@ -32,12 +32,12 @@ std::string change(double value, double reference) {
   return reference == 0.0 ? "–" : percent(value / reference - 1.0);
 }
 
-TextTable table_of(const std::vector<SweepValue>& values, const std::string& caption) {
+TextTable table_of(const std::vector<VariedValue>& values, const std::string& caption) {
   TextTable table{caption, {"solver", "error (g·h)", "ms a step (median)"}, {}};
   for (const ObservableColumn& column : observable_columns())
     table.head.push_back(std::string(column.name) + " (" + column.unit + ")");
-  const SweepValue* reference = tightest(values);
-  for (const SweepValue& value : values) {
+  const VariedValue* reference = tightest(values);
+  for (const VariedValue& value : values) {
     const Observation& seen = value.samples.front();
     table.rows.push_back(
         {value.label, digits(seen.error_mean, 2), digits(1e3 * seen.seconds_per_step)});
@@ -52,11 +52,11 @@ TextTable table_of(const std::vector<SweepValue>& values, const std::string& cap
 }
 
 /// Relative deviation of an observable from the tightest run's.
-Curve deviation_curve(const std::vector<SweepValue>& values, double Observation::*quantity,
+Curve deviation_curve(const std::vector<VariedValue>& values, double Observation::*quantity,
                       const char* title, Ink ink, bool against_time) {
-  const SweepValue* reference = tightest(values);
+  const VariedValue* reference = tightest(values);
   std::vector<double> x, y;
-  for (const SweepValue& value : values) {
+  for (const VariedValue& value : values) {
     if (&value == reference) continue;
     const Observation& seen = value.samples.front();
     x.push_back(against_time ? 1e3 * seen.seconds_per_step : seen.error_mean);
@@ -66,8 +66,8 @@ Curve deviation_curve(const std::vector<SweepValue>& values, double Observation:
   return points_of(x, y, std::vector<double>(x.size(), 0.0), title, ink);
 }
 
-PaperFigure figure_of(const std::vector<SweepValue>& values, const std::vector<SweepValue>& fast,
-                      const std::vector<SweepValue>& backends, double spread) {
+PaperFigure figure_of(const std::vector<VariedValue>& values, const std::vector<VariedValue>& fast,
+                      const std::vector<VariedValue>& backends, double spread) {
   PaperFigure figure;
   figure.plot.name = "looseness";
   figure.plot.title = "Deviation of the displacement against error and time of a step";
@@ -102,12 +102,12 @@ PaperFigure figure_of(const std::vector<SweepValue>& values, const std::vector<S
 
 /// Loosest run whose Delta x_max lies within the samples' spread of the tightest one's, and so do
 /// all tighter ones.
-std::string loosest_good(std::vector<SweepValue> values, double spread) {
-  std::sort(values.begin(), values.end(), [](const SweepValue& a, const SweepValue& b) {
+std::string loosest_good(std::vector<VariedValue> values, double spread) {
+  std::sort(values.begin(), values.end(), [](const VariedValue& a, const VariedValue& b) {
     return a.samples.front().error_mean < b.samples.front().error_mean;
   });
   std::string good;
-  for (const SweepValue& value : values) {
+  for (const VariedValue& value : values) {
     const double miss =
         std::abs(value.samples.front().rise / values.front().samples.front().rise - 1.0);
     if (!(miss <= spread)) break;
@@ -120,7 +120,7 @@ std::string loosest_good(std::vector<SweepValue> values, double spread) {
 }  // namespace
 
 PaperSection looseness_section(PaperData& data) {
-  PaperSection section = new_section("looseness", "How loose may the solver be?");
+  PaperSection section;
   section.text = {
       "The same packing (sample 1) driven at 10 Hz, and at 60 Hz, with the solver stopped after "
       "different numbers of "
@@ -130,16 +130,16 @@ PaperSection looseness_section(PaperData& data) {
       "the steps of the periods that count, in units of "
       "g·h; every backend here solves the exact law. Percentages: deviation from the run with the "
       "smallest error."};
-  for (const auto& [sweep, what] :
-       {std::pair{Sweep::iterations, "numbers of iterations at 10 Hz"},
-        std::pair{Sweep::iterations_fast, "numbers of iterations at 60 Hz"},
-        std::pair{Sweep::backend, "backends"}})
-    if (const std::string missing = data.missing(sweep, what); !missing.empty())
+  for (const auto& [varied, what] :
+       {std::pair{Varied::iterations, "numbers of iterations at 10 Hz"},
+        std::pair{Varied::iterations_fast, "numbers of iterations at 60 Hz"},
+        std::pair{Varied::backend, "backends"}})
+    if (const std::string missing = data.missing(varied, what); !missing.empty())
       section.notes.push_back(missing);
-  const std::vector<SweepValue> values = data.sweep(Sweep::iterations),
-                                fast = data.sweep(Sweep::iterations_fast);
-  std::vector<SweepValue> backends = data.sweep(Sweep::backend);
-  const double spread = relative_spread(data.sweep(Sweep::force), &Observation::rise);
+  const std::vector<VariedValue> values = data.values(Varied::iterations),
+                                 fast = data.values(Varied::iterations_fast);
+  std::vector<VariedValue> backends = data.values(Varied::backend);
+  const double spread = relative_spread(data.values(Varied::force), &Observation::rise);
   if (values.size() > 1)
     section.tables.push_back(table_of(values, "nncg at 10 Hz, by iterations a step"));
   if (fast.size() > 1)

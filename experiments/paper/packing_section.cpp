@@ -71,7 +71,7 @@ struct Histogram {
 }  // namespace
 
 PaperSection packing_section(PaperData& data) {
-  PaperSection section = new_section("packing", "The packing itself");
+  PaperSection section;
   section.text = {
       "A contact is a pair of bodies with a compressive force, whatever its number of points. Z = "
       "(2 N_gg + N_gw)/N; "

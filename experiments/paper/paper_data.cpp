@@ -5,13 +5,13 @@
 
 namespace ballast {
 
-SampleMean SweepValue::mean(double Observation::*quantity) const {
+SampleMean VariedValue::mean(double Observation::*quantity) const {
   std::vector<double> values;
   for (const Observation& sample : samples) values.push_back(sample.*quantity);
   return sample_mean(values);
 }
 
-const Observation* SweepValue::of_seed(int seed) const {
+const Observation* VariedValue::of_seed(int seed) const {
   for (size_t k = 0; k < seeds.size(); ++k)
     if (seeds[k] == seed) return &samples[k];
   return nullptr;
@@ -44,7 +44,7 @@ std::vector<size_t> PaperData::motion() const {
 
 std::optional<size_t> PaperData::at_frequency(double frequency) const {
   for (const CampaignPoint& point : campaign_.points)
-    if (point.sweep == Sweep::frequency && point.value == frequency && has(point.run))
+    if (point.varied == Varied::frequency && point.value == frequency && has(point.run))
       return point.run;
   return {};
 }
@@ -58,11 +58,11 @@ const Observation* PaperData::observation(const CampaignPoint& point) {
               .first->second;
 }
 
-std::vector<SweepValue> PaperData::sweep(Sweep which) {
-  std::map<double, SweepValue> values;
+std::vector<VariedValue> PaperData::values(Varied which) {
+  std::map<double, VariedValue> values;
   for (const CampaignPoint& point : campaign_.points) {
-    if (point.sweep != which) continue;
-    SweepValue& value = values[point.value];
+    if (point.varied != which) continue;
+    VariedValue& value = values[point.value];
     value.value = point.value;
     value.label = point.label;
     ++value.planned;
@@ -71,17 +71,17 @@ std::vector<SweepValue> PaperData::sweep(Sweep which) {
       value.seeds.push_back(point.seed);
     }
   }
-  std::vector<SweepValue> list;
+  std::vector<VariedValue> list;
   for (auto& [at, value] : values)
     if (!value.samples.empty()) list.push_back(std::move(value));
   return list;
 }
 
-std::string PaperData::missing(Sweep which, const char* what) {
+std::string PaperData::missing(Varied which, const char* what) {
   std::set<double> planned, there;
   int runs = 0, done = 0;
   for (const CampaignPoint& point : campaign_.points) {
-    if (point.sweep != which) continue;
+    if (point.varied != which) continue;
     planned.insert(point.value);
     ++runs;
     if (!has(point.run)) continue;

@@ -12,8 +12,8 @@
 
 namespace ballast {
 
-/// One value of a sweep with what its seeds gave.
-struct SweepValue {
+/// One value of what is varied, with what its seeds gave.
+struct VariedValue {
   double value = 0.0;
   std::string label;
   int planned = 0;                   ///< seeds that the campaign has
@@ -31,9 +31,9 @@ class PaperData {
   const std::filesystem::path& results() const { return results_; }
 
   /// Values in growing order; those without a finished run are left out.
-  std::vector<SweepValue> sweep(Sweep which);
+  std::vector<VariedValue> values(Varied which);
   /// "3 of 10 frequencies; 5 of 30 runs": empty when everything planned is there.
-  std::string missing(Sweep which, const char* what);
+  std::string missing(Varied which, const char* what);
 
   bool has(size_t run) const;
   std::filesystem::path folder(size_t run) const;
@@ -41,7 +41,7 @@ class PaperData {
   RunData read(size_t run) const;
   /// Finished ones of Campaign::motion.
   std::vector<size_t> motion() const;
-  /// A run of the frequency sweep, the least seed that is finished.
+  /// A run at this of the frequencies that are varied, the least seed that is finished.
   std::optional<size_t> at_frequency(double frequency) const;
   int finished() const;
 

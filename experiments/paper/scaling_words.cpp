@@ -6,10 +6,10 @@
 
 namespace ballast {
 
-SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observation::*quantity,
-                          double factor) {
-  SweepCurve curve;
-  for (const SweepValue& value : values) {
+VariedCurve curve_of_values(const std::vector<VariedValue>& values, double Observation::*quantity,
+                            double factor) {
+  VariedCurve curve;
+  for (const VariedValue& value : values) {
     const SampleMean mean = value.mean(quantity);
     curve.x.push_back(value.value);
     curve.y.push_back(factor * mean.mean);
@@ -18,7 +18,7 @@ SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observat
   return curve;
 }
 
-SampleMean prefactor_of(const SweepValue& value) {
+SampleMean prefactor_of(const VariedValue& value) {
   std::vector<double> factors;
   for (const Observation& sample : value.samples) factors.push_back(sample.rise / sample.eq3());
   return sample_mean(factors);
@@ -33,7 +33,7 @@ std::string words_of(const PowerFit& fit) {
   return text + " (R² " + digits(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
 }
 
-std::string misfit_words(const PowerFit& fit, const SweepCurve& curve) {
+std::string misfit_words(const PowerFit& fit, const VariedCurve& curve) {
   return "χ²/dof " + digits(reduced_chi2(fit, curve.x, curve.y, curve.error), 2);
 }
 

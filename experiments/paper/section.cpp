@@ -34,13 +34,6 @@ const char* word_of(Agreement agreement) {
   return "?";
 }
 
-PaperSection new_section(const std::string& id, const std::string& heading) {
-  PaperSection section;
-  section.id = id;
-  section.heading = heading;
-  return section;
-}
-
 std::string digits(double value, int count) {
   if (!std::isfinite(value)) return "–";
   if (value == 0.0) return "0";

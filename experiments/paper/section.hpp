@@ -42,8 +42,6 @@ struct PaperSection {
   std::vector<AgreementRow> rows;
 };
 
-PaperSection new_section(const std::string& id, const std::string& heading);
-
 /// `count` significant digits as a person writes them; powers of ten outside 1e-3 ... 1e6; a dash
 /// for what is not known.
 std::string digits(double value, int count = 3);

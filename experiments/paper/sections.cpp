@@ -1,38 +1,148 @@
 #include "experiments/paper/sections.hpp"
 
+#include <algorithm>
+#include <set>
 #include <stdexcept>
+
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
-struct Entry {
-  const char* target;
-  PaperSection (*make)(PaperData&);
-};
-constexpr Entry entries[] = {{"fig3", fig3_section},
-                             {"fig4", fig4_section},
-                             {"fig5", fig5_section},
-                             {"fig6", fig6_section},
-                             {"fig7", fig7_section},
-                             {"fig8", fig8_section},
-                             {"fig9", fig9_section},
-                             {"fig10", fig10_section},
-                             {"fig11", fig11_section},
-                             {"fig12", fig12_section},
-                             {"fig13", fig13_section},
-                             {"packing", packing_section},
-                             {"looseness", looseness_section},
-                             {"sensitivity", sensitivity_section},
-                             {"investigation", investigation_section}};
+/// Fig. 8 compares the motion at 5 and 10 Hz.
+bool is_at_portrait(const CampaignPoint& point) {
+  return point.value == motion_frequency || point.value == 2.0 * motion_frequency;
+}
+
+/// How loose a solver may be is compared with the spread of the samples at one load.
+bool is_spread(const CampaignPoint& point) {
+  return point.varied != Varied::force || point.value == base_force;
+}
+
+std::vector<ReportSection> make_table() {
+  using enum Varied;
+  return {
+      {"fig3", "Figure 3 and Equation 1: the wall under the harmonic load", fig3_section, true, {}},
+      {"fig4", "Figure 4: force on the wall against its displacement", fig4_section, true, {}},
+      {"fig5", "Figure 5 and Equation 2: the phenomenological model", fig5_section, true, {}},
+      {"fig6", "Figure 6: velocities of the grains in the passive state", fig6_section, true, {}},
+      {"fig7",
+       "Figure 7: force chains, and the principal directions of the stress",
+       fig7_section,
+       true,
+       {}},
+      {"fig8",
+       "Figure 8: phase portraits at 5 and 10 Hz",
+       fig8_section,
+       true,
+       {frequency},
+       is_at_portrait},
+      {"fig9",
+       "Figure 9: displacement and velocity against frequency",
+       fig9_section,
+       false,
+       {frequency}},
+      {"fig10",
+       "Figure 10: displacement against the force amplitude, gravity and the wall’s mass",
+       fig10_section,
+       false,
+       {force}},
+      {"fig11",
+       "Figure 11 and Equation 3: one line for all sweeps",
+       fig11_section,
+       false,
+       {frequency, force, gravity, wall_mass}},
+      {"fig12", "Figure 12: solid fraction against time", fig12_section, true, {}},
+      {"fig13",
+       "Figure 13 and Equations 4, 5: the compaction rate",
+       fig13_section,
+       false,
+       {frequency}},
+      {"packing", "The packing itself", packing_section, true, {}},
+      {"looseness",
+       "How loose may the solver be?",
+       looseness_section,
+       false,
+       {iterations, iterations_fast, backend, force},
+       is_spread},
+      {"sensitivity",
+       "What the open choices do: step, size, friction",
+       sensitivity_section,
+       false,
+       {time_step, size, friction, deposit, lid}},
+      {"investigation",
+       "Where Ballast and the paper differ, and what we varied",
+       investigation_section,
+       false,
+       {frequency, force, gravity, size, iterations, iterations_fast, time_step, time_step_fast,
+        loose_frequency, rough_frequency, strong_frequency, lid}},
+  };
+}
+
+constexpr const char* every_section = "all";
+
+/// The sections of a target; empty: there is no such target.
+std::vector<const ReportSection*> sections_of(const std::string& target) {
+  std::vector<const ReportSection*> found;
+  for (const ReportSection& section : paper_sections())
+    if (target == every_section || target == section.name) found.push_back(&section);
+  return found;
+}
+
+bool is_needed(const ReportSection& section, const CampaignPoint& point) {
+  return std::find(section.needs.begin(), section.needs.end(), point.varied) !=
+             section.needs.end() &&
+         (!section.needs_point || section.needs_point(point));
+}
 
 }  // namespace
 
+std::span<const ReportSection> paper_sections() {
+  static const std::vector<ReportSection> table = make_table();
+  return table;
+}
+
+std::vector<std::string> paper_targets() {
+  std::vector<std::string> names;
+  for (const ReportSection& section : paper_sections()) names.emplace_back(section.name);
+  names.emplace_back(every_section);
+  return names;
+}
+
+std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target) {
+  const std::vector<const ReportSection*> sections = sections_of(target);
+  if (sections.empty())
+    throw std::invalid_argument("paper: '" + target + "' is not one of " +
+                                joined(paper_targets()));
+  std::set<size_t> needed;
+  for (const ReportSection* section : sections) {
+    if (section->needs_motion) needed.insert(campaign.motion.begin(), campaign.motion.end());
+    for (const CampaignPoint& point : campaign.points)
+      if (is_needed(*section, point)) needed.insert(point.run);
+  }
+  return {needed.begin(), needed.end()};
+}
+
+std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target) {
+  std::vector<Plan> stages;
+  for (const size_t index : runs_for(campaign, target)) {
+    const CampaignRun& run = campaign.runs[index];
+    const std::string name = "paper-" + run.stage;
+    if (stages.empty() || stages.back().name != name) stages.push_back({name, {}});
+    stages.back().runs.push_back(run.planned);
+  }
+  return stages;
+}
+
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target) {
-  std::vector<PaperSection> sections;
-  for (const Entry& entry : entries)
-    if (target == "all" || target == entry.target) sections.push_back(entry.make(data));
-  if (sections.empty()) throw std::invalid_argument("paper: no section is called '" + target + "'");
-  return sections;
+  std::vector<PaperSection> made;
+  for (const ReportSection* section : sections_of(target)) {
+    made.push_back(section->make(data));
+    made.back().id = section->name;
+    made.back().heading = section->heading;
+  }
+  if (made.empty()) throw std::invalid_argument("paper: no section is called '" + target + "'");
+  return made;
 }
 
 }  // namespace ballast

@@ -2,6 +2,10 @@
 // The report's sections, one file each: what is run (campaign.hpp), what is measured
 // (observables.hpp, grain_fields.hpp), fitted and drawn.
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "experiments/paper/paper_data.hpp"
 #include "experiments/paper/section.hpp"
 
@@ -23,25 +27,45 @@ PaperSection looseness_section(PaperData& data);
 PaperSection sensitivity_section(PaperData& data);
 PaperSection investigation_section(PaperData& data);  ///< why exponents, C and compaction differ
 
-/// The sections of a target ("all": every one), in the paper's order.
+/// One section of the report: the target of `ballast paper` that makes it, what it is called, and
+/// which of the campaign's runs it draws.
+struct ReportSection {
+  const char* name;  ///< "fig9"
+  const char* heading;
+  PaperSection (*make)(PaperData& data);                      ///< without name and heading
+  bool needs_motion;                                          ///< the 5 Hz runs with stored states
+  std::vector<Varied> needs;                                  ///< points of these
+  bool (*needs_point)(const CampaignPoint& point) = nullptr;  ///< of them only where true
+};
+/// In the paper's order. A new figure is its file, its declaration above, and a row here.
+std::span<const ReportSection> paper_sections();
+
+/// Names that `ballast paper` takes: those of the sections, and "all".
+std::vector<std::string> paper_targets();
+/// Indices of the runs a target needs, in the campaign's order. Throws std::invalid_argument naming
+/// the target and what there is.
+std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target);
+/// What a target needs as plans, one for each stage: to be run in this order. Throws as runs_for.
+std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target);
+/// The sections of a target. Throws std::invalid_argument when there is none.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 
-/// A sweep's values as the axes of a figure: x by `abscissa` of each sample's mean, y the mean of
-/// `quantity` with its standard error.
-struct SweepCurve {
+/// The values of what is varied as the axes of a figure: x by `abscissa` of each sample's mean, y
+/// the mean of `quantity` with its standard error.
+struct VariedCurve {
   std::vector<double> x, y, error;
 };
-SweepCurve curve_of_sweep(const std::vector<SweepValue>& values, double Observation::*quantity,
-                          double factor = 1.0);
+VariedCurve curve_of_values(const std::vector<VariedValue>& values, double Observation::*quantity,
+                            double factor = 1.0);
 
 /// C of Eq. 3, sample by sample.
-SampleMean prefactor_of(const SweepValue& value);
+SampleMean prefactor_of(const VariedValue& value);
 
 /// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995)".
 std::string words_of(const PowerFit& fit);
 /// "χ²/dof 3.2" of a curve's points about the fit, with their errors; "χ²/dof –" when these are not
 /// known.
-std::string misfit_words(const PowerFit& fit, const SweepCurve& curve);
+std::string misfit_words(const PowerFit& fit, const VariedCurve& curve);
 /// What a reader has to know about it.
 inline constexpr const char* misfit_meaning =
     "χ²/dof compares the points’ distances from the fitted law with the standard errors between "

@@ -5,12 +5,12 @@
 namespace ballast {
 namespace {
 
-TextTable table_of(const std::vector<SweepValue>& values, const char* caption, const char* first) {
+TextTable table_of(const std::vector<VariedValue>& values, const char* caption, const char* first) {
   TextTable table{caption, {first, "samples"}, {}};
   for (const ObservableColumn& column : observable_columns())
     table.head.push_back(std::string(column.name) + " (" + column.unit + ")");
   table.head.insert(table.head.end(), {"C of Eq. 3", "error (g·h)", "ms a step (median)"});
-  for (const SweepValue& value : values) {
+  for (const VariedValue& value : values) {
     table.rows.push_back({value.label, std::to_string(value.samples.size())});
     for (const ObservableColumn& column : observable_columns()) {
       const SampleMean mean = value.mean(column.value);
@@ -25,42 +25,41 @@ TextTable table_of(const std::vector<SweepValue>& values, const char* caption, c
 }
 
 struct Question {
-  Sweep sweep;
+  Varied varied;
   const char* what;
   const char* caption;
   const char* first;
 };
 constexpr Question questions[] = {
-    {Sweep::time_step, "steps", "Step h, sample 1 at 10 Hz (the iterations a step stay the same)",
+    {Varied::time_step, "steps", "Step h, sample 1 at 10 Hz (the iterations a step stay the same)",
      "h"},
-    {Sweep::size, "size conventions",
+    {Varied::size, "size conventions",
      "Size convention at 10 Hz: the paper’s “diameter” read as barycentre–vertex distance, or "
      "twice it; box and grains "
      "at half scale, the lid’s gap of 1 cm as it is or halved",
      "size"},
-    {Sweep::friction, "frictions", "Friction between grains, floor and lid, sample 1 at 10 Hz",
+    {Varied::friction, "frictions", "Friction between grains, floor and lid, sample 1 at 10 Hz",
      "μ"},
-    {Sweep::deposit, "deposits",
+    {Varied::deposit, "deposits",
      "Deposit (lid pressed or only placed, friction while depositing), sample 1 at 10 Hz; driven "
      "with μ = 0.4",
      "deposit"},
-    {Sweep::lid, "gaps under the lid",
+    {Varied::lid, "gaps under the lid",
      "Gap by which the lid is raised (paper: 1 cm), sample 1 at 10 Hz", "gap"}};
 
 }  // namespace
 
 PaperSection sensitivity_section(PaperData& data) {
-  PaperSection section =
-      new_section("sensitivity", "What the open choices do: step, size, friction");
+  PaperSection section;
   for (const Question& question : questions) {
-    if (const std::string missing = data.missing(question.sweep, question.what); !missing.empty())
+    if (const std::string missing = data.missing(question.varied, question.what); !missing.empty())
       section.notes.push_back(missing);
-    const std::vector<SweepValue> values = data.sweep(question.sweep);
+    const std::vector<VariedValue> values = data.values(question.varied);
     if (values.empty()) continue;
     section.tables.push_back(table_of(values, question.caption, question.first));
     if (values.size() < 2) continue;
     std::string found;
-    for (const SweepValue& value : values)
+    for (const VariedValue& value : values)
       found += (found.empty() ? "" : "; ") + value.label + ": " +
                digits(1e3 * value.mean(&Observation::rise).mean) + " mm";
     section.rows.push_back({"beyond", "–", std::string("Δx_max by ") + question.what + ": " + found,

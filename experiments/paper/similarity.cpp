@@ -12,7 +12,7 @@ namespace {
 
 /// The quantity in every sample that both values have.
 template <class Function>
-SampleMean over_common(const SweepValue& a, const SweepValue& b, double Observation::*quantity,
+SampleMean over_common(const VariedValue& a, const VariedValue& b, double Observation::*quantity,
                        const Function& f) {
   std::vector<double> values;
   for (size_t k = 0; k < a.samples.size(); ++k)
@@ -35,8 +35,8 @@ constexpr Quantity quantities[] = {
      1e3}};
 
 /// Exponents between neighbours, each at their geometric middle.
-SweepCurve local_curve(const std::vector<SweepValue>& values, double Observation::*quantity) {
-  SweepCurve curve;
+VariedCurve local_curve(const std::vector<VariedValue>& values, double Observation::*quantity) {
+  VariedCurve curve;
   for (size_t k = 1; k < values.size(); ++k) {
     const SampleMean exponent = exponent_between(values[k - 1], values[k], quantity);
     if (!std::isfinite(exponent.mean)) continue;
@@ -48,14 +48,14 @@ SweepCurve local_curve(const std::vector<SweepValue>& values, double Observation
 }
 
 /// How much a standard error from so few samples is worth.
-std::string error_meaning(const std::vector<SweepValue>& values) {
+std::string error_meaning(const std::vector<VariedValue>& values) {
   const int samples = static_cast<int>(values.front().samples.size());
   if (samples < 2) return "One sample: no errors.";
   return "The 95 % interval of a mean over " + std::to_string(samples) + " samples is " +
          digits(student_t95(samples - 1), 2) + " standard errors to both sides.";
 }
 
-TextTable local_table(const std::vector<SweepValue>& values, const std::string& caption,
+TextTable local_table(const std::vector<VariedValue>& values, const std::string& caption,
                       const std::string& head) {
   TextTable table{caption, {head, "Δx_max", "v_max"}, {}};
   for (size_t k = 1; k < values.size(); ++k) {
@@ -68,9 +68,9 @@ TextTable local_table(const std::vector<SweepValue>& values, const std::string& 
   return table;
 }
 
-void draw_local(const Quantity& quantity, const std::vector<SweepValue>& values, double expected,
+void draw_local(const Quantity& quantity, const std::vector<VariedValue>& values, double expected,
                 Panel& panel) {
-  const SweepCurve curve = local_curve(values, quantity.value);
+  const VariedCurve curve = local_curve(values, quantity.value);
   panel.curves = {points_of(curve.x, curve.y, curve.error,
                             "neighbours, mean over samples ± standard error", Ink::blue)};
   if (std::isfinite(expected))
@@ -78,7 +78,7 @@ void draw_local(const Quantity& quantity, const std::vector<SweepValue>& values,
 }
 
 /// From the first pair to the last.
-std::string trend_words(const std::vector<SweepValue>& values, const Quantity& quantity) {
+std::string trend_words(const std::vector<VariedValue>& values, const Quantity& quantity) {
   const SampleMean first = exponent_between(values[0], values[1], quantity.value),
                    last =
                        exponent_between(values[values.size() - 2], values.back(), quantity.value);
@@ -87,7 +87,7 @@ std::string trend_words(const std::vector<SweepValue>& values, const Quantity& q
          " (" + values[values.size() - 2].label + " to " + values.back().label + ")";
 }
 
-void add_by_frequency(const std::vector<SweepValue>& values, const std::vector<Variant>& variants,
+void add_by_frequency(const std::vector<VariedValue>& values, const std::vector<Variant>& variants,
                       PaperSection& section) {
   PaperFigure figure;
   figure.plot.name = "exponents_frequency";
@@ -100,7 +100,7 @@ void add_by_frequency(const std::vector<SweepValue>& values, const std::vector<V
     size_t ink = 0;
     for (const Variant& variant : variants) {
       if (variant.reference < 0 || variant.values.size() < 3 || ink == std::size(inks)) continue;
-      const SweepCurve curve = local_curve(variant.values, quantity.value);
+      const VariedCurve curve = local_curve(variant.values, quantity.value);
       figure.plot.panels.back().curves.push_back(points_of(
           curve.x, curve.y, curve.error, plain_text(variant.name) + ", sample 1", inks[ink++]));
     }
@@ -132,7 +132,7 @@ void add_by_frequency(const std::vector<SweepValue>& values, const std::vector<V
        Agreement::reported});
 }
 
-void add_by_force(const std::vector<SweepValue>& values, PaperSection& section) {
+void add_by_force(const std::vector<VariedValue>& values, PaperSection& section) {
   PaperFigure figure;
   figure.plot.name = "exponents_force";
   figure.plot.title = "Local exponents against the force amplitude";
@@ -146,7 +146,7 @@ void add_by_force(const std::vector<SweepValue>& values, PaperSection& section) 
   figure.paper =
       "Δx_max ~ f_max⁻¹ (Fig. 10); Eq. 3 supposes f_max ≫ m g. The paper has no law of v_max and "
       "f_max.";
-  figure.found = "At " + digits(sweep_frequency, 1) + " Hz. " + error_meaning(values) + " " +
+  figure.found = "At " + digits(varied_frequency, 1) + " Hz. " + error_meaning(values) + " " +
                  trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]) +
                  ".";
   section.figures.push_back(figure);
@@ -158,15 +158,15 @@ void add_by_force(const std::vector<SweepValue>& values, PaperSection& section) 
                           trend_words(values, quantities[0]), Agreement::reported});
 }
 
-const SweepValue* value_at(const std::vector<SweepValue>& values, double at) {
-  for (const SweepValue& value : values)
+const VariedValue* value_at(const std::vector<VariedValue>& values, double at) {
+  for (const VariedValue& value : values)
     if (value.value == at) return &value;
   return nullptr;
 }
 
 /// Measured against predicted, a row for each quantity; in words.
-std::string compare_half_scale(const SweepValue& below, const SweepValue& above, double same,
-                               const SweepValue& half, TextTable& table) {
+std::string compare_half_scale(const VariedValue& below, const VariedValue& above, double same,
+                               const VariedValue& half, TextTable& table) {
   std::string found;
   for (const Quantity& quantity : quantities) {
     const SampleMean full = interpolated(below, above, same, quantity.value),
@@ -190,13 +190,13 @@ std::string compare_half_scale(const SweepValue& below, const SweepValue& above,
 
 /// The half-scale box at 10 Hz is the full one at 10/sqrt(2) Hz, or rigid grains are not what we
 /// simulate.
-void add_half_scale(PaperData& data, const std::vector<SweepValue>& frequencies,
+void add_half_scale(PaperData& data, const std::vector<VariedValue>& frequencies,
                     PaperSection& section) {
-  const std::vector<SweepValue> sizes = data.sweep(Sweep::size);
-  const SweepValue *below = value_at(frequencies, 7.0),
-                   *above = value_at(frequencies, sweep_frequency);
+  const std::vector<VariedValue> sizes = data.values(Varied::size);
+  const VariedValue *below = value_at(frequencies, 7.0),
+                    *above = value_at(frequencies, varied_frequency);
   if (!below || !above) return;
-  const double same = sweep_frequency * std::sqrt(0.5);
+  const double same = varied_frequency * std::sqrt(0.5);
   TextTable table{
       "The box at half scale, 10 Hz, beside what the full box must give for it at " + digits(same) +
           " Hz (between 7 and 10 Hz on a power law; mean over samples ± standard error)",
@@ -206,7 +206,7 @@ void add_half_scale(PaperData& data, const std::vector<SweepValue>& frequencies,
   std::string words;
   for (const auto& [which, name] : {std::pair{similar_case, "with the lid’s gap at half scale too"},
                                     std::pair{half_scale_case, "with the lid’s 1 cm as it is"}}) {
-    const SweepValue* half = value_at(sizes, which);
+    const VariedValue* half = value_at(sizes, which);
     if (!half) continue;
     const std::string found = compare_half_scale(*below, *above, same, *half, table);
     words += std::string(words.empty() ? "" : "; ") + name + ": " + found;
@@ -229,24 +229,24 @@ void add_half_scale(PaperData& data, const std::vector<SweepValue>& frequencies,
       words + ".");
 }
 
-std::vector<SweepValue> between(const std::vector<SweepValue>& values, double low, double high) {
-  std::vector<SweepValue> part;
-  for (const SweepValue& value : values)
+std::vector<VariedValue> between(const std::vector<VariedValue>& values, double low, double high) {
+  std::vector<VariedValue> part;
+  for (const VariedValue& value : values)
     if (value.value >= low && value.value <= high) part.push_back(value);
   return part;
 }
 
-PowerFit fit_of(const std::vector<SweepValue>& values) {
-  const SweepCurve curve = curve_of_sweep(values, &Observation::rise);
+PowerFit fit_of(const std::vector<VariedValue>& values) {
+  const VariedCurve curve = curve_of_values(values, &Observation::rise);
   return fit_power(curve.x, curve.y);
 }
 
 /// Delta x_max = (g/nu^2) (d nu^2/g)^(1 + alpha/2) (f_max/(m g))^beta: the exponent of g at
 /// constant f_max is -alpha/2 - beta.
-void add_gravity(PaperData& data, const std::vector<SweepValue>& frequencies,
-                 const std::vector<SweepValue>& forces, PaperSection& section) {
+void add_gravity(PaperData& data, const std::vector<VariedValue>& frequencies,
+                 const std::vector<VariedValue>& forces, PaperSection& section) {
   const PowerFit alpha = fit_of(between(frequencies, 7.0, 20.0)), beta = fit_of(forces),
-                 gravity = fit_of(data.sweep(Sweep::gravity));
+                 gravity = fit_of(data.values(Varied::gravity));
   if (!std::isfinite(alpha.half_width) || !std::isfinite(beta.half_width) ||
       !std::isfinite(gravity.half_width))
     return;
@@ -264,14 +264,14 @@ void add_gravity(PaperData& data, const std::vector<SweepValue>& frequencies,
 
 }  // namespace
 
-SampleMean exponent_between(const SweepValue& a, const SweepValue& b,
+SampleMean exponent_between(const VariedValue& a, const VariedValue& b,
                             double Observation::*quantity) {
   const double span = std::log(b.value / a.value);
   return over_common(a, b, quantity,
                      [&](double qa, double qb) { return std::log(qb / qa) / span; });
 }
 
-SampleMean interpolated(const SweepValue& a, const SweepValue& b, double at,
+SampleMean interpolated(const VariedValue& a, const VariedValue& b, double at,
                         double Observation::*quantity) {
   const double w = std::log(at / a.value) / std::log(b.value / a.value);
   return over_common(a, b, quantity,
@@ -280,15 +280,15 @@ SampleMean interpolated(const SweepValue& a, const SweepValue& b, double at,
 
 void add_local_exponents(PaperData& data, const std::vector<Variant>& variants,
                          PaperSection& section) {
-  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency),
-                                forces = data.sweep(Sweep::force);
+  const std::vector<VariedValue> frequencies = data.values(Varied::frequency),
+                                 forces = data.values(Varied::force);
   if (frequencies.size() > 2) add_by_frequency(frequencies, variants, section);
   if (forces.size() > 2) add_by_force(forces, section);
 }
 
 void add_similarity(PaperData& data, PaperSection& section) {
-  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency),
-                                forces = data.sweep(Sweep::force);
+  const std::vector<VariedValue> frequencies = data.values(Varied::frequency),
+                                 forces = data.values(Varied::force);
   add_half_scale(data, frequencies, section);
   add_gravity(data, frequencies, forces, section);
 }

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "experiments/commands/command.hpp"
-#include "platform/error.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -219,18 +218,4 @@ TEST_CASE("a solver built without its library is exit code 4") {
         ballast_program({"check", "incline", "--set", std::string("solver.name=") + entry.name}),
         ExitCode::backend_missing, {entry.name});
   }
-}
-
-TEST_CASE("every kind of failure has its exit code and its line") {
-  const auto outcome = [](const Action& action) {
-    std::ostringstream err;
-    const int code = static_cast<int>(perform(action, err));
-    return std::to_string(code) + ' ' + err.str();
-  };
-  CHECK(outcome([] { return ExitCode::ok; }) == "0 ");
-  CHECK(outcome([] { return ExitCode::time_limit; }) == "3 ");
-  CHECK(outcome([]() -> ExitCode { throw UsageError("two\nlines\n"); }) ==
-        "2 ballast: two lines\n");
-  CHECK(outcome([]() -> ExitCode { throw Error("x"); }) == "1 ballast: x\n");
-  CHECK(outcome([]() -> ExitCode { throw std::bad_alloc(); }) == "1 ballast: out of memory\n");
 }

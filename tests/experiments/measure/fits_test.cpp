@@ -109,3 +109,24 @@ TEST_CASE("chi^2 over its degrees of freedom: one when points scatter as their e
   error.assign(400, not_known);
   CHECK(std::isnan(reduced_chi2(fit, x, y, error)));
 }
+
+TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
+  const std::vector<double> x{1, 2, 4, 8}, on{1, 0.25, 0.0625, 1.0 / 64.0};
+  const auto shifted = [&](double by) {
+    std::vector<double> y;
+    for (size_t k = 0; k < x.size(); ++k)
+      y.push_back(on[k] * std::exp(k == 0 || k == 3 ? by : -by));
+    return y;
+  };
+  const auto chi2 = [&](const std::vector<double>& y, double relative) {
+    std::vector<double> error;
+    for (const double value : y) error.push_back(relative * value);
+    return reduced_chi2(fit_power(x, y), x, y, error);
+  };
+  CHECK(chi2(on, 0.1) == Approx(0.0).margin(1e-12));
+  CHECK(chi2(shifted(0.1), 0.1) ==
+        Approx(2.0));  // four residuals of one error each over two degrees of freedom
+  CHECK(chi2(shifted(0.1), 0.01) == Approx(200.0));
+  CHECK(std::isnan(chi2(on, not_known)));
+  CHECK(std::isnan(reduced_chi2(fit_power(x, on), x, on, std::vector<double>{0.1, 0.1})));
+}

@@ -1,7 +1,6 @@
 // The investigation on runs whose exponents are known: every part of it must find them again.
 
 #include <cmath>
-#include <set>
 
 #include "experiments/paper/investigation.hpp"
 #include "experiments/paper/make_campaign.hpp"
@@ -29,12 +28,12 @@ Campaign written_campaign(const std::filesystem::path& results) {
   const Campaign campaign = make_campaign(settings);
   const std::set<double> frequencies{5.0, 7.0, 10.0, 15.0, 20.0, 60.0};
   for (const CampaignPoint& point : campaign.points) {
-    using enum Sweep;
+    using enum Varied;
     const bool is_wanted =
-        (point.sweep == frequency && frequencies.contains(point.value)) || point.sweep == force ||
-        point.sweep == gravity || point.sweep == rough_frequency ||
-        (point.sweep == size && point.seed == 1) ||
-        ((point.sweep == iterations || point.sweep == iterations_fast) && point.value <= 20.0);
+        (point.varied == frequency && frequencies.contains(point.value)) || point.varied == force ||
+        point.varied == gravity || point.varied == rough_frequency ||
+        (point.varied == size && point.seed == 1) ||
+        ((point.varied == iterations || point.varied == iterations_fast) && point.value <= 20.0);
     const PlannedRun& run = campaign.runs[point.run].planned;
     if (is_wanted && !is_finished(results, run)) write_run(results, run, known_law());
   }
@@ -48,8 +47,8 @@ const Variant& variant_of(const std::vector<Variant>& variants, const std::strin
   return variants.front();
 }
 
-SweepValue value_of(double value, std::vector<int> seeds, const std::vector<double>& rises) {
-  SweepValue result;
+VariedValue value_of(double value, std::vector<int> seeds, const std::vector<double>& rises) {
+  VariedValue result;
   result.value = value;
   result.seeds = std::move(seeds);
   for (const double rise : rises) {
@@ -63,8 +62,8 @@ SweepValue value_of(double value, std::vector<int> seeds, const std::vector<doub
 
 TEST_CASE("exponents between two values compare every sample with itself") {
   // ten times the displacement in the second sample: no error of the exponent
-  const SweepValue a = value_of(5.0, {1, 2, 3}, {4.0, 40.0, 7.0}),
-                   b = value_of(10.0, {1, 2}, {1.0, 10.0});
+  const VariedValue a = value_of(5.0, {1, 2, 3}, {4.0, 40.0, 7.0}),
+                    b = value_of(10.0, {1, 2}, {1.0, 10.0});
   const SampleMean exponent = exponent_between(a, b, &Observation::rise);
   CHECK(exponent.samples == 2);
   CHECK(exponent.mean == Approx(-2.0));
@@ -93,8 +92,8 @@ TEST_CASE(
   CHECK(exponent("20 iterations a step", &Observation::rise) == Approx(-2.0 + excess).margin(0.01));
   CHECK(variant_of(variants, "friction 0.8").reference == 1);
 
-  const std::vector<SweepValue> frequencies = data.sweep(Sweep::frequency),
-                                sizes = data.sweep(Sweep::size);
+  const std::vector<VariedValue> frequencies = data.values(Varied::frequency),
+                                 sizes = data.values(Varied::size);
   REQUIRE(frequencies.size() == 6);
   for (size_t k = 1; k < frequencies.size(); ++k)
     CHECK(exponent_between(frequencies[k - 1], frequencies[k], &Observation::rise).mean ==
@@ -121,35 +120,4 @@ TEST_CASE(
                     "half-scale box = full box at ν/√2 (similarity), with the lid’s 1 cm as it is")
                  .ballast,
              Catch::Contains("Δx_max") && Catch::Contains("v_max"));
-}
-
-TEST_CASE("the investigation has its own target, and the looser deposit stands in it alone") {
-  const Campaign campaign = make_campaign({});
-  std::set<size_t> runs;
-  for (const size_t run : runs_for(campaign, "investigation")) runs.insert(run);
-  for (const CampaignPoint& point : campaign.points)
-    if (point.sweep == Sweep::loose_frequency || point.sweep == Sweep::time_step_fast)
-      CHECK(runs.contains(point.run));
-  CHECK(runs.size() < campaign.runs.size());
-}
-
-TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
-  const std::vector<double> x{1, 2, 4, 8}, on{1, 0.25, 0.0625, 1.0 / 64.0};
-  const auto shifted = [&](double by) {
-    std::vector<double> y;
-    for (size_t k = 0; k < x.size(); ++k)
-      y.push_back(on[k] * std::exp(k == 0 || k == 3 ? by : -by));
-    return y;
-  };
-  const auto chi2 = [&](const std::vector<double>& y, double relative) {
-    std::vector<double> error;
-    for (const double value : y) error.push_back(relative * value);
-    return reduced_chi2(fit_power(x, y), x, y, error);
-  };
-  CHECK(chi2(on, 0.1) == Approx(0.0).margin(1e-12));
-  CHECK(chi2(shifted(0.1), 0.1) ==
-        Approx(2.0));  // four residuals of one error each over two degrees of freedom
-  CHECK(chi2(shifted(0.1), 0.01) == Approx(200.0));
-  CHECK(std::isnan(chi2(on, not_known)));
-  CHECK(std::isnan(reduced_chi2(fit_power(x, on), x, on, std::vector<double>{0.1, 0.1})));
 }

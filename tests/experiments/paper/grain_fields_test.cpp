@@ -1,11 +1,11 @@
-// Stress, vorticity, coordination and the wall's model against answers that can be written down.
+// Stress, vorticity and coordination against answers that can be written down.
+
+#include "experiments/paper/grain_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "experiments/paper/grain_fields.hpp"
-#include "experiments/paper/wall_model.hpp"
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
 
@@ -49,18 +49,6 @@ void add_box(MechanicalSystem& system, MotionState& state, const Vec3& size) {
 ContactPoint contact(int a, int b, std::uint64_t feature, const Vec3& normal,
                      const Vec3& position) {
   return {a, b, feature, normal, position, 0.0};
-}
-
-/// A wall that a load of 5 Hz lets out and presses in again.
-WallModel loose_packing() {
-  WallModel model;
-  model.active.amplitude = 100.0;
-  model.active.rate = 20.0;
-  model.passive.offset = 300.0;
-  model.passive.slope = -1e4;
-  model.wall_mass = 50.0;
-  model.load = {0.0, 1000.0, 5.0};
-  return model;
 }
 
 }  // namespace
@@ -154,75 +142,4 @@ TEST_CASE("coordination, rattlers, sliding and anisotropy of a small chain") {
   CHECK(found.fabric > 0.0);  // two of three contacts along the major stress
   CHECK(found.normal > 0.0);  // and they carry nearly all of it
   CHECK(found.shear_ratio > 0.5);
-}
-
-TEST_CASE("Eq. 2 with a constant force of the packing has the motion that can be written down") {
-  WallModel model;
-  model.active.amplitude = 100.0;
-  model.active.rate = 0.0;
-  model.passive.offset = 100.0;
-  model.passive.slope = 0.0;
-  model.wall_mass = 50.0;
-  model.load = {0.0, 1000.0, 5.0};
-  const ModelMotion motion = integrate(model);
-  // m x'' = F - A + A sin wt from rest at t0 (A sin wt0 = A - F): v = ((F - A)(t - t0) - A (cos wt
-  // - cos wt0)/w)/m
-  const double force = 100.0, half = 500.0, w = 10.0 * std::numbers::pi,
-               t0 = std::asin((half - force) / half) / w;
-  double worst = 0.0;
-  int compared = 0;
-  for (size_t k = 0; k < motion.time.size() && !(motion.x[k] < 0.0); ++k) {
-    const double t = motion.time[k];
-    if (t < t0 || (compared > 10 && motion.x[k] <= 0.0)) continue;
-    const double dt = t - t0, cosine = std::cos(w * t0);
-    const double v =
-        ((force - half) * dt - half / w * (std::cos(w * t) - cosine)) / model.wall_mass;
-    const double x = ((force - half) * 0.5 * dt * dt -
-                      half / w * ((std::sin(w * t) - std::sin(w * t0)) / w - cosine * dt)) /
-                     model.wall_mass;
-    worst = std::max({worst, std::abs(motion.x[k] - x) / motion.rise,
-                      std::abs(motion.v[k] - v) / motion.speed_in});
-    ++compared;
-  }
-  CHECK(compared > 1000);
-  CHECK(worst < 1e-3);
-  CHECK(motion.jams);
-  CHECK(motion.x.back() == 0.0);
-  CHECK(motion.force.back() == Approx(model.load.at(motion.time.back())));
-}
-
-TEST_CASE("a motion taken up on its way goes on as the whole one does") {
-  const WallModel model = loose_packing();
-  const ModelMotion whole = integrate(model);
-  const auto k = static_cast<size_t>(
-      std::find_if(whole.v.begin(), whole.v.end(), [&](double v) { return v > 0.01; }) -
-      whole.v.begin());
-  REQUIRE(k < whole.v.size());
-  const ModelMotion part = integrate(model, ModelStart{whole.time[k], whole.x[k], whole.v[k]});
-  CHECK(part.time.front() == Approx(whole.time[k]));
-  CHECK(part.rise == Approx(whole.rise));
-  CHECK(part.speed_in == Approx(whole.speed_in));
-}
-
-TEST_CASE("a wall under a load that never falls below the packing's force stays jammed") {
-  WallModel model;
-  model.active.amplitude = 10.0;
-  model.active.rate = 50.0;
-  model.passive.offset = 30.0;
-  model.passive.slope = -1e4;
-  model.wall_mass = 5.0;
-  model.load = {20.0, 100.0, 10.0};
-  const ModelMotion motion = integrate(model, {}, 2000);
-  CHECK(motion.rise == 0.0);
-  CHECK(motion.speed_in == 0.0);
-  CHECK_FALSE(motion.jams);
-}
-
-TEST_CASE("the model comes back further in when the packing contracts") {
-  WallModel model = loose_packing();
-  model.contraction = 1e-3;
-  const ModelMotion motion = integrate(model);
-  CHECK(motion.jams);
-  CHECK(motion.x.back() == Approx(-1e-3));
-  CHECK(motion.rise > 0.0);
 }
