@@ -14,7 +14,7 @@ std::string unit_words(std::string unit) {
 
 template <class Spec>
 std::string row_of(const std::string& table, const SceneKey<Spec>& key) {
-  const Spec defaults{};
+  static const Spec defaults{};
   const auto cells = [&](const auto& kept) {
     std::string fallback = kept.kind.default_text(defaults.*kept.member);
     if (fallback == "\"\"") fallback = "empty";

@@ -1,6 +1,7 @@
 // The investigation on runs whose exponents are known: every part of it must find them again.
 
 #include <cmath>
+#include <set>
 
 #include "experiments/paper/investigation.hpp"
 #include "experiments/paper/make_campaign.hpp"
