@@ -166,11 +166,20 @@ ExitCode bench_diff(const BenchWords& words) {
   return ExitCode::ok;
 }
 
-/// A subcommand of bench with what all that measure have.
-CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action, const char* name,
-                        const char* about, const char* scene, ExitCode (*act)(const BenchWords&)) {
-  CLI::App* command = bench->add_subcommand(name, about);
-  command->add_option("scene", words->scene, std::string("A scene with grains (") + scene + ")");
+/// A subcommand of bench that measures.
+struct Measuring {
+  const char* name;
+  const char* about;
+  const char* scene;  ///< the default
+  ExitCode (*act)(const BenchWords&);
+};
+
+/// Adds one with what all that measure have.
+CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action,
+                        const Measuring& measuring) {
+  CLI::App* command = bench->add_subcommand(measuring.name, measuring.about);
+  command->add_option("scene", words->scene,
+                      std::string("A scene with grains (") + measuring.scene + ")");
   command
       ->add_option("--set", words->overrides, "Overrides one value of the scene: dotted.key=value")
       ->type_name("KEY=VALUE")
@@ -184,9 +193,9 @@ CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action, con
       ->type_name("DIR");
   command->add_flag_callback(
       "--no-plot", [words] { words->plot = false; }, "No figure");
-  command->callback([words, &action, act, command, scene] {
-    if (command->count("scene") == 0) words->scene = scene;
-    action = [words, act] { return act(*words); };
+  command->callback([words, &action, measuring, command] {
+    if (command->count("scene") == 0) words->scene = measuring.scene;
+    action = [words, act = measuring.act] { return act(*words); };
   });
   return command;
 }
@@ -211,9 +220,10 @@ void add_bench_command(CLI::App& program, Action& action) {
   const auto positive = CLI::Range(1L, 1'000'000'000L);
   {
     const auto words = std::make_shared<BenchWords>();
-    CLI::App* command = add_measuring(bench, words, action, "kernels",
-                                      "The inner loops on their own, beside the machine's limits",
-                                      "vibrated_box_small", bench_kernels);
+    CLI::App* command =
+        add_measuring(bench, words, action,
+                      {"kernels", "The inner loops on their own, beside the machine's limits",
+                       "vibrated_box_small", bench_kernels});
     command->add_option("--filter", words->kernels.filter, "Regular expression over group/name");
     command->add_option("--min-time", words->kernels.min_time, "CPU seconds of a repetition")
         ->capture_default_str();
@@ -225,9 +235,10 @@ void add_bench_command(CLI::App& program, Action& action) {
   }
   {
     const auto words = std::make_shared<BenchWords>();
-    CLI::App* command = add_measuring(bench, words, action, "step",
-                                      "Whole steps by phase, from the deposited packing driven",
-                                      "vibrated_box", bench_step);
+    CLI::App* command =
+        add_measuring(bench, words, action,
+                      {"step", "Whole steps by phase, from the deposited packing driven",
+                       "vibrated_box", bench_step});
     command->add_option("--steps", words->steps, "Steps")->capture_default_str()->check(positive);
     command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
         ->capture_default_str();
@@ -237,9 +248,9 @@ void add_bench_command(CLI::App& program, Action& action) {
     words->steps = 10;
     words->solvers = "pgs,nncg";
     CLI::App* command = add_measuring(
-        bench, words, action, "scaling",
-        "Cost per grain of growing packings: copies of the deposited one side by side",
-        "vibrated_box", bench_scaling);
+        bench, words, action,
+        {"scaling", "Cost per grain of growing packings: copies of the deposited one side by side",
+         "vibrated_box", bench_scaling});
     command
         ->add_option("--grains", words->grains,
                      "Grains, separated by commas: each the nearest number of copies")
@@ -264,9 +275,9 @@ void add_bench_command(CLI::App& program, Action& action) {
   {
     const auto words = std::make_shared<BenchWords>();
     words->solvers = "nncg,pgs,anderson_pgs,apgd";
-    CLI::App* command = add_measuring(bench, words, action, "accuracy",
-                                      "What a simulated second costs at which error",
-                                      "vibrated_box", bench_accuracy);
+    CLI::App* command = add_measuring(bench, words, action,
+                                      {"accuracy", "What a simulated second costs at which error",
+                                       "vibrated_box", bench_accuracy});
     command->add_option("--solvers", words->solvers, "Separated by commas")->capture_default_str();
     command->add_option("--tolerances", words->tolerances, "Solved to these [g h]; none: not")
         ->capture_default_str();

@@ -29,8 +29,7 @@ double abscissa_of(const VariedValue& value, Varied varied) {
 void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
                 PaperSection& section) {
   const std::vector<VariedValue> values = data.values(axis.varied);
-  if (const std::string missing = data.missing(axis.varied, axis.what); !missing.empty())
-    section.notes.push_back(missing);
+  note_missing(data, axis.varied, axis.what, section);
   if (values.size() < 2) return;
   VariedCurve curve = curve_of_values(values, &Observation::rise, 1e3);
   for (size_t k = 0; k < values.size(); ++k) curve.x[k] = abscissa_of(values[k], axis.varied);

@@ -115,8 +115,7 @@ PaperSection fig11_section(PaperData& data) {
                   {}};
   double by_grain = not_known;
   for (size_t b = 0; b < 4; ++b) {
-    if (const std::string missing = data.missing(branches[b].varied, names[b]); !missing.empty())
-      section.notes.push_back(missing);
+    note_missing(data, branches[b].varied, names[b], section);
     const std::vector<VariedValue> values = data.values(branches[b].varied);
     all.push_back(points_on_eq3(values));
     const VariedCurve& points = all.back();

@@ -56,8 +56,7 @@ PaperSection fig13_section(PaperData& data) {
       "therefore takes the same "
       "absolute time, 0.4 to 1 s, for all frequencies (1 Hz has no whole period in it)."};
   const std::vector<VariedValue> values = data.values(Varied::frequency);
-  if (const std::string missing = data.missing(Varied::frequency, "frequencies"); !missing.empty())
-    section.notes.push_back(missing);
+  note_missing(data, Varied::frequency, "frequencies", section);
   VariedCurve whole = curve_of_values(values, &Observation::rate),
               common = curve_of_values(values, &Observation::rate_common);
   drop_unknown(whole);

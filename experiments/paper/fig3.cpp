@@ -65,8 +65,7 @@ PaperSection fig3_section(PaperData& data) {
          net.mean > 0.0 ? Agreement::agrees : Agreement::differs});
   }
   const std::vector<VariedValue> values = data.values(Varied::frequency);
-  if (const std::string missing = data.missing(Varied::frequency, "frequencies"); !missing.empty())
-    section.notes.push_back(missing);
+  note_missing(data, Varied::frequency, "frequencies", section);
   if (values.size() < 2) return section;
   section.tables.push_back(contraction_table(values));
   const double all = spread_over(values, 0.0, 1e9), middle = spread_over(values, 2.0, 20.0);

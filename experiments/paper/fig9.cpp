@@ -60,8 +60,7 @@ TextTable values_table(const std::vector<VariedValue>& values) {
 PaperSection fig9_section(PaperData& data) {
   PaperSection section;
   const std::vector<VariedValue> values = data.values(Varied::frequency);
-  if (const std::string missing = data.missing(Varied::frequency, "frequencies"); !missing.empty())
-    section.notes.push_back(missing);
+  note_missing(data, Varied::frequency, "frequencies", section);
   if (values.size() < 2) return section;
   const VariedCurve rise = curve_of_values(values, &Observation::rise, 1e3),
                     speed = curve_of_values(values, &Observation::speed_in, 1e3);

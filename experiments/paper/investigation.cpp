@@ -224,12 +224,8 @@ PaperSection investigation_section(PaperData& data) {
       "compared "
       "over the same periods. Gravity and the wall’s mass were varied at 10 Hz alone: no exponent "
       "of ν under them."};
-  for (const Cause& cause : causes)
-    if (const std::string missing = data.missing(cause.varied, cause.missing); !missing.empty())
-      section.notes.push_back(missing);
-  if (const std::string missing = data.missing(Varied::time_step_fast, "steps at 60 Hz");
-      !missing.empty())
-    section.notes.push_back(missing);
+  for (const Cause& cause : causes) note_missing(data, cause.varied, cause.missing, section);
+  note_missing(data, Varied::time_step_fast, "steps at 60 Hz", section);
   const std::vector<Variant> variants = variants_of(data);
   if (!variants.empty()) {
     section.tables = {exponents_table(variants)};

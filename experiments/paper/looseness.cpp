@@ -134,8 +134,7 @@ PaperSection looseness_section(PaperData& data) {
        {std::pair{Varied::iterations, "numbers of iterations at 10 Hz"},
         std::pair{Varied::iterations_fast, "numbers of iterations at 60 Hz"},
         std::pair{Varied::backend, "backends"}})
-    if (const std::string missing = data.missing(varied, what); !missing.empty())
-      section.notes.push_back(missing);
+    note_missing(data, varied, what, section);
   const std::vector<VariedValue> values = data.values(Varied::iterations),
                                  fast = data.values(Varied::iterations_fast);
   std::vector<VariedValue> backends = data.values(Varied::backend);

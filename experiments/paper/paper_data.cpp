@@ -77,7 +77,7 @@ std::vector<VariedValue> PaperData::values(Varied which) {
   return list;
 }
 
-std::string PaperData::missing(Varied which, const char* what) {
+std::string PaperData::missing(Varied which, const char* what) const {
   std::set<double> planned, there;
   int runs = 0, done = 0;
   for (const CampaignPoint& point : campaign_.points) {

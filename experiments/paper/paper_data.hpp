@@ -33,7 +33,7 @@ class PaperData {
   /// Values in growing order; those without a finished run are left out.
   std::vector<VariedValue> values(Varied which);
   /// "3 of 10 frequencies; 5 of 30 runs": empty when everything planned is there.
-  std::string missing(Varied which, const char* what);
+  std::string missing(Varied which, const char* what) const;
 
   bool has(size_t run) const;
   std::filesystem::path folder(size_t run) const;

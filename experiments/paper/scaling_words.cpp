@@ -6,6 +6,11 @@
 
 namespace ballast {
 
+void note_missing(const PaperData& data, Varied varied, const char* what, PaperSection& section) {
+  if (const std::string missing = data.missing(varied, what); !missing.empty())
+    section.notes.push_back(missing);
+}
+
 VariedCurve curve_of_values(const std::vector<VariedValue>& values, double Observation::*quantity,
                             double factor) {
   VariedCurve curve;

@@ -50,6 +50,9 @@ std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target)
 /// The sections of a target. Throws std::invalid_argument when there is none.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 
+/// Says in the section what the campaign has planned of it and not finished: "3 of 10 frequencies".
+void note_missing(const PaperData& data, Varied varied, const char* what, PaperSection& section);
+
 /// The values of what is varied as the axes of a figure: x by `abscissa` of each sample's mean, y
 /// the mean of `quantity` with its standard error.
 struct VariedCurve {

@@ -52,8 +52,7 @@ constexpr Question questions[] = {
 PaperSection sensitivity_section(PaperData& data) {
   PaperSection section;
   for (const Question& question : questions) {
-    if (const std::string missing = data.missing(question.varied, question.what); !missing.empty())
-      section.notes.push_back(missing);
+    note_missing(data, question.varied, question.what, section);
     const std::vector<VariedValue> values = data.values(question.varied);
     if (values.empty()) continue;
     section.tables.push_back(table_of(values, question.caption, question.first));

@@ -87,6 +87,10 @@ std::string trend_words(const std::vector<VariedValue>& values, const Quantity& 
          " (" + values[values.size() - 2].label + " to " + values.back().label + ")";
 }
 
+std::string both_trends(const std::vector<VariedValue>& values) {
+  return trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]);
+}
+
 void add_by_frequency(const std::vector<VariedValue>& values, const std::vector<Variant>& variants,
                       PaperSection& section) {
   PaperFigure figure;
@@ -113,8 +117,7 @@ void add_by_frequency(const std::vector<VariedValue>& values, const std::vector<
       "point, so that one high "
       "point "
       "makes one exponent low and the next high. " +
-      error_meaning(values) + " " + trend_words(values, quantities[0]) + "; " +
-      trend_words(values, quantities[1]) +
+      error_meaning(values) + " " + both_trends(values) +
       ". The paper’s dimensional analysis has no length in it. With the size d of the grains rigid "
       "grains "
       "have Δx_max = "
@@ -127,9 +130,7 @@ void add_by_frequency(const std::vector<VariedValue>& values, const std::vector<
       values,
       "Exponents of ν between neighbouring frequencies (mean over samples ± standard error)", "ν"));
   section.rows.push_back(
-      {"beyond", "one exponent of ν from 1 to 60 Hz",
-       trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]),
-       Agreement::reported});
+      {"beyond", "one exponent of ν from 1 to 60 Hz", both_trends(values), Agreement::reported});
 }
 
 void add_by_force(const std::vector<VariedValue>& values, PaperSection& section) {
@@ -147,8 +148,7 @@ void add_by_force(const std::vector<VariedValue>& values, PaperSection& section)
       "Δx_max ~ f_max⁻¹ (Fig. 10); Eq. 3 supposes f_max ≫ m g. The paper has no law of v_max and "
       "f_max.";
   figure.found = "At " + digits(varied_frequency, 1) + " Hz. " + error_meaning(values) + " " +
-                 trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]) +
-                 ".";
+                 both_trends(values) + ".";
   section.figures.push_back(figure);
   section.tables.push_back(local_table(
       values,

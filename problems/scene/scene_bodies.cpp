@@ -94,13 +94,10 @@ double mass_of(TomlTable& table, BodyText& given, double volume, bool can_move) 
   const bool has_mass = table.has("mass"), has_density = table.has("density");
   if (has_mass && has_density)
     table.fail("mass", "given together with density, expected one of the two");
-  if (can_move && !has_mass && !has_density) {  // reading it as required says what is missing
-    SceneKey<BodyText> density =
-        *std::find_if(body_keys().begin(), body_keys().end(),
-                      [](const auto& key) { return std::string_view(key.name) == "density"; });
-    density.presence = Presence::required;
-    read_key(table, density, given);
-  }
+  if (can_move && !has_mass && !has_density)  // reading it as required says what is missing
+    std::find_if(body_keys().begin(), body_keys().end(), [](const SceneKey<BodyText>& key) {
+      return std::string_view(key.name) == "density";
+    })->value->read(table, "density", true, given);
   return has_mass ? given.mass : volume * given.density;
 }
 

@@ -4,8 +4,9 @@
 // them. The default is the member's own initial value.
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "problems/scene/key_kind.hpp"
@@ -21,20 +22,44 @@ enum class Presence {
   only_where_given
 };
 
-/// A key's type and the member of Spec that keeps its value.
+/// What a key's value is, and where a Spec keeps it.
+template <class Spec>
+class KeyValue {
+ public:
+  virtual ~KeyValue() = default;
+  /// The member is the fallback unless the key is required. Throws SceneFileError.
+  virtual void read(TomlTable& table, const char* key, bool is_required, Spec& spec) const = 0;
+  virtual std::string unit() const = 0;
+  virtual std::string default_text(const Spec& defaults) const = 0;
+  virtual std::string expected() const = 0;
+};
+
+/// A value of one of the kinds, in a member of Spec.
 template <class Kind, class Spec>
-struct KeptValue {
-  Kind kind;
-  typename Kind::Value Spec::*member;
+class KeptValue final : public KeyValue<Spec> {
+ public:
+  using Member = typename Kind::Value Spec::*;
+  KeptValue(Kind kind, Member member) : kind_(std::move(kind)), member_(member) {}
+  void read(TomlTable& table, const char* key, bool is_required, Spec& spec) const override {
+    std::optional fallback(spec.*member_);
+    if (is_required) fallback.reset();
+    spec.*member_ = kind_.read(table, key, fallback);
+  }
+  std::string unit() const override { return kind_.unit; }
+  std::string default_text(const Spec& defaults) const override {
+    return kind_.default_text(defaults.*member_);
+  }
+  std::string expected() const override { return kind_.expected(); }
+
+ private:
+  Kind kind_;
+  Member member_;
 };
 
 template <class Spec>
 struct SceneKey {
   const char* name;
-  std::variant<KeptValue<NumberKind, Spec>, KeptValue<WholeKind, Spec>, KeptValue<SeedKind, Spec>,
-               KeptValue<FlagKind, Spec>, KeptValue<TextKind, Spec>, KeptValue<ChoiceKind, Spec>,
-               KeptValue<VectorKind, Spec>, KeptValue<TextsKind, Spec>>
-      value;
+  std::shared_ptr<const KeyValue<Spec>> value;
   const char* meaning;
   Presence presence = Presence::optional;
   const char* default_words = nullptr;  ///< for the docs, where the default is not the member's
@@ -109,19 +134,6 @@ const SceneKeys<ShapeText>& shape_keys(const std::string& shape);
 const SceneKeys<OrientationText>& orientation_keys();
 const SceneKeys<ForceSpec>& force_keys();
 
-/// Reads one key into `spec`, whose member is the fallback unless the key is required. Throws
-/// SceneFileError.
-template <class Spec>
-void read_key(TomlTable& table, const SceneKey<Spec>& key, Spec& spec) {
-  const auto read = [&](const auto& kept) {
-    auto& value = spec.*kept.member;
-    std::optional fallback(value);
-    if (key.presence == Presence::required) fallback.reset();
-    value = kept.kind.read(table, key.name, fallback);
-  };
-  std::visit(read, key.value);
-}
-
 /// Reads a whole table's keys. Throws SceneFileError; keys that are not in `keys` are found by
 /// TomlTable::finish.
 template <class Spec>
@@ -129,7 +141,7 @@ void read_keys(TomlTable& table, const SceneKeys<Spec>& keys, Spec& spec) {
   for (const SceneKey<Spec>& key : keys) {
     table.know(key.name);
     if (key.presence != Presence::only_where_given || table.has(key.name))
-      read_key(table, key, spec);
+      key.value->read(table, key.name, key.presence == Presence::required, spec);
   }
 }
 

@@ -14,16 +14,12 @@ std::string unit_words(std::string unit) {
 
 template <class Spec>
 std::string row_of(const std::string& table, const SceneKey<Spec>& key) {
-  static const Spec defaults{};
-  const auto cells = [&](const auto& kept) {
-    std::string fallback = kept.kind.default_text(defaults.*kept.member);
-    if (fallback == "\"\"") fallback = "empty";
-    if (key.presence == Presence::required) fallback = "required";
-    if (key.default_words) fallback = key.default_words;
-    return unit_words(kept.kind.unit) + " | " + fallback + " | " + kept.kind.expected();
-  };
-  return "| `" + table + key.name + "` | " + std::visit(cells, key.value) + " | " + key.meaning +
-         " |\n";
+  std::string fallback = key.value->default_text(Spec{});
+  if (fallback == "\"\"") fallback = "empty";
+  if (key.presence == Presence::required) fallback = "required";
+  if (key.default_words) fallback = key.default_words;
+  return "| `" + table + key.name + "` | " + unit_words(key.value->unit()) + " | " + fallback +
+         " | " + key.value->expected() + " | " + key.meaning + " |\n";
 }
 
 template <class Spec>
