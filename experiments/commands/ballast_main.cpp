@@ -79,6 +79,7 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
     print_failure(err, std::string(error.what()) + " (ballast --help)");
     return static_cast<int>(ExitCode::usage);
   }
+  // a full disk may show only when the last of the output is written
   ExitCode code = perform(action, err);
   out.flush();
   if (!out && code == ExitCode::ok) {

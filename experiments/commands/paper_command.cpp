@@ -78,6 +78,7 @@ ExitCode reproduce(PaperOptions options) {
     print_plan(campaign, options.sweep.results);
     return ExitCode::ok;
   }
+  // "report" draws what is there; every other target makes its runs first
   ExitCode code = ExitCode::ok;
   if (options.target == "report")
     options.target = "all";

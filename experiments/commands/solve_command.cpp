@@ -71,6 +71,7 @@ constexpr std::array measures{
 SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner) {
   const FrictionProblem problem = read_problem(file);
   SolvedFile solved{file, problem.contact_count(), problem.row_count(), options.tolerance, {}};
+  // a tolerance is relative to the problem's own velocities unless it is in m/s
   if (!options.absolute) {
     problem.validate();
     const double scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;

@@ -77,6 +77,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
   fit.samples = samples.count();
   if (fit.samples < 2) return fit;
   const double mean_x = mean_of(samples.x), mean_y = mean_of(samples.y);
+  // about the means: sums of large x would lose digits
   double xx = 0.0, xy = 0.0;
   for (int k = 0; k < fit.samples; ++k) {
     xx += (samples.x[k] - mean_x) * (samples.x[k] - mean_x);
@@ -135,12 +136,14 @@ std::vector<double> low_pass(std::span<const double> y, int width) {
   std::vector<double> smooth(y.begin(), y.end());
   const int half = width / 2;
   if (half < 1) return smooth;
+  // the Hann window's right half; it is symmetric
   std::vector<double> weight(half + 1);
   for (int k = 0; k <= half; ++k)
     weight[k] = 0.5 * (1.0 + std::cos(std::numbers::pi * k / (half + 1)));
   const int count = static_cast<int>(y.size());
   for (int k = 0; k < count; ++k) {
     if (!std::isfinite(y[k])) continue;
+    // weights that fall on no sample are missing from both sums: the mean stays a mean
     double sum = 0.0, weights = 0.0;
     for (int j = std::max(0, k - half); j <= std::min(count - 1, k + half); ++j) {
       if (!std::isfinite(y[j])) continue;

@@ -77,6 +77,7 @@ double reduced_chi2(const PowerFit& fit, std::span<const double> x, std::span<co
   int points = 0;
   for (size_t k = 0; k < std::min({x.size(), y.size(), error.size()}); ++k) {
     if (!(x[k] > 0.0 && y[k] > 0.0) || !std::isfinite(error[k])) continue;
+    // for small errors the error of log y is the relative error of y
     const double miss = std::log(y[k] / fit.at(x[k])), relative = error[k] / y[k];
     misses += miss * miss;
     variances += relative * relative;
@@ -116,6 +117,7 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   PeakedRate fit;
   fit.samples = static_cast<int>(y.size());
   if (fit.samples < 3) return fit;
+  // Once nu_c is chosen the best gain follows (the rate is linear in it), so nu_c alone is scanned.
   const auto projected = [&](double critical) {
     return project(x, y, [&](double at) { return peaked_shape(at, critical); });
   };

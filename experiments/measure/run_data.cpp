@@ -94,6 +94,7 @@ void read_scene_of_run(RunData& data) {
 }
 
 RunFacts facts_of(const RunData& data) {
+  // the manifest's summary was written by the run itself: it comes first
   RunFacts facts;
   const auto summary = [&](const char* name) { return data.summary_number(name); };
   facts.step = summary("step_s");
@@ -115,6 +116,7 @@ RunFacts facts_of(const RunData& data) {
     has_driven = has_driven || wall.motion == WallMotion::driven;
   facts.has_wall = has_driven;
   if (!scene.grains) return facts;
+  // the rest follows from the scene where the mass of the grains is known
   const double weight = facts.grain_mass * facts.gravity;
   if (!std::isfinite(facts.frequency)) facts.frequency = scene.drive.frequency;
   if (!std::isfinite(facts.f_max)) facts.f_max = scene.drive.f_max_over_weight * weight;
@@ -137,6 +139,7 @@ std::vector<StepRecord> read_steps_csv(const fs::path& file, std::vector<std::st
   CsvReader reader(file);
   if (!reader.next()) throw Error(file.string() + ": is empty: no record");
   const auto columns = match_header(reader, notices);
+  // a column that the file lacks is NaN in every row
   StepRecord unknown;
   for (const StepColumn& column : step_columns()) unknown.*column.value = not_known;
   std::vector<StepRecord> steps;

@@ -64,6 +64,7 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
     summary.above_target =
         static_cast<double>(above) / static_cast<double>(summary.error_rms.samples);
   }
+  // the deepest overlap and when it was
   summary.penetration_mean = statistics(record_column(steps, &StepRecord::penetration_mean)).mean;
   for (const StepRecord& step : steps)
     if (step.penetration_max > summary.penetration_max || std::isnan(summary.penetration_max)) {
@@ -152,6 +153,7 @@ double eq3_displacement(const RunFacts& facts) {
 }
 
 RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
+  // what is given stays, whatever the record says
   const auto fill = [](double& value, double found) {
     if (!std::isfinite(value)) value = found;
   };
@@ -182,11 +184,13 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
   summarise_cost(steps, summary);
   if (steps.empty()) return summary;
   summary.duration = steps.back().time;
+  // what every run has: effort, errors, overlaps, energy
   summary.iterations = statistics(record_column(steps, &StepRecord::iterations));
   summary.contacts = statistics(record_column(steps, &StepRecord::contacts));
   summary.active_contacts = statistics(record_column(steps, &StepRecord::active_contacts));
   summarise_accuracy(steps, summary);
   summary.energy = energy_balance(steps);
+  // what a driven wall and a packing have besides
   if (*summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
     summarise_wall(steps, settings, summary);
   if (*summary.facts.has_packing)

@@ -64,6 +64,7 @@ bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, do
   double mean = 0.0;
   for (size_t k = period.first; k < period.last; ++k)
     mean += steps[k].load / static_cast<double>(period.last - period.first);
+  // Every slow stretch that holds such a load is measured from end to end; the longest stays.
   const auto is_slow = [&](size_t k) { return std::abs(cycles.velocity[k]) <= limit; };
   size_t longest_begin = 0, longest_end = 0;
   for (size_t k = period.first; k < period.last; ++k) {
@@ -86,6 +87,7 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
                  const WallSettings& settings, WallCycles& cycles) {
   const double transient = transient_of(1.0 / duration_of_period, settings.window);
   const size_t first = first_after(steps, transient, h);
+  // what is slow is slow beside the fastest motion after the transient
   std::vector<double> speed;
   for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
   cycles.v_peak = statistics(speed).max;
@@ -106,6 +108,7 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
   if (begin >= duration_of_period - 0.25 * h)
     mark_jammed(steps, make_period(steps, begin - duration_of_period, begin, h), limit, least,
                 first, cycles);
+  // a jam takes over what was called active or passive by the sign of a residual velocity
   for (const WallPeriod& period : cycles.periods)
     if (mark_jammed(steps, period, limit, least, first, cycles)) ++cycles.jammed_periods;
   for (WallPeriod& period : cycles.periods) {
@@ -128,6 +131,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   if (!(frequency > 0.0) || !(h > 0.0))
     throw std::invalid_argument("wall cycles need a positive frequency and step");
   const double duration_of_period = 1.0 / frequency;
+  // Per step the force is noise of the solver and of single impacts: both curves are smoothed.
   WallCycles cycles;
   cycles.smoothing = std::min(settings.smoothing, duration_of_period / 20.0);
   const int width = static_cast<int>(std::lround(cycles.smoothing / h));
@@ -137,6 +141,8 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   cycles.phase.assign(steps.size(), WallPhase::none);
   if (steps.empty()) return cycles;
 
+  // Period k begins at k/nu, where the load falls through its mean. A quarter of a step is allowed
+  // for the rounding of times.
   const double transient = transient_of(frequency, settings.window);
   const double end_time = std::min(steps.back().time, settings.window.end);
   for (long k = std::lround(std::ceil((transient - 0.25 * h) * frequency));; ++k) {
@@ -160,6 +166,7 @@ LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles,
     const auto is_fitted = [&](double xi, double stroke) {
       return xi >= settings.fit_from * stroke && xi <= settings.fit_to * stroke;
     };
+    // Nearer to the jam than the smoothing is wide, f_g holds some of the jam's force.
     const size_t width = cycles.smoothing_samples;
     for (size_t k = period.first + width; k + width < period.last; ++k) {
       const bool rises = k <= period.peak;

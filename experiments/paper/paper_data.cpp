@@ -51,6 +51,7 @@ std::optional<size_t> PaperData::at_frequency(double frequency) const {
 
 const Observation* PaperData::observation(const CampaignPoint& point) {
   if (!has(point.run)) return nullptr;
+  // one run serves several figures, some of which count fewer of its periods
   const auto key = std::make_pair(point.run, point.window.end);
   if (const auto found = seen_.find(key); found != seen_.end()) return &found->second;
   const RunData data = read(point.run);
@@ -78,6 +79,7 @@ std::vector<VariedValue> PaperData::values(Varied which) {
 }
 
 std::string PaperData::missing(Varied which, const char* what) const {
+  // values of which at least one sample is finished, and all runs
   std::set<double> planned, there;
   int runs = 0, done = 0;
   for (const CampaignPoint& point : campaign_.points) {

@@ -114,6 +114,7 @@ std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target
   if (sections.empty())
     throw std::invalid_argument("paper: '" + target + "' is not one of " +
                                 joined(paper_targets()));
+  // a set: a run that several sections draw is made once, and in the campaign's order
   std::set<size_t> needed;
   for (const ReportSection* section : sections) {
     if (section->needs_motion) needed.insert(campaign.motion.begin(), campaign.motion.end());
@@ -128,6 +129,7 @@ std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target)
   for (const size_t index : runs_for(campaign, target)) {
     const CampaignRun& run = campaign.runs[index];
     const std::string name = "paper-" + run.stage;
+    // runs stand in the order of stages, so a new name is a new stage
     if (stages.empty() || stages.back().name != name) stages.push_back({name, {}});
     stages.back().runs.push_back(run.planned);
   }

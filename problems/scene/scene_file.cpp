@@ -91,6 +91,7 @@ GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {
       given.size == "radius" ? SizeConvention::radius : SizeConvention::diameter;
   grains.distribution = read_distribution(table);
   grains.shape = read_grain_shape(table.section("shape"));
+  // files are named in the resolved text by where they are, so that it can be read elsewhere
   toml::array kept;
   for (const std::string& name : given.meshes) {
     grains.meshes.push_back(mesh_path(folder, name));
@@ -109,6 +110,7 @@ GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {
 BoxSpec read_box(TomlTable table, const GrainsSpec& grains) {
   BoxSpec box;
   read_keys(table, box_keys(), box);
+  // a box that no grain fits through cannot be filled
   double widest = 0.0;
   for (const SizeClass& c : grains.distribution)
     widest =
@@ -206,6 +208,7 @@ Scene read(const std::filesystem::path& file, std::span<const std::string> overr
         "solver", "sleep", "correction", "detection", "record", "control_volume"})
     root.know(key);
   root.finish();  // a misspelt section first: what follows depends on which sections there are
+  // grains decide the kind of scene: a box to be filled, or single bodies and walls
   Scene scene;
   read_head(root.section("scene"), scene, file);
   read_gravity(root.section("gravity"), scene);

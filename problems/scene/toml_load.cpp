@@ -73,6 +73,7 @@ toml::table& element(const std::filesystem::path& file, const Override& o, toml:
 /// Values are moved into the tree: a copied node forgets its source, by which errors say that an
 /// override is to blame.
 void apply(const std::filesystem::path& file, Override o, toml::table& root) {
+  // down to the table that holds the last key; tables that are missing are made
   toml::table* table = &root;
   for (size_t k = 0; k + 1 < o.path.size(); ++k) {
     toml::node* node = table->get(o.path[k]);

@@ -16,6 +16,7 @@ constexpr size_t shown_value = 60;  // characters of a value in an error message
 
 /// Levenshtein distance: insertions, deletions and substitutions between two keys.
 size_t edit_distance(std::string_view a, std::string_view b) {
+  // one row of the table of distances between prefixes of a and of b
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
   for (size_t i = 0; i < a.size(); ++i) {
@@ -183,6 +184,7 @@ void TomlTable::finish() const {
   for (const auto& [key, value] : *table_) {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    // a word that is nearly one of the known ones is taken for a slip of the finger
     const auto nearest = std::min_element(known_.begin(), known_.end(),
                                           [&](const std::string& a, const std::string& b) {
                                             return edit_distance(name, a) < edit_distance(name, b);
