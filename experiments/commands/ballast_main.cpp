@@ -16,16 +16,17 @@ constexpr const char* examples = R"(Examples:
   ballast run vibrated_box --set drive.frequency=10 --set grains.seed=2 --output results/10Hz
   ballast run vibrated_box --resume              goes on where it was stopped
   ballast solve problem.hdf5 --tolerance 1e-8    a stored problem, every measure of its error
-  ballast compare problems/*.hdf5 --solvers all  every backend on the same problems, figures and a page
+  ballast compare problems/*.hdf5 --solvers all  every backend on the same problems, with a page
   ballast sweep frequencies.toml --jobs 2        many runs, several at a time, each only once
   ballast bench step vibrated_box --steps 1000   where the time of a step goes
-  ballast paper fig9                             runs and draws a figure of the paper; all: every one, and a report
+  ballast paper fig9                             runs and draws a figure of the paper; all: a report
   ballast check myscene.toml grain.stl           what is wrong with my files?
   ballast export results/10Hz --format vtp --output last.vtp
 
 Exit codes:
   0  done
-  1  failed; one line on standard error says why (bad scene, mesh or problem, disk full, not converged, ...)
+  1  failed; one line on standard error says why (bad scene, mesh or problem, disk full,
+     not converged, ...)
   2  the command line is wrong
   3  stopped by --max-seconds; a run goes on with --resume
   4  the solver was built without the library it needs)";

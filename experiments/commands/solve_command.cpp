@@ -166,8 +166,8 @@ ExitCode solve(const SolveOptions& options) {
 }
 
 constexpr const char* solve_footer =
-    R"(The tolerance is on the judge's scaled natural map, rms over contacts, relative to the problem's velocity scale, the rms of q
-over rows; with --absolute it is in m/s.
+    R"(The tolerance is on the judge's scaled natural map, rms over contacts, relative to the problem's
+velocity scale, the rms of q over rows; with --absolute it is in m/s.
 
 Columns: rms, max    scaled natural map [m/s], of the contact `worst` the largest
          scale       velocity scale [m/s]: rms/scale is what the tolerance bounds
@@ -175,7 +175,8 @@ Columns: rms, max    scaled natural map [m/s], of the contact `worst` the larges
          cone        largest distance of an impulse from its cone [N s]
          min_uN      smallest normal velocity [m/s]: negative sinks in
          compl       largest |r . (u + mu |u_T| n)| [J]
-         power       r . (u - bias) summed [J]: what the impulses do to the bodies at their end-of-step velocities
+         power       r . (u - bias) summed [J]: what the impulses do to the bodies at their
+                     end-of-step velocities
          momentum    |M (v - v_free) - H^T r|, largest entry [N s]
          own         the solver's own residual: never used as evidence
          ok          the solver says that it is done and the judge agrees
