@@ -8,15 +8,15 @@
 namespace ballast {
 namespace {
 
-constexpr double h = 1e-3, frequency = 5.0;
+constexpr double row_step = 1e-3, load_frequency = 5.0;
 
 /// rho grows by `gain` a period and swings within it, which must not enter.
 std::vector<StepRecord> growing(double gain, double duration) {
   std::vector<StepRecord> steps;
-  for (long k = 1; k <= std::lround(duration / h); ++k) {
+  for (long k = 1; k <= std::lround(duration / row_step); ++k) {
     StepRecord step;
-    step.time = static_cast<double>(k) * h;
-    const double turns = step.time * frequency;
+    step.time = static_cast<double>(k) * row_step;
+    const double turns = step.time * load_frequency;
     step.solid_fraction = 0.5 + gain * turns + 0.01 * std::sin(2.0 * std::numbers::pi * turns);
     steps.push_back(step);
   }
@@ -24,7 +24,8 @@ std::vector<StepRecord> growing(double gain, double duration) {
 }
 
 Compaction measured(const std::vector<StepRecord>& steps) {
-  return compaction_of(steps, wall_cycles(steps, frequency, h).periods, 0.49, frequency, h);
+  return compaction_of(steps, wall_cycles(steps, load_frequency, row_step).periods, 0.49,
+                       load_frequency, row_step);
 }
 
 TEST_CASE("compaction of a solid fraction that grows and swings") {
@@ -35,7 +36,7 @@ TEST_CASE("compaction of a solid fraction that grows and swings") {
   CHECK(compaction.last == Approx(0.52));
   CHECK(compaction.gain == Approx(0.002));
   CHECK(compaction.relative_gain == Approx(0.002 / 0.502));
-  CHECK(compaction.rate == Approx(0.002 * frequency / 0.502));
+  CHECK(compaction.rate == Approx(0.002 * load_frequency / 0.502));
   CHECK(compaction.rate_common == Approx(compaction.rate));
 }
 
@@ -53,13 +54,14 @@ TEST_CASE("too short for a whole period there is neither gain nor rate") {
   CHECK(compaction.reference == Approx(0.502));
   CHECK(std::isnan(compaction.gain));
   CHECK(std::isnan(compaction.rate));
-  CHECK(std::isnan(compaction_rate(growing(0.002, 1.0), frequency, h, 0.5, {0.85, 1.0})));
-  CHECK(std::isnan(compaction_rate({}, frequency, h, 0.5, paper_window)));
+  CHECK(
+      std::isnan(compaction_rate(growing(0.002, 1.0), load_frequency, row_step, 0.5, {0.85, 1.0})));
+  CHECK(std::isnan(compaction_rate({}, load_frequency, row_step, 0.5, paper_window)));
 }
 
 TEST_CASE("without a known frequency the solid fraction is still told") {
   const auto steps = growing(0.002, 1.0);
-  const Compaction compaction = compaction_of(steps, {}, 0.49, not_known, h);
+  const Compaction compaction = compaction_of(steps, {}, 0.49, not_known, row_step);
   CHECK(compaction.reference == Approx(0.502));
   CHECK(std::isnan(compaction.gain));
   CHECK(std::isnan(compaction.rate));

@@ -7,14 +7,12 @@
 #include "geometry/shape/mesh_file.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/problems/scene/scene_texts.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 
 namespace {
-
-/// Body and wall enough to be a scene.
-const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
 
 Scene read_text(const TemporaryFolder& folder, const std::string& text,
                 const std::vector<std::string>& overrides = {}) {

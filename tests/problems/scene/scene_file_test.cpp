@@ -3,16 +3,10 @@
 #include "problems/scene/scene_file.hpp"
 
 #include "tests/catch.hpp"
+#include "tests/problems/scene/scene_texts.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
-
-namespace {
-
-/// Body and wall enough to be a scene.
-const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
-
-}  // namespace
 
 TEST_CASE("every scene of the folder is read, and its resolved text says the same") {
   REQUIRE(list_scenes().size() >= 13);

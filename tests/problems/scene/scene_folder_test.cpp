@@ -4,16 +4,10 @@
 
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/problems/scene/scene_texts.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
-
-namespace {
-
-/// Body and wall enough to be a scene.
-const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
-
-}  // namespace
 
 TEST_CASE("scenes are found by path, by name, and in the folder that BALLAST_SCENES names") {
   const TemporaryFolder folder;

@@ -3,16 +3,10 @@
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
 #include "tests/catch.hpp"
+#include "tests/problems/scene/scene_texts.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
-
-namespace {
-
-/// A wall is enough to be a scene.
-const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
-
-}  // namespace
 
 TEST_CASE("overrides reach every value, and are read as TOML or as a bare word") {
   const auto file = find_scene("incline");

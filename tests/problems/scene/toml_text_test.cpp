@@ -7,13 +7,12 @@
 
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/problems/scene/scene_texts.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 
 namespace {
-
-const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
 
 std::string again(const std::string& text) { return toml_text(toml::parse(text)); }
 
