@@ -112,8 +112,7 @@ std::vector<std::string> paper_targets() {
 std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target) {
   const std::vector<const ReportSection*> sections = sections_of(target);
   if (sections.empty())
-    throw std::invalid_argument("paper: '" + target + "' is not one of " +
-                                joined(paper_targets()));
+    throw std::invalid_argument("paper: '" + target + "' is not one of " + joined(paper_targets()));
   // a set: a run that several sections draw is made once, and in the campaign's order
   std::set<size_t> needed;
   for (const ReportSection* section : sections) {
