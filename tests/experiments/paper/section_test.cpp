@@ -30,6 +30,6 @@ TEST_CASE("a figure's data are its panels and curves, row by row") {
   figure.panels[0].y_label = "x";
   figure.panels[0].curves = {points_of({1.0, 2.0}, {3.0, 4.5}, {0.5, not_known}, "", Ink::blue)};
   CHECK(figure_csv(figure) ==
-        "panel,y_label,curve,x_label,x,y,y_error,y_low\n1,\"x\",\"1\",\"t, s\",1,3,0.5,\n"
-        "1,\"x\",\"1\",\"t, s\",2,4.5,0,\n");
+        "panel,y_label,curve,x_label,x,y,y_error,y_low\n1,x,1,\"t, s\",1,3,0.5,\n"
+        "1,x,1,\"t, s\",2,4.5,0,\n");
 }
