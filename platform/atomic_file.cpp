@@ -34,8 +34,7 @@ void sync_folder(const fs::path& folder) {
   errno = 0;
   const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
   if (descriptor < 0) throw_file_error(folder, "open");
-  fsync(
-      descriptor);  // some file systems refuse it on folders: the rename is then as safe as it gets
+  fsync(descriptor);  // where a file system refuses it, the rename is as safe as it gets
   ::close(descriptor);
 }
 
@@ -43,8 +42,8 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), neighbour_
   neighbour_ += ".tmp";
   errno = 0;
   struct stat status;
-  // renaming over a folder fails only after all has been written; over a device it would replace
-  // the device
+  // Renaming over a folder fails only after all has been written; over a device it would replace
+  // the device.
   if (stat(target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     throw Error(target_.string() + ": cannot write: it is not a regular file");
   file_ = std::fopen(neighbour_.c_str(), "wb");
@@ -53,6 +52,7 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), neighbour_
 
 AtomicFile::~AtomicFile() {
   if (!file_) return;
+  // There was no commit(): the target stays as it was.
   std::fclose(file_);
   std::remove(neighbour_.c_str());
 }
@@ -72,6 +72,7 @@ void AtomicFile::print(const char* format, ...) {
 }
 
 void AtomicFile::commit() {
+  // The bytes are on the disk before the name points to them, and the name before commit() returns.
   sync_to_disk(file_, target_);
   close();
   if (std::rename(neighbour_.c_str(), target_.c_str()) != 0) {

@@ -90,6 +90,7 @@ ChildResult run_in_child(double max_seconds, const std::function<std::string()>&
 
 ChildProcess::ChildProcess(const std::function<void()>& live) {
   const pid_t parent = getpid();
+  // From here on two processes run; the child never leaves this constructor.
   child_ = fork();
   if (child_ < 0) throw_no_child();
   if (child_ > 0) return;
@@ -162,6 +163,7 @@ bool Pipe::read_until_closed(std::initializer_list<Pipe*> pipes, double max_seco
     size_t bytes = 0;
     for (const Pipe* pipe : pipes) bytes += pipe->text.size();
     if (!(left > 0.0) || bytes > most_bytes) return false;
+    // Wait until one of them has something or is closed, and read what there is.
     waiting.clear();
     for (const Pipe* pipe : open) waiting.push_back({pipe->read_end_, POLLIN, 0});
     if (poll(waiting.data(), waiting.size(),

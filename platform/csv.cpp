@@ -15,6 +15,7 @@ void CsvWriter::separate() {
 
 void CsvWriter::add(std::string_view cell) {
   separate();
+  // A cell in quotes may hold commas; a quote in it is written twice.
   const bool is_quoted = cell.find_first_of(",\"\n\r") != std::string_view::npos;
   if (is_quoted) text_ += '"';
   for (const char c : cell) {
@@ -54,6 +55,7 @@ CsvReader::CsvReader(const std::filesystem::path& file)
     : file_(file.string()), text_(read_whole_file(file)) {}
 
 bool CsvReader::next() {
+  // Lines end with \n or \r\n; the last one may lack its end.
   while (at_ < text_.size()) {
     const size_t end = std::min(text_.find('\n', at_), text_.size());
     std::string_view line = std::string_view(text_).substr(at_, end - at_);
@@ -82,10 +84,12 @@ void CsvReader::split(std::string_view line) {
       cells_.push_back(cell);
       if (at < line.size() && line[at] != ',') fail("a comma is missing after a quoted cell");
     } else {
+      // A plain cell goes to the next comma.
       const size_t end = std::min(line.find(',', at), line.size());
       cells_.push_back(line.substr(at, end - at));
       at = end;
     }
+    // Behind a comma there is one more cell, be it empty.
     if (at >= line.size()) return;
     ++at;
   }

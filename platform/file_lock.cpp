@@ -36,6 +36,7 @@ FileLock::FileLock(std::filesystem::path file, const Patience& patience) : file_
 bool FileLock::try_once() {
   const int descriptor = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) throw_file_error(file_, "make the lock");
+  // Locked, but perhaps a file that its last holder has just unlinked: then try again.
   if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
     if (is_current(descriptor, file_)) {
       descriptor_ = descriptor;
@@ -45,6 +46,7 @@ bool FileLock::try_once() {
     close(descriptor);
     return false;
   }
+  // Somebody else has it: read who signed it.
   const int error = errno;
   char text[160];
   const ssize_t length = pread(descriptor, text, sizeof text, 0);

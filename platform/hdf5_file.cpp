@@ -16,6 +16,7 @@ static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>
               std::is_same_v<hsize_t, Hdf5Shape::value_type>);
 
 Hdf5File::Hdf5File(const std::filesystem::path& path) : path_(path) {
+  // HDF5 would print its error stack to stderr; what went wrong is said by an Error instead.
   H5Eget_auto2(H5E_DEFAULT, &old_report_, &old_client_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -43,6 +44,7 @@ Hdf5Id Hdf5File::space_of(const Hdf5Shape& shape) {
 Hdf5Shape Hdf5File::select_slice(const Hdf5Id& space, size_t index) {
   Hdf5Shape count(static_cast<size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
   H5Sget_simple_extent_dims(space, count.data(), nullptr);
+  // One step along the first dimension, all of the others.
   Hdf5Shape start(count.size(), 0);
   if (count.empty() || index >= count[0]) return {};
   start[0] = index;

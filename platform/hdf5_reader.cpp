@@ -8,6 +8,7 @@ namespace {
 hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) file.fail("no such file");
+  // The signature first, so that a text file and a truncated HDF5 file get different answers.
   if (H5Fis_hdf5(path.c_str()) <= 0) file.fail("not an HDF5 file");
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) file.fail("damaged or truncated HDF5 file");
@@ -44,6 +45,7 @@ Hdf5Shape Hdf5Reader::shape(const std::string& name) const {
 
 template <typename Value>
 std::vector<Value> Hdf5Reader::read(const std::string& name, std::int64_t type) const {
+  // What is stored may have any width or byte order: HDF5 converts it to `type` while reading.
   const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose),
                stored(H5Dget_type(dataset), H5Tclose);
   const H5T_class_t kind = stored >= 0 ? H5Tget_class(stored) : H5T_NO_CLASS;
@@ -82,6 +84,7 @@ std::string Hdf5Reader::read_text(const std::string& name) const {
     fail(name + ": is no text of fixed length");
   const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
   if (space < 0 || H5Sget_simple_extent_npoints(space) != 1) fail(name + ": is not one text");
+  // The stored length may include a zero at the end.
   std::string text(H5Tget_size(type), '\0');
   if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     fail(name + ": cannot be read (damaged or truncated)");
@@ -103,6 +106,7 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
   std::vector<char*> pointers(product(shape(name)), nullptr);
   const Hdf5Id dataset = open(name), type = text_type(), space(H5Dget_space(dataset), H5Sclose);
   check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "read " + name);
+  // HDF5 allocated each text: copied, then given back to it.
   std::vector<std::string> texts(pointers.begin(), pointers.end());
   H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
   return texts;

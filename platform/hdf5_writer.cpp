@@ -95,6 +95,8 @@ Hdf5Id Hdf5Writer::make_dataset(const std::string& name, std::int64_t type, cons
   H5Pset_obj_track_times(creation, false);
   const hsize_t bytes = product(shape) * H5Tget_size(type);
   if (storage == Hdf5Storage::compressed && bytes > chunk_bytes / 16 && !shape.empty()) {
+    // Chunks of whole slices, about 64 kB each: shuffled (bytes of equal weight together, which
+    // compresses better), compressed, and with a checksum.
     Hdf5Shape chunk = shape;
     chunk[0] = std::clamp<hsize_t>(chunk_bytes * shape[0] / bytes, 1, shape[0]);
     H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
@@ -166,6 +168,7 @@ void Hdf5Writer::write_slice(const Hdf5Id& dataset, size_t index, std::span<cons
 }
 
 void Hdf5Writer::commit() {
+  // Closing makes HDF5 write its last metadata into the image.
   check(file_.close(), "finish the file in memory");
   const size_t length = file_length(image_.bytes);
   if (length == 0) check(-1, "give the bytes of the file in memory");

@@ -7,11 +7,12 @@ namespace ballast {
 namespace {
 
 std::atomic<bool> interrupted{false};
-static_assert(
-    std::atomic<bool>::is_always_lock_free);  // the only kind that a signal handler may touch
+// The only kind that a signal handler may touch.
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void on_signal(int signal) {
   interrupted = true;
+  // Whoever asks twice does not want to wait for a checkpoint.
   std::signal(signal, SIG_DFL);
 }
 

@@ -60,6 +60,7 @@ RowReader::RowReader(const std::filesystem::path& file)
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
   if (error) throw Error(path_.string() + ": cannot read: " + error.message());
+  // The length of the file says how many whole rows there may be; their checksums decide later.
   row_count_ = static_cast<long>((bytes - header_bytes_) / row_bytes(header_.row_size));
   if (row_count_ < safe_count_)
     throw Error(path_.string() + ": is truncated: " + std::to_string(row_count_) + " rows of " +
@@ -76,6 +77,7 @@ void RowReader::read_header() {
   if (fixed.version != version)
     refuse("is a log of format " + std::to_string(fixed.version) + ", this program reads format " +
            std::to_string(version));
+  // The mark has a checksum of its own: it is written again and again while the header stays.
   SafeMark safe;
   read(&safe, sizeof safe);
   if (safe.checksum != SafeMark(safe.rows).checksum)
@@ -102,10 +104,12 @@ void RowReader::read(void* data, size_t bytes) {
 }
 
 std::span<const double> RowReader::next() {
+  // Behind the last row: nothing.
   if (row_ == row_count_) return {};
   std::uint64_t checksum;
   read(values_.data(), values_.size() * sizeof(double));
   read(&checksum, sizeof checksum);
+  // A damaged row that was never made safe is taken as the end of the log.
   if (checksum != row_checksum(row_, values_)) {
     if (row_ < safe_count_)
       throw Error(path_.string() + ": is damaged: the checksum of row " + std::to_string(row_) +
@@ -161,6 +165,7 @@ void RowWriter::append(std::span<const double> row) {
 }
 
 void RowWriter::flush() {
+  // The rows first, then the promise that they are there.
   sync_to_disk(file_.get(), path_);
   mark_safe(row_count_);
 }

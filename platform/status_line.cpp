@@ -27,6 +27,7 @@ void StatusLine::write(std::string text) {
   if (style_ == Style::quiet) return;
   if (style_ == Style::bar) {
     if (&out_ == &std::cerr) text = text.substr(0, terminal_columns());
+    // Back to the first column; blanks cover what the longer line before has left.
     out_ << '\r' << text;
     if (text.size() < length_) out_ << std::string(length_ - text.size(), ' ');
     open_ = true;

@@ -135,6 +135,7 @@ void write_side_group(Hdf5Writer& file, const CapturedProblem& captured) {
 }
 
 CapturedProblem read_side_group(const std::filesystem::path& path) {
+  // M, H, w and mu from the FCLIB part; how they divide into bodies and rows from the side group.
   const auto stored = read_fclib(path);
   const SideReader side(path);
   const GlobalProblem* global = std::get_if<GlobalProblem>(&stored);
@@ -149,6 +150,7 @@ CapturedProblem read_side_group(const std::filesystem::path& path) {
   } catch (const InvalidProblem& error) {
     side.fail(error.what());
   }
+  // What the run knew about the step.
   captured.start = read_rows(side, "start", captured.problem);
   captured.solution = read_rows(side, "solution", captured.problem);
   captured.h = side.number("h");

@@ -14,6 +14,7 @@ FrictionProblem read_problem(const std::filesystem::path& file) {
   if (!hdf5 && extension != ".dat")
     throw ProblemFileError(file.string() + ": unknown kind of file '" + extension +
                            "'; known: .hdf5, .h5, .dat");
+  // A captured problem has the exact dynamics form beside the FCLIB one.
   if (is_captured(file)) return read_captured(file).problem;
   const auto stored = hdf5 ? read_fclib(file) : read_siconos_text(file);
   try {
