@@ -17,16 +17,16 @@
 // (and CarriedContact, if points are held on to), and nothing in the search.
 //
 // clang-format off
-// case            feature     normal n          places                         height h of a place x
-// --------------  ----------  ----------------  -----------------------------  ---------------------
-// face on face,   face f of   n_f of the        corners of the common part:    n_f.x - o_f, over the
-// edge on face    one body    reference face,   the other body's face at the   plane n_f.x = o_f
+// case            feature     normal n          places                         height h of place x
+// --------------  ----------  ----------------  -----------------------------  -------------------
+// face on face,   face f of   n_f of the        corners of the common part:    n_f.x - o_f, over
+// edge on face    one body    reference face,   the other body's face at the   the plane of f
 //                             turned round for  touching vertex that opposes
 //                             a face of b       f most, cut by f's sides
 // vertex on face  face f      the same          the touching vertex            the same
 // edge on edge    an edge of  e_a x e_b at      closest points of the two      d.(x_b - x_a), the
 //                 each        length 1, a to b  lines, held within the edges   separation s
-// flat edges      an edge of  the same          that point and the corners of  (n_f.x - o_f) / n_f.d
+// flat edges      an edge of  the same          that point and the corners of  (n_f.x - o_f)/n_f.d
 //                 each                          the common part of the faces
 //                                               beside the edges, cut along d
 // parallel edges  never a feature (kParallelSine): the faces beside them separate as well

@@ -27,7 +27,7 @@ const std::vector<std::pair<std::string, Words>> law = {
 /// Beginning of a third-party header -> beginnings of the paths that may include it.
 const std::vector<std::pair<std::string, Words>> third_party = {
     {"Eigen/", {"geometry/", "problems/", "solvers/", "experiments/", "tests/"}},
-    {"libqhull_r/", {"geometry/shape/convex_hull"}},
+    {"libqhull_r/", {"geometry/shape/qhull_loops"}},
     {"hdf5.h", {"platform/hdf5", "tests/"}},
     {"toml++/", {"problems/scene/"}},
     {"CLI/", {"experiments/commands/"}},
