@@ -166,8 +166,8 @@ ExitCode solve(const SolveOptions& options) {
 }
 
 constexpr const char* solve_footer =
-    R"(The tolerance is on the judge's scaled natural map, rms over contacts, relative to the problem's
-velocity scale, the rms of q over rows; with --absolute it is in m/s.
+    R"(The tolerance is on the judge's scaled natural map, rms over contacts, relative to the
+problem's velocity scale, the rms of q over rows; with --absolute it is in m/s.
 
 Columns: rms, max    scaled natural map [m/s], of the contact `worst` the largest
          scale       velocity scale [m/s]: rms/scale is what the tolerance bounds

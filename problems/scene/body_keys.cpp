@@ -1,6 +1,6 @@
 // The keys of [[wall]] and [[body]].
 
-#include "problems/scene/key_tables.hpp"
+#include "problems/scene/scene_keys.hpp"
 
 namespace ballast {
 

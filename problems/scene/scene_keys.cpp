@@ -1,7 +1,5 @@
 #include "problems/scene/scene_keys.hpp"
 
-#include "problems/scene/key_tables.hpp"
-
 namespace ballast {
 namespace {
 
