@@ -35,7 +35,7 @@ int streaming_copies(const KernelProblem& problem, const KernelBenchOptions& opt
                      const MachineFacts& facts) {
   const double last = facts.caches.empty() ? 32e6 : 1024.0 * facts.caches.back().kilobytes;
   const double wanted = options.streaming_MB > 0.0 ? 1e6 * options.streaming_MB : 2.0 * last;
-  return 1 + static_cast<int>(wanted / std::max(1.0, sweep_floor(problem.problem).working_set));
+  return 1 + static_cast<int>(wanted / std::max(1.0, sweep_working_set(problem.problem)));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 namespace ballast {
 namespace {
 
-/// Of relax() in solvers/sweep_kernels.cpp, for rows `width` wide: `rows` scalar products over both
-/// bodies, the contact's own arithmetic, `rows` multiples added to both bodies.
+/// Of relax() in solvers/gauss_seidel/sweep_kernels.cpp, for rows `width` wide: `rows` scalar
+/// products over both bodies, the contact's own arithmetic, `rows` multiples added to both bodies.
 double relax_flops(int rows, int width, double own) {
   const double products = rows * (2.0 * width + (2.0 * width - 1.0));
   const double updates = 2.0 * width * 2.0 * rows;
@@ -24,53 +24,55 @@ constexpr double one_row_own = 4;
 }  // namespace
 
 SweepCost friction_cost() {
-  return {sizeof(FrictionRecord), 2.0 * sizeof(FrictionImpulse), 4.0 * sizeof(BodyVelocity),
+  return {sizeof(FrictionRecord), 2.0 * sizeof(FrictionImpulse),
           relax_flops(3, row_width, friction_own), relax_flops(3, body_width, friction_own)};
 }
 
 SweepCost one_row_cost() {
-  return {sizeof(OneRowRecord), 2.0 * sizeof(double), 4.0 * sizeof(BodyVelocity),
-          relax_flops(1, row_width, one_row_own), relax_flops(1, body_width, one_row_own)};
+  return {sizeof(OneRowRecord), 2.0 * sizeof(double), relax_flops(1, row_width, one_row_own),
+          relax_flops(1, body_width, one_row_own)};
 }
 
-SweepFloor sweep_floor(const FrictionProblem& problem) {
-  SweepFloor floor;
-  const double contacts = problem.contact_count();
-  if (contacts == 0) return floor;
-  double one_row = 0.0;
-  for (int c = 0; c < problem.contact_count(); ++c) one_row += problem.contact_rows(c) == 1;
-  const double share = one_row / contacts;
-  const SweepCost f = friction_cost(), o = one_row_cost();
-  const auto mean = [&](double SweepCost::*part) {
-    return (1.0 - share) * f.*part + share * o.*part;
-  };
-  floor.bytes = mean(&SweepCost::record_bytes) + mean(&SweepCost::impulse_bytes);
-  floor.flops = mean(&SweepCost::flops);
-  floor.executed_flops = mean(&SweepCost::executed_flops);
-  floor.working_set =
-      contacts * (mean(&SweepCost::record_bytes) + 0.5 * mean(&SweepCost::impulse_bytes)) +
-      problem.dynamics.body_count() * static_cast<double>(sizeof(BodyVelocity));
-  return floor;
+SweepCost mean_sweep_cost(const FrictionProblem& problem) {
+  const int contacts = problem.contact_count();
+  SweepCost mean;
+  for (int c = 0; c < contacts; ++c) {
+    const SweepCost cost = problem.contact_rows(c) == 1 ? one_row_cost() : friction_cost();
+    mean.record_bytes += cost.record_bytes / contacts;
+    mean.impulse_bytes += cost.impulse_bytes / contacts;
+    mean.flops += cost.flops / contacts;
+    mean.executed_flops += cost.executed_flops / contacts;
+  }
+  return mean;
+}
+
+double sweep_working_set(const FrictionProblem& problem) {
+  const SweepCost cost = mean_sweep_cost(problem);
+  return problem.contact_count() * (cost.record_bytes + 0.5 * cost.impulse_bytes) +
+         problem.dynamics.body_count() * static_cast<double>(sizeof(BodyVelocity));
 }
 
 std::vector<Measurement> floor_measurements(const FrictionProblem& problem,
                                             const MachineFacts& facts) {
-  const SweepFloor floor = sweep_floor(problem);
-  const double near = read_bandwidth(static_cast<std::size_t>(floor.working_set));
+  const SweepCost cost = mean_sweep_cost(problem);
+  const double size = sweep_working_set(problem);
+  const double near = read_bandwidth(static_cast<std::size_t>(size));
   const auto one = [](const char* name, const char* unit, double value) {
     return measurement_of("floor", name, unit, {value});
   };
-  return {one("sweep bytes streamed", "B/contact", floor.bytes),
-          one("sweep flops needed", "flops/contact", floor.flops),
-          one("sweep flops on eight lanes", "flops/contact", floor.executed_flops),
-          one("sweep working set", "kB", floor.working_set / 1024.0),
+  // ns a contact: bytes over GB/s, or flops over Gflop/s, whichever lasts longer
+  const auto least_ns = [&](double GB_s) {
+    return std::max(cost.streamed_bytes() / GB_s, cost.executed_flops / facts.gflops);
+  };
+  return {one("sweep bytes streamed", "B/contact", cost.streamed_bytes()),
+          one("sweep flops needed", "flops/contact", cost.flops),
+          one("sweep flops on eight lanes", "flops/contact", cost.executed_flops),
+          one("sweep working set", "kB", size / 1024.0),
           one("read bandwidth at that size", "GB/s", near),
           one("read bandwidth streaming", "GB/s", facts.read_GB_s),
           one("flop rate", "Gflop/s", facts.gflops),
-          one("sweep floor in cache", "ns/contact",
-              std::max(floor.bandwidth_ns(near), floor.flops_ns(facts.gflops))),
-          one("sweep floor streaming", "ns/contact",
-              std::max(floor.bandwidth_ns(facts.read_GB_s), floor.flops_ns(facts.gflops)))};
+          one("sweep floor in cache", "ns/contact", least_ns(near)),
+          one("sweep floor streaming", "ns/contact", least_ns(facts.read_GB_s))};
 }
 
 }  // namespace ballast

@@ -7,11 +7,7 @@
 #include <sstream>
 
 #include "experiments/compare/compare_options.hpp"
-#include "experiments/compare/live_page.hpp"
-#include "experiments/run/manifest.hpp"
-#include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
-#include "tests/support/page_sample.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -75,12 +71,4 @@ TEST_CASE("One start under several backends and tolerances") {
   REQUIRE(again.trajectories.size() == 4);
   for (size_t k = 0; k < 4; ++k)
     CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
-
-  Manifest("compare --live x", {}, "key").write(folder.path() / "manifest.json");
-  write_live_page(folder.path(), comparison);
-  const std::string page = read_whole_file(folder.path() / "live.html");
-  check_page(page);
-  CHECK(page.find("(reference)") != std::string::npos);
-  const std::string csv = read_whole_file(folder.path() / "live.csv");
-  CHECK(std::count(csv.begin(), csv.end(), '\n') == 5);
 }

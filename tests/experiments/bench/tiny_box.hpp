@@ -1,0 +1,44 @@
+#pragma once
+// A deposited box of a dozen grains, which the tests of `ballast bench` measure.
+
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/bench/bench_packing.hpp"
+#include "experiments/bench/measurement.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace ballast {
+
+inline const std::vector<std::string> tiny = {"grains.count=12", "box.length=0.12",
+                                              "box.width=0.12", "control_volume.margin_x=0.02"};
+
+struct Silence {
+  Silence() : old(std::cout.rdbuf(sink.rdbuf())) {}
+  ~Silence() { std::cout.rdbuf(old); }
+  std::ostringstream sink;
+  std::streambuf* old;
+};
+
+/// Deposited once for all tests of this program.
+inline const DepositedBox& tiny_box() {
+  static const DepositedBox box = [] {
+    const TemporaryFolder folder;
+    const Silence silence;
+    deposited_box("vibrated_box_small", tiny, folder.path());
+    return deposited_box("vibrated_box_small", tiny, folder.path());  // from the cache
+  }();
+  return box;
+}
+
+inline double value_of(const std::vector<Measurement>& measurements, const std::string& name) {
+  for (const Measurement& m : measurements)
+    if (m.full_name() == name) return m.median;
+  FAIL("no measurement " << name);
+  return 0.0;
+}
+
+}  // namespace ballast
