@@ -1,0 +1,50 @@
+// `ballast compare` as it is called: what it prints, what it leaves, and that it goes on.
+
+#include <algorithm>
+#include <filesystem>
+
+#include "platform/atomic_file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+
+TEST_CASE("a comparison leaves its table and its page, and the same command goes on") {
+  const TemporaryFolder folder;
+  const std::filesystem::path output = folder.path() / "compared";
+  const std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
+                                          "--solvers",    "pgs,nncg",
+                                          "--tolerances", "1e-2",
+                                          "--memory",     "0",  // sanitizers reserve terabytes
+                                          "--output",     output.string()};
+  const ProgramResult first = ballast_program(words);
+  INFO(first.errors);
+  REQUIRE(first.status == 0);
+  CHECK_THAT(first.output, Catch::Contains("  1/2  known-b4-c6x1-R1-s1") &&
+                               Catch::Contains("Tolerance 0.01, cold start, 1 cases") &&
+                               Catch::Contains("results in " + output.string()));
+  CHECK_THAT(first.output, !Catch::Contains("was there"));
+  const std::string csv = read_whole_file(output / "results.csv");
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
+  CHECK(std::filesystem::exists(output / "compare.html"));
+  // how it was called is in the manifest, as a shell reads it
+  CHECK_THAT(read_whole_file(output / "manifest.json"),
+             Catch::Contains("ballast compare known:contacts=6,bodies=4"));
+  std::filesystem::remove(output / "compare.html");
+  std::vector<std::string> again = words;
+  again.push_back("--no-report");
+  const ProgramResult second = ballast_program(again);
+  CHECK(second.status == 0);
+  CHECK_THAT(second.output, Catch::Contains("(was there)") && !Catch::Contains("compare.html"));
+  CHECK_FALSE(std::filesystem::exists(output / "compare.html"));
+}
+
+TEST_CASE("a comparison that cannot be had is one line") {
+  check_failure(ballast_program({"compare"}), ExitCode::usage, {"expected cases, or --live"});
+  check_failure(ballast_program({"compare", "known:colour=3"}), ExitCode::failure,
+                {"known:colour=3: colour: no such setting"});
+  check_failure(ballast_program({"compare", "known:", "--starts", "tepid"}), ExitCode::usage,
+                {"--starts", "'tepid' is no start"});
+  check_failure(ballast_program({"compare", "known:", "--live", "zeno_ball"}), ExitCode::usage,
+                {"--live"});
+}
