@@ -30,7 +30,7 @@ constexpr Library ipopt{"coinor-libipopt-dev", has_ipopt};
 constexpr Library nlopt{"libnlopt-dev", has_nlopt};
 constexpr Library siconos{"libsiconos-numerics-dev", has_siconos};
 
-/// Every backend, as if all libraries were there.
+/// Every backend, as if all libraries were there: name, description, law, maker, library, limit.
 constexpr SolverEntry rows[] = {
     {"auto", "ours, recommended: sweeps where they are enough, proximal Newton where not",
      ContactLaw::coulomb, [] { return make_auto(); }, suitesparse},

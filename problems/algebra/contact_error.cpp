@@ -123,6 +123,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   ContactError error;
   const int contacts = problem.contact_count();
   if (problem.has_dynamics) recompute_body_velocities(problem.dynamics, problem.row_begin, r);
+  // Workspaces, and for a stored W the whole of u and q.
   if (contacts == 0) return error;
   if (problem.has_dynamics) {
     diagonal_.resize(contacts);
@@ -135,6 +136,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   }
   shares_.resize((contacts + share_contacts - 1) /
                  share_contacts);  // cut in the same places whoever works
+  // Every share: for the dynamics form its rows of u and q, then its measures.
   run_parts(team_, static_cast<int>(shares_.size()), [&](int part) {
     const int begin = part * share_contacts, end = std::min(begin + share_contacts, contacts);
     if (problem.has_dynamics) recompute_contacts(problem, begin, end);
@@ -142,6 +144,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   });
   if (!r.allFinite() || !u_.allFinite()) return not_finite();
 
+  // The shares together, in their order.
   double sum = 0.0, unscaled_sum = 0.0;
   int counted = 0;
   error.min_normal_velocity = std::numeric_limits<double>::infinity();
@@ -159,6 +162,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     error.complementarity = std::max(error.complementarity, share.complementarity);
   }
   error.natural_map_rms = counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  // Siconos' measure, the scale of velocities, the power.
   const double scale = std::max({q_.norm(), r.norm(), u_.norm()});
   error.fclib = std::sqrt(unscaled_sum);
   if (scale > std::numeric_limits<double>::epsilon()) error.fclib /= scale;

@@ -152,11 +152,4 @@ SparseRows delassus_matrix(const FrictionProblem& problem) {
   return problem.has_delassus ? problem.delassus.w : assemble(problem);
 }
 
-void add_delassus_form(FrictionProblem& problem) {
-  if (problem.has_delassus) return;
-  problem.delassus.w = assemble(problem);
-  free_contact_velocity(problem, problem.delassus.q);
-  problem.has_delassus = true;
-}
-
 }  // namespace ballast

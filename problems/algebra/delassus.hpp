@@ -33,8 +33,4 @@ void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoo
 /// one).
 SparseRows delassus_matrix(const FrictionProblem& problem);
 
-/// Adds the Delassus form to a problem that has only the dynamics form. The one conversion in the
-/// project.
-void add_delassus_form(FrictionProblem& problem);
-
 }  // namespace ballast

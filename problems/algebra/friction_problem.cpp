@@ -143,6 +143,7 @@ void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::
 void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                    const Impulses& r, Eigen::VectorXd& v) {
   require_rows("impulses", r.size(), row_begin.back());
+  // M^-1 H^T r, body by body.
   contact_to_body_impulse(dynamics, row_begin, r, v);
   MassRoot root;
   for (int b = 0; b < dynamics.body_count(); ++b) {
@@ -157,6 +158,7 @@ void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_beg
 }
 
 Eigen::SparseMatrix<double> sparse_mass(const DynamicsForm& dynamics) {
+  // Zeros beside the diagonal are left out: most masses are diagonal.
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(dynamics.mass.size());
   for (int b = 0; b < dynamics.body_count(); ++b) {

@@ -42,6 +42,7 @@ void Islands::find(const FrictionProblem& problem) {
   list_contacts(problem);
 }
 
+// Islands in the order of their first bodies; -1 for bodies that no contact touches.
 void Islands::number_bodies(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   island_of_.assign(dynamics.body_count(), -1);

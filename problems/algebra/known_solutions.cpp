@@ -82,6 +82,7 @@ void choose_solution(const KnownSolutionSettings& settings, double mu, int rows,
     }
     return;
   }
+  // Pressed: on the cone's side it slips against its impulse, inside it sticks.
   r[0] = force;
   if (rows == 1) return;
   if (kind < settings.open_fraction + settings.slip_fraction) {
@@ -104,6 +105,8 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
   FrictionProblem& problem = known.problem;
   DynamicsForm& dynamics = problem.dynamics;
   problem.has_dynamics = true;
+  // The order of the random numbers is part of what a seed means: bodies, contacts, answers,
+  // v_free.
   for (int b = 0; b < settings.bodies; ++b)
     add_body(random.log_uniform(1.0, settings.mass_ratio), random, dynamics);
 
@@ -131,6 +134,7 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
   body_to_contact_velocity(dynamics, problem.row_begin, v, moved);
   dynamics.bias = known.u - moved;
 
+  // Copies share their contact's impulse and have its velocity.
   if (settings.copies > 1) {
     const std::vector<int> first = problem.row_begin;
     repeat_contacts(problem, settings.copies);

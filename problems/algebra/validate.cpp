@@ -52,6 +52,7 @@ void require_begin(const char* array, const std::vector<int>& begin, int count, 
   if (begin[0] != 0) fail(array, "[0] = ", begin[0], ", must be 0");
 }
 
+// Sizes first: what follows may then index freely.
 void validate_contacts(const FrictionProblem& problem) {
   const int contacts = problem.contact_count();
   require_begin("row_begin", problem.row_begin, contacts, "one friction coefficient per contact");
@@ -67,6 +68,7 @@ void validate_contacts(const FrictionProblem& problem) {
   }
 }
 
+// Positive definite and, up to rounding, symmetric.
 void validate_mass_block(const DynamicsForm& dynamics, int b) {
   const int dofs = dynamics.body_dofs(b), first = dynamics.mass_begin[b];
   const double* block = dynamics.mass.data() + first;
@@ -138,6 +140,7 @@ void validate_dynamics(const FrictionProblem& problem) {
   require_finite("dynamics.bias", dynamics.bias.data(), dynamics.bias.size());
 }
 
+// Positive semidefinite up to rounding: all minors of the symmetric part.
 void validate_diagonal_block(const FrictionProblem& problem, int c) {
   const Eigen::Matrix3d d = stored_diagonal_block(problem, c), even = 0.5 * (d + d.transpose());
   const int first = problem.row_begin[c];
@@ -168,6 +171,7 @@ void validate_delassus(const FrictionProblem& problem) {
   require_size("delassus.w rows", w.rows(), rows, "the contacts");
   require_size("delassus.w columns", w.cols(), rows, "the contacts");
   for (int row = 0; row < rows; ++row) {
+    // Columns ascend, without which products and look-ups would go wrong silently.
     int previous = -1;
     for (SparseRows::InnerIterator entry(w, row); entry; ++entry) {
       const int column = static_cast<int>(entry.col());

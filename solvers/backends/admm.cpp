@@ -53,6 +53,7 @@ class Admm final : public Solver {
   }
 
  private:
+  /// P for every contact, and the one factorisation that serves until it changes.
   bool set_penalty(double penalty) {
     penalty_ = penalty;
     sigma_.resize(w_.contact_count());
@@ -67,6 +68,7 @@ class Admm final : public Solver {
     return system_.factor(shift_blocks_, sigma_);
   }
 
+  /// One iteration of the formulas above; what x and r differ, and what r moved, on the way.
   void alternate(Impulses& r) {
     for (int c = 0; c < w_.contact_count(); ++c) {
       Eigen::Vector3d b = w_.at(r, c) / sigma_[c](0, 0) - w_.at(y_, c) - w_.at(q_, c);

@@ -5,6 +5,7 @@
 
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/gauss_seidel/swept_error.hpp"
 #include "solvers/parts/anderson.hpp"
 #include "solvers/seam/iteration.hpp"
 
@@ -40,16 +41,9 @@ class AndersonPgs final : public Solver {
     begin(sweep);
     while (iteration.next()) {
       sweep.sweep();
-      if (iteration.error_due()) {
-        double error = sweep.error();
-        sweep.store(problem, r);
-        if (iteration.reached(error)) {  // once more from the impulses alone, without what the
-                                         // updates have rounded
-          sweep.load(problem, r);
-          error = sweep.error();
-        }
-        iteration.evaluated(error);
-      }
+      if (iteration.error_due())
+        iteration.evaluated(
+            swept_error(sweep, problem, iteration, r, [&] { sweep.load(problem, r); }));
       sweep.save(image_);
       extrapolate();
       sweep.restore(x_);
@@ -57,6 +51,7 @@ class AndersonPgs final : public Solver {
     return iteration.finish(std::move(r));
   }
 
+  // No past: the first sweep is taken as it comes.
   template <typename Sweep>
   void begin(const Sweep& sweep) {
     sweep.impulse_weights(weights_);
@@ -66,6 +61,8 @@ class AndersonPgs final : public Solver {
     last_change_ = std::numeric_limits<double>::infinity();
   }
 
+  /// x_ := the mixed iterate; or, where the last mixing made the sweep's work much larger, the good
+  /// image from before it.
   void extrapolate() {
     const Eigen::Index compared = weights_.size();
     const double change = ((image_ - x_).head(compared).cwiseProduct(weights_)).norm();

@@ -47,12 +47,14 @@ class Apgd final : public Solver {
   }
 
  private:
+  /// Nesterov's momentum from nothing: the extrapolated point is the iterate.
   void restart(const Impulses& r) {
     theta_ = 1.0;
     y_ = r;
     uy_ = u_;
   }
 
+  /// A projected gradient step from the extrapolated point y.
   void descend() {
     for (int c = 0; c < w_.contact_count(); ++c)
       w_.put(next_, c, w_.at(y_, c) - step_ * w_.rho()[c] * shift_.shifted(w_, uy_, c));
@@ -68,6 +70,7 @@ class Apgd final : public Solver {
            step_ < 1e-3 * first_step_;
   }
 
+  /// The step counts: next extrapolation, or a restart where it went against the gradient.
   void accept(Impulses& r) {
     const Eigen::VectorXd& gone = (y_ = next_ - r);  // y has been used
     const bool uphill = w_.scaled_dot(moved_, gone) < 0.0;

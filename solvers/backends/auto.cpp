@@ -40,6 +40,7 @@ class Auto final : public Solver {
   void prepare(const FrictionProblem& problem) override {
     sweeps_ = problem.has_dynamics ? body_sweeps_.get() : matrix_sweeps_.get();
     opening_ = problem.has_dynamics ? body_sweeps_.get() : matrix_opening_.get();
+    // Newton is prepared only when its turn comes: ordering costs as much as many sweeps.
     opening_->prepare(problem);
     if (opening_ != sweeps_) sweeps_->prepare(problem);
     newton_is_prepared_ = false;
@@ -69,6 +70,7 @@ class Auto final : public Solver {
     for (int steps = 40; !relay.over() && standing_still < patience; steps += steps / 2) {
       if (!newton_is_prepared_) newton_->prepare(problem);
       newton_is_prepared_ = true;
+      // Newton's turn, and how fast the error fell in it.
       const int begin = relay.iterations();
       const double error = relay.error();
       relay.run(*newton_, problem, steps);

@@ -4,6 +4,7 @@
 
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/gauss_seidel/swept_error.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
@@ -34,6 +35,7 @@ class GaussSeidel final : public Solver {
   Solved iterate(Sweep& sweep, const FrictionProblem& problem, Impulses r, const Budget& budget) {
     Iteration iteration(budget, schedule_);
     order_.begin(variant_, variant_.plain() ? 0 : problem.contact_count());
+    // Stored at once: impulses that move nothing have been dropped.
     sweep.load(problem, r);
     sweep.store(problem, r);
     iteration.evaluated(sweep.error());
@@ -43,14 +45,8 @@ class GaussSeidel final : public Solver {
       else
         sweep.sweep(variant_, order_.next());
       if (!iteration.error_due()) continue;
-      double error = sweep.error();
-      sweep.store(problem, r);
-      if (iteration.reached(error)) {  // once more from the impulses alone, without what thousands
-                                       // of updates have rounded
-        sweep.load(problem, r);
-        error = sweep.error();
-      }
-      iteration.evaluated(error);
+      iteration.evaluated(
+          swept_error(sweep, problem, iteration, r, [&] { sweep.load(problem, r); }));
     }
     return iteration.finish(std::move(r));
   }

@@ -81,10 +81,12 @@ class Adapter final : public Ipopt::TNLP {
 
  private:
   static VectorXd take(const Number* x, Index size) { return Eigen::Map<const VectorXd>(x, size); }
+  /// Ipopt shortens its step when it is told that a value is none.
   static bool give(const VectorXd& x, Number* out) {
     std::copy(x.begin(), x.end(), out);
     return x.allFinite();
   }
+  /// Ipopt asks twice: first for the pattern (no values), then for values.
   static bool give(const IpoptProgram::Entries& entries, Index* rows, Index* columns,
                    Number* values) {
     if (values) {

@@ -55,6 +55,7 @@ class Jacobi final : public Solver {
     double slip = 0.0;
   };
 
+  /// Every contact's exact answer to the same velocities u, a part theta of the way.
   void relax(Impulses& r, double theta) {
     for (int c = 0; c < w_.contact_count(); ++c) {
       Contact& contact = contacts_[c];

@@ -45,6 +45,7 @@ class Newton final : public Solver {
       best.offer(step_.impulses(), step_.error());
       iteration.evaluated(best.error);
       if (failures >= 8) break;
+      // Less of the proximal term where Newton converges, more where it does not.
       if (step_.residual() < 0.5 * before)
         weight = std::max(smallest_weight, 0.1 * weight);
       else if (failures > 0)
@@ -90,10 +91,12 @@ class ProximalNewton final : public Solver {
            iteration.count() - halved_at <= settings_.patience * budget.max_iterations) {
       const int steps = proximal_step(iteration, weight, best);
       if (steps < 0) break;  // the budget ended
+      // Patience counts from the last time that the best error was halved.
       if (best.error < 0.5 * halved) {
         halved = best.error;
         halved_at = iteration.count();
       }
+      // An easy step lowers alpha; a failed one raises it and tries another rho.
       if (steps > 0 && steps <= settings_.inner_steps) {
         failures = 0;
         if (steps <= settings_.inner_steps / 2) weight = std::max(1e-9, weight * 0.3);

@@ -82,12 +82,9 @@ class Nlopt final : public Solver {
     VectorXd x = request.start - cones_.w * request.start - request.q;
     Program program;
     std::vector<int> row;
+    cones_.project(x);
     for (int k = 0; k < cones_.contact_count(); ++k) {
       const int at = cones_.row_begin[k], rows = cones_.row_begin[k + 1] - at;
-      if (rows == 3)
-        x.segment<3>(at) = project_cone(x.segment<3>(at), cones_.friction[k]);
-      else
-        x[at] = std::max(0.0, x[at]);
       if (!(x[at] > 0.0)) continue;
       if (rows == 3) {
         program.row_begin.push_back(static_cast<int>(row.size()));

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "solvers/gauss_seidel/body_sweep.hpp"
+#include "solvers/gauss_seidel/swept_error.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
@@ -38,13 +39,7 @@ class Nncg final : public Solver {
     while (iteration.next()) {
       square_ = sweep_.sweep(search_, next_step(accelerates));
       if (!iteration.error_due()) continue;
-      double error = sweep_.error();
-      sweep_.store(problem, r);
-      if (iteration.reached(
-              error)) {  // once more from the impulses alone, without what the updates have rounded
-        load(problem, r);
-        error = sweep_.error();
-      }
+      const double error = swept_error(sweep_, problem, iteration, r, [&] { load(problem, r); });
       iteration.evaluated(error);
       accelerates = !accelerates || error < last_error;
       if (!accelerates) forget();

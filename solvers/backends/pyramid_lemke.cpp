@@ -45,6 +45,7 @@ class PyramidLemke final : public Solver {
     moving_.scatter(problem, x, r);
     iteration.evaluated(judge.judge(problem, r).natural_map_rms);
 
+    // Pivot by pivot; only the last basis is an answer.
     lemke_.begin(m_, q_);
     LemkeState state = LemkeState::running;
     Eigen::VectorXd z;
@@ -84,6 +85,7 @@ class PyramidLemke final : public Solver {
     return e / std::sqrt(moving_.lambda_max[k]);
   }
 
+  /// m = E^T W E by pairs of contacts, and the rows that tie beta to lambda and mu r_N.
   void assemble() {
     const int n = begin_.back(), contacts = moving_.contact_count();
     const Eigen::MatrixXd w = moving_.w;
@@ -108,6 +110,7 @@ class PyramidLemke final : public Solver {
     }
   }
 
+  /// r = E z, in the rows that move.
   Eigen::VectorXd impulses(const Eigen::VectorXd& z) const {
     Eigen::VectorXd x(moving_.row_count());
     for (int k = 0; k < moving_.contact_count(); ++k)

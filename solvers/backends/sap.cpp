@@ -110,6 +110,7 @@ class Sap final : public Solver {
         }
       return sum;
     };
+    // A bracket of the minimum: doubled until the slope is positive.
     double low = 0.0, high = 1.0, at_low = derivative(low), at_high = derivative(high);
     const double enough = 1e-8 * std::abs(at_low);
     while (at_high < 0.0 && high < 16.0) {
@@ -119,6 +120,7 @@ class Sap final : public Solver {
       at_high = derivative(high);
     }
     if (std::abs(at_high) <= enough || at_high < 0.0) return high;
+    // Secants; where one end stays twice its slope is halved (Illinois).
     int last_side = 0;
     for (int k = 0; k < 60 && at_low < 0.0; ++k) {
       const double t = (low * at_high - high * at_low) / (at_high - at_low), at_t = derivative(t);

@@ -53,6 +53,7 @@ class Spg final : public Solver {
     newest_ = 0;
   }
 
+  /// The direction d, its slope g.d, a step along it, and the next alpha.
   void advance(Impulses& r) {
     double slope = 0.0;
     for (int c = 0; c < w_.contact_count(); ++c) {

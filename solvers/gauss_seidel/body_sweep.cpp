@@ -33,6 +33,7 @@ void BodySweep::prepare(const FrictionProblem& problem) {
   plan_.prepare(problem);
   prepare_ranges(problem);
   prepare_bodies(problem.dynamics);
+  // Records do not depend on each other: every thread makes its share.
   team_.run(team_.size(), [&](int member) {
     const std::vector<int>& order = plan_.contacts();
     const size_t begin = order.size() * member / team_.size(),
@@ -52,6 +53,8 @@ void BodySweep::prepare_ranges(const FrictionProblem& problem) {
   is_one_row_.resize(contacts);
   nowhere_.resize(contacts);
   int friction = 0, one_row = 0, nowhere = problem.dynamics.body_count();
+  // Records of a part follow each other, friction before one row; each part has a zero velocity of
+  // its own for what does not move.
   const auto number = [&](const std::vector<SweepPlan::Part>& parts, std::vector<Range>& ranges) {
     ranges.clear();
     for (const SweepPlan::Part& part : parts) {
@@ -83,6 +86,7 @@ void BodySweep::for_parts(const Task& task) {
   team_.run(static_cast<int>(interfaces_.size()), [&](int part) { task(interfaces_[part]); });
 }
 
+// Masses factored, and the free velocities in the variables w = L^T v.
 void BodySweep::prepare_bodies(const DynamicsForm& dynamics) {
   factor_masses(dynamics, roots_);
   const int bodies = dynamics.body_count();
@@ -96,6 +100,7 @@ void BodySweep::prepare_bodies(const DynamicsForm& dynamics) {
   }
 }
 
+// Rows and bias of one contact, then its principal coordinates.
 void BodySweep::prepare_friction(const FrictionProblem& problem, int c, int record) {
   FrictionRecord& k = friction_[record];
   scale_rows(problem.dynamics, roots_, c, nowhere_[c], k.rows, k.body);
@@ -113,6 +118,7 @@ void BodySweep::prepare_one_row(const FrictionProblem& problem, int c, int recor
 }
 
 void BodySweep::load(const FrictionProblem& problem, const Impulses& r) {
+  // The bodies start free, and every impulse pushes them once.
   velocity_ = free_velocity_;
   for (int c = 0; c < problem.contact_count(); ++c) {
     const double* rc = r.data() + problem.row_begin[c];
@@ -177,6 +183,7 @@ double BodySweep::sweep(SweepSearch& search, SearchStep step) {
                       search.one_row.data() + range.one_row, step, range.one_row_count,
                       velocity_.data());
   };
+  // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
   team_.run(static_cast<int>(interiors_.size()), [&](int slab) {
     move_along(plan_.bodies(slab), search, step);
     sweep_range(interiors_[slab]);
@@ -221,6 +228,7 @@ double BodySweep::error() {
     range.error_square = sum;
     range.judged = counted;
   });
+  // The parts' sums, always in the same order.
   double sum = 0.0;
   int counted = 0;
   for (const std::vector<Range>* ranges : {&interiors_, &interfaces_})
@@ -232,6 +240,7 @@ double BodySweep::error() {
 }
 
 void BodySweep::save(Eigen::VectorXd& state) const {
+  // Impulses with friction, those of one row, then velocities: restore() reads the same order.
   state.resize(3 * friction_.size() + one_row_.size() + body_width * velocity_.size());
   double* x = state.data();
   for (const FrictionImpulse& k : friction_impulse_) x = std::copy_n(k.y, 3, x);

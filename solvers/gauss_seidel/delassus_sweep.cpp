@@ -16,6 +16,7 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
     for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
       contact_of_row[row] = c;
 
+  // Which contacts W couples: the pattern in blocks, in the order of their first entries.
   block_begin_.assign(1, 0);
   block_contact_.clear();
   std::vector<int> slot(contacts, -1);  // of a neighbour in the block row at hand
@@ -30,6 +31,7 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
       }
     block_begin_.push_back(static_cast<int>(block_contact_.size()));
   }
+  // The entries, into their blocks.
   blocks_.assign(9 * block_contact_.size(), 0.0);
   slot.assign(contacts, -1);
   for (int c = 0; c < contacts; ++c) {
@@ -42,6 +44,7 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
       }
   }
 
+  // Each contact's own block, in the coordinates in which it is solved.
   std::vector<Eigen::Matrix3d> diagonal;
   delassus_diagonal(problem, diagonal);
   contacts_.assign(contacts, {});
@@ -69,6 +72,7 @@ void DelassusSweep::store(const FrictionProblem& problem, Impulses& r) const {
     for (int i = 0; i < problem.contact_rows(c); ++i) r[problem.row_begin[c] + i] = r_[3 * c + i];
 }
 
+/// A row of 3 x 3 blocks times the impulses.
 void DelassusSweep::velocity(int c, double* u) const {
   double sum[3] = {q_[3 * c], q_[3 * c + 1], q_[3 * c + 2]};
   for (int k = block_begin_[c]; k < block_begin_[c + 1]; ++k) {
@@ -95,6 +99,7 @@ void DelassusSweep::sweep(const SweepVariant& variant, const std::vector<int>& c
     const PrincipalContact& local = contact.local;
     double u[3], *r = r_.data() + 3 * c, y[3] = {r[0], r[1], r[2]};
     velocity(c, u);
+    // Into principal coordinates and back, as resolve_contact() does in registers.
     contact.turn.to_principal(u[1], u[2]);
     contact.turn.to_principal(y[1], y[2]);
     u[1] -= local.c1 * u[0];

@@ -14,6 +14,7 @@ void SweepPlan::prepare(const FrictionProblem& problem) {
 /// Levels from a body at the rim: the last one that a first search reached.
 void SweepPlan::find_levels(const DynamicsForm& dynamics) {
   const int bodies = dynamics.body_count(), contacts = static_cast<int>(dynamics.body_a.size());
+  // The graph of bodies as lists of neighbours: counted, then filled.
   neighbour_begin_.assign(bodies + 1, 0);
   const auto moves_both = [&](int c) { return dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0; };
   for (int c = 0; c < contacts; ++c) {
@@ -34,6 +35,7 @@ void SweepPlan::find_levels(const DynamicsForm& dynamics) {
     neighbour_[place_[dynamics.body_a[c]]++] = dynamics.body_b[c];
     neighbour_[place_[dynamics.body_b[c]]++] = dynamics.body_a[c];
   }
+  // Component by component: a search to its rim, and the levels from there.
   level_.assign(bodies, -1);
   queue_.clear();
   levels_ = 0;
@@ -73,6 +75,7 @@ void SweepPlan::cut_slabs(const DynamicsForm& dynamics) {
   slab_.assign(bodies, 0);
   slabs_ = 1;
   if (wanted == 1) return;
+  // Every body weighs its contacts.
   count_.assign(bodies, 0);
   long total = 0, passed = 0;
   for (size_t c = 0; c < dynamics.body_a.size(); ++c)
@@ -109,6 +112,7 @@ void SweepPlan::order(const FrictionProblem& problem) {
   // group: interior of a slab, or (slabs_ + k) the interface of slabs k and k + 1; friction before
   // one row; then the contact's turn among those of its body
   constexpr int turns = 8;
+  // A key for every contact, then a counting sort: contacts of a key keep their order.
   rank_.assign(dynamics.body_count() + 1, 0);
   key_.resize(contacts);
   count_.assign(groups * 2 * turns + 1, 0);

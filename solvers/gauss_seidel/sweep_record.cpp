@@ -7,6 +7,7 @@ namespace ballast {
 
 BALLAST_FOR_EACH_CPU
 void make_principal(FrictionRecord& k, double mu, TangentTurn& turn, double& lambda_max) {
+  // W_cc = G G^T from six scalar products of rows, several at once.
   const Vector4 first =
       three_sums(row_product(k.rows, 0, 0), row_product(k.rows, 1, 0), row_product(k.rows, 2, 0));
   const Vector4 rest =
@@ -16,6 +17,7 @@ void make_principal(FrictionRecord& k, double mu, TangentTurn& turn, double& lam
   make_principal(w, mu, k.local, turn);
   lambda_max = largest_eigenvalue(w);
 
+  // Tangents turned, and c times the normal row taken off, as PrincipalContact wants it.
   turn.to_principal(k.bias[1], k.bias[2]);
   k.bias[1] -= k.local.c1 * k.bias[0];
   k.bias[2] -= k.local.c2 * k.bias[0];
@@ -35,6 +37,7 @@ void make_principal(OneRowRecord& k, double& lambda_max) {
 
 void load_impulse(const FrictionRecord& k, const TangentTurn& turn, const double* r,
                   FrictionImpulse& impulse, BodyVelocity* velocity) {
+  // An impulse that moves nothing would stay as it was given.
   const double weight = k.local.inverse_normal > 0.0 ? 1.0 : 0.0;
   double t1 = weight * r[1], t2 = weight * r[2];
   turn.to_principal(t1, t2);

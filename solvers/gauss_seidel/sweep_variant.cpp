@@ -108,6 +108,7 @@ void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& con
   const auto impulse = [&contact](const double* x) {
     return Vector(x[0] - contact.c1 * x[1] - contact.c2 * x[2], x[1], x[2]);
   };
+  // From the coordinates of the record to (r, u), where the other rules are written.
   const Vector before = impulse(y),
                velocity(u[0], u[1] + contact.c1 * u[0], u[2] + contact.c2 * u[0]);
   Vector after = before;
@@ -123,6 +124,7 @@ void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& con
     solve_exactly(contact, u, exact, slip);
     after = impulse(exact);
   }
+  // Beyond the solution, or short of it, and back onto the cone.
   if (variant.relaxation != 1.0)
     after = project_cone(before + variant.relaxation * (after - before), contact.mu);
   y[0] = after[0] + contact.c1 * after[1] + contact.c2 * after[2];

@@ -12,7 +12,10 @@ namespace ballast {
 class Anderson {
  public:
   void reset(int memory);
-  void forget() { count_ = 0, primed_ = false; }
+  void forget() {
+    count_ = 0;
+    primed_ = false;
+  }
 
   /// x := the accelerated next iterate, given x and its image G(x). The first call after forget()
   /// gives x := G(x). Residuals are compared in the leading `compared` entries (-1: all), each

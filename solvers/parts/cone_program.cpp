@@ -15,6 +15,7 @@ void ConeProgram::take(const FrictionProblem& problem) {
   std::vector<int> here(moving_.row_count(), -1);
   std::vector<double> scale;
   double largest_lambda = 0.0;
+  // Rows of the program, each with the square root of its block's scale.
   for (int k = 0; k < moving_.contact_count(); ++k) {
     const int rows = friction[k] > 0.0 ? 3 : 1;
     for (int i = 0; i < rows; ++i) {
@@ -26,6 +27,7 @@ void ConeProgram::take(const FrictionProblem& problem) {
     largest_lambda = std::max(largest_lambda, moving_.lambda_max[k]);
   }
   scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
+  // The unit: the largest entry of q becomes one.
   q.resize(row_count());
   for (int i = 0; i < row_count(); ++i) q[i] = scale_[i] * moving_.q[row_[i]];
   unit_ = q.size() > 0 ? q.lpNorm<Eigen::Infinity>() : 0.0;
@@ -33,6 +35,7 @@ void ConeProgram::take(const FrictionProblem& problem) {
   q /= unit_;
   velocity_unit_ = unit_ * std::sqrt(largest_lambda);
 
+  // W between the rows that are left, its blocks scaled on both sides.
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < row_count(); ++i)
     for (SparseRows::InnerIterator entry(moving_.w, row_[i]); entry; ++entry) {
@@ -93,6 +96,14 @@ Eigen::VectorXd ConeProgram::to_polar(const Eigen::VectorXd& x, const Eigen::Vec
   return y;
 }
 
+void ConeProgram::project(Eigen::VectorXd& x) const {
+  for (int k = 0; k < contact_count(); ++k)
+    if (has_friction(k))
+      x.segment<3>(row_begin[k]) = project_cone(x.segment<3>(row_begin[k]), friction[k]);
+    else
+      x[row_begin[k]] = std::max(0.0, x[row_begin[k]]);
+}
+
 /// q with s, and with what the symmetric part of W leaves out.
 Eigen::VectorXd ConeProgram::linear_term(const Eigen::VectorXd& x) const {
   Eigen::VectorXd term = q + w_as_is * x - w * x;
@@ -104,6 +115,7 @@ Eigen::VectorXd ConeProgram::linear_term(const Eigen::VectorXd& x) const {
 Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const Budget& budget,
                           int patience,
                           const std::function<void(const ConeRequest&, RoundAnswer&)>& convex) {
+  // A warm start says what s may be; a cold one has s = 0.
   shift_.reset(operator_);
   Eigen::VectorXd u;
   operator_.velocity(start, u);
@@ -114,11 +126,7 @@ Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const 
       [&](const RoundRequest& request, RoundAnswer& answer) {
         Eigen::VectorXd x = from_rows(request.last);
         const Eigen::VectorXd term = linear_term(x);
-        for (int k = 0; k < contact_count(); ++k)
-          if (has_friction(k))
-            x.segment<3>(row_begin[k]) = project_cone(x.segment<3>(row_begin[k]), friction[k]);
-          else
-            x[row_begin[k]] = std::max(0.0, x[row_begin[k]]);
+        project(x);
         convex({term, x, budget.tolerance / velocity_unit_, request.left}, answer);
         if (answer.x.size() != row_count() || !answer.x.allFinite()) {
           answer.x.resize(0);

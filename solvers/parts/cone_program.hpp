@@ -50,6 +50,9 @@ class ConeProgram {
   Eigen::VectorXd to_polar(const Eigen::VectorXd& x, const Eigen::VectorXd& u, double floor,
                            double longest) const;
 
+  /// Every contact to the nearest point of its cone, or half-line.
+  void project(Eigen::VectorXd& x) const;
+
   /// Rounds of `convex` with the s-update between them; `convex` sets answer.x (rows of
   /// ConeProgram), iterations, finished. `problem` is the one of take().
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget, int patience,

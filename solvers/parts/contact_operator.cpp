@@ -9,6 +9,7 @@ namespace ballast {
 
 void ContactOperator::prepare(const FrictionProblem& problem) {
   problem_ = &problem;
+  // W_cc of every contact and the Cholesky factors of the masses; of a stored W only its blocks.
   delassus_diagonal(problem, roots_, diagonal_);
   rho_.resize(diagonal_.size());
   for (std::size_t c = 0; c < rho_.size(); ++c) {
@@ -17,6 +18,7 @@ void ContactOperator::prepare(const FrictionProblem& problem) {
   }
 }
 
+// H^T r as forces on the bodies, then two triangular solves with each body's own factor.
 void ContactOperator::push_bodies(const Impulses& r) {
   const DynamicsForm& dynamics = problem_->dynamics;
   contact_to_body_impulse(dynamics, problem_->row_begin, r, v_);
@@ -33,6 +35,7 @@ void ContactOperator::velocity(const Impulses& r, Eigen::VectorXd& u) {
     return;
   }
   push_bodies(r);
+  // u = H (v_free + M^-1 H^T r) + bias.
   v_ += problem_->dynamics.v_free;
   body_to_contact_velocity(problem_->dynamics, problem_->row_begin, v_, u);
 }
@@ -44,6 +47,7 @@ void ContactOperator::multiply(const Impulses& r, Eigen::VectorXd& w) {
   }
   push_bodies(r);
   body_to_contact_velocity(problem_->dynamics, problem_->row_begin, v_, w);
+  // body_to_contact_velocity() adds the bias, which a product has not.
   w -= problem_->dynamics.bias;
 }
 
@@ -68,6 +72,7 @@ double ContactOperator::scaled_dot(const Eigen::VectorXd& x, const Eigen::Vector
 double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const {
   double sum = 0.0;
   int counted = 0;
+  // The judge's measure: contacts that nothing moves are left out.
   for (int c = 0; c < contact_count(); ++c) {
     if (!(rho_[c] > 0.0)) continue;
     const double value =

@@ -22,6 +22,7 @@ void Lemke::begin(const Eigen::MatrixXd& m, const Eigen::VectorXd& q) {
     state_ = LemkeState::solved;
     return;
   }
+  // I w - m z - 1 z_0 = q.
   tableau_.setZero(n_, 2 * n_ + 2);
   tableau_.leftCols(n_).setIdentity();
   tableau_.middleCols(n_, n_) = -m;
@@ -96,6 +97,7 @@ Eigen::VectorXd Lemke::solution() const {
   for (const int variable : basis_)
     if (variable >= n_ && variable < 2 * n_) active.push_back(variable - n_);
   if (active.empty()) return z;
+  // m z + q = 0 on the active ones, solved afresh.
   const Eigen::MatrixXd block = (*m_)(active, active);
   const Eigen::VectorXd right = -q_(active);
   const Eigen::VectorXd x = block.partialPivLu().solve(right);

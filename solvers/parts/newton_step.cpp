@@ -52,6 +52,7 @@ double NewtonStep::residual_of(const Impulses& r, const Eigen::VectorXd& u) cons
 }
 
 bool NewtonStep::newton(int halvings) {
+  // The law of every contact, linearised at the iterate with its proximal term.
   linear_.resize(w_.contact_count());
   for (int c = 0; c < w_.contact_count(); ++c) {
     if (w_.rho()[c] > 0.0)
@@ -61,6 +62,7 @@ bool NewtonStep::newton(int halvings) {
       linear_[c] = {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero()};
   }
   if (!system_.solve(w_, linear_, alpha_, dr_)) return false;
+  // Backtracking along the step; u moves with r, as both are linear.
   const double before = residual();
   w_.multiply(dr_, du_);
   double t = 1.0, best_t = 0.0,
@@ -75,6 +77,7 @@ bool NewtonStep::newton(int halvings) {
     }
     if (residual_there <= (1.0 - 1e-4 * t) * before) break;
   }
+  // Velocities afresh: what the trials have rounded is not kept.
   if (best_t == 0.0) return false;
   r_ += best_t * dr_;
   w_.velocity(r_, u_);

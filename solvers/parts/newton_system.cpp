@@ -52,6 +52,7 @@ void NewtonSystem::prepare_bodies(const FrictionProblem& problem) {
     const auto& list = near[column_body];
     return first[column_body][std::lower_bound(list.begin(), list.end(), row_body) - list.begin()];
   };
+  // The pattern of M + H^T E H: a body's columns have the rows of all its neighbours.
   matrix_.resize(d.dof_count(), d.dof_count());
   int entries = 0;
   for (int b = 0; b < bodies; ++b) entries += column_entries[b] * d.body_dofs(b);
@@ -66,6 +67,7 @@ void NewtonSystem::prepare_bodies(const FrictionProblem& problem) {
         for (int i = 0; i < d.body_dofs(n); ++i) inner[at++] = d.dof_begin[n] + i;
     }
   outer[d.dof_count()] = at;
+  // Where each contact's four blocks and each body's mass go.
   offset_.assign(contacts, {-1, -1, -1, -1});
   for (int c = 0; c < contacts; ++c)
     for (int p = 0; p < 2; ++p)
@@ -103,6 +105,7 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
                                 const std::vector<double>& alpha, Impulses& dr) {
   const FrictionProblem& problem = w.problem();
   const DynamicsForm& d = problem.dynamics;
+  // The masses.
   std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
   for (int b = 0; b < d.body_count(); ++b) {
     const int n = d.body_dofs(b);
@@ -113,6 +116,7 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
       for (int i = 0; i < n; ++i) column[i] = mass[j * n + i];
     }
   }
+  // B^-1 f and E = B^-1 by_u of every contact, and H^T E H.
   gain_.resize(linear.size());
   source_.resize(linear.size());
   dr.resize(problem.row_count());
@@ -127,6 +131,7 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
     for (int p = 0; p < 2; ++p)
       for (int q = 0; q < 2; ++q) add_block(problem, c, p, q, gain_[c]);
   }
+  // dv, and from it the impulses that were eliminated.
   contact_to_body_impulse(d, problem.row_begin, dr, right_);
   if (!factor_.factor(matrix_)) return false;
   factor_.solve(matrix_, right_, dv_, 1);

@@ -23,6 +23,7 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
     h_transposed_ = h_.transpose();
     return;
   }
+  // A stored W may be unsymmetric by some per cent: then LU in place of Cholesky.
   base_ = problem.delassus.w;
   const SparseColumns transposed = base_.transpose();
   symmetric_ = (base_ - transposed).norm() <= 1e-14 * base_.norm();
@@ -32,6 +33,7 @@ bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
                              const std::vector<Eigen::Matrix3d>& sigma) {
   shift_ = shift;
   sigma_ = sigma;
+  // The block diagonal as a sparse matrix: Sigma on the bodies, P on W.
   std::vector<Eigen::Triplet<double>> entries;
   for_block_entries(dynamics_ ? sigma_ : shift_,
                     [&](int i, int j, double x) { entries.emplace_back(i, j, x); });
@@ -56,6 +58,7 @@ void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
       lu_.solve(matrix_, b, x);
     return;
   }
+  // Woodbury: x = Sigma (b - H (M + H^T Sigma H)^-1 H^T Sigma b).
   const FrictionProblem& problem = w_->problem();
   scaled_.resize(b.size());
   for (int c = 0; c < problem.contact_count(); ++c) w_->put(scaled_, c, sigma_[c] * w_->at(b, c));

@@ -33,6 +33,7 @@ double SlipShift::convex_error(const ContactOperator& w, const Impulses& r,
     const double rho = w.rho()[c];
     if (!(rho > 0.0)) continue;
     const Eigen::Vector3d rc = w.at(r, c);
+    // One projected gradient step of the convex problem, as a velocity.
     sum +=
         (rc - project_cone(rc - rho * shifted(w, u, c), w.friction(c))).squaredNorm() / (rho * rho);
     ++counted;
@@ -44,8 +45,10 @@ double SlipShift::improve(const ContactOperator& w, const Eigen::VectorXd& u) {
   const double now = distance(w, u);
   for (int c = 0; c < w.contact_count(); ++c)
     image_[c] = w.friction(c) * tangential_norm(w.at(u, c));
+  // Past steps mislead once the distance grows: the plain step, afresh.
   if (now > 2.0 * last_distance_) mixing_.forget();
   mixing_.step(s_, image_);
+  // An extrapolation may overshoot; no speed is negative.
   s_ = s_.cwiseMax(0.0);
   last_distance_ = now;
   return now;

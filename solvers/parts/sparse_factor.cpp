@@ -75,6 +75,7 @@ CholeskyFactor::~CholeskyFactor() = default;
 CholeskyFactor::CholeskyFactor(CholeskyFactor&&) noexcept = default;
 CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
 
+// The ordering is kept while the pattern is the same; the numbers are new every time.
 bool CholeskyFactor::factor(const SparseColumns& a) {
   State& s = *state_;
   cholmod_sparse view = State::view(a);
@@ -90,6 +91,7 @@ bool CholeskyFactor::factor(const SparseColumns& a) {
 
 void CholeskyFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   State& s = *state_;
+  // CHOLMOD's view of b: nothing is copied.
   cholmod_dense right{};
   right.nrow = right.nzmax = right.d = static_cast<size_t>(b.size());
   right.ncol = 1;
@@ -130,6 +132,7 @@ LuFactor& LuFactor::operator=(LuFactor&&) noexcept = default;
 bool LuFactor::factor(const SparseColumns& a) {
   State& s = *state_;
   const int n = static_cast<int>(a.rows());
+  // As above: a symbolic analysis for each new pattern only.
   umfpack_di_free_numeric(&s.numeric);
   if (!s.symbolic || !s.pattern.is(a)) {
     umfpack_di_free_symbolic(&s.symbolic);

@@ -10,6 +10,7 @@
 namespace ballast {
 namespace {
 
+/// The whole stopped for the worst of its islands' reasons.
 int badness(StopReason reason) {
   switch (reason) {
     case StopReason::reached_tolerance:
@@ -51,6 +52,7 @@ class IslandSolver final : public Solver {
       own.keep_history = false;
       own.max_seconds = std::max(0.0, budget.max_seconds - watch.seconds());
       const Solved solved = solve_island(problem, i, start, own, whole.impulses);
+      // What is said of the whole: means weighted by contacts, and the worst reason.
       const double size = static_cast<double>(islands_.contacts(i).size());
       contacts += size;
       visits += size * solved.iterations;
@@ -67,6 +69,7 @@ class IslandSolver final : public Solver {
   /// The result has none.
   Solved solve_island(const FrictionProblem& problem, int island, const Impulses& start,
                       const Budget& budget, Impulses& impulses) {
+    // The island as a problem of its own, its rows of the start, and back.
     islands_.extract(problem, island, part_);
     islands_.gather(problem, island, start, rows_);
     backend_->prepare(part_);

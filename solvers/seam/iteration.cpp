@@ -31,14 +31,17 @@ bool Iteration::error_due() {
 
 void Iteration::evaluated(double error) {
   const double now = seconds();
+  // What is remembered: the point, and since when the error has not changed in any digit.
   if (budget_.keep_history) history_.push_back({count_, now, error});
   if (!(error == error_)) unchanged_since_ = count_;
   error_ = error;
+  // The next look: later by the factor that fits the distance.
   const bool is_far = error > CheckSchedule::far * budget_.tolerance;
   const double growth = is_far ? schedule_.growth_far : schedule_.growth;
   while (next_check_ <= count_)
     next_check_ = std::max(next_check_ + 1, static_cast<int>(std::ceil(next_check_ * growth)));
 
+  // Why to stop, the strongest reason first.
   stopped_ = true;
   if (!std::isfinite(error))
     reason_ = StopReason::numerical_failure;

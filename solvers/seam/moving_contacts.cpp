@@ -12,6 +12,7 @@ void MovingContacts::take(const FrictionProblem& problem) {
   Eigen::VectorXd whole_q;
   free_contact_velocity(problem, whole_q);
 
+  // The contacts to keep, and where their rows go.
   contact.clear();
   row_begin.assign(1, 0);
   friction.clear();
@@ -27,6 +28,7 @@ void MovingContacts::take(const FrictionProblem& problem) {
       row_here[problem.row_begin[c] + i] = row_begin.back() + i;
     row_begin.push_back(row_begin.back() + problem.contact_rows(c));
   }
+  // Their part of q and W.
   q.resize(row_count());
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(whole.nonZeros());

@@ -25,6 +25,7 @@ double Relay::run(const Leg& leg) {
   const double began = seconds();
   Budget left = rest_of(budget_, solved_.iterations, began);
   left.keep_history = true;  // its last point is the error that the leg came to
+  // The leg works on a copy: the best iterate may have to stay.
   Solved part = leg(solved_.impulses, left);
   const double error = part.history.empty() ? error_ : part.history.back().error;
   book_history(part.history, began);

@@ -37,7 +37,9 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
     answer.iterations = 1;
     answer.finished = true;
     round({last, best, last_error, left}, answer);
+    // The round's own iterations are booked; the loop has counted one.
     for (int i = 1; i < std::min(answer.iterations, left.max_iterations); ++i) iteration.next();
+    // The judge looks at what came back.
     if (answer.x.size() == last.size() && answer.x.allFinite()) {
       last = answer.x;
       last_error = error_of(last);
@@ -46,6 +48,7 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
         best = last;
       }
     }
+    // Progress is a tenth less than when it was last seen.
     if (best_error < 0.9 * progress_from) {
       progress_from = best_error;
       idle = 0;

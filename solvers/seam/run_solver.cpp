@@ -10,6 +10,7 @@
 namespace ballast {
 namespace {
 
+/// Empty means zero. Throws InvalidProblem, naming the entry.
 void validate_start(const FrictionProblem& problem, Impulses& start) {
   if (start.size() == 0) start.setZero(problem.row_count());
   if (start.size() != problem.row_count())
@@ -43,6 +44,7 @@ SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& bu
     run.solved.impulses.setZero(problem.row_count());
     run.solved.reason = StopReason::numerical_failure;
   }
+  // Outside the stopwatch, from the impulses alone.
   run.error = judge_.judge(problem, run.solved.impulses);
   run.success = run.solved.reason == StopReason::reached_tolerance && run.error.finite &&
                 run.error.natural_map_rms <= budget.tolerance;

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
 
 namespace ballast {
 
@@ -40,12 +40,6 @@ inline std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProb
     CHECK(std::string(declined.what()).find(entry.name) != std::string::npos);
     return std::nullopt;
   }
-}
-
-inline FrictionProblem only_delassus(FrictionProblem problem) {
-  add_delassus_form(problem);
-  problem.has_dynamics = false;
-  return problem;
 }
 
 /// The dynamics form, or W for a backend that takes only that. Nothing where it declines both: only

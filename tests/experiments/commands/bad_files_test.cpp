@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "experiments/record/checkpoint.hpp"
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
+#include "tests/support/delassus_form.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 

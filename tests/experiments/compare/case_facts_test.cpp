@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "experiments/compare/compare_case.hpp"
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

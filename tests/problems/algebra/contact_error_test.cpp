@@ -3,11 +3,11 @@
 #include <limits>
 
 #include "platform/random.hpp"
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

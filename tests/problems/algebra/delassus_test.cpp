@@ -3,6 +3,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

@@ -2,10 +2,10 @@
 #include <functional>
 #include <limits>
 
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <limits>
 
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
 
 namespace ballast {
 
@@ -33,12 +33,6 @@ inline KnownSolution small(double frictionless = 0.0) {
   settings.frictionless_fraction = frictionless;
   settings.friction_min = 0.1;
   return make_known_solution(settings);
-}
-
-inline FrictionProblem only_delassus(FrictionProblem problem) {
-  add_delassus_form(problem);
-  problem.has_dynamics = false;
-  return problem;
 }
 
 inline std::string complaint(const fs::path& file) {

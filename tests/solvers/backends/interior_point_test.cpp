@@ -1,9 +1,9 @@
 #include "solvers/backends/interior_point.hpp"
 
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

@@ -1,86 +1,10 @@
 #include "solvers/backends/newton.hpp"
 
-#include "platform/random.hpp"
-#include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
-namespace {
-
-const ContactEquation equations[] = {ContactEquation::natural_map, ContactEquation::alart_curnier,
-                                     ContactEquation::fischer_burmeister};
-
-Vector3d random_vector(Random& random, double size) {
-  return Vector3d(random.uniform(-size, size), random.uniform(-size, size),
-                  random.uniform(-size, size));
-}
-
-/// A pair that obeys the law: open, sticking or slipping by turns.
-void lawful(Random& random, double mu, int kind, Vector3d& r, Vector3d& u) {
-  r = u = Vector3d::Zero();
-  const double angle = random.uniform(0.0, 6.283), n = random.uniform(0.1, 2.0);
-  const Vector3d side(0.0, std::cos(angle), std::sin(angle));
-  if (kind == 0) u = Vector3d(n, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
-  if (kind == 1) r = Vector3d(n, 0.0, 0.0) + 0.9 * mu * n * random.uniform() * side;
-  if (kind == 2) {
-    r = Vector3d(n, 0.0, 0.0) + mu * n * side;
-    u = -random.uniform(0.1, 1.0) * side;
-  }
-}
-
-}  // namespace
-
-TEST_CASE("every contact equation vanishes exactly where the law holds") {
-  Random random(5);
-  for (const ContactEquation equation : equations)
-    for (int i = 0; i < 3000; ++i) {
-      const double mu = i % 5 == 0 ? 0.0 : random.uniform(0.05, 2.0),
-                   rho = random.uniform(0.1, 10.0);
-      Vector3d r, u;
-      lawful(random, mu, i % 3, r, u);
-      CHECK(contact_equation(equation, r, u, mu, rho).norm() <
-            1e-7);  // FB: a square root of rounding
-      r += random_vector(random, 0.5);
-      u += random_vector(random, 0.5);
-      const double natural = natural_map(r, u, mu, 1.0).norm();
-      const double value = contact_equation(equation, r, u, mu, rho).norm();
-      // small together, large together: by a factor that rho and 1/mu^2 may reach
-      CHECK(value < 1e4 * (natural + 1e-7));
-      CHECK(natural < 1e4 * (value + 1e-7));
-    }
-}
-
-TEST_CASE("derivatives of the contact equations, by differences") {
-  Random random(11);
-  const double step = 1e-6;
-  for (const ContactEquation equation : equations) {
-    int rough = 0;  // a kink within the difference
-    for (int i = 0; i < 3000; ++i) {
-      const double mu = i % 7 == 0 ? 0.0 : random.uniform(0.1, 1.5), rho = random.uniform(0.2, 5.0);
-      const Vector3d r = random_vector(random, 1.0), u = random_vector(random, 1.0);
-      const ContactLinearisation l = linearise(equation, r, u, mu, rho);
-      CHECK((l.f - contact_equation(equation, r, u, mu, rho)).norm() == 0.0);
-      Matrix3d by_r, by_u;
-      for (int k = 0; k < 3; ++k) {
-        const Vector3d e = step * Vector3d::Unit(k);
-        by_r.col(k) = (contact_equation(equation, r + e, u, mu, rho) -
-                       contact_equation(equation, r - e, u, mu, rho)) /
-                      (2.0 * step);
-        by_u.col(k) = (contact_equation(equation, r, u + e, mu, rho) -
-                       contact_equation(equation, r, u - e, mu, rho)) /
-                      (2.0 * step);
-      }
-      rough += (by_r - l.by_r).norm() > 1e-4 * (1.0 + by_r.norm()) ||
-               (by_u - l.by_u).norm() > 1e-4 * (1.0 + by_u.norm());
-    }
-    CHECK(rough <= 5);
-  }
-}
 
 TEST_CASE("the proximal Newton solves rank-deficient problems of unequal masses, nearly all") {
   int solved = 0;

@@ -1,10 +1,10 @@
 #include "solvers/backends/sap.hpp"
 
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/parts/contact_operator.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

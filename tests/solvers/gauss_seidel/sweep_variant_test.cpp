@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

@@ -1,10 +1,10 @@
 #include "solvers/parts/contact_operator.hpp"
 
 #include "problems/algebra/contact_error.hpp"
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

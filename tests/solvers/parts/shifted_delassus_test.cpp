@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 

@@ -93,9 +93,3 @@ TEST_CASE("time runs out") {
   CHECK(solved.reason == StopReason::time_limit);
   CHECK(solved.iterations > 1);
 }
-
-TEST_CASE("reasons and laws have names") {
-  CHECK(std::string(name_of(StopReason::stalled)) == "stalled");
-  CHECK(std::string(name_of(StopReason::time_limit)) == "time_limit");
-  CHECK(std::string(name_of(ContactLaw::convex_relaxation)) == "convex_relaxation");
-}

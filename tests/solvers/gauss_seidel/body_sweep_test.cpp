@@ -1,0 +1,147 @@
+#include "solvers/gauss_seidel/body_sweep.hpp"
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "tests/catch.hpp"
+#include "tests/problems/algebra/dense_oracle.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// A sweep along a search direction, the slow way: the whole iterate moved as a vector, then a
+/// plain sweep. The combination as the formula says it, on impulses and velocities as one vector.
+class Twin {
+ public:
+  explicit Twin(Eigen::Index size) : before_(Eigen::VectorXd::Zero(size)), direction_(before_) {}
+
+  double sweep(BodySweep& sweep, SearchStep step, Eigen::Index impulses) {
+    Eigen::VectorXd x;
+    sweep.save(x);
+    const Eigen::VectorXd along = step.beta * direction_;
+    direction_ = along + step.gain * (x - before_);
+    x += along;
+    before_ = x;
+    sweep.restore(x);
+    sweep.sweep();
+    sweep.save(x);
+    return (x - before_).head(impulses).squaredNorm();
+  }
+
+ private:
+  Eigen::VectorXd before_, direction_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a sweep along a search direction moves impulses and velocities by the same step, then "
+    "sweeps") {
+  KnownSolutionSettings settings;
+  settings.bodies = 60;
+  settings.contacts = 200;
+  settings.frictionless_fraction = 0.3;
+  settings.seed = 8;
+  const FrictionProblem problem = make_known_solution(settings).problem;
+  const Impulses start = Impulses::Constant(problem.row_count(), 1e-3);
+
+  BodySweep fast, slow;
+  for (BodySweep* sweep : {&fast, &slow}) {
+    sweep->prepare(problem);
+    sweep->load(problem, start);
+  }
+  fast.use_threads(2);
+  SweepSearch search;
+  fast.start_search(search);
+  Eigen::VectorXd fast_state, slow_state;
+  slow.save(slow_state);
+  Eigen::VectorXd weights;
+  slow.impulse_weights(weights);
+  Twin twin(slow_state.size());
+
+  for (const SearchStep step :
+       {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.3, 1.0}, {0.0, 1.0}, {0.9, 1.0}}) {
+    const double fast_square = fast.sweep(search, step),
+                 slow_square = twin.sweep(slow, step, weights.size());
+    CHECK(fast_square == Approx(slow_square).epsilon(1e-12));
+    fast.save(fast_state);
+    slow.save(slow_state);
+    CHECK(fast_state == slow_state);
+  }
+  CHECK(fast_state.allFinite());
+  CHECK(fast_state.head(weights.size()).norm() > 0.0);
+}
+
+TEST_CASE("a sweep over bodies is that of dense matrices, in its own order") {
+  const FrictionProblem problem =
+      make_known_solution({.bodies = 20, .contacts = 30, .frictionless_fraction = 0.3}).problem;
+  const Eigen::MatrixXd w = oracle::dense_delassus(problem);
+  const Eigen::VectorXd q = oracle::dense_q(problem);
+  BodySweep sweep;
+  sweep.prepare(problem);
+  Impulses fast = Impulses::Constant(problem.row_count(), 0.01), slow = fast;
+  sweep.load(problem, fast);
+  for (int k = 0; k < 4; ++k) {
+    sweep.sweep();
+    for (const int c : sweep.order()) {
+      const int begin = problem.row_begin[c], rows = problem.contact_rows(c);
+      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+      block.topLeftCorner(rows, rows) = w.block(begin, begin, rows, rows);
+      Eigen::Vector3d others = Eigen::Vector3d::Zero(), own = Eigen::Vector3d::Zero();
+      own.head(rows) = slow.segment(begin, rows);
+      others.head(rows) = w.middleRows(begin, rows) * slow + q.segment(begin, rows);
+      others -= block * own;
+      double slip = 0.0;
+      solve_one_contact(block, others, problem.friction[c], own, slip);
+      slow.segment(begin, rows) = own.head(rows);
+    }
+    sweep.store(problem, fast);
+    CHECK((fast - slow).norm() <= 1e-10 * slow.norm());
+    CHECK(sweep.error() == Approx(contact_error(problem, fast).natural_map_rms).margin(1e-13));
+  }
+}
+
+TEST_CASE("contacts and bodies of every kind: loaded and stored alike, but for what cannot move") {
+  const FrictionProblem problem = oracle::mixed_problem();  // contact 4: nothing moves
+  BodySweep sweep;
+  sweep.prepare(problem);
+  const Impulses r = Impulses::LinSpaced(problem.row_count(), 0.1, 0.9);
+  Impulses back = Impulses::Zero(problem.row_count()), expected = r;
+  expected.segment(problem.row_begin[4], 3).setZero();
+  sweep.load(problem, r);
+  sweep.store(problem, back);
+  CHECK((back - expected).norm() <= 1e-14 * r.norm());
+  CHECK(sweep.error() == Approx(contact_error(problem, expected).natural_map_rms));
+}
+
+TEST_CASE("a saved iterate swept again gives the same; weights are those of W's diagonal") {
+  const FrictionProblem problem = make_known_solution({.bodies = 20, .contacts = 60}).problem;
+  BodySweep sweep;
+  sweep.prepare(problem);
+  sweep.load(problem, Impulses::Zero(problem.row_count()));
+  for (int k = 0; k < 3; ++k) sweep.sweep();
+  Eigen::VectorXd state, weights;
+  sweep.save(state);
+  Impulses first = Impulses::Zero(problem.row_count()), again = first;
+  sweep.sweep();
+  sweep.store(problem, first);
+  sweep.restore(state);
+  sweep.sweep();
+  sweep.store(problem, again);
+  CHECK((first - again).norm() <= 1e-12 * first.norm());
+
+  sweep.impulse_weights(weights);
+  CHECK(weights.size() == problem.row_count());
+  std::vector<Eigen::Matrix3d> blocks;
+  delassus_diagonal(problem, blocks);
+  double normal_squares = 0.0;
+  for (const Eigen::Matrix3d& block : blocks) normal_squares += block(0, 0);
+  double found = 0.0;  // the records' normal entries: the first of three, then those of one row
+  int one_row = 0;
+  for (int c = 0; c < problem.contact_count(); ++c) one_row += problem.contact_rows(c) == 1;
+  for (int k = 0; k < problem.contact_count() - one_row; ++k)
+    found += weights[3 * k] * weights[3 * k];
+  found += weights.tail(one_row).squaredNorm();
+  CHECK(found == Approx(normal_squares));
+}

@@ -1,0 +1,96 @@
+#include "solvers/seam/rounds.hpp"
+
+#include <limits>
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// A problem, its solution in the rows that move, and a loop over rounds.
+struct Trial {
+  KnownSolution known = make_known_solution({.bodies = 10, .contacts = 8});
+  MovingContacts moving;
+  Eigen::VectorXd exact;
+
+  Trial() {
+    moving.take(known.problem);
+    moving.gather(known.problem, known.r, exact);
+  }
+  Solved solve(const Budget& budget, int patience,
+               const std::function<void(const RoundRequest&, RoundAnswer&)>& round) {
+    return solve_in_rounds(known.problem, moving, Impulses::Zero(known.problem.row_count()), budget,
+                           patience, round);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("rounds go on until the judge is content, and each counts what it cost") {
+  Trial trial;
+  std::vector<int> left;
+  int rounds = 0;
+  const Solved solved = trial.solve({.tolerance = 1e-6, .max_iterations = 100}, 3,
+                                    [&](const RoundRequest& request, RoundAnswer& answer) {
+                                      left.push_back(request.left.max_iterations);
+                                      CHECK(request.left.max_seconds > 0.0);
+                                      CHECK(request.last == request.best);  // every round improves
+                                      answer.x = request.last + 0.9 * (trial.exact - request.last);
+                                      answer.iterations = 4;
+                                      ++rounds;
+                                    });
+  CHECK(solved.reason == StopReason::reached_tolerance);
+  CHECK(solved.iterations == 4 * rounds);
+  CHECK(rounds < 15);
+  for (std::size_t k = 0; k < left.size(); ++k) CHECK(left[k] == 100 - 4 * static_cast<int>(k));
+  CHECK(contact_error(trial.known.problem, solved.impulses).natural_map_rms <= 1e-6);
+}
+
+TEST_CASE("the best iterate is returned, not the last") {
+  Trial trial;
+  int round = 0;
+  const Solved solved = trial.solve({.tolerance = 0.0, .max_iterations = 3}, 100,
+                                    [&](const RoundRequest& request, RoundAnswer& answer) {
+                                      if (round == 2) CHECK(request.last != request.best);
+                                      answer.x = (round == 0 ? 1.001 : 3.0) * trial.exact;
+                                      ++round;
+                                    });
+  CHECK(round == 3);
+  CHECK(solved.reason == StopReason::iteration_limit);
+  CHECK((solved.impulses - 1.001 * trial.known.r).norm() <= 1e-12 * trial.known.r.norm());
+}
+
+TEST_CASE("rounds that stand still stall; those that a limit ended do not count") {
+  Trial trial;
+  int rounds = 0;
+  const auto idle = [&](bool finished) {
+    rounds = 0;
+    return trial.solve({.tolerance = 1e-12, .max_iterations = 50}, 5,
+                       [&](const RoundRequest& request, RoundAnswer& answer) {
+                         answer.x = request.last;
+                         answer.finished = finished;
+                         ++rounds;
+                       });
+  };
+  CHECK(idle(true).reason == StopReason::stalled);
+  CHECK(rounds == 5);
+  CHECK(idle(false).reason == StopReason::iteration_limit);
+  CHECK(rounds == 50);
+}
+
+TEST_CASE("nothing is taken from a round that fails") {
+  Trial trial;
+  for (const Eigen::VectorXd& bad :
+       {Eigen::VectorXd(), Eigen::VectorXd::Zero(1).eval(),
+        Eigen::VectorXd::Constant(trial.exact.size(), std::numeric_limits<double>::quiet_NaN())
+            .eval()}) {
+    const Solved solved = trial.solve(
+        {.tolerance = 1e-12}, 4, [&](const RoundRequest&, RoundAnswer& answer) { answer.x = bad; });
+    CHECK(solved.reason == StopReason::stalled);
+    CHECK(solved.iterations == 4);
+    CHECK(solved.impulses == Impulses::Zero(trial.known.problem.row_count()));
+  }
+}

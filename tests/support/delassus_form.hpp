@@ -1,0 +1,23 @@
+#pragma once
+// Problems with a stored W, made from the dynamics form: for tests of what takes both.
+
+#include "problems/algebra/delassus.hpp"
+
+namespace ballast {
+
+/// Adds the Delassus form to a problem that has only the dynamics form.
+inline void add_delassus_form(FrictionProblem& problem) {
+  if (problem.has_delassus) return;
+  problem.delassus.w = delassus_matrix(problem);
+  free_contact_velocity(problem, problem.delassus.q);
+  problem.has_delassus = true;
+}
+
+/// The same problem in the Delassus form alone.
+inline FrictionProblem only_delassus(FrictionProblem problem) {
+  add_delassus_form(problem);
+  problem.has_dynamics = false;
+  return problem;
+}
+
+}  // namespace ballast
