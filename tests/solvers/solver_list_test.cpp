@@ -2,6 +2,9 @@
 
 #include <set>
 
+#include "problems/algebra/known_solutions.hpp"
+#include "solvers/backends/admm.hpp"
+#include "solvers/parts/sparse_factor.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -29,4 +32,24 @@ TEST_CASE("an unknown name is answered with those there are") {
     CHECK(std::string(error.what()).find("pgz") != std::string::npos);
     CHECK(std::string(error.what()).find("pgs") != std::string::npos);
   }
+}
+
+TEST_CASE("a backend is missing exactly where its library is, and says what to install") {
+  for (const SolverEntry& entry : solver_list()) {
+    CAPTURE(entry.name);
+    const bool needs = entry.needs.is_built_in != nullptr;
+    CHECK(needs == (std::string(entry.needs.package).size() > 0));
+    CHECK((entry.make != nullptr) == (!needs || entry.needs.is_built_in()));
+    if (!entry.make)
+      CHECK_THROWS_WITH(make_solver(entry.name), Catch::Contains(entry.needs.package));
+  }
+  CHECK((find_solver("auto").make != nullptr) == has_sparse_factors());
+}
+
+TEST_CASE("what factorises compiles everywhere, and declines where there are no factors") {
+  const FrictionProblem problem = make_known_solution({.bodies = 4, .contacts = 3}).problem;
+  if (has_sparse_factors())
+    CHECK_NOTHROW(make_admm()->prepare(problem));
+  else
+    CHECK_THROWS_AS(make_admm()->prepare(problem), UnsupportedProblem);
 }

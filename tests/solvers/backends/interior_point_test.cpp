@@ -15,7 +15,8 @@ InteriorPointSettings alone() { return {.polish_from = 0.0}; }
 }  // namespace
 
 TEST_CASE(
-    "the interior point alone solves frictionless problems in few factorisations, in both forms") {
+    "the interior point alone solves frictionless problems in few factorisations, in both forms",
+    "[factors]") {
   for (const std::uint64_t seed : {1, 2, 3}) {
     FrictionProblem problem =
         make_known_solution({.bodies = 40, .contacts = 60, .friction_max = 0.0, .seed = seed})
@@ -32,7 +33,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the interior point alone comes near Coulomb's law, and with Newton all the way") {
+TEST_CASE("the interior point alone comes near Coulomb's law, and with Newton all the way",
+          "[factors]") {
   const FrictionProblem problem = make_known_solution({.bodies = 30, .contacts = 60}).problem;
   const double scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
   const SolverRun near = SolverRunner().run(*make_interior_point(alone()), problem, {},

@@ -6,7 +6,8 @@
 
 using namespace ballast;
 
-TEST_CASE("the proximal Newton solves rank-deficient problems of unequal masses, nearly all") {
+TEST_CASE("the proximal Newton solves rank-deficient problems of unequal masses, nearly all",
+          "[factors]") {
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     KnownSolutionSettings settings;

@@ -16,7 +16,7 @@ FrictionProblem rank_deficient() {
 
 }  // namespace
 
-TEST_CASE("the regularised problem's impulses are those of its own compliance") {
+TEST_CASE("the regularised problem's impulses are those of its own compliance", "[factors]") {
   const FrictionProblem problem = rank_deficient();
   const SapSettings settings{.regularisation = 1e-2, .proximal = false};
   const SolverRun run = SolverRunner().run(*make_sap(settings), problem, {},
@@ -38,7 +38,8 @@ TEST_CASE("the regularised problem's impulses are those of its own compliance") 
 
 TEST_CASE(
     "proximal steps take the regularisation away: the convex law is met, Coulomb's is not "
-    "claimed") {
+    "claimed",
+    "[factors]") {
   const FrictionProblem problem = rank_deficient();
   const SolverRun run =
       SolverRunner().run(*make_sap(), problem, {}, {.tolerance = 1e-8, .max_iterations = 2000});
@@ -47,7 +48,7 @@ TEST_CASE(
   CHECK(run.error.natural_map_rms > 1e-3);
 }
 
-TEST_CASE("sap names what it cannot take") {
+TEST_CASE("sap names what it cannot take", "[factors]") {
   FrictionProblem problem = rank_deficient();
   add_delassus_form(problem);
   problem.has_dynamics = false;

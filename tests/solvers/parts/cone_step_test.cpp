@@ -55,7 +55,7 @@ struct Trial {
 
 }  // namespace
 
-TEST_CASE("the barrier is the mean of r . g over the contacts that move") {
+TEST_CASE("the barrier is the mean of r . g over the contacts that move", "[factors]") {
   Trial trial(oracle::mixed_problem());  // 7 contacts, of which one does not move
   ConeStep step;
   step.prepare(trial.w);
@@ -64,7 +64,7 @@ TEST_CASE("the barrier is the mean of r . g over the contacts that move") {
   CHECK(step.barrier() == Approx(trial.product() / 6.0));
 }
 
-TEST_CASE("steps stay inside the cones and come to the convex problem's solution") {
+TEST_CASE("steps stay inside the cones and come to the convex problem's solution", "[factors]") {
   for (const FrictionProblem& problem :
        {oracle::mixed_problem(), make_known_solution({.bodies = 20, .contacts = 50}).problem}) {
     Trial trial(problem);
@@ -85,7 +85,7 @@ TEST_CASE("steps stay inside the cones and come to the convex problem's solution
   }
 }
 
-TEST_CASE("a point on a cone's side is refused") {
+TEST_CASE("a point on a cone's side is refused", "[factors]") {
   Trial trial(make_known_solution({.bodies = 6, .contacts = 3}).problem);
   ConeStep step;
   step.prepare(trial.w);

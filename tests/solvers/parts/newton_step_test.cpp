@@ -13,7 +13,8 @@ KnownSolution regular() { return make_known_solution({.bodies = 40, .contacts = 
 
 }  // namespace
 
-TEST_CASE("every equation's residual is zero at the solution, and its iterate stays there") {
+TEST_CASE("every equation's residual is zero at the solution, and its iterate stays there",
+          "[factors]") {
   const KnownSolution known = regular();
   NewtonStep step;
   step.prepare(known.problem);
@@ -28,7 +29,8 @@ TEST_CASE("every equation's residual is zero at the solution, and its iterate st
   }
 }
 
-TEST_CASE("Newton steps near the solution are quadratic, and the error is the judge's") {
+TEST_CASE("Newton steps near the solution are quadratic, and the error is the judge's",
+          "[factors]") {
   const KnownSolution known = regular();
   NewtonStep step;
   step.prepare(known.problem);
@@ -44,7 +46,7 @@ TEST_CASE("Newton steps near the solution are quadratic, and the error is the ju
   CHECK(step.error() <= 1e-9);
 }
 
-TEST_CASE("a proximal term pulls towards the centre") {
+TEST_CASE("a proximal term pulls towards the centre", "[factors]") {
   const KnownSolution known = regular();
   NewtonStep step;
   step.prepare(known.problem);
@@ -60,7 +62,7 @@ TEST_CASE("a proximal term pulls towards the centre") {
   CHECK(held > 0.0);
 }
 
-TEST_CASE("restart goes where it is told; what nothing moves loses its impulse") {
+TEST_CASE("restart goes where it is told; what nothing moves loses its impulse", "[factors]") {
   const FrictionProblem problem = oracle::mixed_problem();  // contact 4: nothing moves
   NewtonStep step;
   step.prepare(problem);

@@ -49,7 +49,8 @@ double residual(const FrictionProblem& problem, const Eigen::MatrixXd& w,
 
 }  // namespace
 
-TEST_CASE("a Newton system is solved in both forms, for one set of blocks after another") {
+TEST_CASE("a Newton system is solved in both forms, for one set of blocks after another",
+          "[factors]") {
   for (const FrictionProblem& dynamics :
        {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
     const Eigen::MatrixXd w = oracle::dense_delassus(dynamics);
@@ -72,7 +73,7 @@ TEST_CASE("a Newton system is solved in both forms, for one set of blocks after 
   }
 }
 
-TEST_CASE("without alpha the stored form takes blocks that the dynamics form cannot") {
+TEST_CASE("without alpha the stored form takes blocks that the dynamics form cannot", "[factors]") {
   // A sticking contact: by_r = 0, and B = alpha by_u is singular for alpha = 0.
   const FrictionProblem dynamics = make_known_solution({.bodies = 6, .contacts = 3}).problem;
   const std::vector<ContactLinearisation> stick(

@@ -45,7 +45,7 @@ Eigen::VectorXd sample(int rows) {
 
 }  // namespace
 
-TEST_CASE("the shifted system is solved in both forms, singular W or not") {
+TEST_CASE("the shifted system is solved in both forms, singular W or not", "[factors]") {
   for (const FrictionProblem& dynamics :
        {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
     FrictionProblem stored = dynamics;
@@ -72,7 +72,7 @@ TEST_CASE("the shifted system is solved in both forms, singular W or not") {
   }
 }
 
-TEST_CASE("an unsymmetric stored W is taken as it is") {
+TEST_CASE("an unsymmetric stored W is taken as it is", "[factors]") {
   FrictionProblem problem = make_known_solution({.bodies = 20, .contacts = 15}).problem;
   add_delassus_form(problem);
   problem.has_dynamics = false;

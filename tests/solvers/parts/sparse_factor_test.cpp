@@ -27,7 +27,8 @@ SparseColumns random_matrix(int n, double diagonal, bool symmetric, std::uint64_
 
 }  // namespace
 
-TEST_CASE("a Cholesky factor solves like a dense one, for a sequence of matrices and patterns") {
+TEST_CASE("a Cholesky factor solves like a dense one, for a sequence of matrices and patterns",
+          "[factors]") {
   CholeskyFactor factor;
   for (const int n : {1, 7, 300, 300, 40}) {
     const SparseColumns a = random_matrix(n, 12.0, true, static_cast<std::uint64_t>(n));
@@ -42,7 +43,7 @@ TEST_CASE("a Cholesky factor solves like a dense one, for a sequence of matrices
   }
 }
 
-TEST_CASE("an indefinite matrix is not factored, and the next one is") {
+TEST_CASE("an indefinite matrix is not factored, and the next one is", "[factors]") {
   CholeskyFactor factor;
   SparseColumns a = random_matrix(50, 12.0, true, 3);
   const SparseColumns good = a;
@@ -54,7 +55,7 @@ TEST_CASE("an indefinite matrix is not factored, and the next one is") {
   CHECK((good * x - Eigen::VectorXd::Ones(50)).norm() < 1e-12);
 }
 
-TEST_CASE("an LU factor solves unsymmetric systems, and knows singular ones") {
+TEST_CASE("an LU factor solves unsymmetric systems, and knows singular ones", "[factors]") {
   LuFactor factor;
   for (const int n : {1, 9, 200, 200}) {
     const SparseColumns a = random_matrix(n, 5.0, false, static_cast<std::uint64_t>(n) + 7);
