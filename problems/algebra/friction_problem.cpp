@@ -38,6 +38,7 @@ template <int Rows>
 inline void contact_row_velocity(const DynamicsForm& dynamics, int c, const double* v, double* u) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
   for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+    // A side that does not move has no block.
     if (body < 0) continue;
     const int dofs = dynamics.body_dofs(body);
     const double* vb = v + dynamics.dof_begin[body];
@@ -49,6 +50,7 @@ inline void contact_row_velocity(const DynamicsForm& dynamics, int c, const doub
   }
 }
 
+/// One contact's part of H^T r.
 template <int Rows>
 inline void add_contact_impulse(const DynamicsForm& dynamics, int c, const double* r, double* v) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
@@ -92,6 +94,7 @@ void FrictionProblem::clear() {
 
 void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                               const Eigen::VectorXd& v, int begin, int end, Eigen::VectorXd& u) {
+  // u begins as the bias, and every contact adds its rows of H v.
   for (int i = row_begin[begin]; i < row_begin[end]; ++i) u[i] = dynamics.bias[i];
   for (int c = begin; c < end; ++c) {
     double* uc = u.data() + row_begin[c];

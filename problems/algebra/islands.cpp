@@ -34,6 +34,7 @@ void DisjointSets::join(int i, int j) {
 
 void Islands::find(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
+  // Contacts between two bodies that can move join their sets.
   sets_.reset(dynamics.body_count());
   for (int c = 0; c < problem.contact_count(); ++c)
     if (dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0)
@@ -47,6 +48,7 @@ void Islands::number_bodies(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   island_of_.assign(dynamics.body_count(), -1);
   local_.assign(dynamics.body_count(), -1);
+  // Sets that a contact touches are marked, then numbered in the order of their bodies.
   constexpr int touched = 0;
   for (int c = 0; c < problem.contact_count(); ++c)
     if (const int body = moving_body(dynamics, c); body >= 0)

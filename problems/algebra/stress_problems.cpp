@@ -138,6 +138,7 @@ StressProblem mass_stack(const std::vector<double>& masses, int rows) {
   const int dofs = rows;  // z, or z x y
   Eigen::VectorXd falling = Eigen::VectorXd::Zero(dofs);
   falling[0] = -gh;
+  // Upward is the normal of every contact: the upper body's rows are I, the lower one's -I.
   const Eigen::MatrixXd h = Eigen::MatrixXd::Identity(rows, dofs);
   for (std::size_t k = 0; k < masses.size(); ++k) {
     const int body = add_body(stress.problem, Eigen::VectorXd::Constant(dofs, masses[k]), falling);
@@ -192,6 +193,7 @@ StressProblem four_legged_table(double mu, double speed, int copies) {
     }
   repeat_contacts(stress.problem, copies);
   all_rest(stress);
+  // Friction takes at most mu g h of the speed in a step.
   const double left = std::max(0.0, speed - mu * gh);
   stress.v[0] = left;
   for (int c = 0; c < stress.problem.contact_count(); ++c) stress.u[3 * c + 1] = left;
@@ -216,6 +218,7 @@ StressProblem jammed_chain(int grains, double force) {
   const double h = 1e-3;
   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
   for (int k = 0; k <= grains; ++k) {  // the last is the wall, of a grain's mass
+    // Only the wall is pushed: by its force for one step, towards the grains.
     const double v_free = k < grains ? 0.0 : -force * h;
     const int body =
         add_body(stress.problem, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Constant(1, v_free));

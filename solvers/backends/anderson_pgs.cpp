@@ -65,6 +65,7 @@ class AndersonPgs final : public Solver {
   /// image from before it.
   void extrapolate() {
     const Eigen::Index compared = weights_.size();
+    // |G(x) - x| in the weights of W's diagonal.
     const double change = ((image_ - x_).head(compared).cwiseProduct(weights_)).norm();
     if (!(change <= settings_.allowed_growth * last_change_)) {
       mixing_.forget();

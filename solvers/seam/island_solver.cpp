@@ -32,6 +32,7 @@ class IslandSolver final : public Solver {
   explicit IslandSolver(std::unique_ptr<Solver> backend) : backend_(std::move(backend)) {}
 
   void prepare(const FrictionProblem& problem) override {
+    // A stored W does not say which bodies its contacts have: it is one island.
     is_split_ = problem.has_dynamics && !problem.has_delassus;
     if (is_split_) islands_.find(problem);
     is_split_ = is_split_ && islands_.count() > 1;

@@ -25,6 +25,7 @@ bool Iteration::next() {
 }
 
 bool Iteration::error_due() {
+  // Once the time is over the iterate must be judged, and it is the last.
   out_of_time_ = seconds() >= budget_.max_seconds;
   return count_ >= next_check_ || count_ >= budget_.max_iterations || out_of_time_;
 }
