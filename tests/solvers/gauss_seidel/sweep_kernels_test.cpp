@@ -53,7 +53,7 @@ struct Chain {
 };
 
 /// One contact in plain loops: what sweep_friction does, by its definition.
-void slow(const FrictionRecord& k, FrictionImpulse& r, BodyVelocity* velocity) {
+void relax_slowly(const FrictionRecord& k, FrictionImpulse& r, BodyVelocity* velocity) {
   double u[3] = {k.bias[0], k.bias[1], k.bias[2]};
   for (int s = 0; s < 2; ++s)
     for (int i = 0; i < 3; ++i)
@@ -69,7 +69,7 @@ void slow(const FrictionRecord& k, FrictionImpulse& r, BodyVelocity* velocity) {
         velocity[k.body[s]].w[j] += k.rows[s][i][j] * (r.y[i] - before[i]);
 }
 
-void slow(const OneRowRecord& k, double& r, BodyVelocity* velocity) {
+void relax_slowly(const OneRowRecord& k, double& r, BodyVelocity* velocity) {
   double u = k.bias;
   for (int s = 0; s < 2; ++s)
     for (int j = 0; j < row_width; ++j) u += k.rows[s][j] * velocity[k.body[s]].w[j];
@@ -102,9 +102,9 @@ void sweep_fast(Chain& chain) {
 
 void sweep_slowly(Chain& chain) {
   for (int c = 0; c < Chain::contacts; ++c)
-    slow(chain.friction[c], chain.impulses[c], chain.velocity.data());
+    relax_slowly(chain.friction[c], chain.impulses[c], chain.velocity.data());
   for (int c = 0; c < Chain::contacts; ++c)
-    slow(chain.one_row[c], chain.one_row_impulses[c], chain.velocity.data());
+    relax_slowly(chain.one_row[c], chain.one_row_impulses[c], chain.velocity.data());
 }
 
 }  // namespace

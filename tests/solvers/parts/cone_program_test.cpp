@@ -11,7 +11,7 @@ using namespace ballast;
 
 namespace {
 
-Eigen::VectorXd sample(int rows) {
+Eigen::VectorXd waves(int rows) {
   Eigen::VectorXd x(rows);
   for (int i = 0; i < rows; ++i) x[i] = std::sin(1.3 * i + 0.2);
   return x;
@@ -45,7 +45,7 @@ TEST_CASE("impulses there and back, and the same velocities in other units") {
   const FrictionProblem problem = oracle::mixed_problem();
   ConeProgram program;
   program.take(problem);
-  const Eigen::VectorXd x = sample(program.row_count());
+  const Eigen::VectorXd x = waves(program.row_count());
   const Eigen::VectorXd r = program.to_rows(x);
   CHECK((program.from_rows(r) - x).norm() <= 1e-14 * x.norm());
   // x . (W x + q) is the work r . u: what is minimised is an energy, in one unit for all rows.
@@ -57,7 +57,7 @@ TEST_CASE("impulses there and back, and the same velocities in other units") {
 TEST_CASE("polar coordinates: the cone and back, and gradients by differences") {
   ConeProgram program;
   program.take(oracle::mixed_problem());
-  Eigen::VectorXd y = 0.3 * sample(program.row_count());
+  Eigen::VectorXd y = 0.3 * waves(program.row_count());
   for (int k = 0; k < program.contact_count(); ++k) y[program.row_begin[k]] = 0.5 + 0.1 * k;
   const Eigen::VectorXd x = program.from_polar(y);
   for (int k = 0; k < program.contact_count(); ++k)

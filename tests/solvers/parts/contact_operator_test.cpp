@@ -24,7 +24,7 @@ std::vector<FrictionProblem> problems() {
 }
 
 /// Some impulses in the cones, some outside.
-Impulses sample(const FrictionProblem& problem) {
+Impulses some_impulses(const FrictionProblem& problem) {
   Impulses r(problem.row_count());
   for (int i = 0; i < r.size(); ++i) r[i] = std::sin(1.7 * i) + (i % 3 == 0 ? 0.5 : 0.0);
   return r;
@@ -39,7 +39,7 @@ TEST_CASE("both forms of the operator multiply as the dense W does") {
     const Eigen::MatrixXd w = oracle::dense_delassus(dense);
     ContactOperator op;
     op.prepare(all[k]);
-    const Impulses r = sample(dense);
+    const Impulses r = some_impulses(dense);
     Eigen::VectorXd u, product;
     op.velocity(r, u);
     op.multiply(r, product);
@@ -52,7 +52,7 @@ TEST_CASE("the operator's error is the judge's, inside and outside the cones") {
   for (const FrictionProblem& problem : problems()) {
     ContactOperator op;
     op.prepare(problem);
-    Impulses r = sample(problem);
+    Impulses r = some_impulses(problem);
     Eigen::VectorXd u;
     for (int round = 0; round < 2; ++round) {
       op.velocity(r, u);

@@ -11,7 +11,7 @@ using namespace ballast;
 namespace {
 
 /// Blocks without a pattern, regular together with alpha.
-std::vector<ContactLinearisation> sample(const FrictionProblem& problem) {
+std::vector<ContactLinearisation> some_blocks(const FrictionProblem& problem) {
   std::vector<ContactLinearisation> linear(problem.contact_count());
   double next = 0.41;  // logistic map
   const auto number = [&next] { return (next = 3.99 * next * (1.0 - next)) - 0.5; };
@@ -54,7 +54,7 @@ TEST_CASE("a Newton system is solved in both forms, for one set of blocks after 
   for (const FrictionProblem& dynamics :
        {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
     const Eigen::MatrixXd w = oracle::dense_delassus(dynamics);
-    std::vector<ContactLinearisation> linear = sample(dynamics);
+    std::vector<ContactLinearisation> linear = some_blocks(dynamics);
     for (const bool has_dynamics : {true, false}) {
       const FrictionProblem problem = has_dynamics ? dynamics : only_delassus(dynamics);
       ContactOperator op;

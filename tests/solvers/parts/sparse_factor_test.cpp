@@ -8,7 +8,7 @@ using namespace ballast;
 namespace {
 
 /// A band matrix with some far entries, diagonally dominant or not.
-SparseColumns random_matrix(int n, double diagonal, bool symmetric, std::uint64_t seed) {
+SparseColumns random_sparse(int n, double diagonal, bool symmetric, std::uint64_t seed) {
   Random random(seed);
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal);
@@ -31,7 +31,7 @@ TEST_CASE("a Cholesky factor solves like a dense one, for a sequence of matrices
           "[factors]") {
   CholeskyFactor factor;
   for (const int n : {1, 7, 300, 300, 40}) {
-    const SparseColumns a = random_matrix(n, 12.0, true, static_cast<std::uint64_t>(n));
+    const SparseColumns a = random_sparse(n, 12.0, true, static_cast<std::uint64_t>(n));
     for (const double scale : {1.0, 3.0}) {
       const SparseColumns scaled = scale * a;
       REQUIRE(factor.factor(scaled));
@@ -45,7 +45,7 @@ TEST_CASE("a Cholesky factor solves like a dense one, for a sequence of matrices
 
 TEST_CASE("an indefinite matrix is not factored, and the next one is", "[factors]") {
   CholeskyFactor factor;
-  SparseColumns a = random_matrix(50, 12.0, true, 3);
+  SparseColumns a = random_sparse(50, 12.0, true, 3);
   const SparseColumns good = a;
   a.coeffRef(20, 20) = -1.0;
   CHECK_FALSE(factor.factor(a));
@@ -58,7 +58,7 @@ TEST_CASE("an indefinite matrix is not factored, and the next one is", "[factors
 TEST_CASE("an LU factor solves unsymmetric systems, and knows singular ones", "[factors]") {
   LuFactor factor;
   for (const int n : {1, 9, 200, 200}) {
-    const SparseColumns a = random_matrix(n, 5.0, false, static_cast<std::uint64_t>(n) + 7);
+    const SparseColumns a = random_sparse(n, 5.0, false, static_cast<std::uint64_t>(n) + 7);
     REQUIRE(factor.factor(a));
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1.0, 2.0);
     Eigen::VectorXd x;
