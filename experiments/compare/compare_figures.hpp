@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/compare/compare_table.hpp"
+#include "experiments/page/html_page.hpp"
 #include "experiments/run_page/figures.hpp"
 
 namespace ballast {

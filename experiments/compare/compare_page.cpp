@@ -6,6 +6,7 @@
 #include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/compare_html.hpp"
 #include "experiments/compare/page_drawing.hpp"
+#include "experiments/page/html.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
@@ -122,7 +123,8 @@ void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows
   body += section("cases", "Case by case", per_case);
   body += section("case-figures", "Accuracy against cost, case by case", cases);
   body += section("options", "Options", options_table(data));
-  body += section("provenance", "Program and machine", provenance_table(data));
+  body += section("provenance", "Program and machine",
+                  Html{page::html_of(page::Block(provenance_table(data)))});
   write_whole_file(folder / "compare.html",
                    html_page("Solvers of frictional contact, compared", body));
 }

@@ -6,6 +6,7 @@
 #include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/live_row.hpp"
 #include "experiments/compare/page_drawing.hpp"
+#include "experiments/page/html.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "experiments/step/step_record.hpp"
 #include "platform/atomic_file.hpp"
@@ -228,7 +229,8 @@ void write_live_page(const std::filesystem::path& folder, const LiveComparison& 
                            "exact law’s solution at the tightest tolerance.</p>\n"} +
                       table_of(rows, comparison));
   body += section("figures", "Figures", figures);
-  body += section("provenance", "Program and machine", provenance_table(data));
+  body += section("provenance", "Program and machine",
+                  Html{page::html_of(page::Block(provenance_table(data)))});
   write_whole_file(folder / "live.html", html_page(title, body));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/measure/run_data.hpp"
+#include "experiments/page/html_page.hpp"
 #include "experiments/run_page/figures.hpp"
 
 namespace ballast {

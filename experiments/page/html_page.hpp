@@ -1,10 +1,12 @@
 #pragma once
-// One HTML page that opens offline: escaping, numbers, tables, inlined figures, style. No script,
-// nothing loaded from elsewhere.
+// The older way to a page, as HTML by hand: kept until its last user is written in page.hpp's
+// model.
 
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "experiments/page/plot.hpp"
 
 namespace ballast {
 
@@ -49,6 +51,12 @@ Html inline_svg(std::string_view svg, const std::string& name, const std::string
 
 Html html_figure(const std::string& name, const Html& picture, const Html& caption);
 Html html_section(const std::string& id, const Html& heading, const Html& body);
+
+/// A figure and what is said about it.
+struct ReportFigure {
+  Figure plot;
+  Html caption;
+};
 
 /// The whole page.
 std::string html_page(const std::string& title, const Html& body);

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "experiments/page/plot.hpp"
-
+#include "experiments/page/plot_layout.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
 namespace {
-
-// pixels
-constexpr double left_margin = 98.0, right_margin = 22.0, key_row = 22.0;
 
 /// In single quotes gnuplot expands nothing (double quotes would run what is between backquotes).
 std::string quoted(const std::string& text) {
@@ -24,72 +20,16 @@ std::string quoted(const std::string& text) {
   return result + '\'';
 }
 
-std::string number(double value) { return std::isfinite(value) ? printed("%.7g", value) : "NaN"; }
-
-/// What an axis must show.
-struct Extent {
-  bool is_log = false;
-  double low = 1e300, high = -1e300;
-
-  void add(double value) {
-    if (!std::isfinite(value) || (is_log && value <= 0.0)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  bool is_empty() const { return low > high; }
-  /// `margin` of the span to both sides; a logarithmic axis on which fewer than two decades would
-  /// then be marked gets whole ones.
-  void pad(double margin) {
-    if (is_log) {
-      const double first = std::log10(low), last = std::log10(high), more = margin * (last - first);
-      const bool has_marks = std::floor(last + more) - std::ceil(first - more) >= 1.0;
-      low = std::pow(10.0, has_marks ? first - more : std::floor(first - 1e-9));
-      high = std::pow(10.0, has_marks ? last + more : std::ceil(last + 1e-9));
-      return;
-    }
-    const double span = high > low ? high - low : std::max(std::abs(high) * 0.1, 1e-9);
-    if (high == low) low -= 0.5 * span, high += 0.5 * span;
-    low -= margin * span;
-    high += margin * span;
-  }
-};
-
-Extent y_extent(const Panel& panel) {
-  Extent extent{panel.log_y};
-  for (const Curve& curve : panel.curves)
-    for (size_t k = 0; k < curve.y.size(); ++k) {
-      if (!std::isfinite(curve.x[k])) continue;
-      const double bar = curve.y_error.empty() ? 0.0 : curve.y_error[k];
-      extent.add(curve.y[k] - bar);
-      extent.add(curve.y[k] + bar);
-      if (!curve.y_low.empty()) extent.add(curve.y_low[k]);
-    }
-  if (extent.is_empty()) throw std::invalid_argument("nothing to draw for " + panel.y_label);
-  for (const ReferenceLine& line : panel.lines)
-    if (!line.vertical) extent.add(line.value);
-  extent.pad(0.06);
-  if (panel.y_min) extent.low = *panel.y_min;
-  if (panel.y_max) extent.high = *panel.y_max;
-  return extent;
-}
-
-Extent x_extent(const Panel& panel) {
-  Extent extent{panel.log_x};
-  for (const Curve& curve : panel.curves)
-    for (double x : curve.x) extent.add(x);
-  if (extent.is_empty()) throw std::invalid_argument("nothing to draw along " + panel.x_label);
-  if (!panel.x_min || !panel.x_max) extent.pad(0.03);
-  if (panel.x_min) extent.low = *panel.x_min;
-  if (panel.x_max) extent.high = *panel.x_max;
-  return extent;
+std::string script_number(double value) {
+  return std::isfinite(value) ? printed("%.7g", value) : "NaN";
 }
 
 std::string data_block(const std::string& name, const Curve& curve) {
   std::string text = name + " << EOD\n";
   for (size_t k = 0; k < curve.x.size(); ++k) {
-    text += number(curve.x[k]) + ' ' + number(curve.y[k]);
-    if (!curve.y_low.empty()) text += ' ' + number(curve.y_low[k]);
-    if (!curve.y_error.empty()) text += ' ' + number(curve.y_error[k]);
+    text += script_number(curve.x[k]) + ' ' + script_number(curve.y[k]);
+    if (!curve.y_low.empty()) text += ' ' + script_number(curve.y_low[k]);
+    if (!curve.y_error.empty()) text += ' ' + script_number(curve.y_error[k]);
     text += '\n';
   }
   return text + "EOD\n";
@@ -124,7 +64,7 @@ std::string plot_command(const std::string& block, const Curve& curve) {
 }
 
 std::string reference(const ReferenceLine& line) {
-  const std::string v = number(line.value), ink = rgb_of(line.ink);
+  const std::string v = script_number(line.value), ink = rgb_of(line.ink);
   std::string text = line.vertical
                          ? "set arrow from first " + v + ", graph 0 to first " + v + ", graph 1"
                          : "set arrow from graph 0, first " + v + " to graph 1, first " + v;
@@ -158,37 +98,6 @@ void check(const Figure& figure) {
     }
 }
 
-/// Columns and rows of a panel's key: all columns are as wide as the longest title (gnuplot's
-/// rule), letters taken as wide as it takes them.
-struct KeySize {
-  int columns = 1, rows = 0;
-};
-
-KeySize key_size(const Figure& figure, const Panel& panel) {
-  constexpr double letter = 10.6, sample = 5.3 * letter;
-  double widest = 0.0;
-  int entries = 0;
-  for (const Curve& curve : panel.curves) {
-    if (curve.title.empty()) continue;
-    ++entries;
-    const auto letters = std::count_if(curve.title.begin(), curve.title.end(),
-                                       [](unsigned char c) { return (c & 0xc0) != 0x80; });
-    widest = std::max(widest, sample + letter * static_cast<double>(letters));
-  }
-  if (entries == 0) return {};
-  KeySize size;
-  size.columns = std::clamp(static_cast<int>((figure.width - left_margin - right_margin) / widest),
-                            1, entries);
-  size.rows = (entries + size.columns - 1) / size.columns;
-  return size;
-}
-
-struct PanelPlace {
-  double top, bottom;  ///< pixels from the lower edge to the axes' box
-  bool shows_x;
-  KeySize key;
-};
-
 std::string panel_commands(const Figure& figure, const Panel& panel, const PanelPlace& place,
                            const std::string& blocks) {
   const Extent x = x_extent(panel), y = y_extent(panel);
@@ -199,8 +108,8 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
                   left_margin / figure.width, right);
   text += printed("set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
                   place.top / figure.height, place.bottom / figure.height);
-  text += "set xrange [" + number(x.low) + ':' + number(x.high) + "]\nset yrange [" +
-          number(y.low) + ':' + number(y.high) + "]\n";
+  text += "set xrange [" + script_number(x.low) + ':' + script_number(x.high) + "]\nset yrange [" +
+          script_number(y.low) + ':' + script_number(y.high) + "]\n";
   if (panel.log_x) text += "set logscale x\nset format x '10^{%L}'\n";
   if (panel.log_y) text += "set logscale y\nset format y '10^{%L}'\n";
   text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n"
@@ -279,28 +188,10 @@ std::string gnuplot_script(const Figure& figure, PlotFormat format) {
         figure.width / 96.0, figure.height / 96.0);
   text += "set border 3 lw 1 lc rgb '#767676'\nset tics nomirror out scale 0.6 tc rgb '#1a1a1a'\n";
   text += "set grid lw 0.6 lt 1 lc rgb '#e0e0e0'\n";
-  text += printed("set multiplot\n");
-  const size_t count = figure.panels.size();
-  // the key above each box; tick labels and x label below the last, or below each when the axes
-  // differ
-  const bool is_shared =
-      std::all_of(figure.panels.begin(), figure.panels.end(),
-                  [&](const Panel& panel) { return panel.x_label == figure.panels[0].x_label; });
-  constexpr double above = 12.0, below_last = 66.0;
-  const double below = is_shared ? 12.0 : below_last;
-  double keys = 0.0;
-  for (const Panel& panel : figure.panels) keys += key_row * key_size(figure, panel).rows;
-  const double box = (figure.height - keys - static_cast<double>(count) * above - below_last -
-                      static_cast<double>(count - 1) * below) /
-                     static_cast<double>(count);
-  double y = figure.height;
-  for (size_t p = 0; p < count; ++p) {
-    const KeySize key = key_size(figure, figure.panels[p]);
-    y -= above + key_row * key.rows;
-    const PanelPlace place{y, y - box, !is_shared || p + 1 == count, key};
-    text += panel_commands(figure, figure.panels[p], place, "$p" + std::to_string(p) + "c");
-    y -= box + below;
-  }
+  text += "set multiplot\n";
+  const std::vector<PanelPlace> places = panel_places(figure);
+  for (size_t p = 0; p < figure.panels.size(); ++p)
+    text += panel_commands(figure, figure.panels[p], places[p], "$p" + std::to_string(p) + "c");
   return text + "unset multiplot\n";
 }
 

@@ -2,36 +2,29 @@
 // What each figure of a run shows. The data are in the plot; the caption says what is drawn, what
 // the paper shows, what to look for.
 
-#include <span>
 #include <string>
 #include <vector>
 
 #include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_summary.hpp"
-#include "experiments/page/html_page.hpp"
-#include "experiments/page/plot.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 
 /// Label of every axis of time.
 inline constexpr const char* time_axis = "{/:Italic t}  (s)";
 
-struct ReportFigure {
-  Figure plot;
-  Html caption;
-};
-
 /// Paper's figures that a single run shows: Fig. 3, Fig. 4, Fig. 12. Empty without a driven wall or
 /// a packing.
-std::vector<ReportFigure> paper_figures(const RunData& data, const RunSummary& summary);
+std::vector<page::Picture> paper_figures(const RunData& data, const RunSummary& summary);
 /// Whether the run can be trusted: jammed state, error, penetration, iterations and contacts, cost,
 /// energy.
-std::vector<ReportFigure> diagnostic_figures(const RunData& data, const RunSummary& summary);
+std::vector<page::Picture> diagnostic_figures(const RunData& data, const RunSummary& summary);
 
-ReportFigure figure_3(const RunData& data, const RunSummary& summary);
-ReportFigure figure_4(const RunData& data, const RunSummary& summary);
-ReportFigure figure_12(const RunData& data, const RunSummary& summary);
-ReportFigure jammed_figure(const RunData& data, const RunSummary& summary);
+page::Picture figure_3(const RunData& data, const RunSummary& summary);
+page::Picture figure_4(const RunData& data, const RunSummary& summary);
+page::Picture figure_12(const RunData& data, const RunSummary& summary);
+page::Picture jammed_figure(const RunData& data, const RunSummary& summary);
 
 /// A line of at most 3000 samples that look like all.
 Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/run_page/figures.hpp"
+#include "experiments/run_page/texts.hpp"
 #include "experiments/step/step_record.hpp"
 
 namespace ballast {
@@ -31,7 +32,7 @@ bool is_zero(const RunData& data, double StepRecord::*value) {
   });
 }
 
-ReportFigure error_figure(const RunData& data, const RunSummary& summary) {
+page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
   const bool is_relative = std::isfinite(scale);
   Panel panel =
@@ -47,22 +48,16 @@ ReportFigure error_figure(const RunData& data, const RunSummary& summary) {
   figure.name = "error";
   figure.title = "Error of the contact law per step";
   figure.panels = {panel};
-  Html caption{
-      "<b>Error of the contact law</b>, per step, by the judge: the scaled natural map of the "
-      "exact Coulomb–Signorini law, "
-      "recomputed from the returned impulses. "};
-  if (is_relative)
-    caption +=
-        Html{"Relative to <i>gh</i> = "} + quantity(scale, "m/s") +
-        Html{", the velocity that gravity gives in one step. Blue: rms over contacts, mean "} +
-        number(summary.error_mean_relative) + Html{", worst step "} +
-        number(summary.error_max_relative) + Html{"."};
-  else
-    caption += Html{"Gravity is not known, so that the error is in m/s."};
-  return {figure, caption};
+  page::Text caption = run_page_text("error");
+  caption += is_relative ? run_page_text("error.relative",
+                                         {{"scale", page::quantity(scale, "m/s")},
+                                          {"mean", page::number(summary.error_mean_relative)},
+                                          {"max", page::number(summary.error_max_relative)}})
+                         : run_page_text("error.absolute");
+  return {figure, {caption}};
 }
 
-ReportFigure penetration_figure(const RunData& data, const RunSummary& summary) {
+page::Picture penetration_figure(const RunData& data, const RunSummary& summary) {
   Panel panel = time_panel(data, "overlap  (µm)", true);
   panel.curves = {
       column_line(data, &StepRecord::penetration_max, 1e6, "deepest", Ink::vermilion, 1.4),
@@ -80,19 +75,14 @@ ReportFigure penetration_figure(const RunData& data, const RunSummary& summary) 
   figure.name = "penetration";
   figure.title = "Overlap of contacts per step";
   figure.panels = {panel};
-  Html caption{"<b>Overlap</b> at detection. Deepest in the whole run: "};
-  caption += quantity(1e6 * summary.penetration_max, "µm") + Html{" at "} +
-             quantity(summary.penetration_max_time, "s") +
-             Html{"; mean over steps and active points: "} +
-             quantity(1e6 * summary.penetration_mean, "µm") +
-             Html{
-                 ". <span class=\"look\">Jumps belong to the first contraction, when many contacts "
-                 "close at once; a steady growth would mean "
-                 "drift.</span>"};
-  return {figure, caption};
+  return {figure,
+          {run_page_text("penetration",
+                         {{"deepest", page::quantity(1e6 * summary.penetration_max, "µm")},
+                          {"time", page::quantity(summary.penetration_max_time, "s")},
+                          {"mean", page::quantity(1e6 * summary.penetration_mean, "µm")}})}};
 }
 
-ReportFigure effort_figure(const RunData& data, const RunSummary& summary) {
+page::Picture effort_figure(const RunData& data, const RunSummary& summary) {
   Panel above = time_panel(data, "iterations", false),
         below = time_panel(data, "contact points", false);
   above.curves = {column_line(data, &StepRecord::iterations, 1.0, "", Ink::blue, 1.0)};
@@ -105,16 +95,15 @@ ReportFigure effort_figure(const RunData& data, const RunSummary& summary) {
   figure.title = "Solver iterations and contact points per step";
   figure.height = 540;
   figure.panels = {above, below};
-  Html caption{"<b>Effort.</b> Solver iterations of each step (mean "};
-  caption += number(summary.iterations.mean) + Html{", most "} + exact(summary.iterations.max) +
-             Html{") and contact points (mean "} + number(summary.contacts.mean, 4) +
-             Html{" given, "} + number(summary.active_contacts.mean, 4) +
-             Html{
-                 " with an impulse). <span class=\"look\">A flat top of the iterations is the "
-                 "limit: those steps were cut off before their "
-                 "tolerance.</span>"};
-  return {figure, caption};
+  return {figure,
+          {run_page_text("effort", {{"mean", page::number(summary.iterations.mean)},
+                                    {"most", page::exact(summary.iterations.max)},
+                                    {"given", page::number(summary.contacts.mean, 4)},
+                                    {"active", page::number(summary.active_contacts.mean, 4)}})}};
 }
+
+/// Stretches of the run over which the cost is averaged.
+constexpr size_t cost_stretches = 250;
 
 /// Sums of the phases, one above the other, averaged over `bins` stretches of the run.
 std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, size_t bins) {
@@ -147,25 +136,23 @@ std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, 
   return curves;
 }
 
-ReportFigure cost_figure(const RunData& data, const RunSummary& summary) {
+page::Picture cost_figure(const RunData& data, const RunSummary& summary) {
   Panel panel = time_panel(data, "wall clock  (ms per step)", false);
-  panel.curves = stacked_cost(data, summary, 250);
+  panel.curves = stacked_cost(data, summary, cost_stretches);
   panel.y_min = 0.0;
   Figure figure;
   figure.name = "cost";
   figure.title = "Wall clock per step by phase";
   figure.height = 460;
   figure.panels = {panel};
-  Html caption{"<b>Cost</b> of a step by phase, one above the other, averaged over stretches of "};
-  caption += quantity(1e3 * summary.duration /
-                          static_cast<double>(std::min<size_t>(250, data.steps.size())),
-                      "ms") +
-             Html{" of simulated time. In all "} + quantity(summary.ms_per_step, "ms") +
-             Html{" per step."};
-  return {figure, caption};
+  const double stretch =
+      summary.duration / static_cast<double>(std::min(cost_stretches, data.steps.size()));
+  return {figure,
+          {run_page_text("cost", {{"stretch", page::quantity(1e3 * stretch, "ms")},
+                                  {"step", page::quantity(summary.ms_per_step, "ms")}})}};
 }
 
-ReportFigure energy_figure(const RunData& data, const RunSummary& summary) {
+page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
   const size_t count = data.steps.size();
   const auto time = record_column(data.steps, &StepRecord::time);
   const auto cumulative = [&](double StepRecord::*value) {
@@ -199,16 +186,9 @@ ReportFigure energy_figure(const RunData& data, const RunSummary& summary) {
   figure.height = 580;
   if (!above.curves.empty()) figure.panels.push_back(above);
   figure.panels.push_back(below);
-  Html caption{
-      "<b>Energy.</b> Works and dissipation since the start (above); kinetic energy, and what is "
-      "missing in <i>change of kinetic energy "
-      "= works − dissipation</i>, summed from the recorded columns (below). Residual at the end: "};
-  caption += quantity(summary.energy.residual, "J") + Html{", "} + number(summary.energy.relative) +
-             Html{
-                 " of the absolute work. <span class=\"look\">Dissipation must never fall; the "
-                 "residual should stay far below the kinetic "
-                 "energy.</span>"};
-  return {figure, caption};
+  return {figure,
+          {run_page_text("energy", {{"residual", page::quantity(summary.energy.residual, "J")},
+                                    {"relative", page::number(summary.energy.relative)}})}};
 }
 
 }  // namespace
@@ -229,8 +209,8 @@ ForceUnit force_unit(double f_max) {
   return f_max >= 1000.0 ? ForceUnit{"kN", 1e-3} : ForceUnit{"N", 1.0};
 }
 
-std::vector<ReportFigure> diagnostic_figures(const RunData& data, const RunSummary& summary) {
-  std::vector<ReportFigure> figures;
+std::vector<page::Picture> diagnostic_figures(const RunData& data, const RunSummary& summary) {
+  std::vector<page::Picture> figures;
   if (summary.wall.loop_first < summary.wall.loop_last && *summary.facts.has_packing)
     figures.push_back(jammed_figure(data, summary));
   figures.push_back(error_figure(data, summary));

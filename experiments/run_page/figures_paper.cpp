@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "experiments/run_page/figures.hpp"
+#include "experiments/run_page/texts.hpp"
 #include "experiments/step/step_record.hpp"
-#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -57,24 +57,19 @@ Curve fit_curve(const RunSummary& summary, double factor) {
 
 double largest(const std::vector<double>& values) { return statistics(values).max; }
 
-Html fit_caption(const RunSummary& summary) {
-  const LoopFits& loop = summary.loop;
-  Html caption{
-      " Dashed: least squares over these periods together, in the middle 80&#8239;% of each "
-      "stroke, with &xi; the displacement from "
-      "the stroke’s own jamming position. Active: <i>f</i><sub>g</sub> = "};
-  caption += quantity(loop.active.amplitude, "N") + Html{" · exp(&xi;/"} +
-             quantity(1e3 / loop.active.rate, "mm") + Html{"), <i>R</i>² = "} +
-             number(loop.active.r2) + Html{" (a straight line: "} + number(loop.active_line.r2) +
-             Html{"). Passive: <i>f</i><sub>g</sub> = "} + quantity(loop.passive.offset, "N") +
-             Html{" − "} + quantity(-1e-3 * loop.passive.slope, "N/mm") +
-             Html{" · &xi;, <i>R</i>² = "} + number(loop.passive.r2) + Html{"."};
-  return caption;
+page::Text fit_caption(const LoopFits& loop) {
+  return run_page_text("fig04.fits", {{"amplitude", page::quantity(loop.active.amplitude, "N")},
+                                      {"length", page::quantity(1e3 / loop.active.rate, "mm")},
+                                      {"active", page::number(loop.active.r2)},
+                                      {"line", page::number(loop.active_line.r2)},
+                                      {"offset", page::quantity(loop.passive.offset, "N")},
+                                      {"slope", page::quantity(-1e-3 * loop.passive.slope, "N/mm")},
+                                      {"passive", page::number(loop.passive.r2)}});
 }
 
 }  // namespace
 
-ReportFigure figure_3(const RunData& data, const RunSummary& summary) {
+page::Picture figure_3(const RunData& data, const RunSummary& summary) {
   const ForceUnit unit = force_unit(summary.facts.f_max);
   const auto time = record_column(data.steps, &StepRecord::time);
   Panel above, below;
@@ -93,30 +88,18 @@ ReportFigure figure_3(const RunData& data, const RunSummary& summary) {
   figure.title = "Displacement of the driven wall and driving force against time";
   figure.height = 560;
   figure.panels = {above, below};
-  if (!*summary.facts.has_packing)
-    return {figure,
-            {"<b>The driven wall.</b> Outward displacement <i>x</i> (above) under the compressive "
-             "load <i>f</i> (below)."}};
-  Html caption{
-      "<b>Paper, Fig. 3.</b> Outward displacement <i>x</i> of the driven wall (above) under the "
-      "compressive load <i>f</i> (below). "
-      "The paper shows a fast first contraction, over within about 0.2&#8239;s, and then a "
-      "periodic motion on which a slow "
-      "contraction rides. "};
+  if (!*summary.facts.has_packing) return {figure, {run_page_text("fig03.wall_alone")}};
+  page::Text caption = run_page_text("fig03.paper");
   if (std::isfinite(summary.contraction.size))
-    caption += Html{"Here the wall first goes in by "} +
-               quantity(1e3 * summary.contraction.size, "mm") + Html{", 90&#8239;% of it by "} +
-               quantity(summary.contraction.time90, "s") + Html{"; then it moves out by "} +
-               quantity(1e3 * summary.rise.mean, "mm") + Html{" in a period and loses "} +
-               quantity(-1e3 * summary.net.mean, "mm") + Html{" per period. "};
-  caption +=
-      {"<span class=\"look\">Look for flat tops of <i>f</i> where <i>x</i> stands still (jammed), "
-       "and for extension only while "
-       "<i>f</i> is small.</span>"};
-  return {figure, caption};
+    caption += run_page_text("fig03.contraction",
+                             {{"size", page::quantity(1e3 * summary.contraction.size, "mm")},
+                              {"time", page::quantity(summary.contraction.time90, "s")},
+                              {"rise", page::quantity(1e3 * summary.rise.mean, "mm")},
+                              {"net", page::quantity(-1e3 * summary.net.mean, "mm")}});
+  return {figure, {caption + run_page_text("fig03.look")}};
 }
 
-ReportFigure figure_4(const RunData& data, const RunSummary& summary) {
+page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   const WallCycles& cycles = summary.wall;
   const ForceUnit unit = force_unit(summary.facts.f_max);
   const size_t first = cycles.periods[cycles.loop_first].first,
@@ -150,33 +133,18 @@ ReportFigure figure_4(const RunData& data, const RunSummary& summary) {
   figure.title = "Force of the grains on the driven wall against its displacement";
   figure.height = 580;
   figure.panels = {panel};
-  const size_t periods = cycles.loop_last - cycles.loop_first;
-  Html caption{
-      "<b>Paper, Fig. 4.</b> Force <i>f</i><sub>g</sub> of the grains on the wall against its "
-      "displacement, over the last "};
-  caption += exact(static_cast<double>(periods)) +
-             Html{
-                 " whole periods after the first 0.2&#8239;s. A step’s <i>f</i><sub>g</sub> is its "
-                 "impulses divided by <i>h</i> and noisy (grey, cut off above the axis); the "
-                 "coloured line is its low-pass, a Hann window of "} +
-             exact(1e3 * cycles.smoothing) + Html{"&#8239;ms"} +
-             Html{
-                 ". Colours: the wall moves out (active), in (passive), or stands still around the "
-                 "load’s maximum (jammed). "} +
-             Html{
-                 "The paper shows a slightly exponential growth in the active phase, a faster and "
-                 "almost linear one in the passive, and the "
-                 "vertical jammed branch on which <i>f</i><sub>g</sub> = <i>f</i>."};
+  page::Text caption = run_page_text(
+      "fig04.paper",
+      {{"periods", page::exact(static_cast<double>(cycles.loop_last - cycles.loop_first))},
+       {"smoothing", page::exact_quantity(1e3 * cycles.smoothing, "ms")}});
   if (std::isfinite(summary.loop.active.r2) && std::isfinite(summary.loop.passive.r2))
-    caption += fit_caption(summary);
-  const double net = std::abs(summary.net.mean), rise = summary.rise.mean;
-  if (net > 0.05 * rise)
-    caption +=
-        Html{" The loops lie side by side because the packing contracts from period to period."};
-  return {figure, caption};
+    caption += fit_caption(summary.loop);
+  if (std::abs(summary.net.mean) > 0.05 * summary.rise.mean)
+    caption += run_page_text("fig04.side_by_side");
+  return {figure, {caption}};
 }
 
-ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
+page::Picture figure_12(const RunData& data, const RunSummary& summary) {
   const Compaction& compaction = summary.compaction;
   auto change = record_column(data.steps, &StepRecord::solid_fraction);
   for (double& value : change) value -= compaction.initial;
@@ -193,7 +161,7 @@ ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
   if (has_gain) {
     // from the first period's begin to the last one's end: its slope is the mean gain
     Curve line;
-    line.title = "gain per period " + printed("%.3g", compaction.gain);
+    line.title = "gain per period " + plot_label(page::number(compaction.gain));
     line.ink = Ink::vermilion;
     line.dashed = true;
     line.width = 1.8;
@@ -206,22 +174,16 @@ ReportFigure figure_12(const RunData& data, const RunSummary& summary) {
   figure.title = "Change of the solid fraction against time";
   figure.height = 440;
   figure.panels = {panel};
-  Html caption{
-      "<b>Paper, Fig. 12.</b> Solid fraction in the control volume minus its value before the "
-      "drive, "};
-  caption += number(compaction.initial, 4) + Html{" (paper: 0.50). At 0.2&#8239;s it is "} +
-             number(compaction.reference, 4) +
-             Html{" (paper: &rho;<sub>0</sub> ≈ 0.52, a first compaction of 2&#8239;%)."};
+  page::Text caption =
+      run_page_text("fig12.paper", {{"initial", page::number(compaction.initial, 4)},
+                                    {"reference", page::number(compaction.reference, 4)}});
   if (has_gain)
-    caption += Html{" Dashed: the mean gain over the periods after the transient, "} +
-               number(compaction.gain) + Html{" per period, that is "} +
-               number(compaction.relative_gain) +
-               Html{" &rho;<sub>0</sub> (paper, Eq. 5: about 0.0025 below 10&#8239;Hz)."};
-  caption += {" <span class=\"look\">Look for oscillations around a straight slow rise.</span>"};
-  return {figure, caption};
+    caption += run_page_text("fig12.trend", {{"slope", page::number(compaction.gain)},
+                                             {"gain", page::number(compaction.relative_gain)}});
+  return {figure, {caption + run_page_text("fig12.look")}};
 }
 
-ReportFigure jammed_figure(const RunData& data, const RunSummary& summary) {
+page::Picture jammed_figure(const RunData& data, const RunSummary& summary) {
   const WallCycles& cycles = summary.wall;
   const auto time = record_column(data.steps, &StepRecord::time);
   std::vector<double> miss, speed, jammed_miss, jammed_speed;
@@ -258,29 +220,18 @@ ReportFigure jammed_figure(const RunData& data, const RunSummary& summary) {
   figure.title = "Imbalance of forces and velocity of the wall, jammed state marked";
   figure.height = 560;
   figure.panels = {above, below};
-  Html caption{
-      "<b>The jammed state.</b> The paper has <i>f</i><sub>g</sub> = <i>f</i> there. Jammed: the "
-      "unbroken stretch around a load "
-      "maximum in which |<i>v</i>| stays below 2&#8239;% of its largest value, a bound so loose "
-      "that it doesn’t decide what is measured. "};
+  page::Text caption = run_page_text("jammed.paper");
   const JammedState& jammed = summary.jammed;
   if (jammed.samples > 0)
     caption +=
-        Html{
-            "While <i>f</i> is above its mean, |<i>f</i><sub>g</sub> − "
-            "<i>f</i>|/<i>f</i><sub>max</sub> is "} +
-        number(jammed.force_mean) + Html{" on average, below "} + number(jammed.force_p95) +
-        Html{" in 95&#8239;% of the steps, and the wall moves at "} +
-        quantity(1e3 * jammed.speed_mean, "mm/s") + Html{". "};
-  caption +=
-      {"<span class=\"look\">The residual velocity is the more sensitive of the two: a loose "
-       "solver makes the packing elastic, and it "
-       "shows here first.</span>"};
-  return {figure, caption};
+        run_page_text("jammed.found", {{"mean", page::number(jammed.force_mean)},
+                                       {"p95", page::number(jammed.force_p95)},
+                                       {"speed", page::quantity(1e3 * jammed.speed_mean, "mm/s")}});
+  return {figure, {caption + run_page_text("jammed.look")}};
 }
 
-std::vector<ReportFigure> paper_figures(const RunData& data, const RunSummary& summary) {
-  std::vector<ReportFigure> figures;
+std::vector<page::Picture> paper_figures(const RunData& data, const RunSummary& summary) {
+  std::vector<page::Picture> figures;
   const bool has_loop = summary.wall.loop_first < summary.wall.loop_last;
   const bool has_packing = *summary.facts.has_packing;
   if (*summary.facts.has_wall) figures.push_back(figure_3(data, summary));

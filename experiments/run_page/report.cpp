@@ -4,13 +4,13 @@
 
 #include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_summary.hpp"
-#include "experiments/page/html_page.hpp"
-#include "experiments/page/plot.hpp"
+#include "experiments/page/drawing.hpp"
+#include "experiments/page/html.hpp"
 #include "experiments/run_page/figures.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "experiments/run_page/report_tables.hpp"
+#include "experiments/run_page/texts.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
@@ -22,63 +22,30 @@ std::string name_of_run(const RunData& data) {
   return data.folder.filename().string();
 }
 
-/// Draws what can be drawn; what cannot becomes a notice.
-Html draw(const std::vector<ReportFigure>& figures, RunData& data) {
-  Html html;
-  for (const ReportFigure& figure : figures) {
-    try {
-      const std::string svg = render_svg(figure.plot, data.folder / "figures");
-      html += html_figure(figure.plot.name, inline_svg(svg, figure.plot.name, figure.plot.title),
-                          figure.caption);
-    } catch (const Error& error) {
-      data.notices.push_back(std::string(error.what()) + ". The figure is left out.");
-    }
-  }
-  return html;
-}
-
-Html header(const RunData& data, const RunSummary& summary) {
-  Html html{"<header>\n<h1>"};
-  html += escaped(name_of_run(data)) + Html{"</h1>\n<p class=\"lede\">"} +
-          exact(static_cast<double>(summary.steps)) + Html{" steps, "} + exact(summary.duration) +
-          Html{"&#8239;s"} + Html{" simulated"};
+/// How much was run, and by what.
+std::vector<page::Text> lede_of(const RunData& data, const RunSummary& summary) {
+  page::Text extent = page::exact(static_cast<double>(summary.steps)) + " steps, " +
+                      page::exact_quantity(summary.duration, "s") + " simulated";
   if (summary.contacts.samples)
-    html += Html{", "} + number(summary.contacts.mean, 4) + Html{" contact points on average"};
+    extent += ", " + page::number(summary.contacts.mean, 4) + " contact points on average";
   if (std::isfinite(summary.ms_per_step))
-    html += Html{", "} + quantity(summary.ms_per_step, "ms") + Html{" per step"};
-  html += {".</p>\n"};
-  if (const std::string made = made_by(data); !made.empty())
-    html += Html{"<p class=\"lede\">"} + escaped(made) + Html{"</p>\n"};
-  return html + Html{"</header>\n"};
-}
-
-Html notices(const RunData& data) {
-  if (data.notices.empty()) return {};
-  Html html{"<div class=\"notices\" role=\"note\"><b>To be known before reading</b><ul>\n"};
-  for (const std::string& notice : data.notices)
-    html += Html{"<li>"} + escaped(notice) + Html{"</li>\n"};
-  return html + Html{"</ul></div>\n"};
-}
-
-Html folded(const char* name, const std::string& text) {
-  if (text.empty()) return {};
-  return Html{std::string("<details><summary>") + name + "</summary>\n<pre>"} + escaped(text) +
-         Html{"</pre></details>\n"};
-}
-
-Html section(const char* id, const char* heading, const Html& body) {
-  return body.markup.empty() ? Html{} : html_section(id, {heading}, body);
+    extent += ", " + page::quantity(summary.ms_per_step, "ms") + " per step";
+  return {extent + ".", made_by(data)};
 }
 
 void note_what_cannot_be_said(const RunSummary& summary, RunData& data) {
-  if (!std::isfinite(summary.facts.velocity_scale))
-    data.notices.push_back(
-        "Gravity is in neither manifest.json nor scene.toml: errors are given in m/s, not relative "
-        "to g h.");
-  if (*summary.facts.has_packing && summary.wall.periods.empty())
-    data.notices.push_back(
-        "There is no whole period of the load after the first 0.2 s: no loop f_g(x), jammed state "
-        "or gain per period.");
+  const auto note = [&](const char* name) {
+    data.notices.push_back(page::plain_words(run_page_text(name)));
+  };
+  if (!std::isfinite(summary.facts.velocity_scale)) note("no_gravity");
+  if (*summary.facts.has_packing && summary.wall.periods.empty()) note("no_period");
+}
+
+page::Section pictures(const char* id, const char* heading,
+                       const std::vector<page::Picture>& figures) {
+  page::Section section{id, heading};
+  section.add(figures);
+  return section;
 }
 
 }  // namespace
@@ -87,35 +54,34 @@ void write_report(const std::filesystem::path& folder) {
   RunData data = read_run_data(folder);
   const RunSummary summary = summarise(data.steps, data.facts);
   note_what_cannot_be_said(summary, data);
-  Html paper, diagnostics;
-  if (!gnuplot_version().empty()) {
-    paper = draw(paper_figures(data, summary), data);
-    diagnostics = draw(diagnostic_figures(data, summary), data);
-  } else {
-    data.notices.push_back(
-        "gnuplot was not found: this page has no figures. With gnuplot installed, \"ballast "
-        "report\" makes them.");
-  }
-  Html body = header(data, summary) + notices(data);
-  body += section("results", "The run in numbers", results_table(data, summary));
-  body += section(
-      "paper", *summary.facts.has_packing ? "What the paper shows" : "Motion of the wall", paper);
-  body += section("periods", "Period by period", periods_table(summary));
-  body += section("diagnostics", "Can it be trusted?", diagnostics);
-  body += section("cost-table", "Cost", cost_table(summary));
-  body += section("energy-table", "Energy", energy_table(summary));
-  body += section("parameters", "Parameters",
-                  parameters_table(data) + folded("The whole scene (scene.toml)", data.scene_text));
-  body += section(
-      "provenance", "Program and machine",
-      provenance_table(data) + folded("The whole manifest (manifest.json)", data.manifest_text));
-  body += section(
-      "reproduce", "How to make it again",
-      Html{"<pre>"} + escaped(reproduce_commands(data)) + Html{"</pre>\n"} + files_table(data));
-  body += section(
-      "next", "What next",
-      Html{"<pre>"} + escaped(next_commands(*summary.facts.has_packing)) + Html{"</pre>\n"});
-  write_whole_file(folder / "report.html", html_page(name_of_run(data), body));
+  const bool has_packing = *summary.facts.has_packing;
+  page::Page page;
+  page.title = name_of_run(data);
+  page.lede = lede_of(data, summary);
+  page.notices.heading = "To be known before reading";
+  page.notices.items.assign(data.notices.begin(), data.notices.end());
+  page.add({"results", "The run in numbers", {results_table(summary)}});
+  page.add(pictures("paper", has_packing ? "What the paper shows" : "Motion of the wall",
+                    paper_figures(data, summary)));
+  page.add({"periods", "Period by period", {periods_table(summary)}});
+  page.add(pictures("diagnostics", "Can it be trusted?", diagnostic_figures(data, summary)));
+  page.add({"cost-table", "Cost", {cost_table(summary)}});
+  page.add({"energy-table", "Energy", {energy_table(summary)}});
+  page.add(
+      {"parameters",
+       "Parameters",
+       {parameters_table(data), page::Folded{"The whole scene (scene.toml)", data.scene_text}}});
+  page.add({"provenance",
+            "Program and machine",
+            {provenance_table(data),
+             page::Folded{"The whole manifest (manifest.json)", data.manifest_text}}});
+  // figures are drawn before their folder is listed
+  page::draw_pictures(page, folder, {.with_pdf = false, .command = "ballast report"});
+  page.add({"reproduce",
+            "How to make it again",
+            {page::Listing{reproduce_commands(data)}, files_table(data)}});
+  page.add({"next", "What next", {page::Listing{next_commands(has_packing)}}});
+  write_whole_file(folder / "report.html", html_of(page));
 }
 
 }  // namespace ballast

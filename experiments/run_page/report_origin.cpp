@@ -24,12 +24,11 @@ std::string readable(const nlohmann::ordered_json& value) {
   return text;
 }
 
-Html summary_row_value(const nlohmann::ordered_json& value, const char* unit) {
-  if (value.is_number_integer()) return escaped(value.dump());
-  if (value.is_number())
-    return exact(value.get<double>(), 6) + Html{*unit ? "&#8239;" : ""} + Html{unit};
-  if (value.is_null()) return number(not_known);
-  return escaped(readable(value));
+page::Text summary_row_value(const nlohmann::ordered_json& value, const char* unit) {
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_number()) return page::exact_quantity(value.get<double>(), unit, 6);
+  if (value.is_null()) return page::number(not_known);
+  return readable(value);
 }
 
 std::string text_at(const nlohmann::ordered_json& json, const char* group, const char* name) {
@@ -40,59 +39,50 @@ std::string text_at(const nlohmann::ordered_json& json, const char* group, const
   return readable(*value);
 }
 
-HtmlTable facts_table() {
-  HtmlTable table;
-  table.css_class = "facts";
-  return table;
-}
-
-/// A setting with its unit, as it was given.
-Html setting(double value, const char* unit) { return exact(value) + Html{"&#8239;"} + Html{unit}; }
-
-void add_scene(const Scene& scene, HtmlTable& table) {
-  const auto row = [&](const char* what, Html value) {
-    table.rows.push_back({Html{what}, std::move(value)});
+void add_scene(const Scene& scene, page::Table& table) {
+  const auto row = [&](const char* what, page::Text value) {
+    table.rows.push_back({page::marked(what), std::move(value)});
   };
-  row("step <i>h</i>, duration",
-      setting(scene.step, "s") + Html{", "} + setting(scene.duration, "s"));
-  row("gravity", setting(scene.gravity.norm(), "m/s²"));
+  row("step *h*, duration",
+      page::exact_quantity(scene.step, "s") + ", " + page::exact_quantity(scene.duration, "s"));
+  row("gravity", page::exact_quantity(scene.gravity.norm(), "m/s²"));
   row("friction, restitution between bodies",
-      exact(scene.friction) + Html{", "} + exact(scene.restitution));
+      page::exact(scene.friction) + ", " + page::exact(scene.restitution));
   row("solver",
-      escaped(scene.solver.name) + Html{", tolerance "} + exact(scene.solver.tolerance) +
-          Html{scene.gravity.isZero() ? " m/s" : " <i>gh</i>"} + Html{", at most "} +
-          exact(scene.solver.max_iterations) +
-          Html{scene.solver.warm_start ? " iterations, warm start" : " iterations, cold start"});
+      page::Text(scene.solver.name) + ", tolerance " + page::exact(scene.solver.tolerance) +
+          page::marked(scene.gravity.isZero() ? " m/s" : " *gh*") + ", at most " +
+          page::exact(scene.solver.max_iterations) +
+          (scene.solver.warm_start ? " iterations, warm start" : " iterations, cold start"));
   if (scene.sleep.enabled)
-    row("islands at rest fall asleep", Html{"after "} + exact(scene.sleep.steps) +
-                                           Html{" steps below "} + exact(scene.sleep.velocity) +
-                                           Html{" <i>gh</i>"});
+    row("islands at rest fall asleep", "after " + page::exact(scene.sleep.steps) + " steps below " +
+                                           page::exact(scene.sleep.velocity) +
+                                           page::marked(" *gh*"));
   row("overlap correction",
       scene.correction.enabled
-          ? setting(100.0 * scene.correction.fraction, "%") + Html{" of what exceeds "} +
-                setting(1e6 * scene.correction.slop, "µm") + Html{" per step, "} +
-                exact(scene.correction.sweeps) + Html{" sweeps"}
-          : Html{"off"});
+          ? page::exact_quantity(100.0 * scene.correction.fraction, "%") + " of what exceeds " +
+                page::exact_quantity(1e6 * scene.correction.slop, "µm") + " per step, " +
+                page::exact(scene.correction.sweeps) + " sweeps"
+          : page::Text("off"));
   if (!scene.grains) return;
   const DriveSpec& drive = scene.drive;
-  row("drive", setting(drive.frequency, "Hz") + Html{", <i>f</i><sub>max</sub> = "} +
-                   exact(drive.f_max_over_weight) + Html{" <i>mg</i>, <i>f</i><sub>min</sub> = "} +
-                   exact(drive.f_min_over_weight) + Html{" <i>mg</i>, wall "} +
-                   exact(drive.wall_mass_over_grains) + Html{" <i>m</i>, lid raised "} +
-                   setting(1e3 * drive.lid_raise, "mm"));
-  row("grains", exact(scene.grains->count, 6) + Html{", seed "} +
-                    Html{std::to_string(scene.grains->seed)} + Html{", "} +
-                    setting(scene.grains->density, "kg/m³"));
-  row("box, length × width",
-      setting(scene.box.length, "m") + Html{" × "} + setting(scene.box.width, "m"));
+  row("drive", page::exact_quantity(drive.frequency, "Hz") + page::marked(", *f*~max~ = ") +
+                   page::exact(drive.f_max_over_weight) + page::marked(" *mg*, *f*~min~ = ") +
+                   page::exact(drive.f_min_over_weight) + page::marked(" *mg*, wall ") +
+                   page::exact(drive.wall_mass_over_grains) + page::marked(" *m*, lid raised ") +
+                   page::exact_quantity(1e3 * drive.lid_raise, "mm"));
+  row("grains", page::exact(scene.grains->count, 6) + ", seed " +
+                    std::to_string(scene.grains->seed) + ", " +
+                    page::exact_quantity(scene.grains->density, "kg/m³"));
+  row("box, length × width", page::exact_quantity(scene.box.length, "m") + " × " +
+                                 page::exact_quantity(scene.box.width, "m"));
   row("friction of floor and lid, of side walls",
-      exact(scene.box.friction_horizontal) + Html{", "} + exact(scene.box.friction_vertical));
+      page::exact(scene.box.friction_horizontal) + ", " + page::exact(scene.box.friction_vertical));
 }
 
 }  // namespace
 
-Html parameters_table(const RunData& data) {
-  HtmlTable table = facts_table();
+page::Table parameters_table(const RunData& data) {
+  page::Table table = page::facts_table();
   if (data.scene) add_scene(*data.scene, table);
   const auto overrides = data.manifest.find("overrides");
   if (overrides != data.manifest.end() && overrides->is_array() && !overrides->empty()) {
@@ -100,8 +90,7 @@ Html parameters_table(const RunData& data) {
     for (const auto& entry : *overrides)
       list += (list.empty() ? "" : "\n") +
               (entry.is_string() ? entry.get<std::string>() : entry.dump());
-    table.rows.push_back({Html{"settings other than the scene’s (--set)"},
-                          Html{"<code>"} + escaped(list) + Html{"</code>"}});
+    table.rows.push_back({"settings other than the scene’s (--set)", page::Text(list, page::code)});
   }
   const auto summary = data.manifest.find("summary");
   if (summary != data.manifest.end() && summary->is_object())
@@ -119,15 +108,15 @@ Html parameters_table(const RunData& data) {
       }
       for (char& c : label)
         if (c == '_') c = ' ';
-      table.rows.push_back({escaped(label), summary_row_value(value, unit)});
+      table.rows.push_back({label, summary_row_value(value, unit)});
     }
-  return to_html(table);
+  return table;
 }
 
-Html provenance_table(const RunData& data) {
-  HtmlTable table = facts_table();
+page::Table provenance_table(const RunData& data) {
+  page::Table table = page::facts_table();
   const auto row = [&](const char* what, const std::string& value) {
-    if (!value.empty()) table.rows.push_back({Html{what}, escaped(value)});
+    if (!value.empty()) table.rows.push_back({what, value});
   };
   const auto& manifest = data.manifest;
   row("ballast", text_at(manifest, "ballast", "version"));
@@ -150,10 +139,10 @@ Html provenance_table(const RunData& data) {
   if (const auto resumed = manifest.find("resumed");
       resumed != manifest.end() && resumed->is_array())
     for (const auto& entry : *resumed) row("resumed", readable(entry));
-  return to_html(table);
+  return table;
 }
 
-Html files_table(const RunData& data) {
+page::Table files_table(const RunData& data) {
   constexpr std::pair<const char*, const char*> files[] = {
       {"steps.csv", "every step’s scalars, one column each"},
       {"record.h5", "the same and the poses, with units and descriptions (HDF5)"},
@@ -162,13 +151,11 @@ Html files_table(const RunData& data) {
       {"figures", "each figure as SVG, and as a gnuplot script that holds its data"},
       {"checkpoint.bin", "state to resume from"},
       {"paraview", "poses and contacts for ParaView"}};
-  HtmlTable table = facts_table();
+  page::Table table = page::facts_table();
   for (const auto& [name, what] : files)
     if (std::filesystem::exists(data.folder / name))
-      table.rows.push_back(
-          {Html{std::string("<a href=\"") + name + "\"><code>" + name + "</code></a>"},
-           Html{what}});
-  return to_html(table);
+      table.rows.push_back({page::Text(name, page::code, name), what});
+  return table;
 }
 
 std::string made_by(const RunData& data) {

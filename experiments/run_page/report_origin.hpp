@@ -5,16 +5,16 @@
 #include <string>
 
 #include "experiments/measure/run_data.hpp"
-#include "experiments/page/html_page.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 
 /// The scene's parameters and what the run noted in its manifest.
-Html parameters_table(const RunData& data);
+page::Table parameters_table(const RunData& data);
 /// Program, machine, dates.
-Html provenance_table(const RunData& data);
+page::Table provenance_table(const RunData& data);
 /// What is in the folder.
-Html files_table(const RunData& data);
+page::Table files_table(const RunData& data);
 /// One line for the head of the page: program, machine, date; empty when the manifest says nothing.
 std::string made_by(const RunData& data);
 /// Commands that make the run again, as text for a shell.

@@ -4,15 +4,15 @@
 
 #include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_summary.hpp"
-#include "experiments/page/html_page.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 
 /// Accuracy, jammed state, energy, and for the vibrated box what the paper says.
-Html results_table(const RunData& data, const RunSummary& summary);
-/// One row per whole period of the load; empty when there is none.
-Html periods_table(const RunSummary& summary);
-Html cost_table(const RunSummary& summary);
-Html energy_table(const RunSummary& summary);
+page::Table results_table(const RunSummary& summary);
+/// One row per whole period of the load; no rows when there is none.
+page::Table periods_table(const RunSummary& summary);
+page::Table cost_table(const RunSummary& summary);
+page::Table energy_table(const RunSummary& summary);
 
 }  // namespace ballast

@@ -74,11 +74,10 @@ TEST_CASE("the box's page says the numbers beside what is asked and what the pap
   const TemporaryFolder folder;
   write_box(folder);
   const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("6.00&#8239;mm") || Contains("6.05&#8239;mm"));  // first contraction
+  CHECK_THAT(page, Contains("6.00\u202fmm") || Contains("6.05\u202fmm"));  // first contraction
   CHECK_THAT(page, Contains(">0.5010<") && Contains(">0.50<") && Contains(">0.5190<") &&
                        Contains(">0.52<"));
-  CHECK_THAT(page,
-             Contains("✓ met") && Contains("≤&nbsp;250&#8239;µm") && Contains("≤&nbsp;0.001"));
+  CHECK_THAT(page, Contains("✓ met") && Contains("≤\u00a0250\u202fµm") && Contains("≤\u00a00.001"));
   CHECK_THAT(page, Contains("3 of 3 periods"));
   for (const char* next :
        {"paper fig12", "sweep my_sweep.toml", "compare --live", "run vibrated_box --set"})
@@ -223,7 +222,7 @@ TEST_CASE("the scene's parameters are on the page") {
   write_box(folder);
   fs::copy_file(find_scene("vibrated_box"), folder.path() / "scene.toml");
   const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("<h1>The paper&#39;s vibrated box") && Contains("2700&#8239;kg/m³") &&
+  CHECK_THAT(page, Contains("<h1>The paper&#39;s vibrated box") && Contains("2700\u202fkg/m³") &&
                        Contains("The whole scene (scene.toml)"));
   CHECK_THAT(page, !Contains("To be known before reading"));
 }
@@ -234,7 +233,7 @@ TEST_CASE("without gnuplot the page has its tables and says why there is no figu
   const EnvironmentGuard guard("PATH", empty.path().string());
   const std::string page = page_of(folder);
   CHECK_THAT(page, Contains("gnuplot was not found") && !Contains("<figure") &&
-                       Contains("The run in numbers") && Contains("≤&nbsp;0.001"));
+                       Contains("The run in numbers") && Contains("≤\u00a00.001"));
 }
 
 TEST_CASE("a failing gnuplot costs its figures, not the page") {

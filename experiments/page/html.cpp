@@ -1,0 +1,173 @@
+#include "experiments/page/html.hpp"
+
+#include <algorithm>
+
+#include "experiments/page/page_style.hpp"
+
+namespace ballast::page {
+namespace {
+
+struct Tag {
+  std::string open, close;
+  bool operator==(const Tag&) const = default;
+};
+
+/// Tags around a run, the outermost first.
+std::vector<Tag> tags_of(const Span& span) {
+  static const std::pair<Styles, Tag> tags[] = {{strong, {"<b>", "</b>"}},
+                                                {note, {"<span class=\"note\">", "</span>"}},
+                                                {good, {"<span class=\"met\">", "</span>"}},
+                                                {bad, {"<span class=\"missed\">", "</span>"}},
+                                                {code, {"<code>", "</code>"}},
+                                                {symbol, {"<i>", "</i>"}},
+                                                {subscript, {"<sub>", "</sub>"}},
+                                                {superscript, {"<sup>", "</sup>"}}};
+  std::vector<Tag> result;
+  if (!span.link.empty())
+    result.push_back({"<a href=\"" + escaped_html(span.link) + "\">", "</a>"});
+  for (const auto& [style, tag] : tags)
+    if (span.styles & style) result.push_back(tag);
+  return result;
+}
+
+std::string with_line_breaks(const std::string& text) {
+  std::string result;
+  for (const char c : escaped_html(text))
+    result += c == '\n' ? std::string("<br>") : std::string(1, c);
+  return result;
+}
+
+std::string row_of(const Table& table, const std::vector<Text>& cells, const std::string& tag) {
+  std::string html = "<tr>";
+  for (size_t c = 0; c < cells.size(); ++c) {
+    const bool is_number = c < table.is_number.size() && table.is_number[c];
+    html += '<' + tag + (is_number ? " class=\"n\">" : ">") + html_of(cells[c]) + "</" + tag + '>';
+  }
+  return html + "</tr>\n";
+}
+
+std::string items_of(const std::vector<Text>& items) {
+  std::string html = "<ul>\n";
+  for (const Text& item : items) html += "<li>" + html_of(item) + "</li>\n";
+  return html + "</ul>";
+}
+
+/// One kind of block after the other.
+struct HtmlBlocks {
+  std::string operator()(const Text& text) const { return "<p>" + html_of(text) + "</p>\n"; }
+  std::string operator()(const Subheading& heading) const {
+    return "<h3>" + html_of(heading.words) + "</h3>\n";
+  }
+  std::string operator()(const List& list) const { return items_of(list.items) + '\n'; }
+  std::string operator()(const Table& table) const {
+    std::string html = table.caption.empty() ? "" : (*this)(table.caption);
+    html += std::string("<div class=\"scroll\"><table") +
+            (table.is_facts ? " class=\"facts\">\n" : ">\n");
+    if (!table.head.empty()) html += "<thead>" + row_of(table, table.head, "th") + "</thead>\n";
+    html += "<tbody>\n";
+    for (const auto& cells : table.rows) html += row_of(table, cells, "td");
+    return html + "</tbody></table></div>\n";
+  }
+  std::string operator()(const Picture& picture) const {
+    std::string html = "<figure id=\"" + escaped_html(picture.plot.name) + "\">\n" +
+                       inline_svg(picture.svg, picture.plot.name, picture.plot.title) +
+                       "<figcaption>";
+    for (size_t k = 0; k < picture.caption.size(); ++k)
+      html += (k == 0 ? "" : "<br>") + html_of(picture.caption[k]);
+    return html + "</figcaption>\n</figure>\n";
+  }
+  std::string operator()(const Notices& notices) const {
+    return "<div class=\"notices\" role=\"note\">" +
+           (notices.heading.empty() ? "" : "<b>" + html_of(notices.heading) + "</b>") +
+           items_of(notices.items) + "</div>\n";
+  }
+  std::string operator()(const Listing& listing) const {
+    return "<pre>" + escaped_html(listing.text) + "</pre>\n";
+  }
+  std::string operator()(const Folded& folded) const {
+    return "<details><summary>" + html_of(folded.heading) + "</summary>\n<pre>" +
+           escaped_html(folded.text) + "</pre></details>\n";
+  }
+  std::string operator()(const Embedded& part) const { return part.html; }
+};
+
+std::string header_of(const Page& page) {
+  std::string html = "<header>\n<h1>" + escaped_html(page.title) + "</h1>\n";
+  for (const Text& line : page.lede)
+    if (!line.empty()) html += "<p class=\"lede\">" + html_of(line) + "</p>\n";
+  return html + "</header>\n";
+}
+
+std::string section_of(const Section& section) {
+  if (section.is_empty()) return {};
+  std::string html = "<section id=\"" + escaped_html(section.id) + "\">\n<h2>" +
+                     html_of(section.heading) + "</h2>\n";
+  for (const Block& block : section.blocks) html += html_of(block);
+  return html + "</section>\n";
+}
+
+}  // namespace
+
+std::string escaped_html(std::string_view text) {
+  std::string html;
+  for (const char c : clean_utf8(text)) switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default:
+        html += c;
+    }
+  return html;
+}
+
+std::string html_of(const Text& text) {
+  std::string html;
+  std::vector<Tag> open;
+  // closes tags down to the first `kept`
+  const auto close = [&](size_t kept) {
+    for (; open.size() > kept; open.pop_back()) html += open.back().close;
+  };
+  for (const Span& span : text.spans) {
+    const std::vector<Tag> tags = tags_of(span);
+    const auto common = std::mismatch(open.begin(), open.end(), tags.begin(), tags.end());
+    close(static_cast<size_t>(common.first - open.begin()));
+    for (size_t k = open.size(); k < tags.size(); ++k) {
+      html += tags[k].open;
+      open.push_back(tags[k]);
+    }
+    html += with_line_breaks(span.text);
+  }
+  close(0);
+  return html;
+}
+
+std::string html_of(const Block& block) {
+  const bool is_subheading = std::holds_alternative<Subheading>(block);
+  return is_empty(block) && !is_subheading ? std::string() : std::visit(HtmlBlocks{}, block);
+}
+
+std::string html_of(const Page& page) {
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
+      escaped_html(page.title) + "</title>\n<style>\n" + style_sheet() +
+      "</style>\n</head>\n<body>\n<main>\n" + header_of(page) + html_of(Block(page.notices));
+  for (const Section& section : page.sections) html += section_of(section);
+  if (!page.end.empty()) html += "<footer>" + html_of(page.end) + "</footer>\n";
+  return html + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace ballast::page

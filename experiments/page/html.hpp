@@ -1,0 +1,26 @@
+#pragma once
+// Writes a page as one HTML file that opens offline: no script, nothing loaded from elsewhere.
+
+#include <string>
+#include <string_view>
+
+#include "experiments/page/page.hpp"
+
+namespace ballast::page {
+
+/// The whole page, figures inlined.
+std::string html_of(const Page& page);
+
+/// One part of it.
+std::string html_of(const Text& text);
+std::string html_of(const Block& block);
+
+/// & < > " ' become entities; what clean_utf8 refuses becomes U+FFFD.
+std::string escaped_html(std::string_view text);
+
+/// A figure's SVG for inlining: without XML declaration, doctype and comments, with ids of its own
+/// (`name` before each), colours in the form that the page's style maps to its light and dark
+/// palette, and `title` for screen readers.
+std::string inline_svg(std::string_view svg, const std::string& name, const std::string& title);
+
+}  // namespace ballast::page

@@ -1,0 +1,16 @@
+#pragma once
+// Writes a page as Markdown (GitHub's), with its figures as files beside it.
+
+#include <string>
+
+#include "experiments/page/page.hpp"
+
+namespace ballast::page {
+
+std::string markdown_of(const Page& page);
+
+/// One part of it. Characters that Markdown would take for marks are escaped.
+std::string markdown_of(const Text& text);
+std::string markdown_of(const Block& block);
+
+}  // namespace ballast::page

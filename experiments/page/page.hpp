@@ -1,0 +1,103 @@
+#pragma once
+// What a page says, in plain words: the model that every page of the program is written in. It
+// knows no HTML and no Markdown; html.hpp and markdown.hpp write it, drawing.hpp draws its figures.
+//
+//   page::Page page{.title = name_of_run, .lede = {page::exact(steps) + " steps"}};
+//   page::Table table{.head = {"phase", page::marked("error / *gh*")}, .is_number = {false, true}};
+//   table.rows.push_back({"detection", page::number(error)});
+//   page.add({"numbers", "The run in numbers", {page::marked("Mean over *all* steps."), table}});
+//   page::Picture wall{plot, {run_page_text("wall.caption", {{"x", page::quantity(x, "mm")}})}};
+//   page.add({"wall", "The wall", {wall}});
+//   page::draw_pictures(page, folder, {.command = "ballast report"});
+//   write_whole_file(folder / "report.html", page::html_of(page));
+//   write_whole_file(folder / "README.md", page::markdown_of(page));
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "experiments/page/number.hpp"
+#include "experiments/page/plot.hpp"
+#include "experiments/page/text.hpp"
+
+namespace ballast::page {
+
+struct Subheading {
+  Text words;
+};
+
+struct List {
+  std::vector<Text> items;
+};
+
+struct Table {
+  Text caption = {};            ///< stands above, as a paragraph; empty: none
+  std::vector<Text> head = {};  ///< empty: none
+  std::vector<std::vector<Text>> rows = {};
+  std::vector<bool> is_number = {};  ///< columns that are set right-aligned; empty: none
+  bool is_facts = false;             ///< two columns, what and value: the first is narrow and soft
+};
+
+/// A plot and what is said about it.
+struct Picture {
+  Figure plot;
+  std::vector<Text> caption;  ///< one line each
+  Text files = {};       ///< links to its files, for pages that don't hold the picture themselves
+  std::string svg = {};  ///< filled by draw_pictures
+};
+
+/// What is missing or wrong, loudly.
+struct Notices {
+  Text heading = {};
+  std::vector<Text> items = {};
+};
+
+/// Text as it stands in a file or for a shell, in a box.
+struct Listing {
+  std::string text;
+};
+
+/// The same, closed until the reader opens it. `text` is shown as it is.
+struct Folded {
+  Text heading;
+  std::string text;
+};
+
+/// HTML of its own kind that a page carries as it is (a replay, a viewer). Nothing from outside may
+/// get in unescaped: who makes it answers for that. A Markdown page says `instead`.
+struct Embedded {
+  std::string html;
+  Text instead;
+};
+
+/// A paragraph is Text.
+using Block =
+    std::variant<Text, Subheading, List, Table, Picture, Notices, Listing, Folded, Embedded>;
+
+/// Says nothing: a table without rows, text without words. Writers leave it out.
+bool is_empty(const Block& block);
+
+struct Section {
+  std::string id;  ///< "fig9"; an anchor of the page
+  Text heading;
+  std::vector<Block> blocks = {};
+
+  void add(Block block) { blocks.push_back(std::move(block)); }
+  void add(const std::vector<Picture>& pictures);
+  bool is_empty() const;
+};
+
+struct Page {
+  std::string title;
+  std::vector<Text> lede = {};  ///< lines under the title
+  Notices notices = {};         ///< stand before everything else
+  std::vector<Section> sections = {};
+  Text end = {};  ///< last line; empty: none
+
+  void add(Section section) { sections.push_back(std::move(section)); }
+};
+
+/// A table of facts, empty: rows are {what, value}.
+Table facts_table();
+
+}  // namespace ballast::page

@@ -1,0 +1,202 @@
+#include "experiments/page/text.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "experiments/page/plot.hpp"
+
+namespace ballast::page {
+namespace {
+
+/// Marks that open and close alike. "**" stands before "*": the longer one is tried first.
+constexpr std::pair<std::string_view, Styles> marks[] = {
+    {"**", strong}, {"*", symbol}, {"~", subscript}, {"^", superscript}, {"`", code}};
+
+/// One reading of a notation.
+class Notation {
+ public:
+  Notation(std::string_view notation, const Values& values) : whole_(notation), values_(values) {}
+
+  Text read() {
+    read_part(whole_, 0, "");
+    for (const auto& [name, value] : values_)
+      if (!used_.contains(name)) fail("takes no value {" + name + "}");
+    return std::move(text_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::logic_error("page text \"" + std::string(whole_) + "\": " + what);
+  }
+
+  void read_part(std::string_view part, Styles styles, const std::string& link) {
+    const Styles around = styles;
+    for (size_t at = 0; at < part.size();) {
+      const std::string_view rest = part.substr(at);
+      size_t taken = read_mark(rest, styles);
+      if (taken == 0) taken = read_bracket(rest, styles, link);
+      if (taken == 0) {
+        const bool is_quoted = rest[0] == '\\' && rest.size() > 1 && !(styles & code);
+        text_ += Text(std::string(1, rest[is_quoted ? 1 : 0]), styles, link);
+        taken = is_quoted ? 2 : 1;
+      }
+      at += taken;
+    }
+    if (styles != around) fail("a mark isn't closed");
+  }
+
+  /// Length of the mark at the start of `rest`, which switches a style; 0 when there is none.
+  size_t read_mark(std::string_view rest, Styles& styles) const {
+    if (styles & code) {  // in code everything but its end stands for itself
+      if (rest[0] != '`') return 0;
+      styles &= ~code;
+      return 1;
+    }
+    if (rest.starts_with("((") || rest.starts_with("))")) {
+      const bool opens = rest[0] == '(';
+      if (opens == ((styles & note) != 0)) fail("a note in a note, or none to end");
+      styles ^= note;
+      return 2;
+    }
+    for (const auto& [mark, style] : marks)
+      if (rest.starts_with(mark)) {
+        styles ^= style;
+        return mark.size();
+      }
+    return 0;
+  }
+
+  /// Length of a link or a value at the start of `rest`, which is added; 0 when there is none.
+  size_t read_bracket(std::string_view rest, Styles styles, const std::string& link) {
+    if (styles & code) return 0;
+    if (rest[0] == '{') {
+      const size_t end = rest.find('}');
+      if (end == rest.npos) fail("a value's name isn't closed");
+      const std::string name(rest.substr(1, end - 1));
+      const auto value = values_.find(name);
+      if (value == values_.end()) fail("the value {" + name + "} is missing");
+      used_.insert(name);
+      text_ += styled(value->second, styles);
+      return end + 1;
+    }
+    const size_t middle = rest.find("](");
+    if (rest[0] != '[' || !link.empty() || middle == rest.npos) return 0;
+    const size_t end = rest.find(')', middle);
+    if (end == rest.npos) fail("a link's address isn't closed");
+    read_part(rest.substr(1, middle - 1), styles,
+              std::string(rest.substr(middle + 2, end - middle - 2)));
+    return end + 1;
+  }
+
+  std::string_view whole_;
+  const Values& values_;
+  std::set<std::string> used_;
+  Text text_;
+};
+
+/// Length of the UTF-8 sequence at the start of `text`; 0 when it is none (overlong, surrogate,
+/// cut).
+size_t utf8_length(std::string_view text) {
+  const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const size_t length = first >= 0xf0 && first < 0xf5 ? 4
+                        : first >= 0xe0               ? 3
+                        : first >= 0xc2               ? 2
+                                                      : 0;
+  if (length == 0 || first >= 0xf5 || text.size() < length) return 0;
+  for (size_t k = 1; k < length; ++k)
+    if ((byte(k) & 0xc0) != 0x80) return 0;
+  if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0)) return 0;
+  if ((first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) >= 0x90)) return 0;
+  return length;
+}
+
+/// "−4" as "⁻⁴"; empty when a character has no raised form.
+std::string raised(const std::string& text) {
+  static const std::map<std::string, std::string> forms = {
+      {"0", "⁰"}, {"1", "¹"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}, {"5", "⁵"},
+      {"6", "⁶"}, {"7", "⁷"}, {"8", "⁸"}, {"9", "⁹"}, {"−", "⁻"}};
+  std::string result;
+  for (size_t at = 0; at < text.size();) {
+    const size_t length = std::max<size_t>(1, utf8_length(std::string_view(text).substr(at)));
+    const auto form = forms.find(text.substr(at, length));
+    if (form == forms.end()) return {};
+    result += form->second;
+    at += length;
+  }
+  return result;
+}
+
+}  // namespace
+
+Text::Text(std::string words, Styles styles, std::string link) {
+  if (!words.empty()) spans.push_back({std::move(words), styles, std::move(link)});
+}
+
+Text& Text::operator+=(const Text& other) {
+  for (const Span& span : other.spans) {
+    // runs that look alike are one run
+    if (!spans.empty() && spans.back().styles == span.styles && spans.back().link == span.link)
+      spans.back().text += span.text;
+    else
+      spans.push_back(span);
+  }
+  return *this;
+}
+
+Text styled(Text text, Styles styles) {
+  for (Span& span : text.spans) span.styles |= styles;
+  return text;
+}
+
+Text marked(std::string_view notation, const Values& values) {
+  return Notation(notation, values).read();
+}
+
+std::string plain_words(const Text& text) {
+  std::string words;
+  for (const Span& span : text.spans) {
+    const std::string high = span.styles & superscript ? raised(span.text) : std::string();
+    if (!high.empty())
+      words += high;
+    else if (span.styles & (subscript | superscript))
+      words += (span.styles & subscript ? "_" : "^") + span.text;
+    else
+      words += span.text;
+  }
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  return words;
+}
+
+std::string plot_label(const Text& text) {
+  std::string label;
+  for (const Span& span : text.spans) {
+    std::string words = plain_text(span.text);
+    if (span.styles & symbol) words = "{/:Italic " + words + '}';
+    if (span.styles & strong) words = "{/:Bold " + words + '}';
+    if (span.styles & subscript) words = "_{" + words + '}';
+    if (span.styles & superscript) words = "^{" + words + '}';
+    label += words;
+  }
+  return label;
+}
+
+std::string clean_utf8(std::string_view text) {
+  std::string result;
+  for (size_t at = 0; at < text.size();) {
+    const unsigned char c = static_cast<unsigned char>(text[at]);
+    const size_t length = utf8_length(text.substr(at));
+    const bool is_control = (c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
+    if (length == 0 || is_control)
+      result += "\xef\xbf\xbd";
+    else
+      result += text.substr(at, length);
+    at += std::max<size_t>(length, 1);
+  }
+  return result;
+}
+
+}  // namespace ballast::page

@@ -1,0 +1,66 @@
+#pragma once
+// The words of a page: runs of text, each with the styles that every writer knows (HTML, Markdown,
+// plain text, gnuplot's labels).
+//
+//   Text words = marked("Force *f*~g~ above 10^−3^ N. ((Grey: each step.))") + name_from_a_file;
+//
+// A string becomes Text as it is: no character of it means anything, so that what comes from files
+// and users cannot become markup. Only marked() reads the notation; it is given literals of this
+// program and its text files (prose.hpp), never anything from outside.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ballast::page {
+
+/// Styles of a run, one bit each.
+using Styles = unsigned;
+inline constexpr Styles strong = 1, symbol = 2, subscript = 4, superscript = 8, code = 16;
+inline constexpr Styles note = 32;             ///< soft: an aside, where to look
+inline constexpr Styles good = 64, bad = 128;  ///< a bound that is met or missed
+
+struct Span {
+  std::string text;  ///< UTF-8; "\n" is a line break
+  Styles styles = 0;
+  std::string link;  ///< address; empty: none
+  bool operator==(const Span&) const = default;
+};
+
+struct Text {
+  std::vector<Span> spans;
+
+  Text() = default;
+  Text(std::string words, Styles styles = 0, std::string link = {});
+  Text(const char* words) : Text(std::string(words)) {}
+
+  bool empty() const { return spans.empty(); }
+  Text& operator+=(const Text& other);
+  friend Text operator+(Text a, const Text& b) { return a += b; }
+  bool operator==(const Text&) const = default;
+};
+
+/// The same words with `styles` added to every run.
+Text styled(Text text, Styles styles);
+
+/// What stands for {name} in a notation.
+using Values = std::map<std::string, Text>;
+
+/// Reads the notation: **strong**, *symbol*, ~subscript~, ^superscript^, `code`, ((note)),
+/// [words](address), {name of a value}; a backslash takes the next character as it is.
+/// Throws std::logic_error on a mark that isn't closed, a value that is missing or not used: these
+/// are faults of the program.
+Text marked(std::string_view notation, const Values& values = {});
+
+/// Words alone: titles, file names, tests. Powers keep their height (10⁻⁴) where Unicode has it.
+std::string plain_words(const Text& text);
+
+/// As a label of a plot (gnuplot's enhanced text).
+std::string plot_label(const Text& text);
+
+/// The text with what is no UTF-8 and every control character except line breaks and tabs replaced
+/// by U+FFFD.
+std::string clean_utf8(std::string_view text);
+
+}  // namespace ballast::page

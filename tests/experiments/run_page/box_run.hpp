@@ -1,0 +1,29 @@
+#pragma once
+// A synthetic box as the pages of a run see it.
+
+#include "experiments/measure/run_data.hpp"
+#include "tests/support/synthetic_run.hpp"
+
+namespace ballast {
+
+struct BoxRun {
+  RunData data;
+  RunSummary summary;
+};
+
+inline BoxRun box_run(const SyntheticBox& box = {}) {
+  BoxRun run;
+  run.data.steps = synthetic_box(box);
+  run.data.facts = facts_of(box);
+  run.summary = summarise(run.data.steps, run.data.facts);
+  return run;
+}
+
+inline BoxRun slide_run() {
+  BoxRun run;
+  run.data.steps = synthetic_slide();
+  run.summary = summarise(run.data.steps, run.data.facts);
+  return run;
+}
+
+}  // namespace ballast

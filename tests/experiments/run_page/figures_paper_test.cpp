@@ -1,0 +1,67 @@
+#include <cmath>
+
+#include "experiments/run_page/figures.hpp"
+#include "tests/catch.hpp"
+#include "tests/experiments/run_page/box_run.hpp"
+
+namespace ballast {
+namespace {
+
+using Catch::Matchers::Contains;
+
+std::vector<std::string> names_of(const std::vector<page::Picture>& pictures) {
+  std::vector<std::string> names;
+  for (const page::Picture& picture : pictures) names.push_back(picture.plot.name);
+  return names;
+}
+
+TEST_CASE("a box has the paper's figures, a slide has none") {
+  const BoxRun box = box_run();
+  CHECK(names_of(paper_figures(box.data, box.summary)) ==
+        std::vector<std::string>{"fig03", "fig04", "fig12"});
+  const BoxRun slide = slide_run();
+  CHECK(paper_figures(slide.data, slide.summary).empty());
+}
+
+TEST_CASE("the loop's phases take each step once, and the axis cuts spikes off") {
+  BoxRun box = box_run();
+  const WallCycles& cycles = box.summary.wall;
+  const size_t first = cycles.periods[cycles.loop_first].first;
+  box.data.steps[first + 10].wall_force = 1e9;  // one step's spike
+  const Panel panel = figure_4(box.data, box.summary).plot.panels.at(0);
+  REQUIRE(panel.curves.size() == 5);  // each step, three phases, fits
+  CHECK(*panel.y_max < 20.0);         // kN
+  const size_t last = cycles.periods[cycles.loop_last - 1].last;
+  for (size_t k = first + 1; k < last; ++k) {
+    int drawn = 0;
+    for (size_t c = 1; c < 4; ++c) drawn += std::isfinite(panel.curves[c].y[k - first]);
+    // where the phase changes, the sample belongs to both curves: no gap
+    const WallPhase before = cycles.phase[k - 1], now = cycles.phase[k];
+    CHECK(drawn == (now != WallPhase::none) + (before != WallPhase::none && before != now));
+  }
+}
+
+TEST_CASE("captions say the run's own numbers") {
+  const BoxRun box = box_run();
+  const auto caption = [](const page::Picture& picture) {
+    return plain_words(picture.caption.at(0));
+  };
+  const std::string first = caption(figure_3(box.data, box.summary));
+  CHECK_THAT(first, Contains("Here the wall first goes in by 6.0"));
+  CHECK_THAT(caption(figure_12(box.data, box.summary)),
+             Contains("before the drive, 0.5010 (paper: 0.50)") &&
+                 Contains(plain_words(page::number(box.summary.compaction.gain)) + " per period"));
+  CHECK_THAT(caption(figure_4(box.data, box.summary)), Contains("Dashed: least squares"));
+  CHECK_THAT(caption(jammed_figure(box.data, box.summary)), Contains("While f is above its mean"));
+}
+
+TEST_CASE("without fits the caption doesn't speak of them") {
+  BoxRun box = box_run();
+  box.summary.loop.active.r2 = not_known;
+  const page::Picture picture = figure_4(box.data, box.summary);
+  CHECK(picture.plot.panels.at(0).curves.size() == 4);
+  CHECK_THAT(plain_words(picture.caption.at(0)), !Contains("Dashed"));
+}
+
+}  // namespace
+}  // namespace ballast

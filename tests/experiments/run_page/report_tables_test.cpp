@@ -1,0 +1,89 @@
+#include "experiments/run_page/report_tables.hpp"
+
+#include <cmath>
+
+#include "tests/catch.hpp"
+#include "tests/experiments/run_page/box_run.hpp"
+
+namespace ballast {
+namespace {
+
+using Catch::Matchers::Contains;
+
+/// The row whose first cell begins so, as plain words.
+std::vector<std::string> row_of(const page::Table& table, const std::string& beginning) {
+  for (const auto& row : table.rows) {
+    if (!plain_words(row[0]).starts_with(beginning)) continue;
+    std::vector<std::string> words;
+    for (const page::Text& cell : row) words.push_back(plain_words(cell));
+    return words;
+  }
+  FAIL("no row begins with " + beginning);
+  return {};
+}
+
+TEST_CASE("numbers stand beside their bounds, in the same unit, with a verdict") {
+  RunSummary summary = box_run().summary;
+  summary.penetration_max = 300e-6;
+  summary.penetration_mean = 2.5e-6;
+  const page::Table table = results_table(summary);
+  CHECK(row_of(table, "deepest of all steps") ==
+        std::vector<std::string>{"deepest of all steps", "300\u202fµm", "≤\u00a0250\u202fµm",
+                                 "✗ missed"});
+  CHECK(row_of(table, "mean over active contact points")[3] == "✓ met");
+  CHECK(row_of(table, "before the drive") ==
+        std::vector<std::string>{"before the drive", "0.5010", "0.50", "paper"});
+  for (const auto& row : table.rows) CHECK(row.size() == table.head.size());
+}
+
+TEST_CASE("what is not known is a dash, without a verdict") {
+  RunSummary summary = box_run().summary;
+  summary.penetration_max = not_known;
+  const auto row = row_of(results_table(summary), "deepest of all steps");
+  CHECK(row[1] == "–");
+  CHECK(row[3].empty());
+}
+
+TEST_CASE("without a wall and a packing nothing is said of them") {
+  const page::Table table = results_table(slide_run().summary);
+  for (const auto& row : table.rows)
+    CHECK_THAT(plain_words(row[0]), !Contains("Jammed") && !Contains("Solid fraction"));
+  CHECK(periods_table(slide_run().summary).rows.empty());
+}
+
+TEST_CASE("a row for each whole period, its number counted from the drive's start") {
+  const RunSummary summary = box_run().summary;
+  const page::Table table = periods_table(summary);
+  REQUIRE(table.rows.size() == summary.wall.periods.size());
+  REQUIRE(table.rows.size() > 2);
+  for (size_t p = 0; p < table.rows.size(); ++p) {
+    CHECK(table.rows[p].size() == table.head.size());
+    CHECK(table.rows[p][0] == page::exact(std::round(5.0 * summary.wall.periods[p].end)));
+  }
+  CHECK(plain_words(table.rows[0].back()) == "–");  // no gain before the first
+  CHECK(plain_words(table.rows[1].back()) == "0.0012");
+}
+
+TEST_CASE("phases add up to all") {
+  RunSummary summary = slide_run().summary;
+  const page::Table table = cost_table(summary);
+  REQUIRE(table.rows.size() == summary.cost.size() + 1);
+  double sum = 0.0;
+  for (const PhaseCost& phase : summary.cost) sum += phase.ms_per_step;
+  CHECK(table.rows.back()[1] == page::number(sum));
+  CHECK(plain_words(table.rows.back()[2]) == "100");
+}
+
+TEST_CASE("every energy has its own row") {
+  RunSummary summary = slide_run().summary;
+  summary.energy.work_load = 1.0;
+  summary.energy.work_gravity = 2.0;
+  summary.energy.dissipated = 3.0;
+  const page::Table table = energy_table(summary);
+  CHECK(row_of(table, "work of the load")[1] == "1.000");
+  CHECK(row_of(table, "work of gravity")[1] == "2.000");
+  CHECK(row_of(table, "dissipated")[1] == "3.000");
+}
+
+}  // namespace
+}  // namespace ballast
