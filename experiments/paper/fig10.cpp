@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -43,11 +44,13 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
   if (std::isfinite(fit.exponent)) {
     const auto [low, high] = std::minmax_element(curve.x.begin(), curve.x.end());
     panel.curves.push_back(curve_of([&](double x) { return fit.at(x); }, *low, *high, true,
-                                    "fit, exponent " + digits(fit.exponent), Ink::black));
+                                    "fit, exponent " + plot_label(page::number(fit.exponent)),
+                                    Ink::black));
     const double middle = std::sqrt(*low * *high);
     panel.curves.push_back(curve_of(
         [&](double x) { return fit.at(middle) * std::pow(x / middle, axis.exponent); }, *low, *high,
-        true, "the paper’s exponent " + digits(axis.exponent, 1), Ink::vermilion, false));
+        true, "the paper’s exponent " + plot_label(page::number(axis.exponent, 1)), Ink::vermilion,
+        false));
   }
   PaperFigure figure;
   figure.plot.name = name;
@@ -55,9 +58,10 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
   figure.plot.height = 440;
   figure.plot.panels = {panel};
   figure.paper = std::string(axis.relation) + " (" + axis.place + ").";
-  figure.found = "Exponent " + words_of(fit) + ", " + misfit_words(fit, curve) + ", at " +
-                 digits(varied_frequency) + " Hz, periods from 0.3 to " + digits(varied_duration) +
-                 " s.";
+  figure.found = paper_text("fig10.found", {{"exponent", words_of(fit)},
+                                            {"misfit", misfit_words(fit, curve)},
+                                            {"frequency", page::number(varied_frequency)},
+                                            {"end", page::number(varied_duration)}});
   section.figures.push_back(figure);
   section.rows.push_back({axis.place, axis.relation,
                           words_of(fit) + ", " + misfit_words(fit, curve),
@@ -68,12 +72,7 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
 
 PaperSection fig10_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "f_max is quoted in weights of all grains under 9.81 m/s². Gravity is varied at constant "
-      "f_max in newtons, from "
-      "packings deposited "
-      "under 9.81 m/s², so that Eq. 3 expects g². The base is f_max = 3 m g, m_w = m/2, 10 Hz.",
-      misfit_meaning};
+  section.text = {paper_text("fig10.intro"), paper_text("misfit")};
   add_figure(data,
              {Varied::force, "values of f_max", "{/:Italic f}_{max} / {/:Italic m g}",
               "Δx_max ~ f_max^−1", "Fig. 10", -1.0},

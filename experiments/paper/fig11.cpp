@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -56,7 +57,7 @@ Panel eq3_panel(const std::vector<VariedCurve>& all, const Proportion& line, boo
   }
   if (!is_log) low = 0.0;
   panel.curves.push_back(curve_of([&](double x) { return line.factor * x; }, low, high, is_log,
-                                  "C = " + digits(line.factor), Ink::black));
+                                  "C = " + plot_label(page::number(line.factor)), Ink::black));
   panel.curves.push_back(curve_of([](double x) { return 0.01 * x; }, low, high, is_log,
                                   "the paper’s C = 0.01", Ink::grey));
   return panel;
@@ -98,21 +99,14 @@ Agreement judge_prefactor(double factor, double low, double high, int points) {
 
 PaperSection fig11_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "Eq. 3: Δx_max = C · m/(m + m_w) · m g/f_max · g/ν², with m the mass of all grains in both "
-      "places (and beside it "
-      "with m the mean mass "
-      "of one grain, which the paper does not exclude). C is the geometric mean of the ratio, with "
-      "its 95 % interval "
-      "over the points; the "
-      "spread is the factor by which a point typically misses the line."};
+  section.text = {paper_text("fig11.intro")};
   const char* names[] = {"frequencies", "values of f_max", "values of g", "values of m_w"};
   std::vector<VariedCurve> all;
   VariedCurve pooled;
-  TextTable table{"C of each sweep by itself",
-                  {"sweep", "points", "C", "95 % interval", "spread (factor)",
-                   "exponent (1: proportional)", "of that fit"},
-                  {}};
+  page::Table table{"C of each sweep by itself",
+                    {"sweep", "points", "C", "95 % interval", "spread (factor)",
+                     "exponent (1: proportional)", "of that fit"},
+                    {}};
   double by_grain = not_known;
   for (size_t b = 0; b < 4; ++b) {
     note_missing(data, branches[b].varied, names[b], section);
@@ -125,9 +119,9 @@ PaperSection fig11_section(PaperData& data) {
     if (b == 0) by_grain = prefactor_by_grain(values);
     const Proportion line = fit_proportion(points.x, points.y);
     const PowerFit power = fit_power(points.x, points.y);
-    table.rows.push_back({branch_names[b], std::to_string(line.samples), digits(line.factor),
-                          interval(line.low, line.high), digits(line.spread), words_of(power),
-                          misfit_words(power, points)});
+    table.rows.push_back({branch_names[b], std::to_string(line.samples), page::number(line.factor),
+                          page::interval(line.low, line.high), page::number(line.spread),
+                          words_of(power), misfit_words(power, points)});
   }
   if (pooled.x.empty()) return section;
   const Proportion line = fit_proportion(pooled.x, pooled.y);
@@ -137,34 +131,35 @@ PaperSection fig11_section(PaperData& data) {
   figure.plot.title = "Maximum displacement against the right side of Equation 3";
   figure.plot.height = 820;
   figure.plot.panels = {eq3_panel(all, line, true), eq3_panel(all, line, false)};
-  figure.paper =
-      "All data on one line through the origin, “in excellent agreement with Eq. 3”, C ~ 0.01.";
-  figure.found = "C = " + digits(line.factor) + " " + interval(line.low, line.high) +
-                 ", points lie off the line by a factor of " + digits(line.spread) +
-                 "; a free exponent gives " + words_of(power) + ", " + misfit_words(power, pooled) +
-                 ". " + misfit_meaning + " With m one grain’s mean mass C would be " +
-                 digits(by_grain) + ".";
+  figure.paper = paper_text("fig11.paper");
+  figure.found = paper_text("fig11.found", {{"C", page::number(line.factor)},
+                                            {"interval", page::interval(line.low, line.high)},
+                                            {"spread", page::number(line.spread)},
+                                            {"exponent", words_of(power)},
+                                            {"misfit", misfit_words(power, pooled)},
+                                            {"meaning", paper_text("misfit")},
+                                            {"grain", page::number(by_grain)}});
   section.figures = {figure};
   section.tables = {table};
   const bool is_line = line.samples > 4 && line.spread < 1.25;
   section.rows = {{"Fig. 11, Eq. 3", "one line through all sweeps",
-                   "spread about the line: factor " + digits(line.spread) + "; exponent " +
+                   "spread about the line: factor " + page::number(line.spread) + "; exponent " +
                        words_of(power) + ", " + misfit_words(power, pooled),
                    line.samples < 5    ? Agreement::reported
                    : is_line           ? Agreement::agrees
                    : line.spread < 1.6 ? Agreement::partly
                                        : Agreement::differs},
                   {"Eq. 3", "C ~ 0.01",
-                   "C = " + digits(line.factor) + " " + interval(line.low, line.high) +
-                       " (m all grains); " + digits(by_grain) + " (m one grain)",
+                   "C = " + page::number(line.factor) + " " + page::interval(line.low, line.high) +
+                       " (m all grains); " + page::number(by_grain) + " (m one grain)",
                    judge_prefactor(line.factor, line.low, line.high, line.samples)}};
   if (line.samples < 5) return section;
   const double linear = linear_prefactor(pooled);
   section.rows.push_back({"Eq. 3", "C ~ 0.01, as a line through a linear plot",
-                          "C = " + digits(linear) +
+                          "C = " + page::number(linear) +
                               " by least squares on linear axes, where the largest displacement "
                               "decides; without it " +
-                              digits(linear_prefactor(without_largest(pooled))),
+                              page::number(linear_prefactor(without_largest(pooled))),
                           judge_prefactor(linear, linear, linear, line.samples)});
   return section;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 #include "experiments/run_page/figures.hpp"
 #include "experiments/step/step_record.hpp"
 
@@ -42,29 +43,23 @@ PaperSection fig12_section(PaperData& data) {
   figure.plot.title = "Change of the solid fraction against time at 5 Hz";
   figure.plot.height = 460;
   figure.plot.panels = {panel};
-  figure.paper =
-      "0.50 before the drive; ρ₀ ≈ 0.52 after 0.2 s (a first compaction of 2 %), then oscillations "
-      "with a small "
-      "constant gain per period.";
-  figure.found =
-      "Solid fraction before the drive " + with_error(before.mean, before.error) + ", at 0.2 s " +
-      with_error(at.mean, at.error) +
-      "; gain per period after the transient Δρ₁ = " + with_error(step.mean, step.error) +
-      ", Δρ₁/ρ₀ = " + with_error(share.mean, share.error) +
-      ". Control volume: floor to the packing’s top before the drive, 8 cm clear of both walls x. "
-      "Overlap "
-      "counts twice.";
+  figure.paper = paper_text("fig12.paper");
+  figure.found = paper_text("fig12.found", {{"before", page::with_error(before.mean, before.error)},
+                                            {"at", page::with_error(at.mean, at.error)},
+                                            {"gain", page::with_error(step.mean, step.error)},
+                                            {"share", page::with_error(share.mean, share.error)}});
   section.figures = {figure};
   const double jump = at.mean - before.mean;
   section.rows = {
-      {"Fig. 12", "ρ = 0.50 before the drive", with_error(before.mean, before.error),
+      {"Fig. 12", "ρ = 0.50 before the drive", page::with_error(before.mean, before.error),
        std::abs(before.mean - 0.50) < 0.02 ? Agreement::agrees : Agreement::differs},
       {"Fig. 12", "first compaction 0.02, to ρ₀ ≈ 0.52",
-       digits(jump) + ", to " + with_error(at.mean, at.error),
+       page::number(jump) + ", to " + page::with_error(at.mean, at.error),
        std::abs(jump - 0.02) < 0.005   ? Agreement::agrees
        : std::abs(jump - 0.02) < 0.012 ? Agreement::partly
                                        : Agreement::differs},
-      {"Fig. 12", "constant small gain per period", "Δρ₁ = " + with_error(step.mean, step.error),
+      {"Fig. 12", "constant small gain per period",
+       "Δρ₁ = " + page::with_error(step.mean, step.error),
        step.mean > 0.0 && (runs.size() < 2 || step.mean > 2.0 * step.error) ? Agreement::agrees
                                                                             : Agreement::differs}};
   return section;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -21,9 +22,9 @@ Panel rate_panel(const VariedCurve& curve, const PeakedRate& fit, const std::str
   return panel;
 }
 
-std::string words_of(const PeakedRate& fit) {
-  return "ν_c = " + digits(fit.critical) + " Hz " + interval(fit.low, fit.high) +
-         ", Δρ_max/ρ₀ = " + digits(fit.gain) + ", R² = " + digits(fit.r2);
+page::Text words_of(const PeakedRate& fit) {
+  return "ν_c = " + page::number(fit.critical) + " Hz " + page::interval(fit.low, fit.high) +
+         ", Δρ_max/ρ₀ = " + page::number(fit.gain) + ", R² = " + page::number(fit.r2);
 }
 
 /// A corner at the end of the data is none.
@@ -47,14 +48,7 @@ void drop_unknown(VariedCurve& curve) {
 
 PaperSection fig13_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "Eq. 4 over whole periods, so that both ends are at the same phase of the load. The paper "
-      "takes each run’s whole "
-      "time after 0.2 s. "
-      "Since the packing ages, a rate over another number of periods is a rate at another age; the "
-      "second panel "
-      "therefore takes the same "
-      "absolute time, 0.4 to 1 s, for all frequencies (1 Hz has no whole period in it)."};
+  section.text = {paper_text("fig13.intro")};
   const std::vector<VariedValue> values = data.values(Varied::frequency);
   note_missing(data, Varied::frequency, "frequencies", section);
   VariedCurve whole = curve_of_values(values, &Observation::rate),
@@ -70,30 +64,23 @@ PaperSection fig13_section(PaperData& data) {
   figure.plot.height = 760;
   figure.plot.panels = {rate_panel(whole, fit, "rate, paper’s window  (1/s)"),
                         rate_panel(common, common_fit, "rate, 0.4–1 s  (1/s)")};
-  figure.paper =
-      "The rate grows linearly up to ν_c ~ 10 Hz and falls as ν⁻¹ beyond; Δρ_max/ρ₀ ~ 0.0025; Eq. "
-      "5 with ν_c “the only "
-      "fitting parameter”.";
+  figure.paper = paper_text("fig13.paper");
   figure.found =
-      "Eq. 5 fitted by least squares (both parameters free), paper’s window: " + words_of(fit) +
-      "; common window: " + words_of(common_fit) +
-      ". The intervals of ν_c are profiles at 95 %; one that reaches the end of the data means "
-      "that there "
-      "is no maximum inside it.";
+      paper_text("fig13.found", {{"own", words_of(fit)}, {"common", words_of(common_fit)}});
   section.figures = {figure};
-  TextTable table{"Compaction rate, means over samples ± standard error",
-                  {"ν (Hz)", "samples", "rate, paper’s window (1/s)", "rate, 0.4–1 s (1/s)",
-                   "Δρ₁ (10⁻³)", "ρ₀"},
-                  {}};
+  page::Table table{"Compaction rate, means over samples ± standard error",
+                    {"ν (Hz)", "samples", "rate, paper’s window (1/s)", "rate, 0.4–1 s (1/s)",
+                     "Δρ₁ (10⁻³)", "ρ₀"},
+                    {}};
   for (const VariedValue& value : values) {
     const SampleMean rate = value.mean(&Observation::rate),
                      rate_common = value.mean(&Observation::rate_common),
                      gain = value.mean(&Observation::gain);
-    table.rows.push_back({digits(value.value), std::to_string(value.samples.size()),
-                          with_error(rate.mean, rate.error),
-                          with_error(rate_common.mean, rate_common.error),
-                          with_error(1e3 * gain.mean, 1e3 * gain.error),
-                          digits(value.mean(&Observation::solid_reference).mean, 4)});
+    table.rows.push_back({page::number(value.value), std::to_string(value.samples.size()),
+                          page::with_error(rate.mean, rate.error),
+                          page::with_error(rate_common.mean, rate_common.error),
+                          page::with_error(1e3 * gain.mean, 1e3 * gain.error),
+                          page::number(value.mean(&Observation::solid_reference).mean, 4)});
   }
   section.tables = {table};
   const auto judge = [&](const VariedCurve& curve, const PeakedRate& peak) {
@@ -105,7 +92,7 @@ PaperSection fig13_section(PaperData& data) {
   section.rows = {
       {"Fig. 13", "maximum at ν_c ~ 10 Hz", words_of(fit), judge(whole, fit)},
       {"Fig. 13", "the same, 0.4–1 s for all", words_of(common_fit), judge(common, common_fit)},
-      {"Eq. 5", "Δρ_max/ρ₀ ~ 0.0025", digits(fit.gain),
+      {"Eq. 5", "Δρ_max/ρ₀ ~ 0.0025", page::number(fit.gain),
        !(fit.r2 > 0.5)                            ? Agreement::differs
        : fit.gain > 0.00167 && fit.gain < 0.00375 ? Agreement::agrees
        : fit.gain > 0.0008 && fit.gain < 0.0075   ? Agreement::partly

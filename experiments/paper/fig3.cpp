@@ -4,21 +4,22 @@
 #include <cmath>
 
 #include "experiments/paper/motion.hpp"
+#include "experiments/paper/texts.hpp"
 #include "experiments/run_page/figures.hpp"
 
 namespace ballast {
 namespace {
 
-TextTable contraction_table(const std::vector<VariedValue>& values) {
-  TextTable table{"First contraction, means over samples ± standard error",
-                  {"ν (Hz)", "samples", "size (mm)", "90 % of it by (s)"},
-                  {}};
+page::Table contraction_table(const std::vector<VariedValue>& values) {
+  page::Table table{"First contraction, means over samples ± standard error",
+                    {"ν (Hz)", "samples", "size (mm)", "90 % of it by (s)"},
+                    {}};
   for (const VariedValue& value : values) {
     const SampleMean size = value.mean(&Observation::first_contraction),
                      time = value.mean(&Observation::first_time90);
-    table.rows.push_back({digits(value.value), std::to_string(value.samples.size()),
-                          with_error(1e3 * size.mean, 1e3 * size.error),
-                          with_error(time.mean, time.error)});
+    table.rows.push_back({page::number(value.value), std::to_string(value.samples.size()),
+                          page::with_error(1e3 * size.mean, 1e3 * size.error),
+                          page::with_error(time.mean, time.error)});
   }
   return table;
 }
@@ -47,22 +48,20 @@ PaperSection fig3_section(PaperData& data) {
         mean_over(runs, [](const RunSummary& s) { return s.contraction.time90; });
     const SampleMean rise = mean_over(runs, [](const RunSummary& s) { return 1e3 * s.rise.mean; });
     const SampleMean net = mean_over(runs, [](const RunSummary& s) { return -1e3 * s.net.mean; });
-    figure.paper =
-        "A fast first contraction (within about 0.2 s: sec. 5), then a periodic motion with a slow "
-        "contraction.";
-    figure.found = "Sample 1 is drawn. Over " + std::to_string(size.samples) +
-                   " samples: first contraction " + with_error(size.mean, size.error) +
-                   " mm, 90 % of it by " + with_error(time.mean, time.error) +
-                   " s; then the wall moves out by " + with_error(rise.mean, rise.error) +
-                   " mm a period and loses " + with_error(net.mean, net.error) + " mm a period.";
+    figure.paper = paper_text("fig3.paper");
+    figure.found = paper_text("fig3.found", {{"samples", std::to_string(size.samples)},
+                                             {"size", page::with_error(size.mean, size.error)},
+                                             {"time", page::with_error(time.mean, time.error)},
+                                             {"rise", page::with_error(rise.mean, rise.error)},
+                                             {"net", page::with_error(net.mean, net.error)}});
     section.figures = {figure};
     section.rows.push_back({"Fig. 3", "first contraction over within ~0.2 s",
-                            "90 % of it by " + with_error(time.mean, time.error) + " s",
+                            "90 % of it by " + page::with_error(time.mean, time.error) + " s",
                             time.mean < 0.25 ? Agreement::agrees : Agreement::differs});
-    section.rows.push_back(
-        {"Fig. 3", "slow contraction from period to period",
-         with_error(net.mean, net.error) + " mm a period (rise " + digits(rise.mean) + " mm)",
-         net.mean > 0.0 ? Agreement::agrees : Agreement::differs});
+    section.rows.push_back({"Fig. 3", "slow contraction from period to period",
+                            page::with_error(net.mean, net.error) + " mm a period (rise " +
+                                page::number(rise.mean) + " mm)",
+                            net.mean > 0.0 ? Agreement::agrees : Agreement::differs});
   }
   const std::vector<VariedValue> values = data.values(Varied::frequency);
   note_missing(data, Varied::frequency, "frequencies", section);
@@ -70,9 +69,9 @@ PaperSection fig3_section(PaperData& data) {
   section.tables.push_back(contraction_table(values));
   const double all = spread_over(values, 0.0, 1e9), middle = spread_over(values, 2.0, 20.0);
   section.rows.push_back({"Fig. 3", "first contraction almost independent of frequency",
-                          "within " + digits(100.0 * all, 2) + " % of the mean over " +
+                          "within " + page::number(100.0 * all, 2) + " % of the mean over " +
                               std::to_string(values.size()) +
-                              " frequencies (2–20 Hz: " + digits(100.0 * middle, 2) + " %)",
+                              " frequencies (2–20 Hz: " + page::number(100.0 * middle, 2) + " %)",
                           all < 0.15      ? Agreement::agrees
                           : middle < 0.15 ? Agreement::partly
                                           : Agreement::differs});

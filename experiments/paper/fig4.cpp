@@ -4,27 +4,29 @@
 #include <cmath>
 
 #include "experiments/paper/motion.hpp"
+#include "experiments/paper/texts.hpp"
 #include "experiments/run_page/figures.hpp"
 
 namespace ballast {
 namespace {
 
-TextTable branch_table(const std::vector<MotionRun>& runs) {
-  TextTable table{"Branches of f_g, and the jam, sample by sample",
-                  {"sample", "active: f_g at ξ = 0 (m g)", "growth over the stroke (exp)",
-                   "R² exponential", "R² line", "passive: f_g at ξ = 0 (m g)", "slope (m g/mm)",
-                   "R²", "jam: |f_g − f|/f_max", "jam: |v| mean, largest (mm/s)"},
-                  {}};
+page::Table branch_table(const std::vector<MotionRun>& runs) {
+  page::Table table{"Branches of f_g, and the jam, sample by sample",
+                    {"sample", "active: f_g at ξ = 0 (m g)", "growth over the stroke (exp)",
+                     "R² exponential", "R² line", "passive: f_g at ξ = 0 (m g)", "slope (m g/mm)",
+                     "R²", "jam: |f_g − f|/f_max", "jam: |v| mean, largest (mm/s)"},
+                    {}};
   for (size_t k = 0; k < runs.size(); ++k) {
     const RunSummary& s = runs[k].summary;
     const double weight = s.facts.grain_mass * s.facts.gravity;
-    table.rows.push_back(
-        {std::to_string(k + 1), digits(s.loop.active.amplitude / weight),
-         digits(std::exp(s.loop.active.rate * s.rise.mean)), digits(s.loop.active.r2),
-         digits(s.loop.active_line.r2), digits(s.loop.passive.offset / weight),
-         digits(1e-3 * s.loop.passive.slope / weight), digits(s.loop.passive.r2),
-         digits(s.jammed.force_mean, 2),
-         digits(1e3 * s.jammed.speed_mean, 2) + ", " + digits(1e3 * s.jammed.speed_max, 2)});
+    table.rows.push_back({std::to_string(k + 1), page::number(s.loop.active.amplitude / weight),
+                          page::number(std::exp(s.loop.active.rate * s.rise.mean)),
+                          page::number(s.loop.active.r2), page::number(s.loop.active_line.r2),
+                          page::number(s.loop.passive.offset / weight),
+                          page::number(1e-3 * s.loop.passive.slope / weight),
+                          page::number(s.loop.passive.r2), page::number(s.jammed.force_mean, 2),
+                          page::number(1e3 * s.jammed.speed_mean, 2) + ", " +
+                              page::number(1e3 * s.jammed.speed_max, 2)});
   }
   return table;
 }
@@ -38,18 +40,7 @@ Agreement judge_fit(const SampleMean& r2) {
 
 PaperSection fig4_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "Per step, f_g is the sum of the step’s impulses on the wall divided by h, and noisy; the "
-      "branches are fitted to "
-      "its low-pass (Hann window, "
-      "4 ms) in the middle 80 % of each stroke, against ξ, the displacement from the stroke’s own "
-      "jamming position. "
-      "Jammed: the longest "
-      "stretch of |v| ≤ 2 % of its largest value that holds a load above the mean; measured only "
-      "where the load is "
-      "above its mean. "
-      "Since f_g ≈ f follows from Eq. 2 wherever the wall is slow, the residual velocity is the "
-      "sensitive measure."};
+  section.text = {paper_text("fig4.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   if (runs.empty() || runs.front().summary.wall.loop_first >= runs.front().summary.wall.loop_last)
     return section;
@@ -64,29 +55,28 @@ PaperSection fig4_section(PaperData& data) {
       mean_over(runs, [](const RunSummary& s) { return 1e3 * s.speed_in.mean; });
   PaperFigure figure;
   figure.plot = figure_4(runs.front().data, runs.front().summary).plot;
-  figure.paper =
-      "Active phase: f_g grows slightly exponentially with x. Passive phase: it grows faster and "
-      "almost linearly as x "
-      "decreases. Vertical branch: jammed, f_g = f.";
-  figure.found = "Sample 1 is drawn, the last periods of the run. Means over samples: R² active " +
-                 digits(active.mean) + ", passive " + digits(passive.mean) +
-                 "; jammed |f_g − f|/f_max " + digits(jam.mean, 2) + " per step (" +
-                 digits(smooth.mean, 2) + " smoothed), residual velocity " + digits(creep.mean, 2) +
-                 " mm/s, that is " + digits(creep.mean / speed.mean, 2) + " of v_max.";
+  figure.paper = paper_text("fig4.paper");
+  figure.found = paper_text("fig4.found", {{"active", page::number(active.mean)},
+                                           {"passive", page::number(passive.mean)},
+                                           {"jam", page::number(jam.mean, 2)},
+                                           {"smooth", page::number(smooth.mean, 2)},
+                                           {"creep", page::number(creep.mean, 2)},
+                                           {"share", page::number(creep.mean / speed.mean, 2)}});
   section.figures = {figure};
   section.tables = {branch_table(runs)};
   section.rows = {
-      {"Fig. 4", "active: f_g slightly exponential", "R² " + with_error(active.mean, active.error),
-       judge_fit(active)},
-      {"Fig. 4", "passive: f_g almost linear", "R² " + with_error(passive.mean, passive.error),
-       judge_fit(passive)},
+      {"Fig. 4", "active: f_g slightly exponential",
+       "R² " + page::with_error(active.mean, active.error), judge_fit(active)},
+      {"Fig. 4", "passive: f_g almost linear",
+       "R² " + page::with_error(passive.mean, passive.error), judge_fit(passive)},
       {"Fig. 4", "jammed: f_g = f (asked for: within 1e-3 f_max)",
-       digits(jam.mean, 2) + " per step, " + digits(smooth.mean, 2) + " smoothed",
+       page::number(jam.mean, 2) + " per step, " + page::number(smooth.mean, 2) + " smoothed",
        jam.mean <= 1e-3      ? Agreement::agrees
        : smooth.mean <= 1e-3 ? Agreement::partly
                              : Agreement::differs},
       {"Fig. 4", "jammed: wall at rest",
-       "|v| " + digits(creep.mean, 2) + " mm/s = " + digits(creep.mean / speed.mean, 2) + " v_max",
+       "|v| " + page::number(creep.mean, 2) +
+           " mm/s = " + page::number(creep.mean / speed.mean, 2) + " v_max",
        creep.mean / speed.mean < 0.01 ? Agreement::agrees : Agreement::partly}};
   return section;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/paper/motion.hpp"
+#include "experiments/paper/texts.hpp"
 #include "experiments/paper/wall_model.hpp"
 #include "experiments/run_page/figures.hpp"
 
@@ -126,21 +127,9 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
 
 PaperSection fig5_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "The wall’s equation m_w dv/dt = f_g − f(t), x outward, with f_g the fitted exponential "
-      "while the wall moves out "
-      "and the fitted line while it "
-      "moves in; it jams where it comes back to, by the mean net contraction further in. The paper "
-      "excludes the "
-      "jamming and unjamming transients, in which f_g is "
-      "neither branch: the model is therefore taken up where the fits begin, at 10 % of each "
-      "period’s rise, with the "
-      "simulation’s velocity there. Beside it: the same "
-      "model from rest at the jam, released when f falls below the exponential at ξ = 0, which "
-      "leaves out what f_g "
-      "gives during unjamming."};
+  section.text = {paper_text("fig5.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
-  TextTable table{
+  page::Table table{
       "Model beside simulation (means over periods), sample by sample",
       {"sample", "Δx_max simulated (mm)", "model (mm)", "deviation", "model from the jam (mm)",
        "v_max simulated (mm/s)", "model (mm/s)", "deviation"},
@@ -153,36 +142,33 @@ PaperSection fig5_section(PaperData& data) {
     rises.push_back(model.rise / s.rise.mean - 1.0);
     from_jam.push_back(model.rise_from_jam / s.rise.mean - 1.0);
     speeds.push_back(model.speed_in / s.speed_in.mean - 1.0);
-    table.rows.push_back({std::to_string(k + 1), digits(1e3 * s.rise.mean),
-                          digits(1e3 * model.rise), percent(rises.back()),
-                          digits(1e3 * model.rise_from_jam), digits(1e3 * s.speed_in.mean),
-                          digits(1e3 * model.speed_in), percent(speeds.back())});
+    table.rows.push_back({std::to_string(k + 1), page::number(1e3 * s.rise.mean),
+                          page::number(1e3 * model.rise), page::percent(rises.back()),
+                          page::number(1e3 * model.rise_from_jam),
+                          page::number(1e3 * s.speed_in.mean), page::number(1e3 * model.speed_in),
+                          page::percent(speeds.back())});
     if (!section.figures.empty() || model.last.time.empty()) continue;
     PaperFigure figure;
     figure.plot = draw(runs[k], model.last);
-    figure.paper =
-        "The model gives “a fairly good approximation” outside the jamming and unjamming "
-        "transients; the largest "
-        "contraction velocity is under-estimated.";
+    figure.paper = paper_text("fig5.paper");
     section.figures.push_back(figure);
   }
   const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds),
                    jam = sample_mean(from_jam);
   if (rise.samples == 0 || section.figures.empty()) return section;
-  section.figures.front().found = "Last period of sample " + table.rows.front().front() +
-                                  ". Over samples the model’s Δx_max deviates by " +
-                                  percent(rise.mean) + ", its v_max by " + percent(speed.mean) +
-                                  "; started from the jam its Δx_max deviates by " +
-                                  percent(jam.mean) + ".";
+  section.figures.front().found = paper_text("fig5.found", {{"sample", table.rows.front().front()},
+                                                            {"rise", page::percent(rise.mean)},
+                                                            {"speed", page::percent(speed.mean)},
+                                                            {"jam", page::percent(jam.mean)}});
   section.tables = {table};
   section.rows = {
       {"Fig. 5", "model’s Δx_max close to the simulation’s, transients excluded (asked for: 15 %)",
-       percent(rise.mean) + " (from the jam: " + percent(jam.mean) + ")",
+       page::percent(rise.mean) + " (from the jam: " + page::percent(jam.mean) + ")",
        std::abs(rise.mean) <= 0.15  ? Agreement::agrees
        : std::abs(rise.mean) <= 0.3 ? Agreement::partly
                                     : Agreement::differs},
-      {"Fig. 5", "model under-estimates the largest contraction velocity", percent(speed.mean),
-       speed.mean < 0.0 ? Agreement::agrees : Agreement::differs}};
+      {"Fig. 5", "model under-estimates the largest contraction velocity",
+       page::percent(speed.mean), speed.mean < 0.0 ? Agreement::agrees : Agreement::differs}};
   return section;
 }
 

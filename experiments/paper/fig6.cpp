@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/paper/stored_states.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -82,14 +83,7 @@ Field draw(const StoredState& state) {
 
 PaperSection fig6_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "Mean vorticity of the xz plane: v = v₀ + L (x − x₀) is fitted to all grains’ velocities by "
-      "least squares "
-      "weighted by mass; the vorticity is "
-      "∂v_x/∂z − ∂v_z/∂x = L_xz − L_zx, positive when clockwise with x to the right (where the "
-      "driven wall is) and z "
-      "up. States of moving wall are "
-      "those above 20 % of its largest speed."};
+  section.text = {paper_text("fig6.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   std::vector<double> passive, active, relative;
   double fastest = 0.0;
@@ -118,17 +112,12 @@ PaperSection fig6_section(PaperData& data) {
   }
   PaperFigure figure;
   figure.plot = field.figure;
-  figure.paper =
-      "During the inward motion of the wall the grains undergo “a clockwise convective motion in "
-      "the cell”.";
-  figure.found =
-      "Sample 1, the stored state with the fastest inward wall (" + digits(1e3 * fastest) +
-      " mm/s); grains within 5 cm of the middle plane, an arrow of "
-      "2.5 cm is " +
-      digits(1e3 * field.speed) +
-      " mm/s (their rms). Mean vorticity, passive: " + with_error(seen.mean, seen.error) +
-      " 1/s, that is " + digits(share.mean, 2) +
-      " of v_max over the box’s length; active: " + with_error(back.mean, back.error) + " 1/s.";
+  figure.paper = paper_text("fig6.paper");
+  figure.found = paper_text("fig6.found", {{"wall", page::number(1e3 * fastest)},
+                                           {"arrow", page::number(1e3 * field.speed)},
+                                           {"passive", page::with_error(seen.mean, seen.error)},
+                                           {"share", page::number(share.mean, 2)},
+                                           {"active", page::with_error(back.mean, back.error)}});
   section.figures = {figure};
   const bool is_sure = seen.samples > 1 && std::abs(seen.mean) > 2.0 * seen.error;
   const std::string sense = seen.mean > 0.0 ? "clockwise" : "counter-clockwise";
@@ -136,7 +125,7 @@ PaperSection fig6_section(PaperData& data) {
   // turns round
   section.rows = {
       {"Fig. 6", "a convection roll in the passive state, clockwise (its view is not said)",
-       "vorticity " + with_error(seen.mean, seen.error) + " 1/s: " + sense +
+       "vorticity " + page::with_error(seen.mean, seen.error) + " 1/s: " + sense +
            " with the driven wall on the right" + (is_sure ? "" : "; not beyond its error"),
        is_sure            ? Agreement::agrees
        : seen.samples > 1 ? Agreement::differs

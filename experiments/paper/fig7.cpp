@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/paper/stored_states.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -85,14 +86,7 @@ constexpr std::pair<WallPhase, const char*> stress_phases[] = {
 
 PaperSection fig7_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "Stress σ = (1/V) Σ f ⊗ ℓ over all contacts, f the force on grain b by grain a (sum over the "
-      "pair’s contact "
-      "points), ℓ from a’s centre to b’s (from "
-      "the contact point at walls); compression positive. The angle is that of the major principal "
-      "direction in the xz "
-      "plane to the horizontal, of the "
-      "stress averaged over the stored states of a phase."};
+  section.text = {paper_text("fig7.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   std::array<std::vector<double>, 3> angles, ratios;
   std::array<Panel, 2> panels;  // passive, active
@@ -117,15 +111,15 @@ PaperSection fig7_section(PaperData& data) {
       ratios[k].push_back(stress.ratio(stress_phases[k].first));
     }
   }
-  TextTable table{"Principal direction by phase, means over samples ± standard error",
-                  {"phase", "angle to the horizontal (°)", "σ_xx/σ_zz"},
-                  {}};
+  page::Table table{"Principal direction by phase, means over samples ± standard error",
+                    {"phase", "angle to the horizontal (°)", "σ_xx/σ_zz"},
+                    {}};
   std::array<SampleMean, 3> mean;
   for (size_t k = 0; k < 3; ++k) {
     mean[k] = sample_mean(angles[k]);
     const SampleMean ratio = sample_mean(ratios[k]);
-    table.rows.push_back({stress_phases[k].second, with_error(mean[k].mean, mean[k].error),
-                          with_error(ratio.mean, ratio.error)});
+    table.rows.push_back({stress_phases[k].second, page::with_error(mean[k].mean, mean[k].error),
+                          page::with_error(ratio.mean, ratio.error)});
   }
   if (states == 0) {
     section.notes.push_back("PARTIAL: no stored states.");
@@ -139,17 +133,10 @@ PaperSection fig7_section(PaperData& data) {
     figure.plot.width = 760;
     figure.plot.height = static_cast<int>(2.0 * (78.0 + 640.0 * aspect));
     figure.plot.panels = {panels[0], panels[1]};
-    figure.paper =
-        "Nearly horizontal force chains in the passive and jammed states, nearly vertical "
-        "gravity-induced chains in "
-        "the active state.";
+    figure.paper = paper_text("fig7.paper");
     figure.found =
-        "Sample 1, the stored states with the fastest wall in either direction, contacts within 8 "
-        "cm of the middle "
-        "plane; thickness grows with the normal force "
-        "over the state’s mean (to 4 means). Major principal direction: " +
-        with_error(mean[0].mean, mean[0].error) + "° to the horizontal in the passive, " +
-        with_error(mean[2].mean, mean[2].error) + "° in the active state.";
+        paper_text("fig7.found", {{"passive", page::with_error(mean[0].mean, mean[0].error)},
+                                  {"active", page::with_error(mean[2].mean, mean[2].error)}});
     section.figures = {figure};
   }
   const auto judge = [](const SampleMean& angle, bool is_horizontal) {
@@ -159,9 +146,10 @@ PaperSection fig7_section(PaperData& data) {
   };
   section.rows = {
       {"Fig. 7a", "major stress horizontal in the passive state",
-       with_error(mean[0].mean, mean[0].error) + "° to the horizontal", judge(mean[0], true)},
+       page::with_error(mean[0].mean, mean[0].error) + "° to the horizontal", judge(mean[0], true)},
       {"Fig. 7b", "major stress vertical in the active state",
-       with_error(mean[2].mean, mean[2].error) + "° to the horizontal", judge(mean[2], false)}};
+       page::with_error(mean[2].mean, mean[2].error) + "° to the horizontal",
+       judge(mean[2], false)}};
   return section;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -71,7 +72,7 @@ Panel portrait(const std::vector<std::pair<Orbit, double>>& orbits, const std::s
     Curve curve;
     curve.x = shown.x;
     curve.y = shown.v;
-    curve.title = digits(orbits[k].second, 2) + " Hz";
+    curve.title = plot_label(page::number(orbits[k].second, 2) + " Hz");
     curve.ink = inks[k % 2];
     curve.dashed = k == 1;
     panel.curves.push_back(curve);
@@ -109,21 +110,18 @@ PaperSection fig8_section(PaperData& data) {
       portrait(raw, "{/:Italic x} − {/:Italic x}_{jam}  (mm)", "{/:Italic v}  (mm/s)", 1e3, 1e3),
       portrait(collapsed, "({/:Italic x} − {/:Italic x}_{jam}) {/:Italic ν}^2  (mm/s^2)",
                "{/:Italic v ν}  (mm/s^2)", 1e3, 1e3)};
-  figure.paper =
-      "Displacements scaled by ν⁻² and velocities by ν⁻¹ “collapse nicely on the same trajectory”.";
-  figure.found = "Orbits are means over " + std::to_string(raw[0].first.periods) + " (5 Hz) and " +
-                 std::to_string(raw[1].first.periods) +
-                 " (10 Hz) periods of one sample. Their distance (rms over the phase, each axis in "
-                 "units of the "
-                 "orbits’ mean range) is " +
-                 digits(before) + " raw and " + digits(after) + " scaled.";
+  figure.paper = paper_text("fig8.paper");
+  figure.found = paper_text("fig8.found", {{"slow", std::to_string(raw[0].first.periods)},
+                                           {"fast", std::to_string(raw[1].first.periods)},
+                                           {"raw", page::number(before)},
+                                           {"scaled", page::number(after)}});
   section.figures = {figure};
-  section.rows = {
-      {"Fig. 8", "orbits at 5 and 10 Hz collapse",
-       "distance raw " + digits(before) + ", scaled " + digits(after) + " of the orbit’s size",
-       after < 0.1            ? Agreement::agrees
-       : after < 0.5 * before ? Agreement::partly
-                              : Agreement::differs}};
+  section.rows = {{"Fig. 8", "orbits at 5 and 10 Hz collapse",
+                   "distance raw " + page::number(before) + ", scaled " + page::number(after) +
+                       " of the orbit’s size",
+                   after < 0.1            ? Agreement::agrees
+                   : after < 0.5 * before ? Agreement::partly
+                                          : Agreement::differs}};
   return section;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -16,15 +17,16 @@ Panel scaling_panel(const VariedCurve& curve, const PowerFit& fit, double expect
   if (!std::isfinite(fit.exponent)) return panel;
   const double low = curve.x.front(), high = curve.x.back();
   panel.curves.push_back(curve_of([&](double nu) { return fit.at(nu); }, low, high, true,
-                                  "fit, exponent " + digits(fit.exponent), Ink::black));
+                                  "fit, exponent " + plot_label(page::number(fit.exponent)),
+                                  Ink::black));
   // through the data's geometric middle
   double logs = 0.0;
   for (size_t k = 0; k < curve.x.size(); ++k)
     logs +=
         std::log(curve.y[k] / std::pow(curve.x[k], expected)) / static_cast<double>(curve.x.size());
-  panel.curves.push_back(
-      curve_of([&](double nu) { return std::exp(logs) * std::pow(nu, expected); }, low, high, true,
-               "the paper’s exponent " + digits(expected, 1), Ink::vermilion, false));
+  panel.curves.push_back(curve_of(
+      [&](double nu) { return std::exp(logs) * std::pow(nu, expected); }, low, high, true,
+      "the paper’s exponent " + plot_label(page::number(expected, 1)), Ink::vermilion, false));
   return panel;
 }
 
@@ -36,8 +38,8 @@ PowerFit fit_part(const VariedCurve& curve, double low, double high) {
   return fit_power(x, y);
 }
 
-TextTable values_table(const std::vector<VariedValue>& values) {
-  TextTable table;
+page::Table values_table(const std::vector<VariedValue>& values) {
+  page::Table table;
   table.caption = "Means over samples ± standard error";
   table.head = {"ν (Hz)",       "samples",           "periods each",    "Δx_max (mm)",
                 "v_max (mm/s)", "Δx_max ν² (mm/s²)", "v_max ν (mm/s²)", "error (g·h)"};
@@ -46,11 +48,13 @@ TextTable values_table(const std::vector<VariedValue>& values) {
                      speed = value.mean(&Observation::speed_in);
     const double nu = value.value;
     table.rows.push_back(
-        {digits(nu), std::to_string(value.samples.size()) + " of " + std::to_string(value.planned),
+        {page::number(nu),
+         std::to_string(value.samples.size()) + " of " + std::to_string(value.planned),
          std::to_string(value.samples.front().periods),
-         with_error(1e3 * rise.mean, 1e3 * rise.error),
-         with_error(1e3 * speed.mean, 1e3 * speed.error), digits(1e3 * rise.mean * nu * nu),
-         digits(1e3 * speed.mean * nu), digits(value.mean(&Observation::error_mean).mean, 2)});
+         page::with_error(1e3 * rise.mean, 1e3 * rise.error),
+         page::with_error(1e3 * speed.mean, 1e3 * speed.error),
+         page::number(1e3 * rise.mean * nu * nu), page::number(1e3 * speed.mean * nu),
+         page::number(value.mean(&Observation::error_mean).mean, 2)});
   }
   return table;
 }
@@ -71,18 +75,16 @@ PaperSection fig9_section(PaperData& data) {
   figure.plot.height = 760;
   figure.plot.panels = {scaling_panel(rise, rise_fit, -2.0, "Δ{/:Italic x}_{max}  (mm)"),
                         scaling_panel(speed, speed_fit, -1.0, "{/:Italic v}_{max}  (mm/s)")};
-  figure.paper =
-      "Δx_max falls as ν⁻² and v_max as ν⁻¹ from 1 to 60 Hz; “the corresponding fits are "
-      "excellent”.";
-  figure.found = "Exponent of Δx_max: " + words_of(rise_fit) + ", " + misfit_words(rise_fit, rise) +
-                 "; of v_max: " + words_of(speed_fit) + ", " + misfit_words(speed_fit, speed) +
-                 ". Unweighted least squares on logarithms of the sample means, 95 % intervals "
-                 "from Student’s t. " +
-                 misfit_meaning + " By part: Δx_max up to 10 Hz " +
-                 words_of(fit_part(rise, 0.0, 10.0)) + ", from 10 Hz " +
-                 words_of(fit_part(rise, 10.0, 1e9)) + "; v_max up to 10 Hz " +
-                 words_of(fit_part(speed, 0.0, 10.0)) + ", from 10 Hz " +
-                 words_of(fit_part(speed, 10.0, 1e9)) + ".";
+  figure.paper = paper_text("fig9.paper");
+  figure.found = paper_text("fig9.found", {{"rise", words_of(rise_fit)},
+                                           {"rise_misfit", misfit_words(rise_fit, rise)},
+                                           {"speed", words_of(speed_fit)},
+                                           {"speed_misfit", misfit_words(speed_fit, speed)},
+                                           {"misfit", paper_text("misfit")},
+                                           {"rise_low", words_of(fit_part(rise, 0.0, 10.0))},
+                                           {"rise_high", words_of(fit_part(rise, 10.0, 1e9))},
+                                           {"speed_low", words_of(fit_part(speed, 0.0, 10.0))},
+                                           {"speed_high", words_of(fit_part(speed, 10.0, 1e9))}});
   section.figures = {figure};
   section.tables = {values_table(values)};
   section.rows = {

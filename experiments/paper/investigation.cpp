@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -24,10 +25,10 @@ double deviation_of(const SampleMean& mean) {
   return mean.error * std::sqrt(static_cast<double>(mean.samples));
 }
 
-std::string error_words(const SampleMean& mean) { return with_error(mean.mean, mean.error); }
+page::Text error_words(const SampleMean& mean) { return page::with_error(mean.mean, mean.error); }
 
-TextTable exponents_table(const std::vector<Variant>& variants) {
-  TextTable table{
+page::Table exponents_table(const std::vector<Variant>& variants) {
+  page::Table table{
       "Exponents in ν under each cause: between 10 and 60 Hz (mean over samples ± standard error), "
       "and "
       "fitted over 5, 10, 20 and 60 Hz with 95 % intervals; C of Eq. 3; solid fractions at 10 Hz",
@@ -38,11 +39,11 @@ TextTable exponents_table(const std::vector<Variant>& variants) {
     const VariedCurve rise = curve_of_values(variant.values, &Observation::rise),
                       speed = curve_of_values(variant.values, &Observation::speed_in);
     const auto fit = [](const VariedCurve& curve) {
-      return curve.x.size() < 3 ? std::string("–") : words_of(fit_power(curve.x, curve.y));
+      return curve.x.size() < 3 ? page::Text("–") : words_of(fit_power(curve.x, curve.y));
     };
     const VariedValue *a = variant.at(slow_end), *b = variant.at(fast_end);
     const auto of = [](const VariedValue* value, double Observation::*quantity) {
-      return value ? digits(value->mean(quantity).mean, 4) : std::string("–");
+      return value ? page::number(value->mean(quantity).mean, 4) : page::Text("–");
     };
     table.rows.push_back(
         {variant.name, std::to_string(variant.values.front().samples.size()),
@@ -70,15 +71,15 @@ double peak_of(const Variant& variant, double Observation::*rate) {
   return known < 3 ? not_known : at;
 }
 
-TextTable rates_table(const std::vector<Variant>& variants) {
-  TextTable table{
+page::Table rates_table(const std::vector<Variant>& variants) {
+  page::Table table{
       "Compaction rate (1/s) under each cause, in the paper’s window and in the same absolute time "
       "for all "
       "frequencies (mean over samples ± standard error)",
       {"varied", "window"},
       {}};
   for (const double frequency : compared_frequencies)
-    table.head.push_back(digits(frequency, 1) + " Hz");
+    table.head.push_back(page::number(frequency, 1) + " Hz");
   table.head.push_back("largest at");
   for (const Variant& variant : variants) {
     if (variant.values.size() < 3) continue;  // shorter runs: another window
@@ -90,18 +91,18 @@ TextTable rates_table(const std::vector<Variant>& variants) {
         table.rows.back().push_back(value ? error_words(value->mean(rate)) : "–");
       }
       const double peak = peak_of(variant, rate);
-      table.rows.back().push_back(std::isfinite(peak) ? digits(peak, 1) + " Hz" : "–");
+      table.rows.back().push_back(std::isfinite(peak) ? page::number(peak, 1) + " Hz" : "–");
     }
   }
   return table;
 }
 
 /// "−1.80 against −1.82 (0.7 standard deviations of the samples)".
-std::string effect(const SampleMean& seen, const SampleMean& reference, double deviation) {
+page::Text effect(const SampleMean& seen, const SampleMean& reference, double deviation) {
   if (!std::isfinite(seen.mean) || !std::isfinite(reference.mean)) return "–";
-  const std::string text = digits(seen.mean) + " against " + digits(reference.mean);
+  const page::Text text = page::number(seen.mean) + " against " + page::number(reference.mean);
   if (!(deviation > 0.0)) return text;
-  return text + " (" + digits(std::abs(seen.mean - reference.mean) / deviation, 2) +
+  return text + " (" + page::number(std::abs(seen.mean - reference.mean) / deviation, 2) +
          " standard deviations of the samples)";
 }
 
@@ -126,8 +127,8 @@ void add_effects(const std::vector<Variant>& variants, PaperSection& section) {
                  common = peak_of(variant, &Observation::rate_common);
     if (!std::isfinite(whole)) continue;
     section.rows.push_back({"beyond", "compaction fastest near 10 Hz",
-                            variant.name + ": of 5, 10, 20, 60 Hz at " + digits(whole, 1) +
-                                " Hz in the paper’s window, " + digits(common, 1) +
+                            variant.name + ": of 5, 10, 20, 60 Hz at " + page::number(whole, 1) +
+                                " Hz in the paper’s window, " + page::number(common, 1) +
                                 " Hz within 0.4–1 s",
                             Agreement::reported});
   }
@@ -215,21 +216,13 @@ std::vector<Variant> variants_of(PaperData& data) {
 
 PaperSection investigation_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "Each cause is varied alone, at 10 and 60 Hz at least, on sample 1, and compared with sample "
-      "1 without it; a "
-      "change "
-      "counts when it exceeds what another sample of grains changes. Solver and step have shorter "
-      "runs and are "
-      "compared "
-      "over the same periods. Gravity and the wall’s mass were varied at 10 Hz alone: no exponent "
-      "of ν under them."};
+  section.text = {paper_text("investigation.intro")};
   for (const Cause& cause : causes) note_missing(data, cause.varied, cause.missing, section);
   note_missing(data, Varied::time_step_fast, "steps at 60 Hz", section);
   const std::vector<Variant> variants = variants_of(data);
   if (!variants.empty()) {
     section.tables = {exponents_table(variants)};
-    if (const TextTable rates = rates_table(variants); !rates.rows.empty())
+    if (const page::Table rates = rates_table(variants); !rates.rows.empty())
       section.tables.push_back(rates);
     add_effects(variants, section);
   }

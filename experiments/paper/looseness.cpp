@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -28,21 +29,21 @@ const VariedValue* tightest(const std::vector<VariedValue>& values) {
   return least == values.end() ? nullptr : &*least;
 }
 
-std::string change(double value, double reference) {
-  return reference == 0.0 ? "–" : percent(value / reference - 1.0);
+page::Text change(double value, double reference) {
+  return reference == 0.0 ? "–" : page::percent(value / reference - 1.0);
 }
 
-TextTable table_of(const std::vector<VariedValue>& values, const std::string& caption) {
-  TextTable table{caption, {"solver", "error (g·h)", "ms a step (median)"}, {}};
+page::Table table_of(const std::vector<VariedValue>& values, const std::string& caption) {
+  page::Table table{caption, {"solver", "error (g·h)", "ms a step (median)"}, {}};
   for (const ObservableColumn& column : observable_columns())
     table.head.push_back(std::string(column.name) + " (" + column.unit + ")");
   const VariedValue* reference = tightest(values);
   for (const VariedValue& value : values) {
     const Observation& seen = value.samples.front();
     table.rows.push_back(
-        {value.label, digits(seen.error_mean, 2), digits(1e3 * seen.seconds_per_step)});
+        {value.label, page::number(seen.error_mean, 2), page::number(1e3 * seen.seconds_per_step)});
     for (const ObservableColumn& column : observable_columns()) {
-      std::string cell = digits(column.factor * seen.*column.value);
+      page::Text cell = page::number(column.factor * seen.*column.value);
       if (&value != reference)
         cell += " (" + change(seen.*column.value, reference->samples.front().*column.value) + ")";
       table.rows.back().push_back(cell);
@@ -92,27 +93,23 @@ PaperFigure figure_of(const std::vector<VariedValue>& values, const std::vector<
     figure.plot.panels.push_back(panel);
   }
   figure.paper = "The paper could not ask this: one code, one tolerance.";
-  figure.found =
-      "Deviation of Δx_max from the run with the smallest error (same packing, sample 1); below "
-      "1e-4 it is drawn at "
-      "1e-4. Under the grey line solving more "
-      "tightly changes less than another sample of grains does.";
+  figure.found = paper_text("looseness.found");
   return figure;
 }
 
 /// Loosest run whose Delta x_max lies within the samples' spread of the tightest one's, and so do
 /// all tighter ones.
-std::string loosest_good(std::vector<VariedValue> values, double spread) {
+page::Text loosest_good(std::vector<VariedValue> values, double spread) {
   std::sort(values.begin(), values.end(), [](const VariedValue& a, const VariedValue& b) {
     return a.samples.front().error_mean < b.samples.front().error_mean;
   });
-  std::string good;
+  page::Text good;
   for (const VariedValue& value : values) {
     const double miss =
         std::abs(value.samples.front().rise / values.front().samples.front().rise - 1.0);
     if (!(miss <= spread)) break;
-    good =
-        value.label + " iterations, error " + digits(value.samples.front().error_mean, 2) + " g·h";
+    good = value.label + " iterations, error " + page::number(value.samples.front().error_mean, 2) +
+           " g·h";
   }
   return good;
 }
@@ -121,15 +118,7 @@ std::string loosest_good(std::vector<VariedValue> values, double spread) {
 
 PaperSection looseness_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "The same packing (sample 1) driven at 10 Hz, and at 60 Hz, with the solver stopped after "
-      "different numbers of "
-      "iterations in every step, and with other "
-      "backends at the campaign’s number. The error is the judge’s scaled natural map, rms over "
-      "contacts, mean over "
-      "the steps of the periods that count, in units of "
-      "g·h; every backend here solves the exact law. Percentages: deviation from the run with the "
-      "smallest error."};
+  section.text = {paper_text("looseness.intro")};
   for (const auto& [varied, what] :
        {std::pair{Varied::iterations, "numbers of iterations at 10 Hz"},
         std::pair{Varied::iterations_fast, "numbers of iterations at 60 Hz"},
@@ -149,10 +138,10 @@ PaperSection looseness_section(PaperData& data) {
   if (values.size() < 2 && fast.size() < 2 && backends.size() < 2) return section;
   section.figures = {figure_of(values, fast, backends, spread)};
   if (values.size() > 2 && std::isfinite(spread)) {
-    const std::string good = loosest_good(values, spread);
+    const page::Text good = loosest_good(values, spread);
     section.rows = {{"beyond", "–",
                      "Δx_max at 10 Hz within the spread between samples (" +
-                         digits(100.0 * spread, 2) + " %) down to: " + good,
+                         page::number(100.0 * spread, 2) + " %) down to: " + good,
                      Agreement::reported}};
   }
   return section;

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "experiments/paper/stored_states.hpp"
-
-#include "platform/text.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -72,16 +71,7 @@ struct Histogram {
 
 PaperSection packing_section(PaperData& data) {
   PaperSection section;
-  section.text = {
-      "A contact is a pair of bodies with a compressive force, whatever its number of points. Z = "
-      "(2 N_gg + N_gw)/N; "
-      "rattlers are grains of fewer than two such "
-      "contacts, removed until none is left. Fabric F = ⟨n ⊗ n⟩, a_c = 5/2 (F₁ − F₃) along the "
-      "major and minor "
-      "directions of the stress; a_n from Σ f_n n ⊗ n/Σ f_n and a_t "
-      "from Σ f ⊗ n/Σ f_n in the same way, each less what is before it; q/p = (σ₁ − σ₃)/(σ₁ + σ₂ + "
-      "σ₃), which the "
-      "field expects near 2/5 (a_c + a_n + a_t)."};
+  section.text = {paper_text("packing.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   std::array<std::array<std::vector<double>, columns.size()>, force_phases.size()> values;
   std::array<Histogram, force_phases.size()> histograms;
@@ -106,14 +96,14 @@ PaperSection packing_section(PaperData& data) {
     section.notes.push_back("PARTIAL: no stored states.");
     return section;
   }
-  TextTable table{"By phase at 5 Hz, means over samples ± standard error",
-                  {"", "jammed", "active", "passive"},
-                  {}};
+  page::Table table{"By phase at 5 Hz, means over samples ± standard error",
+                    {"", "jammed", "active", "passive"},
+                    {}};
   for (size_t c = 0; c < columns.size(); ++c) {
     table.rows.push_back({columns[c].name});
     for (size_t p = 0; p < force_phases.size(); ++p) {
       const SampleMean mean = sample_mean(values[p][c]);
-      table.rows.back().push_back(with_error(mean.mean, mean.error));
+      table.rows.back().push_back(page::with_error(mean.mean, mean.error));
     }
   }
   section.tables = {table};
@@ -122,25 +112,20 @@ PaperSection packing_section(PaperData& data) {
   panel.y_label = "probability density";
   panel.log_y = true;
   const Ink inks[] = {Ink::green, Ink::blue, Ink::vermilion};
-  std::string tails;
+  page::Text tails;
   for (size_t p = 0; p < force_phases.size(); ++p) {
     if (histograms[p].total == 0.0) continue;
     panel.curves.push_back(histograms[p].curve(force_phases[p].second, inks[p]));
-    add_to_list(
-        tails, std::string(force_phases[p].second) + " β = " + digits(-histograms[p].tail().slope));
+    tails += (tails.empty() ? "" : ", ") + std::string(force_phases[p].second) +
+             " β = " + page::number(-histograms[p].tail().slope);
   }
   if (panel.curves.empty()) return section;
   PaperFigure figure;
   figure.plot.name = "forces";
   figure.plot.title = "Distribution of normal forces by phase";
   figure.plot.panels = {panel};
-  figure.paper =
-      "Not shown in this paper; packings of polyhedra have an exponential tail of strong forces "
-      "and many weak ones.";
-  figure.found =
-      "Grain–grain contacts of all stored states and samples. Tail exp(−β f/⟨f⟩) from one to six "
-      "means: " +
-      tails + ".";
+  figure.paper = paper_text("forces.paper");
+  figure.found = paper_text("forces.found", {{"tails", tails}});
   section.figures = {figure};
   return section;
 }

@@ -3,34 +3,15 @@
 #include <cmath>
 #include <map>
 
-#include "experiments/page/html_page.hpp"
+#include "experiments/page/drawing.hpp"
+#include "experiments/page/html.hpp"
+#include "experiments/page/markdown.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 
 namespace ballast {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The picture as a file on its own: on white, whatever is behind it.
-std::string on_white(std::string svg) {
-  const size_t root = svg.find("<svg");
-  const size_t end = root == std::string::npos ? root : svg.find('>', root);
-  if (end != std::string::npos)
-    svg.insert(end + 1, "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
-  return svg;
-}
-
-/// Draws a figure into the folder and returns the SVG for inlining.
-std::string draw(const Figure& figure, const fs::path& folder) {
-  const fs::path pictures = folder / "figures";
-  const std::string svg = render_svg(figure, pictures);
-  write_whole_file(pictures / (figure.name + ".svg"), on_white(svg));
-  render_pdf(figure, pictures);
-  std::error_code ignored;
-  fs::remove(pictures / (figure.name + ".gnuplot"), ignored);  // its data are in data/
-  return svg;
-}
 
 std::string text_in(const nlohmann::ordered_json& manifest, const char* part, const char* name) {
   const auto found = manifest.find(part);
@@ -49,7 +30,7 @@ std::string listed(const std::map<std::string, int>& counts) {
 
 }  // namespace
 
-std::vector<std::string> origin_of(const PaperData& data) {
+std::vector<page::Text> origin_of(const PaperData& data) {
   std::map<std::string, int> commits, machines;
   double steps = 0.0, seconds = 0.0;
   for (size_t k = 0; k < data.campaign().runs.size(); ++k) {
@@ -67,10 +48,10 @@ std::vector<std::string> origin_of(const PaperData& data) {
                  static_cast<double>(data.campaign().runs[k].steps);
   }
   const CampaignSettings& settings = data.campaign().settings;
-  std::vector<std::string> origin = {
+  std::vector<page::Text> origin = {
       std::to_string(data.finished()) + " of " + std::to_string(data.campaign().runs.size()) +
-          " runs are finished: " + digits(steps, 4) + " driven steps, about " + digits(seconds, 3) +
-          " core-seconds without the packings.",
+          " runs are finished: " + page::number(steps, 4) + " driven steps, about " +
+          page::number(seconds, 3) + " core-seconds without the packings.",
       "Commits: " + listed(commits) + ".", "Machines: " + listed(machines) + ".",
       "Scene " + settings.scene + ", " + std::to_string(settings.iterations) +
           " solver iterations a step unless said, seeds 1 to " + std::to_string(settings.seeds) +
@@ -78,24 +59,20 @@ std::vector<std::string> origin_of(const PaperData& data) {
   return origin;
 }
 
-void write_paper_report(PaperData& data, std::vector<PaperSection> sections,
+void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
                         const fs::path& folder) {
-  create_folder(folder / "figures");
   create_folder(folder / "data");
-  std::vector<std::string> pictures;
-  for (PaperSection& section : sections)
-    for (const PaperFigure& figure : section.figures) {
+  for (const PaperSection& section : sections)
+    for (const PaperFigure& figure : section.figures)
       write_whole_file(folder / "data" / (figure.plot.name + ".csv"), figure_csv(figure.plot));
-      pictures.emplace_back();
-      try {
-        pictures.back() = draw(figure.plot, folder);
-      } catch (const Error& error) {
-        section.notes.push_back(std::string(error.what()) + ". The figure is left out.");
-      }
-    }
-  const std::vector<std::string> origin = origin_of(data);
-  write_whole_file(folder / "README.md", markdown_of(sections, origin));
-  write_whole_file(folder / "paper.html", html_of(sections, origin, pictures));
+  page::Page page = paper_page(sections, origin_of(data));
+  // the data stand beside as CSV, and README.md shows the files themselves
+  page::draw_pictures(page, folder, {.with_script = false, .on_white = true});
+  write_whole_file(folder / "paper.html", html_of(page));
+  page.lede.push_back(
+      page::marked("`ballast paper report` writes this page; it also is "
+                   "[one HTML page](paper.html) that opens offline."));
+  write_whole_file(folder / "README.md", markdown_of(page));
 }
 
 }  // namespace ballast

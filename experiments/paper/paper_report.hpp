@@ -9,17 +9,15 @@
 namespace ballast {
 
 /// Writes the report of these sections into `folder`, each file beside and renamed. What gnuplot
-/// cannot draw becomes a note. Throws Error.
-void write_paper_report(PaperData& data, std::vector<PaperSection> sections,
+/// cannot draw becomes a notice. Throws Error.
+void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
                         const std::filesystem::path& folder);
 
 /// What the finished runs were made by: programs, machines, steps, wall clock; one sentence each.
-std::vector<std::string> origin_of(const PaperData& data);
+std::vector<page::Text> origin_of(const PaperData& data);
 
-std::string markdown_of(const std::vector<PaperSection>& sections,
-                        const std::vector<std::string>& origin);
-std::string html_of(const std::vector<PaperSection>& sections,
-                    const std::vector<std::string>& origin,
-                    const std::vector<std::string>& pictures);
+/// The page that both files are written from; its figures are not drawn yet.
+page::Page paper_page(const std::vector<PaperSection>& sections,
+                      const std::vector<page::Text>& origin);
 
 }  // namespace ballast

@@ -29,17 +29,17 @@ SampleMean prefactor_of(const VariedValue& value) {
   return sample_mean(factors);
 }
 
-std::string words_of(const PowerFit& fit) {
+page::Text words_of(const PowerFit& fit) {
   if (!std::isfinite(fit.exponent)) return "–";
-  std::string text = digits(fit.exponent);
+  page::Text text = page::number(fit.exponent);
   if (std::isfinite(fit.half_width))
-    text +=
-        std::string(" ") + interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
-  return text + " (R² " + digits(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
+    text += std::string(" ") +
+            page::interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
+  return text + " (R² " + page::number(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
 }
 
-std::string misfit_words(const PowerFit& fit, const VariedCurve& curve) {
-  return "χ²/dof " + digits(reduced_chi2(fit, curve.x, curve.y, curve.error), 2);
+page::Text misfit_words(const PowerFit& fit, const VariedCurve& curve) {
+  return "χ²/dof " + page::number(reduced_chi2(fit, curve.x, curve.y, curve.error), 2);
 }
 
 Agreement judge_exponent(const PowerFit& fit, double expected, double tolerance) {

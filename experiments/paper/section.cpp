@@ -1,8 +1,6 @@
 #include "experiments/paper/section.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
 
 #include "platform/csv.hpp"
 #include "platform/text.hpp"
@@ -32,39 +30,6 @@ const char* word_of(Agreement agreement) {
       return "reported";
   }
   return "?";
-}
-
-std::string digits(double value, int count) {
-  if (!std::isfinite(value)) return "–";
-  if (value == 0.0) return "0";
-  std::string text = printed("%.*e", count - 1, value);
-  const int exponent = std::atoi(std::strchr(text.c_str(), 'e') + 1);
-  if (exponent >= -3 && exponent < 6)
-    text = printed("%.*f", std::max(0, count - 1 - exponent), value);
-  if (text[0] == '-') text.replace(0, 1, "−");
-  if (const size_t mark = text.find('e'); mark != std::string::npos)  // "5e-04" to "5e-4"
-    text = text.substr(0, mark + 1) + std::to_string(exponent);
-  return text;
-}
-
-std::string with_error(double value, double error) {
-  if (!std::isfinite(value) || !std::isfinite(error) || error == 0.0) return digits(value);
-  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(error))));
-  if (exponent < -6 || exponent > 5) return digits(value) + " ± " + digits(error, 2);
-  const int places = std::max(0, 1 - exponent);
-  std::string text = printed("%.*f", places, value);
-  if (text[0] == '-') text.replace(0, 1, "−");
-  return text + " ± " + printed("%.*f", places, error);
-}
-
-std::string percent(double relative) {
-  if (!std::isfinite(relative)) return "–";
-  return (relative >= 0.0 ? std::string("+") : std::string("−")) +
-         digits(100.0 * std::abs(relative), 2) + " %";
-}
-
-std::string interval(double low, double high) {
-  return std::string("[") + digits(low) + ", " + digits(high) + "]";
 }
 
 Panel frequency_panel(const std::string& y_label) {

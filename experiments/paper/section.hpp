@@ -1,11 +1,10 @@
 #pragma once
-// What a part of the report is made of. All words are plain text (UTF-8): the HTML page escapes
-// them, the Markdown page takes them as they are.
+// What a part of the report is made of.
 
 #include <string>
 #include <vector>
 
-#include "experiments/page/plot.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 
@@ -14,43 +13,27 @@ const char* word_of(Agreement agreement);
 
 /// One row of the table paper | Ballast | agreement.
 struct AgreementRow {
-  std::string place;    ///< "Fig. 9"
-  std::string paper;    ///< what the paper says
-  std::string ballast;  ///< what was measured, with its interval
+  std::string place;   ///< "Fig. 9"
+  std::string paper;   ///< what the paper says
+  page::Text ballast;  ///< what was measured, with its interval
   Agreement agreement = Agreement::reported;
 };
 
 struct PaperFigure {
   Figure plot;
-  std::string paper;  ///< what the paper says about it
-  std::string found;  ///< what is drawn, and what was found
-};
-
-struct TextTable {
-  std::string caption;
-  std::vector<std::string> head;
-  std::vector<std::vector<std::string>> rows;
+  page::Text paper;  ///< what the paper says about it
+  page::Text found;  ///< what is drawn, and what was found
 };
 
 struct PaperSection {
   std::string id;  ///< "fig9"
   std::string heading;
-  std::vector<std::string> notes;  ///< what is missing, loudly
-  std::vector<std::string> text;   ///< paragraphs
+  std::vector<page::Text> notes;  ///< what is missing, loudly
+  std::vector<page::Text> text;   ///< paragraphs
   std::vector<PaperFigure> figures;
-  std::vector<TextTable> tables;
+  std::vector<page::Table> tables;
   std::vector<AgreementRow> rows;
 };
-
-/// `count` significant digits as a person writes them; powers of ten outside 1e-3 ... 1e6; a dash
-/// for what is not known.
-std::string digits(double value, int count = 3);
-/// "1.23 ± 0.04": the error to two digits of its own; no error when it is not known.
-std::string with_error(double value, double error);
-/// A relative deviation: "+3.1 %", "−12 %".
-std::string percent(double relative);
-/// "[1.1, 1.4]"
-std::string interval(double low, double high);
 
 /// A panel over the paper's frequencies, 1 to 60 Hz: the same axis in every figure.
 Panel frequency_panel(const std::string& y_label);

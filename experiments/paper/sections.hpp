@@ -65,18 +65,10 @@ VariedCurve curve_of_values(const std::vector<VariedValue>& values, double Obser
 SampleMean prefactor_of(const VariedValue& value);
 
 /// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995)".
-std::string words_of(const PowerFit& fit);
+page::Text words_of(const PowerFit& fit);
 /// "χ²/dof 3.2" of a curve's points about the fit, with their errors; "χ²/dof –" when these are not
-/// known.
-std::string misfit_words(const PowerFit& fit, const VariedCurve& curve);
-/// What a reader has to know about it.
-inline constexpr const char* misfit_meaning =
-    "χ²/dof compares the points’ distances from the fitted law with the standard errors between "
-    "samples (pooled): "
-    "about 1 "
-    "if the law holds within the scatter; above about 3 it does not, and the interval then says "
-    "how well a line can be "
-    "drawn, not that the points lie on one.";
+/// known. What a reader has to know about it: paper_text("misfit").
+page::Text misfit_words(const PowerFit& fit, const VariedCurve& curve);
 /// agrees: the interval holds `expected`, or the exponent is within `tolerance` of it; partly:
 /// within three times that.
 Agreement judge_exponent(const PowerFit& fit, double expected, double tolerance = 0.1);

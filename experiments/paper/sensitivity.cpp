@@ -5,8 +5,9 @@
 namespace ballast {
 namespace {
 
-TextTable table_of(const std::vector<VariedValue>& values, const char* caption, const char* first) {
-  TextTable table{caption, {first, "samples"}, {}};
+page::Table table_of(const std::vector<VariedValue>& values, const char* caption,
+                     const char* first) {
+  page::Table table{caption, {first, "samples"}, {}};
   for (const ObservableColumn& column : observable_columns())
     table.head.push_back(std::string(column.name) + " (" + column.unit + ")");
   table.head.insert(table.head.end(), {"C of Eq. 3", "error (g·h)", "ms a step (median)"});
@@ -15,11 +16,12 @@ TextTable table_of(const std::vector<VariedValue>& values, const char* caption, 
     for (const ObservableColumn& column : observable_columns()) {
       const SampleMean mean = value.mean(column.value);
       table.rows.back().push_back(
-          with_error(column.factor * mean.mean, column.factor * mean.error));
+          page::with_error(column.factor * mean.mean, column.factor * mean.error));
     }
-    table.rows.back().push_back(digits(prefactor_of(value).mean));
-    table.rows.back().push_back(digits(value.mean(&Observation::error_mean).mean, 2));
-    table.rows.back().push_back(digits(1e3 * value.mean(&Observation::seconds_per_step).mean));
+    table.rows.back().push_back(page::number(prefactor_of(value).mean));
+    table.rows.back().push_back(page::number(value.mean(&Observation::error_mean).mean, 2));
+    table.rows.back().push_back(
+        page::number(1e3 * value.mean(&Observation::seconds_per_step).mean));
   }
   return table;
 }
@@ -57,10 +59,10 @@ PaperSection sensitivity_section(PaperData& data) {
     if (values.empty()) continue;
     section.tables.push_back(table_of(values, question.caption, question.first));
     if (values.size() < 2) continue;
-    std::string found;
+    page::Text found;
     for (const VariedValue& value : values)
       found += (found.empty() ? "" : "; ") + value.label + ": " +
-               digits(1e3 * value.mean(&Observation::rise).mean) + " mm";
+               page::number(1e3 * value.mean(&Observation::rise).mean) + " mm";
     section.rows.push_back({"beyond", "–", std::string("Δx_max by ") + question.what + ": " + found,
                             Agreement::reported});
   }

@@ -6,6 +6,7 @@
 
 #include "experiments/paper/investigation.hpp"
 #include "experiments/paper/sections.hpp"
+#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -48,21 +49,21 @@ VariedCurve local_curve(const std::vector<VariedValue>& values, double Observati
 }
 
 /// How much a standard error from so few samples is worth.
-std::string error_meaning(const std::vector<VariedValue>& values) {
+page::Text error_meaning(const std::vector<VariedValue>& values) {
   const int samples = static_cast<int>(values.front().samples.size());
   if (samples < 2) return "One sample: no errors.";
   return "The 95 % interval of a mean over " + std::to_string(samples) + " samples is " +
-         digits(student_t95(samples - 1), 2) + " standard errors to both sides.";
+         page::number(student_t95(samples - 1), 2) + " standard errors to both sides.";
 }
 
-TextTable local_table(const std::vector<VariedValue>& values, const std::string& caption,
-                      const std::string& head) {
-  TextTable table{caption, {head, "Δx_max", "v_max"}, {}};
+page::Table local_table(const std::vector<VariedValue>& values, const std::string& caption,
+                        const std::string& head) {
+  page::Table table{caption, {head, "Δx_max", "v_max"}, {}};
   for (size_t k = 1; k < values.size(); ++k) {
     table.rows.push_back({values[k - 1].label + " to " + values[k].label});
     for (const Quantity& quantity : quantities) {
       const SampleMean exponent = exponent_between(values[k - 1], values[k], quantity.value);
-      table.rows.back().push_back(with_error(exponent.mean, exponent.error));
+      table.rows.back().push_back(page::with_error(exponent.mean, exponent.error));
     }
   }
   return table;
@@ -74,20 +75,22 @@ void draw_local(const Quantity& quantity, const std::vector<VariedValue>& values
   panel.curves = {points_of(curve.x, curve.y, curve.error,
                             "neighbours, mean over samples ± standard error", Ink::blue)};
   if (std::isfinite(expected))
-    panel.lines = {{expected, "the paper’s " + digits(expected, 1), false, Ink::vermilion}};
+    panel.lines = {
+        {expected, "the paper’s " + plot_label(page::number(expected, 1)), false, Ink::vermilion}};
 }
 
 /// From the first pair to the last.
-std::string trend_words(const std::vector<VariedValue>& values, const Quantity& quantity) {
+page::Text trend_words(const std::vector<VariedValue>& values, const Quantity& quantity) {
   const SampleMean first = exponent_between(values[0], values[1], quantity.value),
                    last =
                        exponent_between(values[values.size() - 2], values.back(), quantity.value);
-  return std::string(quantity.name) + ": from " + with_error(first.mean, first.error) + " (" +
-         values[0].label + " to " + values[1].label + ") to " + with_error(last.mean, last.error) +
-         " (" + values[values.size() - 2].label + " to " + values.back().label + ")";
+  return std::string(quantity.name) + ": from " + page::with_error(first.mean, first.error) + " (" +
+         values[0].label + " to " + values[1].label + ") to " +
+         page::with_error(last.mean, last.error) + " (" + values[values.size() - 2].label + " to " +
+         values.back().label + ")";
 }
 
-std::string both_trends(const std::vector<VariedValue>& values) {
+page::Text both_trends(const std::vector<VariedValue>& values) {
   return trend_words(values, quantities[0]) + "; " + trend_words(values, quantities[1]);
 }
 
@@ -109,22 +112,9 @@ void add_by_frequency(const std::vector<VariedValue>& values, const std::vector<
           curve.x, curve.y, curve.error, plain_text(variant.name) + ", sample 1", inks[ink++]));
     }
   }
-  figure.paper =
-      "One exponent from 1 to 60 Hz, by dimensional analysis: “the frequency sets the time scale” "
-      "(sec. 4).";
-  figure.found =
-      "Between neighbouring frequencies, each sample compared with itself; neighbours share a "
-      "point, so that one high "
-      "point "
-      "makes one exponent low and the next high. " +
-      error_meaning(values) + " " + both_trends(values) +
-      ". The paper’s dimensional analysis has no length in it. With the size d of the grains rigid "
-      "grains "
-      "have Δx_max = "
-      "g/ν² · G(d ν²/g): the exponent is −2 only where G is constant, and there Δx_max does not "
-      "depend on "
-      "the size of the "
-      "grains at all.";
+  figure.paper = paper_text("exponents_frequency.paper");
+  figure.found = paper_text("exponents_frequency.found",
+                            {{"errors", error_meaning(values)}, {"trends", both_trends(values)}});
   section.figures.push_back(figure);
   section.tables.push_back(local_table(
       values,
@@ -144,11 +134,11 @@ void add_by_force(const std::vector<VariedValue>& values, PaperSection& section)
     panel.y_label = quantity.axis;
     draw_local(quantity, values, quantity.in_force, panel);
   }
-  figure.paper =
-      "Δx_max ~ f_max⁻¹ (Fig. 10); Eq. 3 supposes f_max ≫ m g. The paper has no law of v_max and "
-      "f_max.";
-  figure.found = "At " + digits(varied_frequency, 1) + " Hz. " + error_meaning(values) + " " +
-                 both_trends(values) + ".";
+  figure.paper = paper_text("exponents_force.paper");
+  figure.found =
+      paper_text("exponents_force.found", {{"frequency", page::number(varied_frequency, 1)},
+                                           {"errors", error_meaning(values)},
+                                           {"trends", both_trends(values)}});
   section.figures.push_back(figure);
   section.tables.push_back(local_table(
       values,
@@ -165,9 +155,9 @@ const VariedValue* value_at(const std::vector<VariedValue>& values, double at) {
 }
 
 /// Measured against predicted, a row for each quantity; in words.
-std::string compare_half_scale(const VariedValue& below, const VariedValue& above, double same,
-                               const VariedValue& half, TextTable& table) {
-  std::string found;
+page::Text compare_half_scale(const VariedValue& below, const VariedValue& above, double same,
+                              const VariedValue& half, page::Table& table) {
+  page::Text found;
   for (const Quantity& quantity : quantities) {
     const SampleMean full = interpolated(below, above, same, quantity.value),
                      seen = half.mean(quantity.value);
@@ -177,13 +167,14 @@ std::string compare_half_scale(const VariedValue& below, const VariedValue& abov
     const char* name = quantity.name;
     table.rows.push_back(
         {half.label, std::string(name) + (quantity.in_scale == 1.0 ? " (mm)" : " (mm/s)"),
-         with_error(unit * full.mean, unit * full.error), digits(factor),
-         with_error(unit * factor * full.mean, unit * factor * full.error),
-         with_error(unit * seen.mean, unit * seen.error),
-         percent(difference / (factor * full.mean)), digits(std::abs(difference) / error, 2)});
+         page::with_error(unit * full.mean, unit * full.error), page::number(factor),
+         page::with_error(unit * factor * full.mean, unit * factor * full.error),
+         page::with_error(unit * seen.mean, unit * seen.error),
+         page::percent(difference / (factor * full.mean)),
+         page::number(std::abs(difference) / error, 2)});
     found += (found.empty() ? "" : "; ") + std::string(name) + " " +
-             percent(difference / (factor * full.mean)) + " (" +
-             digits(std::abs(difference) / error, 2) + " standard errors)";
+             page::percent(difference / (factor * full.mean)) + " (" +
+             page::number(std::abs(difference) / error, 2) + " standard errors)";
   }
   return found;
 }
@@ -197,18 +188,19 @@ void add_half_scale(PaperData& data, const std::vector<VariedValue>& frequencies
                     *above = value_at(frequencies, varied_frequency);
   if (!below || !above) return;
   const double same = varied_frequency * std::sqrt(0.5);
-  TextTable table{
-      "The box at half scale, 10 Hz, beside what the full box must give for it at " + digits(same) +
+  page::Table table{
+      "The box at half scale, 10 Hz, beside what the full box must give for it at " +
+          page::number(same) +
           " Hz (between 7 and 10 Hz on a power law; mean over samples ± standard error)",
       {"", "", "full box", "scaled by", "predicted", "half scale, measured", "difference",
        "in standard errors"},
       {}};
-  std::string words;
+  page::Text words;
   for (const auto& [which, name] : {std::pair{similar_case, "with the lid’s gap at half scale too"},
                                     std::pair{half_scale_case, "with the lid’s 1 cm as it is"}}) {
     const VariedValue* half = value_at(sizes, which);
     if (!half) continue;
-    const std::string found = compare_half_scale(*below, *above, same, *half, table);
+    const page::Text found = compare_half_scale(*below, *above, same, *half, table);
     words += std::string(words.empty() ? "" : "; ") + name + ": " + found;
     section.rows.push_back({"beyond",
                             std::string("half-scale box = full box at ν/√2 (similarity), ") + name,
@@ -216,17 +208,7 @@ void add_half_scale(PaperData& data, const std::vector<VariedValue>& frequencies
   }
   if (table.rows.empty()) return;
   section.tables.push_back(table);
-  section.text.push_back(
-      "Similarity. Rigid grains under gravity have no time but √(d/g): at the same f_max/(m g), "
-      "m_w/m and μ a box at "
-      "half scale at 10 Hz is the full box at 7.07 Hz, with half the displacement and 1/√2 of the "
-      "velocity, over the "
-      "same periods, the fourth to the seventh. Reading the paper’s sizes as widths instead of "
-      "radii therefore cannot "
-      "change an exponent: it shifts ν by √2. What does not scale with the box: the step, the "
-      "overlap that the "
-      "correction leaves, and the lid’s 1 cm where it is kept. Measured against predicted, " +
-      words + ".");
+  section.text.push_back(paper_text("similarity.half_scale", {{"found", words}}));
 }
 
 std::vector<VariedValue> between(const std::vector<VariedValue>& values, double low, double high) {
@@ -252,10 +234,11 @@ void add_gravity(PaperData& data, const std::vector<VariedValue>& frequencies,
     return;
   const double predicted = -0.5 * alpha.exponent - beta.exponent,
                half = std::hypot(0.5 * alpha.half_width, beta.half_width);
-  const std::string words =
-      "−α/2 − β = " + digits(predicted) + " " + interval(predicted - half, predicted + half) +
-      " from α = " + digits(alpha.exponent) + " (ν, 7–20 Hz) and β = " + digits(beta.exponent) +
-      " (f_max); measured: " + words_of(gravity);
+  const page::Text words = "−α/2 − β = " + page::number(predicted) + " " +
+                           page::interval(predicted - half, predicted + half) +
+                           " from α = " + page::number(alpha.exponent) +
+                           " (ν, 7–20 Hz) and β = " + page::number(beta.exponent) +
+                           " (f_max); measured: " + words_of(gravity);
   section.text.push_back("The exponent of g at constant f_max is not free either: " + words +
                          ". The paper’s +2 follows from its −2 and −1.");
   section.rows.push_back(

@@ -1,0 +1,60 @@
+#include "experiments/page/html.hpp"
+#include "experiments/page/markdown.hpp"
+#include "experiments/paper/paper_report.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/page_sample.hpp"
+
+namespace ballast {
+namespace {
+
+using Catch::Matchers::Contains;
+
+PaperSection sample_section() {
+  PaperSection section;
+  section.id = "fig9";
+  section.heading = "Figure 9 <again>";
+  section.notes = {"PARTIAL: 1 of 2"};
+  section.text = {page::marked("About *x*.")};
+  PaperFigure figure;
+  figure.plot.name = "fig09";
+  figure.plot.title = "A title";
+  figure.plot.panels = {Panel{}};
+  figure.paper = "falls";
+  figure.found = "falls | too";
+  section.figures = {figure};
+  section.tables = {{"Means", {"ν", "a|b"}, {{"1", page::with_error(1.5, 0.25)}}}};
+  section.rows = {{"Fig. 9", "x ~ ν^−2", page::number(-2.0), Agreement::agrees},
+                  {"Fig. 9", "y", "no", Agreement::differs}};
+  return section;
+}
+
+TEST_CASE("both pages say the same words") {
+  const page::Page page = paper_page({sample_section()}, {"1 of 2 runs are finished."});
+  const std::string html = html_of(page), markdown = markdown_of(page);
+  check_page(html);
+  for (const char* words : {"PARTIAL: 1 of 2", "1 of 2 runs are finished.", "Means:", "1.50 ± 0.25",
+                            "DIFFERS", "x ~ ν^−2", "What was run", "Azéma"}) {
+    CHECK_THAT(html, Contains(words));
+    CHECK_THAT(markdown, Contains(words));
+  }
+  CHECK_THAT(html, Contains("Figure 9 &lt;again&gt;") &&
+                       Contains("<b>Paper:</b> falls<br><b>Ballast:</b> falls | too"));
+  CHECK_THAT(markdown,
+             Contains("| Fig. 9 | y | no | DIFFERS |") && Contains("**PARTIAL: 1 of 2**"));
+  const std::string head = "| ν | a\\|b |", found = "**Ballast:** falls \\| too";
+  CHECK_THAT(markdown, Contains(head) && Contains(found));
+  CHECK_THAT(markdown, Contains("![A title](figures/fig09.svg)") &&
+                           Contains("[PDF](<figures/fig09.pdf>), [data](<data/fig09.csv>)"));
+}
+
+TEST_CASE("what was found stands before the sections, row by row") {
+  const page::Page page = paper_page({sample_section(), sample_section()}, {});
+  REQUIRE(page.sections.at(1).id == "agreement");
+  const auto& table = std::get<page::Table>(page.sections.at(1).blocks.at(0));
+  REQUIRE(table.rows.size() == 4);
+  CHECK(plain_words(table.rows[0][2]) == "−2.00");
+  CHECK(plain_words(table.rows[3][3]) == "DIFFERS");
+}
+
+}  // namespace
+}  // namespace ballast
