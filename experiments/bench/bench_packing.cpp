@@ -99,7 +99,7 @@ BenchStart tiled_start(const DepositedBox& box, int nx, int ny) {
       }
     }
   sort_memory(start.memory);
-  start.system = box_system(scene, rain, BoxStage::settle, box.packing.lid);
+  start.system = box_system(scene, rain, BoxStage::settle, box.packing.deposit.lid);
   for (int w = 0; w < box_wall_count; ++w) {
     const WallSpec& wall = start.system.bodies[start.system.grain_count + w].wall;
     Pose pose;

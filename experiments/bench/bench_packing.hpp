@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/box/vibrated_box.hpp"
+#include "experiments/box/deposit.hpp"
 
 namespace ballast {
 

@@ -3,6 +3,7 @@
 // grains.
 
 #include "experiments/bench/bench_packing.hpp"
+#include "experiments/step/time_step.hpp"
 
 namespace ballast {
 

@@ -29,8 +29,8 @@ struct ProblemWork {
     assembler.to_world(rows = at.impulses.head(problem.row_count()), at.contacts, world);
   }
   void assemble() {
-    assembler.assemble(at.start.state, v_free, at.h, at.start.state.time + at.h, at.contacts,
-                       problem);
+    const MotionState& state = at.start.state;
+    assembler.assemble({state, at.contacts, v_free, at.h, state.time + at.h}, problem);
   }
 };
 

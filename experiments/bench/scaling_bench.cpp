@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/run/run.hpp"
 #include "experiments/step/step_record.hpp"
+#include "experiments/step/time_step.hpp"
 #include "platform/child_process.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"

@@ -6,6 +6,7 @@
 
 #include "experiments/measure/wall_cycles.hpp"
 #include "experiments/step/step_record.hpp"
+#include "experiments/step/time_step.hpp"
 
 namespace ballast {
 namespace {

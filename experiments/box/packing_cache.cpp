@@ -45,8 +45,10 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
                   double& deposit_seconds) {
   const std::string key = packing_key(scene);
   const fs::path file = packing_file(order.cache, key), part = file.string() + ".part";
+  // without the lock: a packing that is there is whole
   if (!order.anew && find_packing(file, key, packing)) return true;
   create_folder(order.cache);
+  // one process deposits, the others wait for it
   const FileLock lock(file.string() + ".lock", [&](double waited) {
     if (waited == 0.0)
       std::cout << "waiting for the packing that another run deposits" << std::endl;

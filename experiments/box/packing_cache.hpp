@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "experiments/box/vibrated_box.hpp"
+#include "experiments/box/deposit.hpp"
 
 namespace ballast {
 

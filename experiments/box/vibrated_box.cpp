@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <sstream>
 
-#include "geometry/shape/mesh_file.hpp"
 #include "geometry/shape/random_direction.hpp"
 #include "platform/content_key.hpp"
+#include "problems/scene/scene_key.hpp"
 
 namespace ballast {
 namespace {
 
-/// One user's mesh, as read (its size comes from the size class).
+/// The user's meshes in turn; the sizes come from the size classes.
 std::vector<PrincipalShape> grains_from_meshes(const GrainsSpec& spec) {
   std::vector<PrincipalShape> meshes, grains;
-  for (const std::string& file : spec.meshes)
-    meshes.push_back(to_principal_frame(read_mesh_hull(file)));
+  for (const Polyhedron& mesh : spec.meshes) meshes.push_back(to_principal_frame(mesh));
   // sizes and their order as for generated grains; shapes in turn
   const auto sized =
       make_grains(spec.count, spec.distribution, spec.size_convention, spec.shape, spec.seed);
@@ -139,6 +138,7 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
   const BoxSpec& box = scene.box;
   const double horizontal = deposits ? scene.deposit.friction : box.friction_horizontal;
   const double mass = system.mass_of_grains(), weight = mass * system.gravity.norm();
+  // the box as it stands, then what drives a wall of it in this stage
   WallSpec walls[box_wall_count];
   walls[wall_floor] = wall("floor", Vec3::UnitZ(), 0.0, horizontal);
   walls[wall_lid] = wall("lid", -Vec3::UnitZ(), -lid, horizontal);
@@ -173,6 +173,8 @@ double packing_top(const MechanicalSystem& system, const MotionState& state) {
   return top;
 }
 
+// The text must never change for scenes that can do without a new packing: packings are kept under
+// its hash. A change of what a deposit computes raises the number after "packing".
 std::string packing_key(const Scene& scene) {
   std::ostringstream text;
   text.precision(17);
@@ -183,7 +185,7 @@ std::string packing_key(const Scene& scene) {
   text << ';' << g.shape.min_vertices << ' ' << g.shape.max_vertices << ' '
        << g.shape.elongation_min << ' ' << g.shape.elongation_max << ' ' << g.shape.flatness_min
        << ' ' << g.shape.flatness_max << ' ' << g.shape.roughness;
-  for (const std::string& mesh : g.meshes) text << ';' << mesh;
+  for (const Polyhedron& mesh : g.meshes) text << ';' << mesh_key(mesh);
   const BoxSpec& b = scene.box;
   text << ';' << b.length << ' ' << b.width << ' ' << b.friction_vertical;
   const DepositSpec& d = scene.deposit;
@@ -196,14 +198,6 @@ std::string packing_key(const Scene& scene) {
   text << ';' << c.enabled << ' ' << c.slop << ' ' << c.fraction << ' ' << c.sweeps << ' '
        << scene.detection.max_points;
   return content_key(text.str());
-}
-
-MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packing& packing,
-                              MotionState& state) {
-  state = packing.state;
-  state.time = 0.0;
-  state.step = 0;
-  return box_system(scene, rain, BoxStage::drive, packing.lid);
 }
 
 ControlVolume box_control_volume(const Scene& scene, double top) {

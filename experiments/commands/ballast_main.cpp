@@ -17,7 +17,7 @@ constexpr const char* examples = R"(Examples:
   ballast run vibrated_box --resume              goes on where it was stopped
   ballast solve problem.hdf5 --tolerance 1e-8    a stored problem, every measure of its error
   ballast compare problems/*.hdf5 --solvers all  every backend on the same problems, with a page
-  ballast sweep frequencies.toml --jobs 2        many runs, several at a time, each only once
+  ballast plan frequencies.toml --jobs 2         many runs, several at a time, each only once
   ballast bench step vibrated_box --steps 1000   where the time of a step goes
   ballast paper fig9                             runs and draws a figure of the paper; all: a report
   ballast check myscene.toml grain.stl           what is wrong with my files?

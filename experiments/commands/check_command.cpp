@@ -71,7 +71,7 @@ void check_checkpoint(const std::string& file) {
   const Checkpoint checkpoint = read_checkpoint(file);
   std::cout << file << ": checkpoint of scene " << checkpoint.key << ": phase " << checkpoint.phase
             << ", step " << checkpoint.state.step << ", " << checkpoint.state.time << " s, "
-            << checkpoint.state.pose.size() << " bodies, " << checkpoint.contacts.size()
+            << checkpoint.state.pose.size() << " bodies, " << checkpoint.memory.contacts.size()
             << " contacts\n";
 }
 

@@ -10,7 +10,7 @@
 #include "experiments/export/state_export.hpp"
 #include "experiments/record/checkpoint.hpp"
 #include "experiments/record/recorder.hpp"
-#include "experiments/run/run.hpp"
+#include "experiments/run/prepared_run.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {

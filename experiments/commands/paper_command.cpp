@@ -10,7 +10,7 @@
 #include "experiments/paper/make_campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/plans/sweep.hpp"
+#include "experiments/plans/plan_runner.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/text.hpp"
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct PaperOptions {
   std::string target;
   CampaignSettings campaign;
-  SweepOptions sweep;
+  PlanOptions running;
   fs::path output;
 };
 
@@ -53,11 +53,11 @@ ExitCode run_stages(const Campaign& campaign, const PaperOptions& options) {
   const Stopwatch watch;
   ExitCode worst = ExitCode::ok;
   for (const Plan& stage : stages_of(campaign, options.target)) {
-    SweepOptions sweep = options.sweep;
-    sweep.max_seconds -= watch.seconds();
-    if (!(sweep.max_seconds > 0.0)) return ExitCode::time_limit;
+    PlanOptions running = options.running;
+    running.max_seconds -= watch.seconds();
+    if (!(running.max_seconds > 0.0)) return ExitCode::time_limit;
     std::cout << "stage " << stage.name << ": " << stage.runs.size() << " runs" << std::endl;
-    const ExitCode code = run_sweep(stage, sweep);
+    const ExitCode code = run_plan(stage, running);
     if (code == ExitCode::time_limit) return code;
     if (code != ExitCode::ok) worst = code;
     if (code != ExitCode::ok && InterruptGuard::requested()) return code;
@@ -66,16 +66,16 @@ ExitCode run_stages(const Campaign& campaign, const PaperOptions& options) {
 }
 
 ExitCode reproduce(PaperOptions options) {
-  if (!(options.sweep.max_seconds > 0.0))
+  if (!(options.running.max_seconds > 0.0))
     throw UsageError("paper: --max-seconds: expected a number > 0");
   const std::vector<std::string> targets = paper_targets();
   const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
   if (!is_target && options.target != "plan" && options.target != "report")
     throw UsageError("paper: '" + options.target + "' is none of plan, report, " + joined(targets));
   const Campaign campaign = make_campaign(options.campaign);
-  if (options.output.empty()) options.output = options.sweep.results / "report";
+  if (options.output.empty()) options.output = options.running.results / "report";
   if (options.target == "plan") {
-    print_plan(campaign, options.sweep.results);
+    print_plan(campaign, options.running.results);
     return ExitCode::ok;
   }
   // "report" draws what is there; every other target makes its runs first
@@ -84,7 +84,7 @@ ExitCode reproduce(PaperOptions options) {
     options.target = "all";
   else
     code = run_stages(campaign, options);
-  PaperData data(campaign, options.sweep.results);
+  PaperData data(campaign, options.running.results);
   write_paper_report(data, make_sections(data, options.target), options.output);
   std::cout << data.finished() << " of " << campaign.runs.size() << " runs; report in "
             << (options.output / "paper.html").string() << std::endl;
@@ -97,25 +97,25 @@ void add_paper_command(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("paper", "Reproduces the paper: runs, figures 3 to 13, one report");
   auto options = std::make_shared<PaperOptions>();
-  options->sweep.results = "results/paper";
-  options->sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options->running.results = "results/paper";
+  options->running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   command
       ->add_option("target", options->target,
                    "What: all; " + joined(paper_targets()) +
                        "; plan (lists the runs); report (draws what is there, runs nothing)")
       ->required();
   command
-      ->add_option("--jobs", options->sweep.jobs,
+      ->add_option("--jobs", options->running.jobs,
                    "Runs at a time (as many as there are processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
-  command->add_option("--results", options->sweep.results, "The folder of runs (results/paper)")
+  command->add_option("--results", options->running.results, "The folder of runs (results/paper)")
       ->type_name("DIR");
   command->add_option("--output", options->output, "The folder of the report (<results>/report)")
       ->type_name("DIR");
   command
       ->add_option(
-          "--max-seconds", options->sweep.max_seconds,
+          "--max-seconds", options->running.max_seconds,
           "Wall clock after which runs write checkpoints; the report is written all the same")
       ->type_name("S");
   command->add_option("--scene", options->campaign.scene, "Another vibrated box (vibrated_box)")

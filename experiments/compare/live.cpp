@@ -7,9 +7,10 @@
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"
 #include "experiments/run/manifest.hpp"
+#include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "experiments/run/simulation.hpp"
+#include "experiments/step/time_step.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/child_process.hpp"
 #include "platform/clock.hpp"
@@ -56,7 +57,7 @@ Start read_start(const LiveOptions& options, const Scene& scene) {
   Start start;
   start.system = system_of_run(folder.path(), start.state);
   Checkpoint checkpoint = read_checkpoint(folder.checkpoint());
-  start.memory = memory_of(checkpoint, folder.checkpoint());
+  start.memory = std::move(checkpoint.memory);
   start.state = std::move(checkpoint.state);
   start.key = content_key(read_whole_file(folder.checkpoint()));
   if (scene.grains)

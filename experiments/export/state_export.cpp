@@ -39,6 +39,7 @@ void print_rotation(AtomicFile& file, const Quat& q) {
   file.print(" %.17g %.17g %.17g %.17g", q.w(), q.x(), q.y(), q.z());
 }
 
+/// Wavefront OBJ: polygons stay polygons.
 void export_obj(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
   AtomicFile file(path);
   file.print("# ballast: %d grains at t = %.17g s, step %ld; world coordinates in m\n",
@@ -62,6 +63,7 @@ void export_obj(const MechanicalSystem& system, const MotionState& state, const 
   file.commit();
 }
 
+/// Columns of fixed width, so that a reader can line them up and a program can split at blanks.
 void export_text(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
   AtomicFile file(path);
   file.print(
@@ -99,6 +101,7 @@ EngineBox engine_box(const MechanicalSystem& system, const MotionState& state,
                      const fs::path& path) {
   const double unset = std::nan("");
   double lo[3] = {unset, unset, unset}, hi[3] = {unset, unset, unset};
+  // a wall whose normal points along an axis is the box's lower side there, against it the upper
   for (size_t b = 0; b < system.bodies.size(); ++b) {
     if (!system.bodies[b].is_wall()) continue;
     const Vec3 normal = state.pose[b].rotation * system.bodies[b].shape.plane.normal;
@@ -119,6 +122,7 @@ EngineBox engine_box(const MechanicalSystem& system, const MotionState& state,
   return {side, Vec3(0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]), lo[2])};
 }
 
+/// One grain of the scene: the counts, the constants, the pose, then its shape as triangles.
 void write_engine_grain(AtomicFile& file, const RigidBody& body, const Pose& pose,
                         const Vec3& centre) {
   const Polyhedron& shape = *body.shape.polyhedron;

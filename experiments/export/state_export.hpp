@@ -9,9 +9,10 @@
 namespace ballast {
 
 /// obj      all grains in world coordinates [m], one `o <name>` each
-/// text     a table: name, mass, position, quaternion, velocity, spin (all in the world frame), one
-/// body a row vtp      ParaView polygons with grain, mass, speed and velocity as cell data engines
-/// two files that the benches of other physics engines read: see docs of export_state
+/// text     a table of bodies, one a row: name, mass, position, quaternion, velocity, spin (all in
+///          the world frame)
+/// vtp      ParaView polygons with grain, mass, speed and velocity as cell data
+/// engines  two files that the benches of other physics engines read: see export_state
 enum class ExportFormat { obj, text, vtp, engines };
 
 /// By its name ("obj", ...). Throws Error with the list of names.

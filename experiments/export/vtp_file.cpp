@@ -2,12 +2,12 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/pack.hpp"
 
 namespace ballast {
 
@@ -16,6 +16,7 @@ namespace {
 constexpr std::string_view time_opening =
     "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
 
+/// Three bytes become four digits of 6 bits each; what lacks at the end is filled with =.
 std::string base64(std::string_view bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -42,13 +43,12 @@ constexpr const char* type_name() {
 template <class Number>
 void write_array(AtomicFile& file, const char* name, const std::vector<Number>& values,
                  int components = 1) {
-  const std::uint64_t length = values.size() * sizeof(Number);
-  std::string bytes(sizeof length + length, '\0');
-  std::memcpy(bytes.data(), &length, sizeof length);
-  if (length > 0) std::memcpy(bytes.data() + sizeof length, values.data(), length);
+  Packer packer;
+  packer.number(std::uint64_t{values.size() * sizeof(Number)});
+  packer.fixed(values);
   file.print("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">",
              type_name<Number>(), name, components);
-  file.write(base64(bytes));
+  file.write(base64(packer.bytes()));
   file.write("</DataArray>\n");
 }
 
@@ -56,6 +56,7 @@ void append(std::vector<float>& values, const Vec3& vector) {
   for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(vector[k]));
 }
 
+/// Everything before the data: the header, the time, and how many of each kind follow.
 void open_piece(AtomicFile& file, double time, size_t points, size_t vertices, size_t polygons) {
   file.write(
       "<?xml version=\"1.0\"?>\n"
@@ -71,6 +72,7 @@ void open_piece(AtomicFile& file, double time, size_t points, size_t vertices, s
       points, vertices, polygons);
 }
 
+/// Polygons or single points by their vertices: `offsets` says where each one ends.
 void write_cells(AtomicFile& file, const char* element,
                  const std::vector<std::int32_t>& connectivity,
                  const std::vector<std::int32_t>& offsets) {
@@ -91,6 +93,7 @@ void write_grains_vtp(const std::filesystem::path& path, const MechanicalSystem&
                       const MotionState& state) {
   std::vector<float> points, mass, speed, velocity;
   std::vector<std::int32_t> connectivity, offsets, grain;
+  // cell data stand once for each face: all faces of a grain carry the grain's
   for (int b = 0; b < system.grain_count; ++b) {
     const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
     const auto first = static_cast<std::int32_t>(points.size() / 3);

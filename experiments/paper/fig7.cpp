@@ -20,7 +20,7 @@ Panel chains(const StoredState& state, const char* title) {
   const auto wall = [&](BoxWall which) { return wall_place(state.system, motion, which); };
   const double middle = 0.5 * (wall(wall_y_min).y() + wall(wall_y_max).y());
   const std::vector<PairForce> pairs =
-      pair_forces(state.at.contacts, state.at.impulses, state.step);
+      pair_forces(state.at.memory.contacts, state.at.memory.impulses, state.step);
   double mean = 0.0;
   for (const PairForce& pair : pairs)
     mean += pair.normal_force() / static_cast<double>(pairs.size());
@@ -63,7 +63,7 @@ struct PhaseStress {
 
   void add(const StoredState& state) {
     const std::vector<PairForce> pairs =
-        pair_forces(state.at.contacts, state.at.impulses, state.step);
+        pair_forces(state.at.memory.contacts, state.at.memory.impulses, state.step);
     const size_t phase = static_cast<size_t>(state.phase);
     sum[phase] += stress_tensor(state.system, state.at.state, pairs,
                                 box_volume(state.system, state.at.state));

@@ -81,11 +81,13 @@ PaperSection packing_section(PaperData& data) {
     states += for_each_state(run, [&](const StoredState& state) {
       for (size_t p = 0; p < force_phases.size(); ++p) {
         if (state.phase != force_phases[p].first) continue;
-        const PackingStatistics found = packing_statistics(
-            state.system, state.at.state, state.at.contacts, state.at.impulses, state.step);
+        const PackingStatistics found =
+            packing_statistics(state.system, state.at.state, state.at.memory.contacts,
+                               state.at.memory.impulses, state.step);
         for (size_t c = 0; c < columns.size(); ++c) of_run[p][c].push_back(found.*columns[c].value);
         histograms[p].add(relative_normal_forces(
-            state.system, pair_forces(state.at.contacts, state.at.impulses, state.step)));
+            state.system,
+            pair_forces(state.at.memory.contacts, state.at.memory.impulses, state.step)));
       }
     });
     for (size_t p = 0; p < force_phases.size(); ++p)

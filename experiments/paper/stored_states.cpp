@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/run/run.hpp"
+#include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run_folder.hpp"
 
 namespace ballast {

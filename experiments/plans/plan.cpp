@@ -4,7 +4,6 @@
 
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/content_key.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_text.hpp"
 
@@ -54,7 +53,7 @@ void write_plan(const Plan& plan, const fs::path& file) {
 }
 
 std::string run_key(const PlannedRun& run) {
-  return content_key(resolved_scene_text(find_scene(run.scene), run.overrides));
+  return resolve_scene(find_scene(run.scene), run.overrides).key;
 }
 
 fs::path folder_of(const fs::path& results, const PlannedRun& run) {

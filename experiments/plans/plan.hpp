@@ -1,5 +1,5 @@
 #pragma once
-// A plan: named runs of scenes. The seam between who asks for runs (a sweep file, a figure of the
+// A plan: named runs of scenes. The seam between who asks for runs (a plan's file, a figure of the
 // paper) and who sees to it that they are there. A run is known by its content: two figures that
 // ask for the same run share it.
 

@@ -1,6 +1,7 @@
-// A plan's file: runs one by one, and sweeps, which are products of lists of values. See
+// A plan's file: runs one by one, and grids, which are all combinations of lists of values. See
 // docs/manual/plans.md.
 
+#include <map>
 #include <optional>
 
 #include "experiments/plans/plan.hpp"
@@ -15,7 +16,7 @@ namespace {
 constexpr size_t any_length = std::string::npos;
 constexpr size_t most_runs = 100'000;
 
-/// What plan, run and sweep may say of the scene; the inner one adds to the outer one.
+/// What plan, run and grid may say of the scene; the inner one adds to the outer one.
 struct Base {
   std::string scene;
   std::vector<std::string> set;
@@ -89,13 +90,13 @@ bool contains(const std::vector<std::string>& values, const std::string& value) 
                      [&](const std::string& v) { return same_value(v, value); });
 }
 
-/// Overrides for those members of a sweep whose values are among these.
+/// Overrides for those members of a grid whose values are among these.
 struct Where {
   std::vector<Axis> when;
   std::vector<std::string> set;
 };
 
-struct Sweep {
+struct Grid {
   std::string name;
   Base base;
   std::vector<Axis> axes;
@@ -118,25 +119,26 @@ Where read_where(TomlTable& table, const toml::table& raw, const std::vector<Axi
   return where;
 }
 
-Sweep read_sweep(TomlTable& table, const toml::table& raw, const fs::path& file, const Base& base) {
-  Sweep sweep;
-  sweep.name = table.text("name");
-  sweep.base = read_base(table, file, base);
+/// A grid's axes, and for which members something else is set besides.
+Grid read_grid(TomlTable& table, const toml::table& raw, const fs::path& file, const Base& base) {
+  Grid grid;
+  grid.name = table.text("name");
+  grid.base = read_base(table, file, base);
   table.section("vary");
-  sweep.axes = read_axes(raw, "vary");
-  if (sweep.axes.empty())
+  grid.axes = read_axes(raw, "vary");
+  if (grid.axes.empty())
     table.fail("vary", "nothing varied, expected vary.\"dotted.key\" = [values]");
   size_t count = 1;
-  for (const Axis& axis : sweep.axes) {
+  for (const Axis& axis : grid.axes) {
     if (axis.values.empty()) table.fail("vary", axis.key + " has no values");
     count *= axis.values.size();
     if (count > most_runs) table.fail("vary", "more than " + std::to_string(most_runs) + " runs");
   }
   std::vector<TomlTable> conditions = table.sections("where");
   for (size_t k = 0; k < conditions.size(); ++k)
-    sweep.where.push_back(read_where(conditions[k], *raw["where"][k].as_table(), sweep.axes));
+    grid.where.push_back(read_where(conditions[k], *raw["where"][k].as_table(), grid.axes));
   table.finish();
-  return sweep;
+  return grid;
 }
 
 /// A value as part of a run's name.
@@ -148,18 +150,19 @@ std::string name_part(const std::string& value) {
   return name;
 }
 
-PlannedRun member(const Sweep& sweep, const std::vector<size_t>& chosen) {
-  PlannedRun run{sweep.name, sweep.base.scene, sweep.base.set};
+/// The run at chosen[a] of each axis a. What `where` sets comes last: it overrides the rest.
+PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
+  PlannedRun run{grid.name, grid.base.scene, grid.base.set};
   const auto value_of = [&](const std::string& key) {
     size_t a = 0;
-    while (sweep.axes[a].key != key) ++a;
-    return sweep.axes[a].values[chosen[a]];
+    while (grid.axes[a].key != key) ++a;
+    return grid.axes[a].values[chosen[a]];
   };
-  for (const Axis& axis : sweep.axes) {
+  for (const Axis& axis : grid.axes) {
     run.name += '-' + axis.key + '=' + name_part(value_of(axis.key));
     run.overrides.push_back(axis.key + '=' + value_of(axis.key));
   }
-  for (const Where& where : sweep.where) {
+  for (const Where& where : grid.where) {
     const bool holds = std::all_of(
         where.when.begin(), where.when.end(),
         [&](const Axis& condition) { return contains(condition.values, value_of(condition.key)); });
@@ -169,12 +172,13 @@ PlannedRun member(const Sweep& sweep, const std::vector<size_t>& chosen) {
 }
 
 /// All members, the last key changing fastest.
-void expand(const Sweep& sweep, std::vector<PlannedRun>& runs) {
-  std::vector<size_t> chosen(sweep.axes.size(), 0);
+void expand(const Grid& grid, std::vector<PlannedRun>& runs) {
+  std::vector<size_t> chosen(grid.axes.size(), 0);
+  // counts like an odometer
   for (;;) {
-    runs.push_back(member(sweep, chosen));
+    runs.push_back(member(grid, chosen));
     size_t a = chosen.size();
-    while (a > 0 && ++chosen[a - 1] == sweep.axes[a - 1].values.size()) chosen[--a] = 0;
+    while (a > 0 && ++chosen[a - 1] == grid.axes[a - 1].values.size()) chosen[--a] = 0;
     if (a == 0) return;
   }
 }
@@ -188,7 +192,9 @@ Plan read_plan(const fs::path& file) {
   Plan plan;
   plan.name = root.text("name", file.stem().string());
   const Base base = read_base(root, file, {});
-  std::vector<TomlTable> runs = root.sections("run"), sweeps = root.sections("sweep");
+  std::vector<TomlTable> runs = root.sections("run");
+  std::map<std::string, std::vector<TomlTable>> grids;
+  for (const char* key : {"grid", "sweep"}) grids[key] = root.sections(key);  // sweep: its old name
   root.finish();
   for (TomlTable& table : runs) {
     const std::string name = table.text("name");
@@ -197,13 +203,14 @@ Plan read_plan(const fs::path& file) {
     table.finish();
     plan.runs.push_back({name, std::move(own.scene), std::move(own.set)});
   }
-  for (size_t k = 0; k < sweeps.size(); ++k) {
-    const Sweep sweep = read_sweep(sweeps[k], *raw["sweep"][k].as_table(), file, base);
-    if (sweep.base.scene.empty()) sweeps[k].text("scene");
-    expand(sweep, plan.runs);
-  }
+  for (auto& [key, tables] : grids)
+    for (size_t k = 0; k < tables.size(); ++k) {
+      const Grid grid = read_grid(tables[k], *raw[key][k].as_table(), file, base);
+      if (grid.base.scene.empty()) tables[k].text("scene");
+      expand(grid, plan.runs);
+    }
   if (plan.runs.empty())
-    throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[sweep]]");
+    throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[grid]]");
   validate(plan, file.string());
   return plan;
 }

@@ -10,10 +10,11 @@ namespace ballast {
 namespace fs = std::filesystem;
 
 ResolvedRun resolve(const PlannedRun& run) {
-  const Scene scene = read_scene(find_scene(run.scene), run.overrides);
+  const ResolvedScene read = resolve_scene(find_scene(run.scene), run.overrides);
+  const Scene& scene = read.scene;
   ResolvedRun resolved;
   resolved.run = run;
-  resolved.key = run_key(run);
+  resolved.key = read.key;
   resolved.steps = scene.step_count();
   const double bodies =
       scene.grains ? scene.grains->count : static_cast<double>(scene.bodies.size());

@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 
 fs::path plans_folder(const fs::path& results) { return results / "plans"; }
 
+/// Empty where nothing is known.
 std::string number_text(double x) {
   if (std::isnan(x)) return "";
   return printed("%.6g", x);
@@ -30,6 +31,7 @@ struct Facts {
   long steps_done = 0;
 };
 
+/// What the run's folder says of it.
 Facts facts_of(const fs::path& path, const std::string& key, long steps, bool failed) {
   Facts facts;
   const RunFolder folder(path);

@@ -2,8 +2,9 @@
 // What a folder of results says about itself: which run of which plan is where, and how far.
 //
 //   plans/<plan>.json   {"plan": name, "runs": [{"name", "key", "packing", "steps", "scene",
-//   "overrides": ["dotted.key=value"]}]} index.csv
-//   plan,name,key,state,steps_done,steps,seconds,error_mean,commit: one row per run of every plan.
+//                       "overrides": ["dotted.key=value"]}]}
+//   index.csv           plan,name,key,state,steps_done,steps,seconds,error_mean,commit: one row per
+//                       run of every plan
 
 #include <filesystem>
 #include <map>

@@ -15,12 +15,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* snakefile =
-    R"(# Written by `ballast sweep --snakemake`: the runs of a plan as jobs. Snakemake 7.
+    R"(# Written by `ballast plan --snakemake`: the runs of a plan as jobs. Snakemake 7.
 #
 #   snakemake -s Snakefile --profile slurm      on a cluster with Slurm, from this folder
 #   snakemake -s Snakefile --cores 4            on this machine
 #
-# A job that dies is started again and goes on at its checkpoint; so does a run that the next call of snakemake finds begun.
+# A job that dies is started again and goes on at its checkpoint; so does a run that the next call
+# of snakemake finds begun.
 
 import json, os, shlex
 
@@ -44,7 +45,7 @@ localrules: finished
 
 rule finished:
     input: expand(DONE, key=RUNS)
-    params: command=ballast(PLAN["sweep"])
+    params: command=ballast(PLAN["finish"])
     shell: "{params.command}"
 
 rule deposit:
@@ -63,8 +64,12 @@ rule run:
 
 /// @ stands for this folder.
 constexpr const char* slurm_config =
-    R"(# Options of Snakemake 7 for Slurm; see `snakemake --help`. Account, partition and the like go into `cluster`.
-cluster: "sbatch --parsable --job-name=ballast-{rule} --ntasks=1 --cpus-per-task={threads} --mem={resources.mem_mb} --time={resources.minutes} --no-requeue --output=@/slurm/jobs/%j.log"
+    R"(# Options of Snakemake 7 for Slurm; see `snakemake --help`. Account, partition and the
+# like go into `cluster`.
+cluster: >-
+  sbatch --parsable --job-name=ballast-{rule} --ntasks=1 --cpus-per-task={threads}
+  --mem={resources.mem_mb} --time={resources.minutes} --no-requeue
+  --output=@/slurm/jobs/%j.log
 cluster-status: "@/slurm/status.sh"
 cluster-cancel: "scancel"
 default-resources:
@@ -81,7 +86,8 @@ printshellcmds: false
 )";
 
 constexpr const char* status_script = R"(#!/bin/sh
-# What became of job $1: running, success or failed. A job that Slurm has forgotten counts as failed: it is started again and goes on.
+# What became of job $1: running, success or failed. A job that Slurm has forgotten counts as
+# failed: it is started again and goes on.
 state=$(scontrol -o show job "$1" 2>/dev/null | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p')
 [ -n "$state" ] || state=$(sacct -n -X -P -o State -j "$1" 2>/dev/null | head -n 1)
 case "$state" in
@@ -91,6 +97,7 @@ case "$state" in
 esac
 )";
 
+/// The text with every @ replaced by the folder.
 std::string with_folder(std::string text, const fs::path& folder) {
   for (size_t at = text.find('@'); at != std::string::npos;
        at = text.find('@', at + folder.string().size()))
@@ -98,6 +105,7 @@ std::string with_folder(std::string text, const fs::path& folder) {
   return text;
 }
 
+/// What the Snakefile reads: the arguments of every job, by packing and by run.
 Json jobs_json(const std::vector<ResolvedRun>& runs, const fs::path& results,
                const fs::path& program, const fs::path& folder) {
   Json packings = Json::object(), jobs = Json::object();
@@ -109,10 +117,10 @@ Json jobs_json(const std::vector<ResolvedRun>& runs, const fs::path& results,
                      {"packing", run.packing},
                      {"arguments", run_arguments(results, run)}};
   }
-  const Json sweep{"sweep", (folder / "plan.toml").string(), "--output", results.string()};
+  const Json finish{"plan", (folder / "plan.toml").string(), "--output", results.string()};
   return {{"program", program.string()},
           {"results", results.string()},
-          {"sweep", sweep},
+          {"finish", finish},
           {"packings", packings},
           {"runs", jobs}};
 }

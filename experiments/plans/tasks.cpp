@@ -65,6 +65,7 @@ std::vector<Task> make_tasks(const fs::path& results, const std::vector<Resolved
     packing_of[run.key] = run.packing;
     deposits.emplace(run.packing, deposit_task(results, run));
   }
+  // the deposits in their final order first: runs refer to them by their place
   for (auto& [key, task] : deposits) tasks.push_back(std::move(task));
   sort_by_work(tasks);
   std::map<std::string, int> place;  // of a deposit

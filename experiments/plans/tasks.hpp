@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep has to do: deposits, and the runs that wait for them.
+// What running a plan has to do: deposits, and the runs that wait for them.
 
 #include <filesystem>
 #include <string>

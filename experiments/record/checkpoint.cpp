@@ -1,209 +1,111 @@
 #include "experiments/record/checkpoint.hpp"
 
-#include <cstdint>
-#include <cstring>
-#include <type_traits>
+#include <cmath>
+#include <limits>
 
-#include "platform/atomic_file.hpp"
-#include "platform/content_key.hpp"
 #include "platform/error.hpp"
-
-// magic "BALLCKPT", u32 version, u32 byte order, u64 bytes of the body, body, u64 checksum of all
-// before it. Body: key, phase; time, step, body count, poses (position, w x y z), velocities,
-// spins; contacts; impulses; numbers; each list and text led by its u64 length.
+#include "platform/pack.hpp"
+#include "platform/sealed_file.hpp"
 
 namespace ballast {
-
 namespace {
 
-constexpr std::string_view magic = "BALLCKPT";
-constexpr std::uint32_t version = 1;
-constexpr std::uint32_t byte_order = 0x01020304;
-constexpr size_t head_bytes = 24, checksum_bytes = 8;
+constexpr SealedKind checkpoint_kind{"BALLCKPT", "checkpoint", 1};
+constexpr const char* packing_phase = "packing";
 
-class Packer {
- public:
-  template <class Number>
-  void number(Number value) {
-    static_assert(std::is_arithmetic_v<Number>);
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void text(std::string_view value) {
-    number(std::uint64_t{value.size()});
-    bytes += value;
-  }
-  void vector(const Vec3& value) {
-    for (int k = 0; k < 3; ++k) number(value[k]);
-  }
-  template <class List, class Write>
-  void list(const List& values, Write&& write) {
-    number(std::uint64_t{values.size()});
-    for (const auto& value : values) write(value);
-  }
-
-  std::string bytes;
-};
-
-/// Its ends are checked as well as the checksum, so that a file made wrong is an error and not a
-/// crash.
-class Unpacker {
- public:
-  Unpacker(std::string_view bytes, const std::filesystem::path& file)
-      : bytes_(bytes), file_(file) {}
-
-  template <class Number>
-  Number number() {
-    Number value;
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
-    return value;
-  }
-  std::string text() {
-    const size_t length = count(1);
-    return std::string(take(length));
-  }
-  Vec3 vector() {
-    Vec3 value;
-    for (int k = 0; k < 3; ++k) value[k] = number<double>();
-    return value;
-  }
-  template <class Value, class Read>
-  void list(std::vector<Value>& values, size_t bytes_each, Read&& read) {
-    values.resize(count(bytes_each));
-    for (Value& value : values) value = read();
-  }
-  void end() const {
-    if (!bytes_.empty()) refuse();
-  }
-  void same(size_t length, size_t expected) const {
-    if (length != expected) refuse();
-  }
-
- private:
-  [[noreturn]] void refuse() const {
-    throw Error(file_.string() + ": checkpoint is inconsistent: a list has a wrong length");
-  }
-  size_t count(size_t bytes_each) {
-    const auto length = number<std::uint64_t>();
-    if (length > bytes_.size() / bytes_each) refuse();
-    return length;
-  }
-  std::string_view take(size_t length) {
-    if (length > bytes_.size()) refuse();
-    const std::string_view taken = bytes_.substr(0, length);
-    bytes_.remove_prefix(length);
-    return taken;
-  }
-
-  std::string_view bytes_;
-  const std::filesystem::path& file_;
-};
-
-std::string pack_body(const Checkpoint& checkpoint) {
-  Packer pack;
-  pack.text(checkpoint.key);
-  pack.text(checkpoint.phase);
-  const MotionState& state = checkpoint.state;
-  pack.number(state.time);
-  pack.number(std::int64_t{state.step});
-  pack.list(state.pose, [&](const Pose& pose) {
-    pack.vector(pose.position);
-    for (double part : {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
-      pack.number(part);
+/// All but what belongs to the phase.
+template <class Carrier, class Of>
+void carry_motion(Carrier& carrier, Of& checkpoint) {
+  const auto vector = [&](auto& value) { carrier.fixed(value); };
+  carrier.text(checkpoint.key);
+  carrier.text(checkpoint.phase);
+  auto& state = checkpoint.state;
+  carrier.number(state.time);
+  carrier.number(state.step);
+  carrier.list(state.pose, [&](auto& pose) {
+    carrier.fixed(pose.position);
+    carrier.number(pose.rotation.w());
+    carrier.number(pose.rotation.x());
+    carrier.number(pose.rotation.y());
+    carrier.number(pose.rotation.z());
   });
-  const auto vector = [&](const Vec3& value) { pack.vector(value); };
-  pack.list(state.velocity, vector);
-  pack.list(state.spin, vector);
-  pack.list(checkpoint.contacts, [&](const ContactPoint& contact) {
-    pack.number(std::int32_t{contact.body_a});
-    pack.number(std::int32_t{contact.body_b});
-    pack.number(contact.feature);
-    pack.vector(contact.normal);
-    pack.vector(contact.position);
-    pack.number(contact.gap);
+  carrier.list(state.velocity, vector);
+  carrier.list(state.spin, vector);
+  carrier.list(checkpoint.memory.contacts, [&](auto& contact) {
+    carrier.number(contact.body_a);
+    carrier.number(contact.body_b);
+    carrier.number(contact.feature);
+    carrier.fixed(contact.normal);
+    carrier.fixed(contact.position);
+    carrier.number(contact.gap);
   });
-  pack.list(checkpoint.impulses, vector);
-  pack.list(checkpoint.numbers, [&](double value) { pack.number(value); });
-  return std::move(pack.bytes);
+  carrier.list(checkpoint.memory.impulses, vector);
 }
 
-Checkpoint unpack_body(std::string_view body, const std::filesystem::path& file) {
-  Unpacker unpack(body, file);
-  Checkpoint checkpoint;
-  checkpoint.key = unpack.text();
-  checkpoint.phase = unpack.text();
-  MotionState& state = checkpoint.state;
-  state.time = unpack.number<double>();
-  state.step = static_cast<long>(unpack.number<std::int64_t>());
-  unpack.list(state.pose, 56, [&] {
-    Pose pose;
-    pose.position = unpack.vector();
-    const auto w = unpack.number<double>();
-    const Vec3 xyz = unpack.vector();
-    pose.rotation = Quat(w, xyz.x(), xyz.y(), xyz.z());
-    return pose;
-  });
-  const auto vector = [&] { return unpack.vector(); };
-  unpack.list(state.velocity, 24, vector);
-  unpack.list(state.spin, 24, vector);
-  unpack.list(checkpoint.contacts, 72, [&] {
-    ContactPoint contact;
-    contact.body_a = unpack.number<std::int32_t>();
-    contact.body_b = unpack.number<std::int32_t>();
-    contact.feature = unpack.number<std::uint64_t>();
-    contact.normal = unpack.vector();
-    contact.position = unpack.vector();
-    contact.gap = unpack.number<double>();
-    return contact;
-  });
-  unpack.list(checkpoint.impulses, 24, vector);
-  unpack.list(checkpoint.numbers, 8, [&] { return unpack.number<double>(); });
-  unpack.end();
-  unpack.same(state.velocity.size(), state.pose.size());
-  unpack.same(state.spin.size(), state.pose.size());
-  unpack.same(checkpoint.impulses.size(), checkpoint.contacts.size());
-  return checkpoint;
+/// What belongs to the phase ends the file, as a list of doubles that means another thing in each.
+/// This is the one place that knows which: {top, lid, rain time, rest velocity} of a packing, {lid,
+/// top, rain time} of a deposit that goes on, steps at rest of each body in a drive.
+std::vector<double> phase_numbers(const Checkpoint& checkpoint) {
+  if (!checkpoint.deposit) return {checkpoint.memory.rest.begin(), checkpoint.memory.rest.end()};
+  const DepositState& d = *checkpoint.deposit;
+  if (checkpoint.phase == packing_phase) return {d.top, d.lid, d.rain_time, d.rest_velocity};
+  return {d.lid, d.top, d.rain_time};
+}
+
+void take_phase_numbers(const std::vector<double>& numbers, const Unpacker& unpacker,
+                        Checkpoint& checkpoint) {
+  const std::string& phase = checkpoint.phase;
+  if (phase == packing_phase) {
+    unpacker.require(numbers.size() == 4);
+    checkpoint.deposit = DepositState{numbers[1], numbers[0], numbers[2], numbers[3]};
+  } else if (phase == "rain" || phase == "press" || phase == "settle") {
+    unpacker.require(numbers.size() == 3);
+    checkpoint.deposit = DepositState{numbers[0], numbers[1], numbers[2], 0.0};
+  } else {
+    for (const double number : numbers) {
+      unpacker.require(std::abs(number) <= std::numeric_limits<int>::max() &&
+                       number == std::floor(number));
+      checkpoint.memory.rest.push_back(static_cast<int>(number));
+    }
+  }
+}
+
+void check(const Checkpoint& checkpoint, const Unpacker& unpacker,
+           const std::filesystem::path& file) {
+  const size_t bodies = checkpoint.state.pose.size();
+  unpacker.require(checkpoint.state.velocity.size() == bodies);
+  unpacker.require(checkpoint.state.spin.size() == bodies);
+  unpacker.require(checkpoint.memory.impulses.size() == checkpoint.memory.contacts.size());
+  const std::vector<int>& rest = checkpoint.memory.rest;
+  if (!rest.empty() && rest.size() != bodies)
+    throw Error(file.string() + ": checkpoint is inconsistent: rest of " +
+                std::to_string(rest.size()) + " bodies");
+  for (const int steps : rest)
+    if (steps < StepMemory::asleep)
+      throw Error(file.string() + ": checkpoint is inconsistent: " + std::to_string(steps) +
+                  " is no number of steps at rest");
 }
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  const std::string body = pack_body(checkpoint);
-  Packer pack;
-  pack.bytes = magic;
-  pack.number(version);
-  pack.number(byte_order);
-  pack.number(std::uint64_t{body.size()});
-  pack.bytes += body;
-  pack.number(fnv1a(pack.bytes));
-  write_whole_file(file, pack.bytes);
+  Packer packer;
+  carry_motion(packer, checkpoint);
+  packer.list(phase_numbers(checkpoint));
+  write_sealed_file(file, checkpoint_kind, packer.bytes());
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
-  const std::string bytes = read_whole_file(file);
-  const auto refuse = [&](const std::string& why) { throw Error(file.string() + ": " + why); };
-  const auto head = [&]<class Number>(size_t at, Number) {
-    Number value;
-    std::memcpy(&value, bytes.data() + at, sizeof value);
-    return value;
-  };
-  if (bytes.empty()) refuse("checkpoint is empty");
-  if (std::string_view(bytes).substr(0, magic.size()) != magic.substr(0, bytes.size()))
-    refuse("is not a checkpoint");
-  if (bytes.size() < head_bytes)
-    refuse("checkpoint is truncated in its first " + std::to_string(head_bytes) + " bytes");
-  if (head(12, std::uint32_t{}) != byte_order)
-    refuse("checkpoint was written on a machine of another byte order");
-  if (const auto found = head(8, std::uint32_t{}); found != version)
-    refuse("checkpoint has format " + std::to_string(found) + ", this program reads format " +
-           std::to_string(version));
-  const std::uint64_t body = head(16, std::uint64_t{}), rest = bytes.size() - head_bytes;
-  if (rest < checksum_bytes || body > rest - checksum_bytes)
-    refuse("checkpoint is truncated: " + std::to_string(bytes.size()) + " bytes are there");
-  if (body < rest - checksum_bytes) refuse("checkpoint is damaged: bytes follow its end");
-  const std::string_view summed(bytes.data(), bytes.size() - checksum_bytes);
-  if (head(summed.size(), std::uint64_t{}) != fnv1a(summed))
-    refuse("checkpoint is damaged: its checksum is wrong");
-  return unpack_body(summed.substr(head_bytes), file);
+  const SealedBody body = read_sealed_file(file, checkpoint_kind);
+  Unpacker unpacker(body.bytes, file.string() + ": checkpoint");
+  Checkpoint checkpoint;
+  std::vector<double> numbers;
+  carry_motion(unpacker, checkpoint);
+  unpacker.list(numbers);
+  unpacker.finish();
+  take_phase_numbers(numbers, unpacker, checkpoint);
+  check(checkpoint, unpacker, file);
+  return checkpoint;
 }
 
 }  // namespace ballast

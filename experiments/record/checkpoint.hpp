@@ -2,28 +2,38 @@
 // Everything from which a run continues to the last bit.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
-#include "geometry/contact/contact_detector.hpp"
+#include "experiments/step/step_memory.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 
-struct Checkpoint {
-  std::string
-      key;  ///< hash of the resolved scene (and phase): a checkpoint of another scene is refused
-  std::string phase;  ///< "deposit", "press", "drive", ...
-  MotionState state;
-  std::vector<ContactPoint> contacts;  ///< of the last step, with
-  std::vector<Vec3> impulses;   ///< their impulses on body b, world frame [N s]: the warm start
-  std::vector<double> numbers;  ///< whatever else the phase keeps, in its own order
+/// What a deposit knows besides the motion. What is not reached yet is 0.
+struct DepositState {
+  double lid = 0.0;            ///< height of the lid [m]
+  double top = 0.0;            ///< highest vertex when the lid was raised [m]
+  double rain_time = 0.0;      ///< simulated until rest [s]
+  double rest_velocity = 0.0;  ///< rms grain velocity at the end [m/s]
 };
 
-/// Binary, little-endian, with magic, version and a checksum; written to a neighbour, fsynced,
-/// renamed. Throws Error.
+struct Checkpoint {
+  std::string
+      key;  ///< hash of the resolved scene, or a packing's key: of another one it is refused
+  std::string phase;  ///< "rain", "press", "settle", "packing" or "drive"
+  MotionState state;
+  StepMemory memory;                    ///< warm start and who rests
+  std::optional<DepositState> deposit;  ///< in a deposit and its packing, where nobody rests; none
+                                        ///< in a drive
+};
+
+/// Binary, with magic, format and a checksum; written to a neighbour, fsynced, renamed. Throws
+/// Error.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// Throws Error naming the file: missing, truncated, checksum wrong, other version.
+/// Throws Error naming the file: missing, truncated, checksum wrong, other format, or lists whose
+/// lengths do not fit each other.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 }  // namespace ballast

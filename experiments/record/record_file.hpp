@@ -6,10 +6,14 @@
 //   /poses/time, step                 (frames)
 //   /poses/position, velocity, spin   (frames, bodies, 3): world frame; spin in the body frame
 //   /poses/rotation                   (frames, bodies, 4): body to world, w x y z
-//   /bodies/name, mass, volume, inertia (3), shape (-1: a wall), wall_normal (3, into the free
-//   side; 0 for grains) /shapes/vertices (all shapes' n, 3) in the body frame, triangles (m, 3):
-//   numbers within the shape, counter-clockwise from outside /shapes/vertex_begin, triangle_begin
-//   (shapes + 1): where shape k begins and ends
+//   /bodies/name, mass, volume        (bodies)
+//   /bodies/inertia                   (bodies, 3)
+//   /bodies/shape                     (bodies): number of the shape, -1 for a wall
+//   /bodies/wall_normal               (bodies, 3): into the free side; 0 for grains
+//   /shapes/vertices                  (all shapes' n, 3): in the body frame
+//   /shapes/triangles                 (m, 3): vertex numbers within the shape, counter-clockwise
+//                                     from outside
+//   /shapes/vertex_begin, triangle_begin   (shapes + 1): where shape k begins and ends
 //
 // Every dataset of numbers has the attributes unit and description.
 

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Where the logs and the records made of them are in a run's folder.
 fs::path steps_log(const fs::path& folder) { return folder / "log" / "steps.bin"; }
 fs::path poses_log(const fs::path& folder) { return folder / "log" / "poses.bin"; }
 fs::path record_file(const fs::path& folder) { return folder / "record.h5"; }
@@ -39,6 +40,8 @@ std::uint64_t system_key(const MechanicalSystem& system) {
   return hash;
 }
 
+/// The log of steps belongs to this system and has these columns: another program's or another
+/// scene's log is then refused, not misread.
 RowLogHeader steps_header(const MechanicalSystem& system) {
   RowLogHeader header{"steps", system_key(system), step_columns().size()};
   for (const StepColumn& column : step_columns()) header.text += std::string(" ") + column.name;
@@ -71,6 +74,7 @@ RowWriter continue_steps(const fs::path& file, const RowLogHeader& header, long 
   return RowWriter(file, reader, last_step);
 }
 
+/// Keeps the frames up to the checkpoint: those after it will be made again.
 RowWriter continue_poses(const fs::path& file, const RowLogHeader& header, long last_step) {
   RowReader reader = open_log(file, header);
   long kept = 0;
@@ -80,6 +84,7 @@ RowWriter continue_poses(const fs::path& file, const RowLogHeader& header, long 
   return RowWriter(file, reader, kept);
 }
 
+/// steps.csv: 17 digits bring back the same bits.
 void write_table(const fs::path& target, RowReader& rows) {
   AtomicFile file(target);
   CsvWriter csv;
@@ -115,6 +120,7 @@ Recorder::Recorder(const fs::path& folder, const MechanicalSystem& system, long 
     : impl_(new Impl{folder, system, {}, {}, {}}) {
   create_folder(folder / "log");
   const RowLogHeader of_steps = steps_header(system), of_poses = poses_header(system);
+  // a resumed run cuts its logs back to the checkpoint; a fresh one begins them anew
   if (last_step > 0) {
     impl_->steps.emplace(continue_steps(steps_log(folder), of_steps, last_step));
     impl_->poses.emplace(continue_poses(poses_log(folder), of_poses, last_step));

@@ -20,8 +20,8 @@ class Recorder {
   /// Opens or creates the logs in `folder`. Rows with step > `last_step` are cut off (0: start
   /// afresh, without any row, so that the frame of step 0 is added again). A steps.csv and
   /// record.h5 of before are removed: they would not be this run's. `system` must outlive the
-  /// recorder. Throws Error (experiments/run.hpp) naming the file: unwritable, shorter than
-  /// last_step says, damaged, of another system or other columns.
+  /// recorder. Throws Error naming the file: unwritable, shorter than last_step says, damaged, of
+  /// another system or other columns.
   Recorder(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step);
   ~Recorder();
 
@@ -29,8 +29,7 @@ class Recorder {
   void add_step(const StepRecord& row);
   void add_poses(const MotionState& state);
   /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws
-  /// Error (disk full
-  /// ...).
+  /// Error, for instance on a full disk.
   void flush();
   /// steps.csv and record.h5 from the logs, each written beside and renamed. `attributes`: manifest
   /// text stored in the file.

@@ -40,6 +40,7 @@ std::string cpu_model() {
   return "unknown";
 }
 
+/// The program: version, commit, compiler, libraries.
 Json build_json() {
   const BuildInfo& info = build_info();
   Json json = {{"version", info.version},       {"commit", info.commit},
@@ -50,6 +51,7 @@ Json build_json() {
   return json;
 }
 
+/// The computer, and how busy it was when the run began.
 Json machine_json() {
   Json json = {{"cpu", cpu_model()}, {"cores", std::thread::hardware_concurrency()}};
   const double memory =
@@ -90,6 +92,7 @@ Manifest Manifest::read(const std::filesystem::path& file) {
   } catch (const Json::exception& error) {
     throw Error(file.string() + ": is no JSON: " + error.what());
   }
+  // only what is read below is looked at: later programs may note more
   const auto has = [&](const char* name, Json::value_t type) {
     if (!json.is_object() || !json.contains(name) || json[name].type() != type)
       throw Error(file.string() + ": is no manifest of a run: '" + name +

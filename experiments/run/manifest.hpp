@@ -1,11 +1,13 @@
 #pragma once
 // manifest.json: what a run was made by and from, and what came out, as JSON.
 //
-//   {"ballast":  {"version", "commit", "modified", "compiler", "build_type", "flags", "libraries":
-//   {name: version}},
-//    "machine":  {"cpu", "cores", "memory_GB", "load_average": [1, 5, 15 min], "environment":
-//    {name: value}}, "scene": name, "overrides": ["dotted.key=value"], "key": hash of the resolved
-//    scene, "started": UTC, "resumed":  [{"step", "at": UTC, "commit", "modified", "cpu"}],
+//   {"ballast":  {"version", "commit", "modified", "compiler", "build_type", "flags",
+//                 "libraries": {name: version}},
+//    "machine":  {"cpu", "cores", "memory_GB", "load_average": [1, 5, 15 min],
+//                 "environment": {name: value}},
+//    "scene": name, "overrides": ["dotted.key=value"], "started": UTC,
+//    "key": scene_key() of the resolved scene,
+//    "resumed":  [{"step", "at": UTC, "commit", "modified", "cpu"}],
 //    "summary":  {name: number or text}}
 //
 // Times of day and the machine are here and nowhere else, so that records of equal runs are equal.

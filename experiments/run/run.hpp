@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "platform/exit_code.hpp"
-#include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 
@@ -48,9 +47,5 @@ struct RunEnd {
 /// checkpoint.bin, capture/ (if asked for), log/ (append-only raw rows from which the two records
 /// are made). Its page is write_report()'s (experiments/run_page).
 RunEnd run(const RunOptions& options);
-
-/// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest
-/// checkpointed state. Throws Error.
-MechanicalSystem system_of_run(const std::filesystem::path& folder, MotionState& state);
 
 }  // namespace ballast

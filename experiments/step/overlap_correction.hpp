@@ -6,8 +6,8 @@
 // the motion, changes of normal, the solver's residual). The correction solves, after the step and
 // only roughly, the frictionless problem
 //
-//   min 1/2 d^T M d   subject to   gap_c + h u_N,c + H_N,c d >= -slop - (1 - fraction) * max(0,
-//   -gap_c - slop)
+//   min 1/2 d^T M d   subject to, at each contact c,
+//   gap_c + h u_N,c + H_N,c d  >=  -slop - (1 - fraction) * max(0, -gap_c - slop)
 //
 // for small displacements d of the grains (unknowns of driven walls are locked), by a few
 // warm-started Gauss-Seidel sweeps, and moves the poses by d. It adds no kinetic energy and doesn't

@@ -130,6 +130,7 @@ void RestingIslands::choose_detector() {
 }
 
 void RestingIslands::make_calm_detector() {
+  // of two bodies fixed to it the detector looks at no pair
   std::vector<ContactShape> shapes = contact_shapes(system_);
   for (size_t b = 0; b < shapes.size(); ++b) {
     const RigidBody& body = system_.bodies[b];
@@ -141,6 +142,7 @@ void RestingIslands::make_calm_detector() {
   calm_.emplace(std::move(shapes), detection_);
 }
 
+/// Islands: bodies with unknowns that touch, directly or through others.
 void RestingIslands::join(std::span<const ContactPoint> contacts) {
   sets_.reset(static_cast<int>(activity_.size()));
   for (const ContactPoint& c : contacts)
@@ -148,6 +150,8 @@ void RestingIslands::join(std::span<const ContactPoint> contacts) {
   flags_.assign(activity_.size(), 0);
 }
 
+/// One awake member wakes the whole island: sleepers' contacts are not solved, so none may be
+/// pushed.
 void RestingIslands::wake_touched(std::span<const ContactPoint> contacts, StepMemory& memory) {
   join(contacts);
   for (const ContactPoint& c : contacts) {
@@ -203,6 +207,7 @@ bool RestingIslands::counts_rest(const MotionState& state, StepMemory& memory) c
   return enough;
 }
 
+/// An island sleeps when all of it has been at rest for long enough and something still holds it.
 void RestingIslands::look_at_islands(const StepMemory& memory) {
   join(memory.contacts);
   for (int b = 0; b < static_cast<int>(activity_.size()); ++b)

@@ -32,13 +32,6 @@ StepSettings step_settings(const Scene& scene) {
   return settings;
 }
 
-double kinetic_energy(const MechanicalSystem& system, const MotionState& state) {
-  double energy = 0.0;
-  for (size_t b = 0; b < system.bodies.size(); ++b)
-    energy += kinetic_energy(system.bodies[b], state.velocity[b], state.spin[b]);
-  return energy;
-}
-
 Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
   Vec3 next = spin;
   for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few times
@@ -83,6 +76,8 @@ void TimeStepper::share_work(int threads) {
 }
 
 void TimeStepper::free_motion(const MotionState& state, double mid_time) {
+  // unknowns: translations of bodies along their free axes, spins in the body frame, outward speeds
+  // of driven walls
   assembler_.pack(state, v_before_);
   force_.setZero(v_before_.size());       // h f, per unknown
   gyroscopic_.setZero(v_before_.size());  // impulse of the gyroscopic term
@@ -126,6 +121,7 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   budget.tolerance = settings_.solver.tolerance * settings_.velocity_scale();
   budget.max_iterations = settings_.solver.max_iterations;
   budget.max_seconds = settings_.solver.max_seconds;
+  // validates, solves and judges; the judge's error is what the record says
   SolverRun run = runner_.run(*solver_, problem_, std::move(impulses_), budget);
   impulses_ = std::move(run.solved.impulses);
   error_ = run.error;
@@ -138,43 +134,42 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   resting_.restore_kept(memory);
 }
 
-void TimeStepper::account(const MotionState& before, const StepMemory& memory, StepRecord& record) {
-  // works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of
-  // prescribed walls
+/// Works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of
+/// prescribed walls.
+void TimeStepper::account_energy(double mid_time, StepRecord& record) {
   const Eigen::VectorXd& v0 = v_before_;
   const Eigen::VectorXd& v1 = v_after_;
+  const std::vector<double>& mass = assembler_.mass();
   const double contact_power =
       0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
-  for (int c = 0; c < problem_.contact_count(); ++c)
-    record.active_contacts += impulses_[problem_.row_begin[c]] > 0.0;
-  assembler_.prescribed_part(contacts_, before.time + 0.5 * settings_.h, prescribed_);
+  assembler_.prescribed_part(contacts_, mid_time, prescribed_);
   const double wall_power = impulses_.dot(prescribed_);
   record.dissipated = -(contact_power + wall_power);
   double kinetic_before = 0.0;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
-    const int first = assembler_.first_dof(static_cast<int>(b));
-    if (first < 0) continue;
     const RigidBody& body = system_.bodies[b];
-    const int count = body.freedom.count();
-    for (int d = 0; d < count; ++d) {
-      const int dof = first + d;
+    for (int d = 0; d < body.freedom.count(); ++d) {
+      const int dof = assembler_.first_dof(static_cast<int>(b)) + d;
       const double mean = 0.5 * (v0[dof] + v1[dof]);
-      const bool turns = d >= body.freedom.translations;
-      const double mass = turns ? body.inertia[d - body.freedom.translations] : body.mass;
-      kinetic_before += 0.5 * mass * v0[dof] * v0[dof];
-      record.kinetic_energy += 0.5 * mass * v1[dof] * v1[dof];
+      kinetic_before += 0.5 * mass[dof] * v0[dof] * v0[dof];
+      record.kinetic_energy += 0.5 * mass[dof] * v1[dof] * v1[dof];
       record.work_gyroscopic += gyroscopic_[dof] * mean;
       (body.is_wall() ? record.work_load : record.work_prescribed) += force_[dof] * mean;
-      if (!turns && !body.is_wall())
+      if (d < body.freedom.translations && !body.is_wall())
         record.work_gravity +=
-            mass * settings_.h * body.freedom.axes.col(d).dot(system_.gravity) * mean;
+            mass[dof] * settings_.h * body.freedom.axes.col(d).dot(system_.gravity) * mean;
     }
   }
   record.work_prescribed -= wall_power;
   record.energy_residual = record.kinetic_energy - kinetic_before -
                            (record.work_load + record.work_gravity + record.work_prescribed) +
                            record.dissipated;
+}
 
+/// Of the contacts solved for, and of those of sleepers.
+void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record) {
+  for (int c = 0; c < problem_.contact_count(); ++c)
+    record.active_contacts += impulses_[problem_.row_begin[c]] > 0.0;
   record.active_contacts += resting_.kept_active();
   double overlap = 0.0;
   for (size_t c = 0; c < memory.contacts.size(); ++c) {
@@ -189,6 +184,19 @@ void TimeStepper::account(const MotionState& before, const StepMemory& memory, S
   if (record.active_contacts > 0) record.penetration_mean = overlap / record.active_contacts;
 }
 
+/// The second half of the motion, with the new velocities.
+void TimeStepper::finish_motion(double end_time, MotionState& state) {
+  assembler_.unpack(v_after_, state);
+  for (size_t b = 0; b < state.pose.size(); ++b) {
+    if (resting_.is_asleep(static_cast<int>(b))) continue;
+    if (system_.bodies[b].is_wall() && system_.bodies[b].wall.motion == WallMotion::prescribed)
+      state.velocity[b] = prescribed_velocity(system_.bodies[b], end_time);
+    state.pose[b] = moved(mid_.pose[b], state.velocity[b], state.spin[b], 0.5 * settings_.h);
+  }
+  ++state.step;
+  state.time = end_time;
+}
+
 StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   StepRecord record;
   Stopwatch clock;  // restart() ends a phase and begins the next
@@ -199,30 +207,26 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   for (size_t b = 0; b < state.pose.size(); ++b)
     if (!resting_.is_asleep(static_cast<int>(b)))
       mid_.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
+  // contacts are found at the mid-point, half a step of free flight away
   record.seconds_other = clock.restart();
   detect(mid_, memory);
   record.seconds_detect = clock.restart();
   free_motion(state, mid_time);
   record.seconds_other += clock.restart();
-  assembler_.assemble(mid_, v_free_, h, end_time, contacts_, problem_);
+  assembler_.assemble({mid_, contacts_, v_free_, h, end_time}, problem_);
   record.seconds_assemble = clock.restart();
   solve(memory, record);
   record.seconds_judge = clock.restart() - record.seconds_solve;
 
+  // the books are closed before the poses move on
   v_after_ = runner_.body_velocity();
-  account(state, memory, record);
-  assembler_.unpack(v_after_, state);
-  for (size_t b = 0; b < state.pose.size(); ++b) {
-    if (resting_.is_asleep(static_cast<int>(b))) continue;
-    if (system_.bodies[b].is_wall() && system_.bodies[b].wall.motion == WallMotion::prescribed)
-      state.velocity[b] = prescribed_velocity(system_.bodies[b], end_time);
-    state.pose[b] = moved(mid_.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
-  }
-  ++state.step;
-  state.time = end_time;
+  account_energy(mid_time, record);
+  account_contacts(memory, record);
+  finish_motion(end_time, state);
   record.seconds_other += clock.restart();
   record.work_correction = correction_.apply(assembler_, problem_, contacts_, v_after_, h, state);
   record.seconds_correct = clock.restart();
+  // what falls asleep stops: that energy leaves the account
   const double stopped = resting_.settle(state, memory);
   record.kinetic_energy -= stopped;
   record.energy_residual -= stopped;

@@ -2,9 +2,9 @@
 // One Moreau-Jean step (theta = 1/2): half a step of motion, detection, one friction problem, half
 // a step of motion.
 //
-//   q_m = q_k + h/2 v_k                      contacts are detected at the mid-point configuration
-//   q_m M (v_{k+1} - v_k) = h f(t_m) + H^T r     with the exact Signorini-Coulomb law between r and
-//   u_{k+1} q_{k+1} = q_m + h/2 v_{k+1}
+//   q_m = q_k + h/2 v_k                     contacts are detected at the mid-point q_m
+//   M (v_{k+1} - v_k) = h f(t_m) + H^T r    with Signorini-Coulomb's law between r and u_{k+1}
+//   q_{k+1} = q_m + h/2 v_{k+1}
 //
 // Mid-points follow one another at distance h v_{k+1}, so bias_N = gap/h closes an open gap
 // exactly, to first order in the rotation. The mean velocity (v_k + v_{k+1})/2 balances work and
@@ -67,7 +67,9 @@ class TimeStepper {
   void free_motion(const MotionState& state, double mid_time);
   void detect(const MotionState& mid, StepMemory& memory);
   void solve(StepMemory& memory, StepRecord& record);
-  void account(const MotionState& before, const StepMemory& memory, StepRecord& record);
+  void account_energy(double mid_time, StepRecord& record);
+  void account_contacts(const StepMemory& memory, StepRecord& record);
+  void finish_motion(double end_time, MotionState& state);
 
   const MechanicalSystem& system_;
   StepSettings settings_;
@@ -89,9 +91,6 @@ class TimeStepper {
   std::vector<Vec3> carried_;
   Eigen::VectorXd v_before_, v_free_, v_after_, force_, gyroscopic_, prescribed_;
 };
-
-/// Kinetic energy of everything that has unknowns [J].
-double kinetic_energy(const MechanicalSystem& system, const MotionState& state);
 
 /// Angular velocity after a free flight of h, torque-free: implicit mid-point rule of Euler's
 /// equations in the body frame, which conserves energy and |angular momentum| exactly. `inertia`

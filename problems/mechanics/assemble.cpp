@@ -38,9 +38,11 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(sys
     // orthonormal axes and principal frame: the block is diagonal
     const size_t begin = constant_.mass.size();
     constant_.mass.resize(begin + dofs * dofs, 0.0);
-    for (int d = 0; d < dofs; ++d)
-      constant_.mass[begin + d * dofs + d] =
-          d < body.freedom.translations ? body.mass : body.inertia[d - body.freedom.translations];
+    for (int d = 0; d < dofs; ++d) {
+      const int turn = d - body.freedom.translations;
+      mass_.push_back(turn < 0 ? body.mass : body.inertia[turn]);
+      constant_.mass[begin + d * dofs + d] = mass_.back();
+    }
     constant_.mass_begin.push_back(static_cast<int>(constant_.mass.size()));
   }
   constant_.dof_begin = dof_begin_;
@@ -69,18 +71,21 @@ void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) cons
   }
 }
 
-/// Returns where the next block begins.
-double* ProblemAssembler::write_block(const MotionState& state, int body, double sign,
-                                      const Mat3& frame, int rows, const Vec3& point,
-                                      double* h) const {
+/// The part of contact k's rows that `body` has in H, unknown after unknown; of body a with a
+/// minus, since u = velocity of b - velocity of a. Returns where the next block begins.
+double* ProblemAssembler::write_block(const MotionState& state, const ContactPoint& contact, int k,
+                                      int body, double* h) const {
   if (problem_body_[body] < 0) return h;
   const Freedom& freedom = system_.bodies[body].freedom;
+  const Mat3& frame = frames_[k];
+  const int rows = row_begin_[k + 1] - row_begin_[k];
+  const double sign = body == contact.body_b ? 1.0 : -1.0;
   for (int d = 0; d < freedom.translations; ++d)
     for (int row = 0; row < rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
   if (!freedom.rotation) return h;
   // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
   const Mat3& R_WB = rotation_[body];
-  const Vec3 lever = sign * (R_WB.transpose() * (point - state.pose[body].position));
+  const Vec3 lever = sign * (R_WB.transpose() * (contact.position - state.pose[body].position));
   const Mat3 directions = R_WB.transpose() * frame.transpose();
   Mat3 block;  // row i: direction i
   for (int row = 0; row < rows; ++row) block.row(row) = lever.cross(Vec3(directions.col(row)));
@@ -112,53 +117,61 @@ void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionP
   row_begin_ = problem.row_begin;
 }
 
-void ProblemAssembler::assemble(const MotionState& state, const Eigen::VectorXd& v_free, double h,
-                                double end_time, std::span<const ContactPoint> contacts,
-                                FrictionProblem& problem) {
+void ProblemAssembler::assemble(const StepInput& step, FrictionProblem& problem) {
   problem.clear();
   problem.has_dynamics = true;
+  problem.dynamics.dof_begin = constant_.dof_begin;
+  problem.dynamics.mass_begin = constant_.mass_begin;
+  problem.dynamics.mass = constant_.mass;
+  problem.dynamics.v_free = step.v_free;
+  lay_out(step.contacts, problem);
+  write_rows(step, problem);
+  write_bias(step, problem);
+}
+
+/// The frames and the blocks of H. Each contact writes only what is its own: parts of the work go
+/// to any thread.
+void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& problem) {
+  const std::vector<Pose>& pose = step.state.pose;
+  rotation_.resize(pose.size());
+  for (size_t b = 0; b < pose.size(); ++b) rotation_[b] = pose[b].rotation.toRotationMatrix();
   DynamicsForm& dynamics = problem.dynamics;
-  dynamics.dof_begin = constant_.dof_begin;
-  dynamics.mass_begin = constant_.mass_begin;
-  dynamics.mass = constant_.mass;
-  dynamics.v_free = v_free;
-
-  rotation_.resize(state.pose.size());
-  for (size_t b = 0; b < state.pose.size(); ++b)
-    rotation_[b] = state.pose[b].rotation.toRotationMatrix();
-
-  lay_out(contacts, problem);
   const int count = problem.contact_count();
   constexpr int contacts_of_part = 128;
   run_parts(team_, (count + contacts_of_part - 1) / contacts_of_part, [&](int part) {
     for (int k = part * contacts_of_part; k < std::min(count, (part + 1) * contacts_of_part); ++k) {
-      const ContactPoint& contact = contacts[detected_[k]];
-      const int rows = problem.contact_rows(k);
+      const ContactPoint& contact = step.contacts[detected_[k]];
       frames_[k] = contact_frame(contact.normal);
       double* block = dynamics.h.data() + dynamics.h_begin[k];
-      block = write_block(state, contact.body_a, -1.0, frames_[k], rows, contact.position, block);
-      write_block(state, contact.body_b, +1.0, frames_[k], rows, contact.position, block);
+      block = write_block(step.state, contact, k, contact.body_a, block);
+      write_block(step.state, contact, k, contact.body_b, block);
     }
   });
+}
 
-  prescribed_part(contacts, end_time, dynamics.bias);
-  if (const double e = system_.restitution;
-      e > 0.0) {  // Newton's law: u_N+ + e u_N- >= 0 for approaching points
-    pack(state, v_before_);
-    prescribed_part(contacts, state.time, u_before_);
-    for (int c = 0; c < problem.contact_count(); ++c) {
-      const int rows = problem.contact_rows(c);
-      const double* block = dynamics.h.data() + dynamics.h_begin[c];
-      double approach = u_before_[problem.row_begin[c]];
-      for (int body : {dynamics.body_a[c], dynamics.body_b[c]})
-        for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows)
-          approach += *block * v_before_[dynamics.dof_begin[body] + d];
-      if (approach < 0.0) dynamics.bias[problem.row_begin[c]] += e * approach;
-    }
+/// What the velocity at the contacts has besides H v: prescribed walls; open gaps or restitution.
+void ProblemAssembler::write_bias(const StepInput& step, FrictionProblem& problem) {
+  DynamicsForm& dynamics = problem.dynamics;
+  prescribed_part(step.contacts, step.end_time, dynamics.bias);
+  const double e = system_.restitution;
+  if (!(e > 0.0)) {
+    for (int c = 0; c < problem.contact_count(); ++c)
+      dynamics.bias[problem.row_begin[c]] +=
+          std::max(step.contacts[detected_[c]].gap, 0.0) / step.h;
     return;
   }
-  for (int c = 0; c < problem.contact_count(); ++c)
-    dynamics.bias[problem.row_begin[c]] += std::max(contacts[detected_[c]].gap, 0.0) / h;
+  // Newton's law: u_N+ + e u_N- >= 0 for approaching points
+  pack(step.state, v_before_);
+  prescribed_part(step.contacts, step.state.time, u_before_);
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int rows = problem.contact_rows(c);
+    const double* block = dynamics.h.data() + dynamics.h_begin[c];
+    double approach = u_before_[problem.row_begin[c]];
+    for (int body : {dynamics.body_a[c], dynamics.body_b[c]})
+      for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows)
+        approach += *block * v_before_[dynamics.dof_begin[body] + d];
+    if (approach < 0.0) dynamics.bias[problem.row_begin[c]] += e * approach;
+  }
 }
 
 void ProblemAssembler::prescribed_part(std::span<const ContactPoint> contacts, double time,

@@ -18,6 +18,16 @@ Mat3 contact_frame(const Vec3& normal);
 /// Velocity of a wall with prescribed motion at time t [m/s]; zero for others.
 Vec3 prescribed_velocity(const RigidBody& body, double time);
 
+/// What one step's problem is made from.
+struct StepInput {
+  const MotionState& state;  ///< poses at which the contacts were detected, velocities at the
+                             ///< beginning of the step
+  std::span<const ContactPoint> contacts;
+  const Eigen::VectorXd& v_free;  ///< per unknown [m/s, rad/s]; copied
+  double h;                       ///< length of the step [s]
+  double end_time;                ///< when prescribed walls are taken [s]
+};
+
 /// Turns contacts into a FrictionProblem, step after step, into the same buffers.
 class ProblemAssembler {
  public:
@@ -36,12 +46,13 @@ class ProblemAssembler {
     return problem_body_[body] < 0 ? -1 : dof_begin_[problem_body_[body]];
   }
 
-  /// `state`: poses at which the contacts were detected, velocities at the beginning of the step.
-  /// `v_free` [m/s, rad/s] is copied in. `end_time`: when prescribed walls are taken. With
-  /// restitution e > 0 points still open are left out: Newton's law speaks of contacts that are
-  /// closed; otherwise an open point acts only if it would close within the step, bias_N = gap / h.
-  void assemble(const MotionState& state, const Eigen::VectorXd& v_free, double h, double end_time,
-                std::span<const ContactPoint> contacts, FrictionProblem& problem);
+  /// Mass or moment of inertia of each unknown [kg, kg m^2]: the mass matrix is diagonal.
+  const std::vector<double>& mass() const { return mass_; }
+
+  /// With restitution e > 0 points still open are left out: Newton's law speaks of contacts that
+  /// are closed; otherwise an open point acts only if it would close within the step, bias_N = gap
+  /// / h.
+  void assemble(const StepInput& step, FrictionProblem& problem);
 
   /// Frames of the contacts assembled last, and which detected contact each one is (left-out points
   /// have none).
@@ -60,13 +71,16 @@ class ProblemAssembler {
 
  private:
   void lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem);
-  double* write_block(const MotionState& state, int body, double sign, const Mat3& frame, int rows,
-                      const Vec3& point, double* h) const;
+  void write_rows(const StepInput& step, FrictionProblem& problem);
+  double* write_block(const MotionState& state, const ContactPoint& contact, int k, int body,
+                      double* h) const;
+  void write_bias(const StepInput& step, FrictionProblem& problem);
 
   const MechanicalSystem& system_;
   WorkerTeam* team_ = nullptr;
   std::vector<int> problem_body_;  // body -> index among bodies with freedom, or -1
   std::vector<int> dof_begin_{0};
+  std::vector<double> mass_;
   DynamicsForm constant_;  // dof_begin, mass_begin, mass: the same in every step
   bool some_wall_is_prescribed_ = false;
   std::vector<Mat3> rotation_;  // R_WB of every body at the assembled poses

@@ -28,12 +28,6 @@ int MechanicalSystem::first_driven_wall() const {
   return -1;
 }
 
-int MechanicalSystem::find_body(const std::string& name) const {
-  for (size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b].name == name) return static_cast<int>(b);
-  return -1;
-}
-
 double MechanicalSystem::pair_friction(int a, int b) const {
   if (bodies[a].is_wall()) return bodies[a].wall_friction;
   if (bodies[b].is_wall()) return bodies[b].wall_friction;

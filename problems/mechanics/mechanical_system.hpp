@@ -51,9 +51,8 @@ struct MechanicalSystem {
   double restitution = 0.0;
 
   double mass_of_grains() const;
-  int find_body(const std::string& name) const;  ///< -1 when there is none
-  int first_driven_wall() const;                 ///< -1 when there is none
-  double pair_friction(int a, int b) const;      ///< a wall's own mu, else the bodies'
+  int first_driven_wall() const;             ///< -1 when there is none
+  double pair_friction(int a, int b) const;  ///< a wall's own mu, else the bodies'
 };
 
 /// Bodies and walls of a scene, with the initial state. For scenes with `grains` use

@@ -59,6 +59,7 @@ struct BodySpec {
   std::shared_ptr<const Polyhedron> shape;  ///< principal frame [m]
   double mass = 0.0;                        ///< [kg]
   Vec3 inertia = Vec3::Zero();              ///< principal moments [kg m^2]
+  std::string mesh_key;                     ///< of the mesh file's content; empty without one
   Pose pose;                                ///< of the principal frame
   Vec3 velocity = Vec3::Zero();             ///< world frame [m/s]
   Vec3 spin = Vec3::Zero();                 ///< angular velocity, body frame [rad/s]
@@ -75,8 +76,9 @@ struct GrainsSpec {
   SizeConvention size_convention = SizeConvention::radius;
   std::vector<SizeClass> distribution;
   GrainShapeSettings shape;
-  std::vector<std::string> meshes;  ///< files of the user's own grains, used in turn instead of
-                                    ///< generated ones, scaled to the sizes
+  std::vector<Polyhedron> meshes;  ///< the user's own grains, hulls of what was in the files when
+                                   ///< the scene was read; used in turn instead of generated ones,
+                                   ///< scaled to the sizes
 };
 
 /// The box the grains are in: walls x_min, x_max, y_min, y_max, floor, lid. z up.

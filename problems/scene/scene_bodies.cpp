@@ -4,6 +4,7 @@
 #include <set>
 
 #include "geometry/shape/mesh_file.hpp"
+#include "problems/scene/scene_key.hpp"
 #include "problems/scene/scene_keys.hpp"
 
 namespace ballast {
@@ -62,26 +63,28 @@ Quat read_orientation(TomlTable table) {
 }
 
 PrincipalShape read_mesh_shape(TomlTable& table, const ShapeText& given,
-                               const std::filesystem::path& folder) {
+                               const std::filesystem::path& folder, std::string& key_of_mesh) {
   const std::string path = mesh_path(folder, given.file);
   table.replace_resolved("file", toml::value<std::string>(path));
   try {
-    return to_principal_frame(given.hull ? read_mesh_hull(path, given.scale)
-                                         : read_mesh(path, given.scale));
+    const Polyhedron mesh =
+        given.hull ? read_mesh_hull(path, given.scale) : read_mesh(path, given.scale);
+    key_of_mesh = mesh_key(mesh);
+    return to_principal_frame(mesh);
   } catch (const MeshFileError& error) {
     table.fail("file", error.what());
   }
 }
 
 PrincipalShape read_shape(TomlTable& table, const std::string& kind,
-                          const std::filesystem::path& folder) {
+                          const std::filesystem::path& folder, std::string& key_of_mesh) {
   ShapeText given;
   read_keys(table, shape_keys(kind), given);
   if (kind == "box" && !(given.size.minCoeff() > 0.0))
     table.fail("size", "out of range, expected three lengths > 0 [m]");
   try {
     if (kind == "box") return to_principal_frame(make_box(given.size));
-    if (kind == "mesh") return read_mesh_shape(table, given, folder);
+    if (kind == "mesh") return read_mesh_shape(table, given, folder, key_of_mesh);
     if (kind == "sphere") return to_principal_frame(make_sphere(given.radius, given.subdivisions));
     return make_grain(GrainShapeSettings{}, given.radius, given.seed);
   } catch (const InvalidPolyhedron& error) {  // a box a million times thinner than wide, say
@@ -132,8 +135,8 @@ BodySpec read_body(TomlTable& table, const std::filesystem::path& folder,
   BodyText given;
   given.name = default_name;
   read_keys(table, body_keys(), given);
-  PrincipalShape shape = read_shape(table, given.shape, folder);
   BodySpec body;
+  PrincipalShape shape = read_shape(table, given.shape, folder, body.mesh_key);
   body.name = given.name;
   body.shape = std::make_shared<const Polyhedron>(std::move(shape.shape));
   set_locks(table, given.locked, body);

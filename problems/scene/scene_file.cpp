@@ -5,6 +5,7 @@
 
 #include "geometry/shape/mesh_file.hpp"
 #include "problems/scene/scene_bodies.hpp"
+#include "problems/scene/scene_key.hpp"
 #include "problems/scene/scene_keys.hpp"
 #include "problems/scene/toml_text.hpp"
 
@@ -94,10 +95,10 @@ GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {
   // files are named in the resolved text by where they are, so that it can be read elsewhere
   toml::array kept;
   for (const std::string& name : given.meshes) {
-    grains.meshes.push_back(mesh_path(folder, name));
-    kept.push_back(grains.meshes.back());
+    const std::string path = mesh_path(folder, name);
+    kept.push_back(path);
     try {
-      read_mesh_hull(grains.meshes.back());
+      grains.meshes.push_back(read_mesh_hull(path));
     } catch (const MeshFileError& error) {
       table.fail("meshes", error.what());
     }
@@ -228,11 +229,19 @@ Scene read_scene(const std::filesystem::path& file, std::span<const std::string>
   return read(file, overrides, resolved);
 }
 
+ResolvedScene resolve_scene(const std::filesystem::path& file,
+                            std::span<const std::string> overrides) {
+  toml::table table;
+  ResolvedScene resolved;
+  resolved.scene = read(file, overrides, table);
+  resolved.text = toml_text(table);
+  resolved.key = scene_key(resolved.scene, resolved.text);
+  return resolved;
+}
+
 std::string resolved_scene_text(const std::filesystem::path& file,
                                 std::span<const std::string> overrides) {
-  toml::table resolved;
-  read(file, overrides, resolved);
-  return toml_text(resolved);
+  return resolve_scene(file, overrides).text;
 }
 
 }  // namespace ballast

@@ -16,8 +16,16 @@ namespace ballast {
 /// are relative to the scene file.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-/// The merged and validated TOML text (file plus overrides), for manifests and cache keys: sorted
-/// keys, 17 digits.
+/// A scene with what says which one it is.
+struct ResolvedScene {
+  Scene scene;
+  std::string text;  ///< merged and validated TOML (file plus overrides): sorted keys, 17 digits
+  std::string key;   ///< scene_key(): of the text, and of the mesh files' content
+};
+ResolvedScene resolve_scene(const std::filesystem::path& file,
+                            std::span<const std::string> overrides = {});
+
+/// Its text alone.
 std::string resolved_scene_text(const std::filesystem::path& file,
                                 std::span<const std::string> overrides = {});
 

@@ -50,7 +50,7 @@ std::map<std::string, std::string> stored_states(const fs::path& run) {
   for (const fs::directory_entry& entry : fs::directory_iterator(RunFolder(run).states())) {
     const Checkpoint stored = read_checkpoint(entry.path());
     std::string bytes = bytes_of(stored.state);
-    for (const Vec3& impulse : stored.impulses)
+    for (const Vec3& impulse : stored.memory.impulses)
       bytes.append(reinterpret_cast<const char*>(impulse.data()), 3 * sizeof(double));
     states[entry.path().filename().string()] = bytes;
   }

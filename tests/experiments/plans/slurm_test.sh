@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The plan on a cluster: `ballast sweep --snakemake` on a one-node Slurm that this script starts and ends, a worker killed with -9
+# The plan on a cluster: `ballast plan --snakemake` on a one-node Slurm that this script starts and ends, a worker killed with -9
 # in the middle of its run, against the local engine: the same bits.
 #
 #   slurm_test.sh BALLAST      exit code 77: skipped, with the reason on standard output
@@ -80,10 +80,10 @@ END
 }
 
 # --- the plan ---------------------------------------------------------------------------------------------------------------------
-# That of small_sweep.hpp, ten times as long, so that a worker can be found in the middle of its run.
-sed -n '/R"(/,/^)";/{//!p}' "$(dirname "$(realpath "$0")")/small_sweep.hpp" |
+# That of small_plan.hpp, ten times as long, so that a worker can be found in the middle of its run.
+sed -n '/R"(/,/^)";/{//!p}' "$(dirname "$(realpath "$0")")/small_plan.hpp" |
   sed 's/duration=0.06/duration=0.6/; s/checkpoint_seconds=0.02/checkpoint_seconds=0.1/' >"$folder/plan.toml"
-grep -q 'duration=0.6"' "$folder/plan.toml" && grep -q 'checkpoint_seconds=0.1"' "$folder/plan.toml" || fail "the plan of small_sweep.hpp has changed"
+grep -q 'duration=0.6"' "$folder/plan.toml" && grep -q 'checkpoint_seconds=0.1"' "$folder/plan.toml" || fail "the plan of small_plan.hpp has changed"
 
 # All columns of a record but the wall clocks.
 physics() {
@@ -107,8 +107,8 @@ kill_a_worker() {
 
 start_slurm
 echo "Slurm $(slurmctld -V | cut -d' ' -f2), Snakemake $(snakemake --version)"
-"$ballast" sweep "$folder/plan.toml" --output "$folder/local" --jobs 2 >"$folder/log/local" 2>&1 || { cat "$folder/log/local"; fail "the local sweep"; }
-"$ballast" sweep "$folder/plan.toml" --output "$folder/cluster" --snakemake "$folder/jobs" >/dev/null || fail "--snakemake"
+"$ballast" plan "$folder/plan.toml" --output "$folder/local" --jobs 2 >"$folder/log/local" 2>&1 || { cat "$folder/log/local"; fail "the local plan"; }
+"$ballast" plan "$folder/plan.toml" --output "$folder/cluster" --snakemake "$folder/jobs" >/dev/null || fail "--snakemake"
 cd "$folder/jobs" || exit 1
 HOME=$folder snakemake -s Snakefile --profile slurm >"$folder/log/snakemake" 2>&1 &
 snakemake_id=$!

@@ -1,5 +1,7 @@
 #include "experiments/record/checkpoint.hpp"
 
+#include "platform/pack.hpp"
+#include "platform/sealed_file.hpp"
 #include "tests/support/sample_run.hpp"
 
 using namespace ballast;
@@ -14,12 +16,17 @@ Checkpoint sample_checkpoint(int contacts) {
   checkpoint.phase = "drive";
   checkpoint.state = sample_state(sample_system(), 77);
   for (int c = 0; c < contacts; ++c) {
-    checkpoint.contacts.push_back({c, c + 1, random.next(), random_direction(random),
-                                   random_direction(random), random.uniform(-1e-4, 1e-4)});
-    checkpoint.impulses.push_back(random_direction(random));
+    checkpoint.memory.contacts.push_back({c, c + 1, random.next(), random_direction(random),
+                                          random_direction(random), random.uniform(-1e-4, 1e-4)});
+    checkpoint.memory.impulses.push_back(random_direction(random));
   }
-  checkpoint.numbers = {1.5, -0.0, std::numeric_limits<double>::infinity()};
+  checkpoint.memory.rest.assign(checkpoint.state.pose.size(), 7);
+  checkpoint.memory.rest[1] = StepMemory::asleep;
   return checkpoint;
+}
+
+std::vector<double> numbers_of(const DepositState& deposit) {
+  return {deposit.lid, deposit.top, deposit.rain_time, deposit.rest_velocity};
 }
 
 void check_equal(const Checkpoint& a, const Checkpoint& b) {
@@ -30,15 +37,46 @@ void check_equal(const Checkpoint& a, const Checkpoint& b) {
   CHECK(same_bits(a.state.pose, b.state.pose));
   CHECK(same_bits(a.state.velocity, b.state.velocity));
   CHECK(same_bits(a.state.spin, b.state.spin));
-  REQUIRE(a.contacts.size() == b.contacts.size());
-  for (size_t c = 0; c < a.contacts.size(); ++c) {
-    const ContactPoint &p = a.contacts[c], &q = b.contacts[c];
+  REQUIRE(a.memory.contacts.size() == b.memory.contacts.size());
+  for (size_t c = 0; c < a.memory.contacts.size(); ++c) {
+    const ContactPoint &p = a.memory.contacts[c], &q = b.memory.contacts[c];
     CHECK((p.body_a == q.body_a && p.body_b == q.body_b && p.feature == q.feature));
     CHECK((same_bits(p.normal, q.normal) && same_bits(p.position, q.position) &&
            same_bits(p.gap, q.gap)));
   }
-  CHECK(same_bits(a.impulses, b.impulses));
-  CHECK(same_bits(a.numbers, b.numbers));
+  CHECK(same_bits(a.memory.impulses, b.memory.impulses));
+  CHECK(a.memory.rest == b.memory.rest);
+  REQUIRE(a.deposit.has_value() == b.deposit.has_value());
+  if (a.deposit) CHECK(same_bits(numbers_of(*a.deposit), numbers_of(*b.deposit)));
+}
+
+/// The file as its bytes are described, with any numbers at its end.
+void write_bytes(const fs::path& file, const Checkpoint& checkpoint,
+                 const std::vector<double>& numbers) {
+  Packer packer;
+  const auto vector = [&](const Vec3& value) { packer.fixed(value); };
+  packer.text(checkpoint.key);
+  packer.text(checkpoint.phase);
+  packer.number(checkpoint.state.time);
+  packer.number(std::int64_t{checkpoint.state.step});
+  packer.list(checkpoint.state.pose, [&](const Pose& pose) {
+    vector(pose.position);
+    packer.number(pose.rotation.w());
+    vector(pose.rotation.vec());
+  });
+  packer.list(checkpoint.state.velocity, vector);
+  packer.list(checkpoint.state.spin, vector);
+  packer.list(checkpoint.memory.contacts, [&](const ContactPoint& contact) {
+    packer.number(std::int32_t{contact.body_a});
+    packer.number(std::int32_t{contact.body_b});
+    packer.number(std::uint64_t{contact.feature});
+    vector(contact.normal);
+    vector(contact.position);
+    packer.number(contact.gap);
+  });
+  packer.list(checkpoint.memory.impulses, vector);
+  packer.list(numbers);
+  write_sealed_file(file, {"BALLCKPT", "checkpoint", 1}, packer.bytes());
 }
 
 std::string refusal(const fs::path& file) {
@@ -60,6 +98,61 @@ TEST_CASE("a checkpoint comes back to the last bit") {
   }
   write_checkpoint(file, {});
   check_equal(read_checkpoint(file), {});
+  Checkpoint packing = sample_checkpoint(3);
+  packing.phase = "packing";
+  packing.memory.rest.clear();
+  packing.deposit = DepositState{0.25, -0.0, 1e-310, std::numeric_limits<double>::infinity()};
+  write_checkpoint(file, packing);
+  check_equal(read_checkpoint(file), packing);
+}
+
+TEST_CASE("the bytes of a checkpoint are these: packings and runs of older programs stay useful") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "checkpoint.bin";
+  Checkpoint drive = sample_checkpoint(4);
+  const std::vector<double> rest(drive.memory.rest.begin(), drive.memory.rest.end());
+  const auto check_bytes = [&](const Checkpoint& checkpoint, const std::vector<double>& numbers) {
+    write_bytes(file, checkpoint, numbers);
+    check_equal(read_checkpoint(file), checkpoint);
+    const std::string bytes = file_bytes(file);
+    write_checkpoint(file, checkpoint);
+    CHECK(file_bytes(file) == bytes);
+  };
+  check_bytes(drive, rest);
+  Checkpoint deposit = drive;
+  deposit.memory.rest.clear();
+  for (const char* phase : {"rain", "press", "settle"}) {
+    deposit.phase = phase;
+    deposit.deposit = DepositState{1.0, 2.0, 3.0, 0.0};
+    check_bytes(deposit, {1.0, 2.0, 3.0});
+  }
+  deposit.phase = "packing";  // it keeps the top before the lid
+  deposit.deposit = DepositState{1.0, 2.0, 3.0, 4.0};
+  check_bytes(deposit, {2.0, 1.0, 3.0, 4.0});
+  write_bytes(file, deposit, {2.0, 1.0, 3.0});
+  CHECK_THAT(refusal(file), Contains("a list has a wrong length"));
+  std::vector<double> halves = rest;
+  for (const double wrong : {0.5, std::nan(""), 1e300}) {
+    halves[0] = wrong;
+    write_bytes(file, drive, halves);
+    CHECK_THAT(refusal(file), Contains("checkpoint is inconsistent"));
+  }
+}
+
+TEST_CASE("lists of a checkpoint that do not fit each other are refused") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "checkpoint.bin";
+  const auto refused = [&](auto&& change, const std::string& why) {
+    Checkpoint checkpoint = sample_checkpoint(4);
+    change(checkpoint);
+    write_checkpoint(file, checkpoint);
+    CHECK_THAT(refusal(file), Contains(why));
+  };
+  refused([](Checkpoint& c) { c.state.velocity.pop_back(); }, "a list has a wrong length");
+  refused([](Checkpoint& c) { c.state.spin.pop_back(); }, "a list has a wrong length");
+  refused([](Checkpoint& c) { c.memory.impulses.pop_back(); }, "a list has a wrong length");
+  refused([](Checkpoint& c) { c.memory.rest.pop_back(); }, "rest of 8 bodies");
+  refused([](Checkpoint& c) { c.memory.rest[2] = -2; }, "-2 is no number of steps at rest");
 }
 
 TEST_CASE("equal checkpoints are equal bytes") {

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/same_bits.hpp"

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "experiments/run/simulation.hpp"
+#include "experiments/record/checkpoint.hpp"
+#include "experiments/step/time_step.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/cube_scene.hpp"
 
@@ -46,9 +47,9 @@ struct Stepped {
   }
   /// As a program does that is stopped and goes on: nothing but the checkpoint is left.
   void restart(const std::filesystem::path& file) {
-    write_checkpoint(file, drive_checkpoint("key", "drive", state, memory));
+    write_checkpoint(file, {"key", "drive", state, memory, {}});
     Checkpoint checkpoint = read_checkpoint(file);
-    memory = memory_of(checkpoint, file);
+    memory = checkpoint.memory;
     state = checkpoint.state;
     stepper =
         std::make_unique<TimeStepper>(system, step_settings(scene), system.first_driven_wall());

@@ -68,7 +68,7 @@ TEST_CASE("H v is the relative velocity in the contact frame") {
   Eigen::VectorXd v;
   assembler.pack(f.state, v);
   FrictionProblem problem;
-  assembler.assemble(f.state, v, 1e-3, 0.0, f.contacts, problem);
+  assembler.assemble({f.state, f.contacts, v, 1e-3, 0.0}, problem);
   problem.validate();
   REQUIRE(problem.contact_count() == 5);
   REQUIRE(problem.dynamics.dof_count() == 6 + 6 + 2 + 1);
@@ -107,7 +107,7 @@ TEST_CASE("an open gap becomes a bias, an overlap none") {
   Eigen::VectorXd v;
   assembler.pack(f.state, v);
   FrictionProblem problem;
-  assembler.assemble(f.state, v, 1e-3, 0.0, f.contacts, problem);
+  assembler.assemble({f.state, f.contacts, v, 1e-3, 0.0}, problem);
   CHECK(problem.dynamics.bias[problem.row_begin[0]] == Approx(0.2));
   CHECK(problem.dynamics.bias[problem.row_begin[1]] == 0.0);
 }
@@ -120,7 +120,7 @@ TEST_CASE("restitution leaves open points out and turns the approach round") {
   Eigen::VectorXd v, u;
   assembler.pack(f.state, v);
   FrictionProblem problem;
-  assembler.assemble(f.state, v, 1e-3, 0.0, f.contacts, problem);
+  assembler.assemble({f.state, f.contacts, v, 1e-3, 0.0}, problem);
   REQUIRE(problem.contact_count() == 4);
   CHECK(assembler.detected()[0] == 1);
   Eigen::VectorXd bias = problem.dynamics.bias;
@@ -137,7 +137,7 @@ TEST_CASE("world impulses and rows are inverse to each other in the frame") {
   Eigen::VectorXd v;
   assembler.pack(f.state, v);
   FrictionProblem problem;
-  assembler.assemble(f.state, v, 1e-3, 0.0, f.contacts, problem);
+  assembler.assemble({f.state, f.contacts, v, 1e-3, 0.0}, problem);
   Impulses r = Impulses::LinSpaced(problem.row_count(), 1.0, 2.0), again;
   std::vector<Vec3> world;
   assembler.to_world(r, f.contacts, world);
@@ -175,8 +175,8 @@ TEST_CASE("a team assembles with the bits of one thread") {
   for (const size_t count :
        {f.contacts.size(), few.size(), f.contacts.size()}) {  // into the same buffers
     const std::span<const ContactPoint> contacts(f.contacts.data(), count);
-    alone.assemble(f.state, v, 1e-3, 1e-3, contacts, expected);
-    shared.assemble(f.state, v, 1e-3, 1e-3, contacts, problem);
+    alone.assemble({f.state, contacts, v, 1e-3, 1e-3}, expected);
+    shared.assemble({f.state, contacts, v, 1e-3, 1e-3}, problem);
     problem.validate();
     CHECK(problem.dynamics.h == expected.dynamics.h);
     CHECK(problem.dynamics.h_begin == expected.dynamics.h_begin);

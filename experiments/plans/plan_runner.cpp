@@ -1,4 +1,4 @@
-#include "experiments/plans/sweep.hpp"
+#include "experiments/plans/plan_runner.hpp"
 
 #include <fnmatch.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <map>
 #include <memory>
 
+#include "experiments/plans/plan_progress.hpp"
 #include "experiments/plans/results_index.hpp"
-#include "experiments/plans/sweep_progress.hpp"
 #include "experiments/plans/tasks.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
@@ -24,9 +24,11 @@ namespace ballast {
 namespace fs = std::filesystem;
 namespace {
 
+/// Starts tasks in their order while processes are free, and looks at them two hundred times a
+/// second.
 class Engine {
  public:
-  Engine(const SweepOptions& options, std::vector<Task> tasks)
+  Engine(const PlanOptions& options, std::vector<Task> tasks)
       : options_(options),
         program_(options.program.empty() ? own_program() : options.program),
         tasks_(std::move(tasks)),
@@ -40,6 +42,7 @@ class Engine {
       if (stopped == ExitCode::ok &&
           (InterruptGuard::requested() || seconds() > options_.max_seconds)) {
         stopped = InterruptGuard::requested() ? ExitCode::failure : ExitCode::time_limit;
+        // they write a checkpoint and end; the loop goes on until all have
         for (const auto& [task, worker] : workers_) worker->stop();
       }
       progress_.show(seconds());
@@ -69,6 +72,7 @@ class Engine {
       }
       const bool ready = !deposit || deposit->state == TaskState::finished;
       if (!may_start || !ready || workers_.size() >= static_cast<size_t>(options_.jobs)) continue;
+      // runs wait for their packing, and everything for a free process
       workers_.emplace(k, std::make_unique<BackgroundProgram>(program_, task.arguments, task.log));
       task.state = TaskState::running;
       begun_[k] = seconds();
@@ -108,6 +112,7 @@ class Engine {
     progress_.say("FAILED    " + task.title + ": " + reason + " (" + task.log.string() + ")");
   }
 
+  /// index.csv, every twenty seconds and at the end: what has failed is known here alone.
   void index() {
     std::map<std::string, std::string> failed;
     for (const Task& task : tasks_)
@@ -116,10 +121,10 @@ class Engine {
     indexed_ = seconds();
   }
 
-  const SweepOptions& options_;
+  const PlanOptions& options_;
   fs::path program_;
   std::vector<Task> tasks_;
-  SweepProgress progress_;
+  PlanProgress progress_;
   Stopwatch watch_;
   double indexed_ = 0.0;
   std::map<size_t, std::unique_ptr<BackgroundProgram>> workers_;  // by task
@@ -158,15 +163,16 @@ std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {
   return runs;
 }
 
-ExitCode run_sweep(const Plan& plan, const SweepOptions& options) {
+ExitCode run_plan(const Plan& plan, const PlanOptions& options) {
   validate(plan, "plan " + plan.name);
+  // everything that can be wrong with the plan is found before anything is written
   const std::vector<ResolvedRun> all = resolve(plan);
   const std::vector<ResolvedRun> chosen = resolve(Plan{plan.name, select(plan, options.only)});
   const InterruptGuard guard;
   for (const char* name : {"runs", "packings", "logs"}) create_folder(options.results / name);
-  const FileLock lock(options.results / "sweep.lock", briefly);
+  const FileLock lock(options.results / "plan.lock", briefly);
   if (!lock.is_held())
-    throw Error(options.results.string() + ": " + lock.holder() + " is sweeping there");
+    throw Error(options.results.string() + ": " + lock.holder() + " is running a plan there");
   note_plan(options.results, plan.name, all);
   Engine engine(options, make_tasks(options.results, chosen));
   const auto finished = [](const Task& task) {

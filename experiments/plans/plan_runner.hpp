@@ -2,15 +2,16 @@
 // The engine: sees to it that the runs of a plan are there, each as a process of its own.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "experiments/plans/plan.hpp"
-#include "experiments/run/run.hpp"
+#include "platform/exit_code.hpp"
 #include "platform/status_line.hpp"
 
 namespace ballast {
 
-struct SweepOptions {
+struct PlanOptions {
   std::filesystem::path results = "results";
   int jobs = 1;                   ///< processes at a time
   std::string only;               ///< names to run, as a shell's pattern; empty: all
@@ -31,8 +32,8 @@ struct SweepOptions {
 /// ok: all are finished. failure: some failed, or SIGINT or SIGTERM: all are stopped with
 /// checkpoints. time_limit: as that, after max_seconds. The same call goes on. Killed (-9), its
 /// children die with it, and the same call goes on at the last checkpoints. Throws SceneFileError,
-/// and Error when another sweep works in the folder or it cannot be written.
-ExitCode run_sweep(const Plan& plan, const SweepOptions& options);
+/// and Error when another plan is run in the folder or it cannot be written.
+ExitCode run_plan(const Plan& plan, const PlanOptions& options);
 
 /// The runs of the plan that a shell's pattern names. Throws SceneFileError when there are none.
 std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern);

@@ -195,21 +195,3 @@ TEST_CASE(
     CHECK(on.sleepers() == 0);
   }
 }
-
-TEST_CASE("sleep: numbers of a checkpoint that are not who rests are refused") {
-  Stepped on(stacks(1));
-  on.run(3);
-  Checkpoint checkpoint = drive_checkpoint("key", "drive", on.state, on.memory);
-  CHECK(checkpoint.numbers == std::vector<double>{3, 3, 3, 0});
-  for (const std::vector<double>& wrong :
-       {std::vector<double>{3, 3, 3}, {3, 0.5, 3, 0}, {3, -2, 3, 0}, {3, std::nan(""), 3, 0}}) {
-    Checkpoint other = checkpoint;
-    other.numbers = wrong;
-    try {
-      memory_of(other, "some/checkpoint.bin");
-      FAIL_CHECK("not refused");
-    } catch (const Error& error) {
-      CHECK(std::string(error.what()).rfind("some/checkpoint.bin: ", 0) == 0);
-    }
-  }
-}

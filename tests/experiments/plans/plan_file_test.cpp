@@ -1,9 +1,9 @@
-// Plans: what a file says, what is wrong with it, and by what a run is known.
+// What a plan's file says, and what is wrong with it.
 
 #include <algorithm>
 
 #include "experiments/plans/plan.hpp"
-#include "experiments/plans/sweep.hpp"
+#include "experiments/plans/plan_runner.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -27,13 +27,9 @@ std::string error_of(const std::string& text) {
   return "";
 }
 
-PlannedRun run_with(std::vector<std::string> overrides) {
-  return {"run", "vibrated_box_small", std::move(overrides)};
-}
-
 }  // namespace
 
-TEST_CASE("a plan lists its runs and multiplies its sweeps") {
+TEST_CASE("a plan lists its runs and multiplies its grids") {
   const TemporaryFolder folder;
   const Plan plan = read_plan(folder.write("two.toml", R"(
 scene = "vibrated_box_small"
@@ -48,12 +44,12 @@ name = "slope"
 scene = "incline"
 set = ["solver.max_iterations=20"]
 
-[[sweep]]
+[[grid]]
 name = "nu"
 set = ["scene.duration=0.2"]
 vary."drive.frequency" = [1, 2.5]
 vary.solver.name = ["nncg", "pgs"]
-[[sweep.where]]
+[[grid.where]]
 when."drive.frequency" = [1.0]
 set = ["scene.duration=1"]
 )"));
@@ -83,6 +79,22 @@ set = ["scene.duration=1"]
   }
 }
 
+TEST_CASE("a grid under its old name, sweep, is the same grid") {
+  const TemporaryFolder folder;
+  const auto plan_with = [&](const std::string& name) {
+    return read_plan(folder.write("plan.toml", "scene = \"incline\"\n[[" + name +
+                                                   "]]\nname = \"mu\"\n"
+                                                   "vary.\"contact.friction\" = [0.1, 0.2]\n"));
+  };
+  const Plan now = plan_with("grid"), before = plan_with("sweep");
+  REQUIRE(now.runs.size() == 2);
+  REQUIRE(before.runs.size() == 2);
+  for (size_t k = 0; k < 2; ++k) {
+    CHECK(before.runs[k].name == now.runs[k].name);
+    CHECK(before.runs[k].overrides == now.runs[k].overrides);
+  }
+}
+
 TEST_CASE("a scene's file is looked for beside the plan") {
   const TemporaryFolder folder;
   fs::copy_file(find_scene("incline"), folder.path() / "mine.toml");
@@ -109,33 +121,17 @@ TEST_CASE("what is wrong with a plan is said with file, key and value") {
   CHECK_THAT(error_of("scene = \"nowhere\"\n[[run]]\nname = \"a\"\n"),
              Catch::Contains("no scene of this name"));
 
-  const std::string sweep = head + "[[sweep]]\nname = \"s\"\n";
-  CHECK_THAT(error_of(sweep), Catch::Contains("nothing varied"));
-  CHECK_THAT(error_of(sweep + "vary = 3\n"), Catch::Contains("sweep.0.vary = 3"));
-  CHECK_THAT(error_of(sweep + "vary.\"drive.frequency\" = []\n"), Catch::Contains("no values"));
-  CHECK_THAT(error_of(sweep + "vary.\"drive.frequence\" = [1]\n"),
+  const std::string grid = head + "[[grid]]\nname = \"s\"\n";
+  CHECK_THAT(error_of(grid), Catch::Contains("nothing varied"));
+  CHECK_THAT(error_of(grid + "vary = 3\n"), Catch::Contains("grid.0.vary = 3"));
+  CHECK_THAT(error_of(grid + "vary.\"drive.frequency\" = []\n"), Catch::Contains("no values"));
+  CHECK_THAT(error_of(grid + "vary.\"drive.frequence\" = [1]\n"),
              Catch::Contains("drive.frequence = 1"));
-  const std::string varied = sweep + "vary.\"drive.frequency\" = [1, 2]\n[[sweep.where]]\n";
+  const std::string varied = grid + "vary.\"drive.frequency\" = [1, 2]\n[[grid.where]]\n";
   CHECK_THAT(error_of(varied), Catch::Contains("no condition"));
   CHECK_THAT(error_of(varied + "when.\"grains.seed\" = 1\n"),
              Catch::Contains("grains.seed is not varied"));
   CHECK_THAT(error_of(varied + "when.\"drive.frequency\" = 3\n"), Catch::Contains("never is 3"));
   CHECK_THAT(error_of(varied + "when.\"drive.frequency\" = 1\nsett = []\n"),
              Catch::Contains("did you mean \"set\"?"));
-}
-
-TEST_CASE("a run is known by what it computes") {
-  const std::string key = run_key(run_with({}));
-  CHECK(key.size() == 16);
-  CHECK(run_key(run_with({"drive.frequency=20"})) == key);  // what the scene says anyway
-  CHECK(run_key(run_with({"drive.frequency=20.0"})) == key);
-  CHECK(run_key(run_with({"drive.frequency=7", "drive.frequency=20"})) == key);
-  CHECK(run_key(run_with({"drive.frequency=21"})) != key);
-  CHECK(run_key(run_with({"solver.name=pgs"})) != key);
-  CHECK(run_key(run_with({"solver.tolerance=1e-4"})) != key);
-  PlannedRun renamed = run_with({});
-  renamed.name = "another";
-  CHECK(run_key(renamed) == key);
-  CHECK(folder_of("r", renamed) == fs::path("r/runs") / key);
-  CHECK_FALSE(is_finished("/nowhere", renamed));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How far a sweep is, over all its runs.
+// How far a plan is, over all its runs.
 
 #include <string>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace ballast {
 
-class SweepProgress {
+class PlanProgress {
  public:
   /// `tasks` outlive this and change while it looks.
-  SweepProgress(StatusLine::Style style, const std::vector<Task>& tasks);
+  PlanProgress(StatusLine::Style style, const std::vector<Task>& tasks);
 
-  /// `now`: seconds since the sweep began. Costs next to nothing unless it is time to write.
+  /// `now`: seconds since the plan was taken up. Costs next to nothing unless it is time to write.
   void show(double now);
   /// Something happened: a line on stdout.
   void say(const std::string& text);

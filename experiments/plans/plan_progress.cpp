@@ -1,4 +1,4 @@
-#include "experiments/plans/sweep_progress.hpp"
+#include "experiments/plans/plan_progress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,13 @@
 
 namespace ballast {
 
-SweepProgress::SweepProgress(StatusLine::Style style, const std::vector<Task>& tasks)
+PlanProgress::PlanProgress(StatusLine::Style style, const std::vector<Task>& tasks)
     : line_(style, std::cerr), tasks_(tasks) {
   for (const Task& task : tasks) all_work_ += task.work;
   work_before_ = work_done();
 }
 
-double SweepProgress::work_done() const {
+double PlanProgress::work_done() const {
   double done = 0.0;
   for (const Task& task : tasks_) {
     if (task.state == TaskState::finished)
@@ -26,7 +26,7 @@ double SweepProgress::work_done() const {
   return done;
 }
 
-std::string SweepProgress::text(double now) const {
+std::string PlanProgress::text(double now) const {
   size_t runs = 0, finished = 0, failed = 0, running = 0, deposits = 0;
   for (const Task& task : tasks_) {
     runs += task.is_run();
@@ -46,7 +46,7 @@ std::string SweepProgress::text(double now) const {
   return text;
 }
 
-void SweepProgress::show(double now) {
+void PlanProgress::show(double now) {
   const double interval =
       3.0 * line_.interval();  // hours rather than minutes: half a minute between lines
   if (line_.style() == StatusLine::Style::quiet || now < written_ + interval) return;
@@ -54,7 +54,7 @@ void SweepProgress::show(double now) {
   line_.write(text(now));
 }
 
-void SweepProgress::say(const std::string& text) {
+void PlanProgress::say(const std::string& text) {
   line_.end();
   if (line_.style() != StatusLine::Style::quiet) std::cout << text << std::endl;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Sweeps that take a second: the small box, briefly driven.
+// Plans that take a second: the small box, briefly driven.
 
 #include <string>
 #include <vector>
@@ -12,12 +12,13 @@ namespace ballast {
 
 /// Two packings, two frequencies each. Checkpoints often, so that little is lost whenever it is
 /// killed.
-inline const char* small_sweep = R"(
+inline const char* small_plan = R"(
 name = "small"
 scene = "vibrated_box_small"
-set = ["grains.count=20", "box.length=0.14", "box.width=0.14", "scene.duration=0.06", "record.checkpoint_seconds=0.02"]
+set = ["grains.count=20", "box.length=0.14", "box.width=0.14",
+  "scene.duration=0.06", "record.checkpoint_seconds=0.02"]
 
-[[sweep]]
+[[grid]]
 name = "nu"
 vary."drive.frequency" = [20, 50]
 vary."grains.seed" = [1, 2]

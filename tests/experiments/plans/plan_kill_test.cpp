@@ -1,10 +1,10 @@
-// Killed with -9 at random moments, a sweep ends with the bits of an undisturbed one.
+// Killed with -9 at random moments, a plan ends with the bits of an undisturbed one.
 
 #include "experiments/plans/plan.hpp"
 #include "platform/clock.hpp"
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
-#include "tests/experiments/plans/small_sweep.hpp"
+#include "tests/experiments/plans/small_plan.hpp"
 #include "tests/support/killed_program.hpp"
 
 using namespace ballast;
@@ -12,10 +12,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Sweeps, and kills the sweep after `seconds`. Its exit code, or -1 when it was killed.
-int sweep_for(double seconds, const fs::path& plan, const fs::path& results) {
-  return run_and_kill(seconds,
-                      {"sweep", plan.string(), "--jobs", "2", "--output", results.string()},
+/// Runs the plan, and kills the program after `seconds`. Its exit code, or -1 when it was killed.
+int plan_for(double seconds, const fs::path& plan, const fs::path& results) {
+  return run_and_kill(seconds, {"plan", plan.string(), "--jobs", "2", "--output", results.string()},
                       results.string() + ".log");
 }
 
@@ -29,26 +28,26 @@ int files_in(const fs::path& folder, const std::string& suffix) {
 
 }  // namespace
 
-TEST_CASE("a sweep killed with -9 twenty times at random ends with the same bits") {
+TEST_CASE("a plan killed with -9 twenty times at random ends with the same bits") {
   const TemporaryFolder folder;
-  const fs::path file = folder.write("plan.toml", small_sweep), whole = folder.path() / "whole";
+  const fs::path file = folder.write("plan.toml", small_plan), whole = folder.path() / "whole";
   const Plan plan = read_plan(file);
   const Stopwatch watch;
-  REQUIRE(sweep_for(100.0, file, whole) == 0);
+  REQUIRE(plan_for(100.0, file, whole) == 0);
   const double undisturbed = watch.seconds();
   const std::vector<std::string> bits = bits_of(plan, whole);
   REQUIRE(bits[0] != bits[1]);
 
-  // sweep after sweep until there were twenty deaths, spread over deposits and drives, on a fast
+  // one after another until there were twenty deaths, spread over deposits and drives, on a fast
   // machine and on a slow one
   Random random(20);
   int kills = 0, in_deposit = 0, in_drive = 0, elsewhere = 0;
-  for (int sweeps = 0; kills < 20 || in_deposit < 5 || in_drive < 5; ++sweeps) {
-    REQUIRE(sweeps < 20);
-    const fs::path results = folder.path() / ("killed" + std::to_string(sweeps));
+  for (int tries = 0; kills < 20 || in_deposit < 5 || in_drive < 5; ++tries) {
+    REQUIRE(tries < 20);
+    const fs::path results = folder.path() / ("killed" + std::to_string(tries));
     int code = -1;
     while (code == -1) {
-      code = sweep_for(random.uniform(0.03, 0.35) * undisturbed, file, results);
+      code = plan_for(random.uniform(0.03, 0.35) * undisturbed, file, results);
       REQUIRE((code == -1 || code == 0));
       if (code == 0) break;
       REQUIRE(++kills < 200);
@@ -67,7 +66,7 @@ TEST_CASE("a sweep killed with -9 twenty times at random ends with the same bits
   CHECK(kills == in_deposit + in_drive + elsewhere);
 }
 
-TEST_CASE("children die with a sweep that is killed") {
+TEST_CASE("children die with a plan that is killed") {
   const TemporaryFolder folder;
   // long: whoever survived would still be running
   const fs::path file = folder.write(
@@ -78,9 +77,10 @@ TEST_CASE("children die with a sweep that is killed") {
   const fs::path log = results / "logs" / (run_key(run) + ".log");
   Stopwatch watch;
   {
-    BackgroundProgram sweep(BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string()},
-                            folder.path() / "log");
-    while (!fs::exists(log) && watch.seconds() < 60.0 && !sweep.has_ended()) usleep(2000);
+    BackgroundProgram planned(BALLAST_PROGRAM,
+                              {"plan", file.string(), "--output", results.string()},
+                              folder.path() / "log");
+    while (!fs::exists(log) && watch.seconds() < 60.0 && !planned.has_ended()) usleep(2000);
     REQUIRE(fs::exists(log));
   }
   // the folder can be had again: nobody holds its lock

@@ -2,13 +2,11 @@
 
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/plans/plan.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
 #include "tests/catch.hpp"
-#include "tests/experiments/plans/small_sweep.hpp"
+#include "tests/experiments/plans/small_plan.hpp"
 #include "tests/support/program.hpp"
 
 using namespace ballast;
@@ -16,9 +14,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ProgramResult sweep(const fs::path& plan, const fs::path& results,
-                    std::vector<std::string> more = {}) {
-  more.insert(more.begin(), {"sweep", plan.string(), "--output", results.string()});
+ProgramResult run_plan_file(const fs::path& plan, const fs::path& results,
+                            std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {"plan", plan.string(), "--output", results.string()});
   return ballast_program(more);
 }
 
@@ -30,30 +28,31 @@ long entries(const fs::path& folder) {
 
 TEST_CASE("two processes give the bits of one, and what is finished is not run again") {
   const TemporaryFolder folder;
-  const fs::path file = folder.write("plan.toml", small_sweep), one = folder.path() / "one",
+  const fs::path file = folder.write("plan.toml", small_plan), one = folder.path() / "one",
                  two = folder.path() / "two";
   const Plan plan = read_plan(file);
-  CHECK_THAT(sweep(file, one, {"--dry-run"}).output,
+  CHECK_THAT(run_plan_file(file, one, {"--dry-run"}).output,
              Catch::Contains("waiting") && Catch::Contains("to deposit"));
   CHECK_FALSE(fs::exists(one));
 
-  const ProgramResult first = sweep(file, one, {"--jobs", "1"});
+  const ProgramResult first = run_plan_file(file, one, {"--jobs", "1"});
   CAPTURE(first.output, first.errors);
   REQUIRE(first.succeeded());
   CHECK_THAT(first.output, Catch::Contains("4 runs: 4 finished (0 of them before)"));
-  const ProgramResult second = sweep(file, two, {"--jobs", "2"});
+  const ProgramResult second = run_plan_file(file, two, {"--jobs", "2"});
   CAPTURE(second.output, second.errors);
   REQUIRE(second.succeeded());
   CHECK(bits_of(plan, one) == bits_of(plan, two));
   for (const PlannedRun& run : plan.runs) CHECK(is_finished(one, run));
   CHECK(entries(one / "packings") == 2);  // shared by two runs each
-  CHECK_FALSE(fs::exists(one / "sweep.lock"));
+  CHECK_FALSE(fs::exists(one / "plan.lock"));
 
   const fs::path manifest = folder_of(one, plan.runs[0]) / "manifest.json";
   const auto written = fs::last_write_time(manifest);
-  CHECK_THAT(sweep(file, one).output, Catch::Contains("4 runs: 4 finished (4 of them before)"));
+  CHECK_THAT(run_plan_file(file, one).output,
+             Catch::Contains("4 runs: 4 finished (4 of them before)"));
   CHECK(fs::last_write_time(manifest) == written);
-  CHECK_THAT(sweep(file, one, {"--dry-run"}).output,
+  CHECK_THAT(run_plan_file(file, one, {"--dry-run"}).output,
              Catch::Contains("finished") && !Catch::Contains("waiting"));
   const std::string index = read_whole_file(one / "index.csv");
   CHECK(std::count(index.begin(), index.end(), '\n') == 5);
@@ -66,8 +65,9 @@ TEST_CASE("another plan in the same results shares runs and stands in the same i
   const TemporaryFolder folder;
   const fs::path results = folder.path() / "results";
   const std::string scene = "scene = \"incline\"\nset = [\"scene.duration=0.01\"]\n";
-  REQUIRE(sweep(folder.write("a.toml", scene + "[[run]]\nname = \"x\"\n"), results).succeeded());
-  const ProgramResult other = sweep(
+  REQUIRE(run_plan_file(folder.write("a.toml", scene + "[[run]]\nname = \"x\"\n"), results)
+              .succeeded());
+  const ProgramResult other = run_plan_file(
       folder.write(
           "b.toml",
           scene +
@@ -82,7 +82,7 @@ TEST_CASE("another plan in the same results shares runs and stands in the same i
 TEST_CASE("a run that fails is reported and the others go on") {
   const TemporaryFolder folder;
   const fs::path results = folder.path() / "results";
-  const fs::path file = folder.write("plan.toml", std::string(small_sweep) + R"(
+  const fs::path file = folder.write("plan.toml", std::string(small_plan) + R"(
 [[run]]
 name = "restless"
 set = ["deposit.max_time=0.01", "deposit.rest_velocity=1e-9"]
@@ -95,7 +95,7 @@ set = ["drive.frequency=30"]
   fs::create_directories(folder_of(results, taken));
   write_whole_file(folder_of(results, taken) / "scene.toml", "not what it should be\n");
 
-  const ProgramResult result = sweep(file, results, {"--jobs", "2"});
+  const ProgramResult result = run_plan_file(file, results, {"--jobs", "2"});
   CAPTURE(result.output, result.errors);
   CHECK(result.status == static_cast<int>(ExitCode::failure));
   CHECK_THAT(result.output,
@@ -108,87 +108,61 @@ set = ["drive.frequency=30"]
              Catch::Contains("restless," + run_key(restless) + ",failed"));
 
   fs::remove_all(folder_of(results, taken));  // mended: tried again
-  const ProgramResult again = sweep(file, results, {"--only", "taken"});
+  const ProgramResult again = run_plan_file(file, results, {"--only", "taken"});
   CHECK(again.succeeded());
   CHECK(is_finished(results, taken));
 }
 
-TEST_CASE("the time limit stops a sweep with checkpoints, and the same command goes on") {
+TEST_CASE("the time limit stops a plan with checkpoints, and the same command goes on") {
   const TemporaryFolder folder;
-  const fs::path file = folder.write("plan.toml", small_sweep), results = folder.path() / "results";
+  const fs::path file = folder.write("plan.toml", small_plan), results = folder.path() / "results";
   int stops = 0;
   double seconds = 0.4;
-  ProgramResult result = sweep(file, results, {"--max-seconds", std::to_string(seconds)});
+  ProgramResult result = run_plan_file(file, results, {"--max-seconds", std::to_string(seconds)});
   while (result.status == static_cast<int>(ExitCode::time_limit)) {
     REQUIRE(++stops < 200);
     CHECK_THAT(result.output, Catch::Contains("the same command goes on"));
     seconds *= 1.1;  // under sanitizers, beside other work: it ends all the same
-    result = sweep(file, results, {"--max-seconds", std::to_string(seconds)});
+    result = run_plan_file(file, results, {"--max-seconds", std::to_string(seconds)});
   }
   CHECK(stops > 0);
   CHECK(result.succeeded());
 }
 
-TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else sweeps there") {
+TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else runs a plan there") {
   const TemporaryFolder folder;
   const fs::path results = folder.path() / "results", log = folder.path() / "log";
   const fs::path file =
-      folder.write("plan.toml", std::string(small_sweep) +
+      folder.write("plan.toml", std::string(small_plan) +
                                     "[[run]]\nname = \"long\"\nset = [\"scene.duration=100\", "
                                     "\"record.checkpoint_seconds=1000\"]\n");
   const fs::path run = folder_of(results, read_plan(file).runs[0]);
-  BackgroundProgram long_sweep(
+  BackgroundProgram long_plan(
       BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string(), "--only", "long"},
       log);
-  for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_sweep.has_ended();
-       ++k)
+  for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_plan.has_ended(); ++k)
     usleep(10'000);
   REQUIRE(fs::exists(run / "log" / "steps.bin"));
-  check_failure(sweep(file, results), ExitCode::failure, {results.string(), "is sweeping there"});
+  check_failure(run_plan_file(file, results), ExitCode::failure,
+                {results.string(), "is running a plan there"});
   CHECK_FALSE(fs::exists(run / "checkpoint.bin"));
-  long_sweep.stop();
-  for (int k = 0; k < 6000 && !long_sweep.has_ended(); ++k) usleep(10'000);
-  REQUIRE(long_sweep.has_ended());
-  CHECK(long_sweep.status() == static_cast<int>(ExitCode::failure));
+  long_plan.stop();
+  for (int k = 0; k < 6000 && !long_plan.has_ended(); ++k) usleep(10'000);
+  REQUIRE(long_plan.has_ended());
+  CHECK(long_plan.status() == static_cast<int>(ExitCode::failure));
   CHECK_THAT(last_line(log), Catch::Contains("the same command goes on"));
   CHECK(read_checkpoint(run / "checkpoint.bin").state.step > 0);
 }
 
-TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is run") {
+TEST_CASE("a plan's command line and plan are checked before anything is written") {
   const TemporaryFolder folder;
-  const fs::path results = folder.path() / "results", jobs = folder.path() / "jobs",
-                 file = folder.write("plan.toml", small_sweep);
-  REQUIRE(sweep(file, results, {"--snakemake", jobs.string()}).succeeded());
-  CHECK(fs::is_empty(results / "runs"));
-  const auto list = nlohmann::json::parse(read_whole_file(jobs / "runs.json"));
-  CHECK(list["runs"].size() == 4);
-  CHECK(list["packings"].size() == 2);
-  const Plan plan = read_plan(file), again = read_plan(jobs / "plan.toml");
-  for (size_t k = 0; k < plan.runs.size(); ++k) {
-    const std::string key = run_key(plan.runs[k]);
-    CHECK(run_key(again.runs[k]) == key);
-    REQUIRE(list["runs"].contains(key));
-    std::vector<std::string> words = list["runs"][key]["arguments"];
-    CHECK(fs::path(words[1]).is_absolute());
-    CHECK(std::find(words.begin(), words.end(), folder_of(results, plan.runs[k]).string()) !=
-          words.end());
-    if (k > 0) continue;
-    REQUIRE(ballast_program(words).succeeded());  // as a job would
-    CHECK(is_finished(results, plan.runs[k]));
-  }
-  CHECK((fs::status(jobs / "slurm" / "status.sh").permissions() & fs::perms::owner_exec) !=
-        fs::perms::none);
-  check_failure(sweep(file, results, {"--snakemake", (folder.path() / "with blank").string()}),
-                ExitCode::failure, {"with blank"});
-}
-
-TEST_CASE("a sweep's command line and plan are checked before anything is written") {
-  const TemporaryFolder folder;
-  const fs::path results = folder.path() / "results", file = folder.write("plan.toml", small_sweep);
-  check_failure(sweep(folder.path() / "none.toml", results), ExitCode::failure, {"none.toml"});
-  check_failure(sweep(file, results, {"--jobs", "0"}), ExitCode::usage, {"--jobs"});
-  check_failure(sweep(file, results, {"--max-seconds", "-1"}), ExitCode::usage, {"--max-seconds"});
-  check_failure(sweep(file, results, {"--only", "mu*"}), ExitCode::failure,
+  const fs::path results = folder.path() / "results", file = folder.write("plan.toml", small_plan);
+  check_failure(run_plan_file(folder.path() / "none.toml", results), ExitCode::failure,
+                {"none.toml"});
+  check_failure(run_plan_file(file, results, {"--jobs", "0"}), ExitCode::usage, {"--jobs"});
+  check_failure(run_plan_file(file, results, {"--max-seconds", "-1"}), ExitCode::usage,
+                {"--max-seconds"});
+  check_failure(run_plan_file(file, results, {"--only", "mu*"}), ExitCode::failure,
                 {"no run is named like mu*"});
   CHECK_FALSE(fs::exists(results));
 }

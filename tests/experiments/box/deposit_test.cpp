@@ -1,0 +1,125 @@
+#include "experiments/box/deposit.hpp"
+
+#include "tests/experiments/box/small_box.hpp"
+#include "tests/support/sample_run.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Deposits without a stop; what it says goes into `stages`.
+Packing deposited(const Scene& scene, const fs::path& part, std::vector<BoxStage>& stages) {
+  Packing packing;
+  const auto listen = [&](BoxStage stage, double, double, const StepRecord&) {
+    if (stages.empty() || stages.back() != stage) stages.push_back(stage);
+    return true;
+  };
+  REQUIRE(deposit(scene, make_rain(scene), part, listen, packing));
+  return packing;
+}
+
+void check_equal(const Packing& a, const Packing& b) {
+  CHECK(same_bits(a.state.pose, b.state.pose));
+  CHECK(same_bits(a.state.velocity, b.state.velocity));
+  CHECK(same_bits(a.state.spin, b.state.spin));
+  CHECK(same_bits(a.memory.impulses, b.memory.impulses));
+  CHECK(a.memory.contacts.size() == b.memory.contacts.size());
+  const DepositState &p = a.deposit, &q = b.deposit;
+  CHECK((p.lid == q.lid && p.top == q.top && p.rain_time == q.rain_time));
+  CHECK(p.rest_velocity == q.rest_velocity);
+}
+
+}  // namespace
+
+TEST_CASE("a deposit rains, presses and settles; its grains then lie in the box at rest") {
+  const TemporaryFolder folder;
+  const Scene scene = small_box();
+  std::vector<BoxStage> stages;
+  const Packing packing = deposited(scene, folder.path() / "part", stages);
+  CHECK(stages == std::vector<BoxStage>{BoxStage::rain, BoxStage::press, BoxStage::settle});
+  CHECK(packing.deposit.lid == packing.deposit.top + scene.drive.lid_raise);
+  CHECK(packing.deposit.rain_time > 0.0);
+  CHECK(packing.deposit.rest_velocity < 10 * scene.deposit.rest_velocity);
+  CHECK(packing.memory.contacts.size() == packing.memory.impulses.size());
+  CHECK_FALSE(packing.memory.contacts.empty());
+  MotionState state;
+  const MechanicalSystem system = drive_system(scene, make_rain(scene), packing, state);
+  CHECK((state.time == 0.0 && state.step == 0));
+  CHECK(packing_top(system, state) < packing.deposit.lid);
+  for (int b = 0; b < system.grain_count; ++b)
+    for (const Vec3& vertex : system.bodies[b].shape.polyhedron->vertices())
+      CHECK((state.pose[b] * vertex).minCoeff() > -1e-3);
+}
+
+TEST_CASE("without pressure there is no pressing, and the lid is put over the highest grain") {
+  const TemporaryFolder folder;
+  const Scene scene = small_box({"deposit.lid_pressure_weight=0"});
+  std::vector<BoxStage> stages;
+  const Packing packing = deposited(scene, folder.path() / "part", stages);
+  CHECK(stages == std::vector<BoxStage>{BoxStage::rain, BoxStage::settle});
+  CHECK(packing.deposit.lid == packing.deposit.top + scene.drive.lid_raise);
+}
+
+TEST_CASE("a deposit stopped in every stage goes on to the same bits") {
+  const TemporaryFolder folder;
+  const Scene scene = small_box();
+  std::vector<BoxStage> stages;
+  const Packing whole = deposited(scene, folder.path() / "whole", stages);
+  const fs::path part = folder.path() / "part";
+  Packing packing;
+  std::vector<std::string> phases;
+  for (int calls = 0, stops = 0;; calls = 0) {
+    REQUIRE(++stops < 100);
+    const auto stop = [&](BoxStage, double, double, const StepRecord&) { return ++calls < 37; };
+    if (deposit(scene, make_rain(scene), part, stop, packing)) break;
+    phases.push_back(read_checkpoint(part).phase);
+  }
+  for (const char* phase : {"rain", "press", "settle"})
+    CHECK(std::count(phases.begin(), phases.end(), phase) > 0);
+  check_equal(packing, whole);
+}
+
+TEST_CASE("a part of another deposit is not gone on with") {
+  const TemporaryFolder folder;
+  const fs::path part = folder.path() / "part";
+  const auto stop = [](BoxStage, double, double, const StepRecord&) { return false; };
+  Packing packing;
+  const Scene other = small_box({"grains.seed=5"}), scene = small_box();
+  REQUIRE_FALSE(deposit(other, make_rain(other), part, stop, packing));
+  CHECK(read_checkpoint(part).key == packing_key(other));
+  std::vector<BoxStage> stages, unstopped;
+  check_equal(deposited(scene, part, stages), deposited(scene, folder.path() / "none", unstopped));
+}
+
+TEST_CASE("grains that do not come to rest in time are an error that says what to raise") {
+  const TemporaryFolder folder;
+  const Scene scene = small_box({"deposit.max_time=0.01"});
+  const auto go_on = [](BoxStage, double, double, const StepRecord&) { return true; };
+  Packing packing;
+  CHECK_THAT(
+      run_error([&] { deposit(scene, make_rain(scene), folder.path() / "part", go_on, packing); }),
+      Contains("deposit.max_time = 0.01") && Contains("deposit.rest_velocity"));
+}
+
+TEST_CASE("a packing comes back to the last bit, and only to whom it belongs") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "packing.bin";
+  Packing written, read;
+  written.state = sample_state(sample_system(), 3);
+  written.memory.contacts.resize(2);
+  written.memory.impulses = {Vec3(1, 2, 3), Vec3(-0.0, 1e-310, 4)};
+  written.deposit = {0.3, 0.2, 1.25, 1e-3};
+  CHECK_FALSE(read_packing(file, "key", read));
+  write_packing(file, "key", written);
+  REQUIRE(read_packing(file, "key", read));
+  check_equal(read, written);
+  CHECK_THAT(run_error([&] { read_packing(file, "other", read); }),
+             Contains("a packing of other settings"));
+  // the part of an unfinished deposit is no packing
+  write_checkpoint(file, {"key", "settle", written.state, written.memory, written.deposit});
+  CHECK_THAT(run_error([&] { read_packing(file, "key", read); }),
+             Contains("a packing of other settings"));
+  put_bytes(file, "cut off");
+  CHECK_THAT(run_error([&] { read_packing(file, "key", read); }), Contains(file.string()));
+}

@@ -1,0 +1,59 @@
+#include "experiments/plans/snakemake.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "platform/atomic_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/experiments/plans/small_plan.hpp"
+#include "tests/support/program.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is run") {
+  const TemporaryFolder folder;
+  const fs::path results = folder.path() / "results", jobs = folder.path() / "jobs",
+                 file = folder.write("plan.toml", small_plan);
+  const Plan plan = read_plan(file);
+  write_snakemake(plan, results, BALLAST_PROGRAM, jobs);
+  CHECK(fs::is_empty(results / "runs"));
+  const auto list = nlohmann::json::parse(read_whole_file(jobs / "runs.json"));
+  CHECK(list["runs"].size() == 4);
+  CHECK(list["packings"].size() == 2);
+  const Plan again = read_plan(jobs / "plan.toml");
+  for (size_t k = 0; k < plan.runs.size(); ++k) {
+    const std::string key = run_key(plan.runs[k]);
+    CHECK(run_key(again.runs[k]) == key);
+    REQUIRE(list["runs"].contains(key));
+    std::vector<std::string> words = list["runs"][key]["arguments"];
+    CHECK(fs::path(words[1]).is_absolute());
+    CHECK(std::find(words.begin(), words.end(), folder_of(results, plan.runs[k]).string()) !=
+          words.end());
+    if (k > 0) continue;
+    REQUIRE(ballast_program(words).succeeded());  // as a job would
+    CHECK(is_finished(results, plan.runs[k]));
+  }
+  CHECK((fs::status(jobs / "slurm" / "status.sh").permissions() & fs::perms::owner_exec) !=
+        fs::perms::none);
+  CHECK_THROWS_WITH(write_snakemake(plan, results, BALLAST_PROGRAM, folder.path() / "with blank"),
+                    Catch::Contains("with blank"));
+}
+
+TEST_CASE("the Snakefile's last rule asks the program whether all is finished") {
+  const TemporaryFolder folder;
+  const fs::path results = folder.path() / "results", jobs = folder.path() / "jobs";
+  const Plan plan{"one", {{"a", "incline", {"scene.duration=0.005"}}}};
+  write_snakemake(plan, results, BALLAST_PROGRAM, jobs);
+  const auto list = nlohmann::json::parse(read_whole_file(jobs / "runs.json"));
+  CHECK(list["program"] == BALLAST_PROGRAM);
+  CHECK(list["packings"].empty());
+  const std::string snakefile = read_whole_file(jobs / "Snakefile");
+  CHECK_THAT(snakefile, Catch::Contains("PLAN[\"finish\"]"));
+  const ProgramResult finish = ballast_program(list["finish"]);
+  CHECK(finish.succeeded());
+  CHECK_THAT(finish.output, Catch::Contains("1 runs: 1 finished (0 of them before)"));
+  // the profile names this folder, and no mark is left to be filled in
+  const std::string profile = read_whole_file(jobs / "slurm" / "config.yaml");
+  CHECK_THAT(profile, Catch::Contains(jobs.string() + "/slurm/status.sh"));
+  CHECK(profile.find('@') == std::string::npos);
+}

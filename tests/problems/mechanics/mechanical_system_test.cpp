@@ -1,0 +1,88 @@
+#include "problems/mechanics/mechanical_system.hpp"
+
+#include "tests/catch.hpp"
+#include "tests/support/cube_scene.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// A free cube, one that slides along y alone, a floor, and a driven wall at x = 0.5.
+Scene two_cubes_and_two_walls() {
+  Scene scene = empty_scene();
+  scene.friction = 0.5;
+  scene.bodies = {cube("free", 0.1, 2.0, Vec3(0, 0, 1)), cube("rail", 0.2, 3.0, Vec3(0.3, 0, 1))};
+  BodySpec& rail = scene.bodies[1];
+  rail.free_x = rail.free_z = rail.free_rotation = false;
+  WallSpec driven;
+  driven.name = "piston";
+  driven.normal = Vec3(-1, 0, 0);
+  driven.offset = -0.5;
+  driven.motion = WallMotion::driven;
+  driven.mass = 7.0;
+  driven.friction = 0.0;
+  scene.walls = {floor_at_zero(0.3), driven};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("bodies come before walls, with the freedom that each has") {
+  MotionState state;
+  const MechanicalSystem system = make_system(two_cubes_and_two_walls(), state);
+  REQUIRE(system.bodies.size() == 4);
+  CHECK(system.grain_count == 2);
+  CHECK(system.mass_of_grains() == 5.0);
+  CHECK(system.first_driven_wall() == 3);
+  const int unknowns[] = {6, 1, 0, 1};
+  const bool fixed[] = {false, false, true, false};
+  for (size_t b = 0; b < 4; ++b) {
+    CHECK(system.bodies[b].freedom.count() == unknowns[b]);
+    CHECK(system.bodies[b].shape.fixed == fixed[b]);
+    CHECK(system.bodies[b].is_wall() == (b >= 2));
+  }
+  CHECK(Vec3(system.bodies[1].freedom.axes.col(0)) == Vec3::UnitY());
+  CHECK(Vec3(system.bodies[3].freedom.axes.col(0)) == Vec3::UnitX());  // outward
+  CHECK(system.bodies[0].volume == Approx(1e-3));
+  CHECK(system.bodies[3].mass == 7.0);
+  CHECK(state.pose[0].position == Vec3(0, 0, 1));
+  CHECK(state.pose[3].position == Vec3(0.5, 0, 0));
+  CHECK(contact_shapes(system).size() == 4);
+}
+
+TEST_CASE("a contact with a wall has the wall's friction, others the scene's") {
+  MotionState state;
+  const MechanicalSystem system = make_system(two_cubes_and_two_walls(), state);
+  CHECK(system.pair_friction(0, 1) == 0.5);
+  CHECK(system.pair_friction(0, 2) == 0.3);
+  CHECK(system.pair_friction(2, 0) == 0.3);
+  CHECK(system.pair_friction(1, 3) == 0.0);
+}
+
+TEST_CASE("a system without a driven wall says so") {
+  Scene scene = two_cubes_and_two_walls();
+  scene.walls.pop_back();
+  MotionState state;
+  CHECK(make_system(scene, state).first_driven_wall() == -1);
+}
+
+TEST_CASE("kinetic energy is of what can move") {
+  MotionState state;
+  const MechanicalSystem system = make_system(two_cubes_and_two_walls(), state);
+  const double inertia = 2.0 * 0.1 * 0.1 / 6.0;
+  const Vec3 velocity(1, 2, 3), spin(4, 5, 6);
+  CHECK(kinetic_energy(system.bodies[0], velocity, spin) ==
+        Approx(0.5 * 2.0 * 14.0 + 0.5 * inertia * 77.0));
+  CHECK(kinetic_energy(system.bodies[1], Vec3(0, 2, 0), Vec3::Zero()) == Approx(0.5 * 3.0 * 4.0));
+  CHECK(kinetic_energy(system.bodies[2], velocity, spin) == 0.0);
+}
+
+TEST_CASE("a driven wall's way and speed are counted outward, from where it began") {
+  MotionState state;
+  const MechanicalSystem system = make_system(two_cubes_and_two_walls(), state);
+  CHECK(outward_displacement(system, state, 3) == 0.0);
+  state.pose[3].position.x() += 0.25;
+  state.velocity[3] = Vec3(-1.5, 0, 0);
+  CHECK(outward_displacement(system, state, 3) == 0.25);
+  CHECK(outward_velocity(system, state, 3) == -1.5);
+}
