@@ -208,7 +208,7 @@ std::string next_commands(bool has_grains) {
   const std::string program = "build/default/bin/ballast ";
   std::string text;
   if (has_grains)
-    text += "# another frequency, another set of grains; every key of a scene: docs/scenes.md\n" +
+    text += "# another frequency, other grains; every key of a scene: docs/manual/scenes.md\n" +
             program +
             "run vibrated_box --set drive.frequency=10 --set grains.seed=2 --output results/10Hz\n"
             "# one figure of the paper with all its runs (each made once); what they cost: paper "

@@ -61,7 +61,8 @@ const SceneKeys<SleepSpec>& sleep_keys() {
   static const SceneKeys<SleepSpec> keys{
       {"enabled", flag(&SleepSpec::enabled),
        "islands at rest are frozen until something comes near: **not exact** "
-       "([method.md](theory/method.md)); needs gravity. The section is in `scene.toml` only where "
+       "([method.md](../theory/method.md)); needs gravity. The section is in `scene.toml` only "
+       "where "
        "given; "
        "a deposit never sleeps"},
       {"velocity", number(&SleepSpec::velocity, positive, "g h"),
@@ -93,7 +94,8 @@ const SceneKeys<DetectionSettings>& detection_keys() {
        "start from the last step's separating axes; the contacts are the same without"},
       {"reuse_motion", number(&DetectionSettings::reuse_motion, part_of_one, "of circumradii"),
        "a pair's contact points are held on to until its bodies have moved against each other by "
-       "this part of the sum of their circumradii: **not exact** ([method.md](theory/method.md)); "
+       "this part of the sum of their circumradii: **not exact** "
+       "([method.md](../theory/method.md)); "
        "1e-3 is "
        "a good value. Not together with sleep; a deposit never does",
        Presence::only_where_given, "off"},
@@ -110,7 +112,7 @@ const SceneKeys<RecordSpec>& record_keys() {
        "stored poses per simulated second"},
       {"state_rate", number(&RecordSpec::state_rate, not_negative, "1/s"),
        "whole states, with contacts and impulses, kept per simulated second in `states/` "
-       "([records.md](manual/records.md)); 0: none"},
+       "([records.md](records.md)); 0: none"},
       {"checkpoint_seconds", number(&RecordSpec::checkpoint_seconds, positive, "s"),
        "wall clock between checkpoints"},
       {"paraview", flag(&RecordSpec::paraview), "`.vtp` and `.pvd` beside the record"},

@@ -1,7 +1,7 @@
 #pragma once
 // The keys of a scene file, each once: name, the member that keeps it, type, unit, range, default
-// and meaning. Scenes are read and validated by these tables, and docs/scenes.md is written from
-// them. The default is the member's own initial value.
+// and meaning. Scenes are read and validated by these tables, and docs/manual/scenes.md is written
+// from them. The default is the member's own initial value.
 
 #include <cstdint>
 #include <memory>

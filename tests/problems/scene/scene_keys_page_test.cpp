@@ -1,4 +1,4 @@
-// docs/scenes.md is written from the tables by which scenes are read.
+// docs/manual/scenes.md is written from the tables by which scenes are read.
 
 #include "problems/scene/scene_keys_page.hpp"
 
@@ -10,8 +10,8 @@
 
 using namespace ballast;
 
-TEST_CASE("docs/scenes.md ends with the tables of keys: ballast scenes --keys writes them") {
-  std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/scenes.md");
+TEST_CASE("docs/manual/scenes.md ends with the tables of keys: ballast scenes --keys writes them") {
+  std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/manual/scenes.md");
   const std::string docs((std::istreambuf_iterator<char>(stream)),
                          std::istreambuf_iterator<char>());
   CHECK_THAT(docs, Catch::EndsWith(scene_keys_markdown()));
@@ -34,8 +34,8 @@ TEST_CASE("the tables say unit, default, what is expected and meaning") {
     CHECK_THAT(page, Catch::Contains(row));
 }
 
-TEST_CASE("docs/scenes.md describes every key that a scene can have") {
-  std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/scenes.md");
+TEST_CASE("docs/manual/scenes.md describes every key that a scene can have") {
+  std::ifstream stream(BALLAST_SOURCE_FOLDER "/docs/manual/scenes.md");
   const std::string docs((std::istreambuf_iterator<char>(stream)),
                          std::istreambuf_iterator<char>());
   REQUIRE(docs.size() > 1000);
