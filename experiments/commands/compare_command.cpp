@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "experiments/commands/command.hpp"
+#include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/live_page.hpp"

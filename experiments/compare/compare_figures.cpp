@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
+#include "experiments/compare/texts.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -23,9 +23,15 @@ std::string suffix_of(const CompareTable& table) {
 double decade_above(double value) { return std::pow(10.0, std::ceil(std::log10(value) - 1e-9)); }
 double decade_below(double value) { return std::pow(10.0, std::floor(std::log10(value) + 1e-9)); }
 
-ReportFigure profile(const CompareTable& table, const std::string& name, const std::string& title,
-                     const std::string& x_label, const std::vector<StepCurve>& curves, double first,
-                     double last, Html caption) {
+page::Text table_words(const CompareTable& table) {
+  return compare_text("table", {{"tolerance", page::exact(table.tolerance)},
+                                {"start", name_of(table.start)},
+                                {"cases", page::exact(static_cast<double>(table.cases.size()))}});
+}
+
+page::Picture profile(const CompareTable& table, const std::string& name, const std::string& title,
+                      const std::string& x_label, const std::vector<StepCurve>& curves,
+                      double first, double last) {
   Panel panel;
   panel.x_label = x_label;
   panel.y_label = "fraction of cases solved";
@@ -35,33 +41,27 @@ ReportFigure profile(const CompareTable& table, const std::string& name, const s
   panel.y_min = 0.0;
   panel.y_max = 1.02;
   for (size_t s = 0; s < curves.size(); ++s)
-    panel.curves.push_back(stairs(curves[s], last, styled(s, table.solvers[s])));
+    panel.curves.push_back(stairs(curves[s], last, backend_curve(s, table.solvers[s])));
   Figure figure;
   figure.name = name + "_" + suffix_of(table);
   figure.title = title;
   figure.height = height_for(curves.size());
   figure.panels = {panel};
-  return {figure, std::move(caption)};
-}
-
-Html what_of(const CompareTable& table) {
-  return Html{"Tolerance "} + exact(table.tolerance) + Html{", "} + Html{name_of(table.start)} +
-         Html{" start, "} + exact(static_cast<double>(table.cases.size())) + Html{" cases. "};
+  return {figure, {compare_text(name + ".caption", {{"table", table_words(table)}})}};
 }
 
 /// One quantity of the cases that cost is drawn against.
 struct CostAxis {
-  const char *name, *label, *words;
+  const char *name, *label;
   bool is_log;
   double (*value)(const CaseFacts&);
 };
 constexpr CostAxis cost_axes[] = {
-    {"contacts", "contacts", "contacts", true,
+    {"contacts", "contacts", true,
      [](const CaseFacts& f) { return static_cast<double>(f.contacts); }},
-    {"rank", "rank deficiency of {/:Italic W},  1 − rank/rows", "rank deficiency of <i>W</i>",
-     false, [](const CaseFacts& f) { return f.rank_deficiency; }},
-    {"mass_ratio", "mass ratio", "mass ratio", true,
-     [](const CaseFacts& f) { return f.mass_ratio; }},
+    {"rank", "rank deficiency of {/:Italic W},  1 − rank/rows", false,
+     [](const CaseFacts& f) { return f.rank_deficiency; }},
+    {"mass_ratio", "mass ratio", true, [](const CaseFacts& f) { return f.mass_ratio; }},
 };
 
 const CaseFacts& facts_of(const CompareTable& table, size_t c) {
@@ -86,7 +86,7 @@ Curve stairs(const StepCurve& steps, double last, Curve curve) {
   return curve;
 }
 
-Curve styled(size_t k, const std::string& title) {
+Curve backend_curve(size_t k, const std::string& title) {
   constexpr Ink inks[] = {Ink::blue,   Ink::vermilion, Ink::green, Ink::orange,
                           Ink::purple, Ink::sky,       Ink::black, Ink::grey};
   constexpr size_t count = std::size(inks);
@@ -107,7 +107,7 @@ std::string figure_name(const std::string& text) {
   return name;
 }
 
-std::vector<ReportFigure> profile_figures(const CompareTable& table) {
+std::vector<page::Picture> profile_figures(const CompareTable& table) {
   const std::vector<std::vector<double>> times = table.times();
   double most_ratio = 1.0, least_cost = infinity, most_cost = 0.0;
   std::vector<double> sizes;
@@ -126,23 +126,14 @@ std::vector<ReportFigure> profile_figures(const CompareTable& table) {
   const double first = decade_below(least_cost),
                last = std::max(10.0 * first, decade_above(most_cost));
   return {
-      profile(
-          table, "performance", "Performance profile", "time over the fastest backend’s time",
-          performance_profiles(times, last_ratio), 1.0, last_ratio,
-          Html{"<b>Performance profile</b> (Dolan–Moré). "} + what_of(table) +
-              Html{"The share of the cases that a backend solves within so many times the fastest "
-                   "backend’s time. <span class=\"look\">Left edge: "
-                   "how often it is the fastest; right edge: how many it solves at all.</span>"}),
-      profile(
-          table, "data", "Data profile", "time per contact  (s)",
-          data_profiles(times, sizes, first, last), first, last,
-          Html{"<b>Data profile</b> (Moré–Wild, with time per contact as the unit of cost). "} +
-              what_of(table) +
-              Html{"The share of the cases solved when so much time is given for each contact."})};
+      profile(table, "performance", "Performance profile", "time over the fastest backend’s time",
+              performance_profiles(times, last_ratio), 1.0, last_ratio),
+      profile(table, "data", "Data profile", "time per contact  (s)",
+              data_profiles(times, sizes, first, last), first, last)};
 }
 
-std::vector<ReportFigure> cost_figures(const CompareTable& table) {
-  std::vector<ReportFigure> figures;
+std::vector<page::Picture> cost_figures(const CompareTable& table) {
+  std::vector<page::Picture> figures;
   for (const CostAxis& axis : cost_axes) {
     Panel panel;
     panel.x_label = axis.label;
@@ -151,7 +142,7 @@ std::vector<ReportFigure> cost_figures(const CompareTable& table) {
     panel.log_y = true;
     std::set<double> places;
     for (size_t s = 0; s < table.solvers.size(); ++s) {
-      Curve curve = styled(s, table.solvers[s]);
+      Curve curve = backend_curve(s, table.solvers[s]);
       curve.mark = Mark::points;
       curve.width = curve.dashed ? 1.5 : 2.4;
       curve.opacity = 0.8;
@@ -172,9 +163,9 @@ std::vector<ReportFigure> cost_figures(const CompareTable& table) {
     figure.title = std::string("Cost against ") + axis.name;
     figure.height = height_for(panel.curves.size());
     figure.panels = {panel};
-    figures.push_back(
-        {figure, Html{"<b>Cost against "} + Html{axis.words} + Html{"</b>. "} + what_of(table) +
-                     Html{"Time of prepare and solve; only what was solved is drawn."}});
+    figures.push_back({figure,
+                       {compare_text(std::string("cost.") + axis.name + ".caption",
+                                     {{"table", table_words(table)}})}});
   }
   return figures;
 }

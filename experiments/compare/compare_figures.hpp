@@ -5,26 +5,25 @@
 #include <vector>
 
 #include "experiments/compare/compare_table.hpp"
-#include "experiments/page/html_page.hpp"
-#include "experiments/run_page/figures.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 
 /// Performance and data profiles, cost against contacts, rank deficiency and mass ratio, of one
 /// table. Empty when nobody solved anything.
-std::vector<ReportFigure> profile_figures(const CompareTable& table);
-std::vector<ReportFigure> cost_figures(const CompareTable& table);
+std::vector<page::Picture> profile_figures(const CompareTable& table);
+std::vector<page::Picture> cost_figures(const CompareTable& table);
 
 /// Error against time on one case from one start: each backend's history to its tightest tolerance,
 /// and where each tolerance was reached. Without panels when there is nothing to draw.
-ReportFigure work_precision_figure(std::span<const CompareRow> rows, const std::string& case_name,
-                                   StartKind start);
+page::Picture work_precision_figure(std::span<const CompareRow> rows, const std::string& case_name,
+                                    StartKind start);
 /// The same over a family: geometric means over its cases.
-ReportFigure family_figure(std::span<const CompareRow> rows, const std::string& family,
-                           StartKind start);
+page::Picture family_figure(std::span<const CompareRow> rows, const std::string& family,
+                            StartKind start);
 
 /// The k-th backend's line: eight colours, then the same dashed, then thin.
-Curve styled(size_t k, const std::string& title);
+Curve backend_curve(size_t k, const std::string& title);
 
 /// Adds the corners of a step curve, held up to `last`, to a curve.
 Curve stairs(const StepCurve& steps, double last, Curve curve);

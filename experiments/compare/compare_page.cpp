@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/compare_figures.hpp"
-#include "experiments/compare/compare_html.hpp"
-#include "experiments/compare/page_drawing.hpp"
-#include "experiments/page/html.hpp"
-#include "experiments/run_page/report_origin.hpp"
-#include "platform/atomic_file.hpp"
+#include "experiments/compare/page_origin.hpp"
+#include "experiments/compare/texts.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -34,125 +32,195 @@ std::vector<StartKind> starts_in(std::span<const CompareRow> rows) {
   return starts;
 }
 
-std::string heading_of(const CompareTable& table) {
-  return printed("Tolerance %g, %s start", table.tolerance, name_of(table.start));
+page::Text count_of(size_t count) { return page::exact(static_cast<double>(count)); }
+
+/// Nothing for what did not happen.
+page::Text if_any(long count) {
+  return count == 0 ? page::Text() : page::exact(static_cast<double>(count));
 }
 
-Html header(std::span<const CompareRow> rows, const RunData& data) {
-  const size_t cases = names_in(rows, [](const CompareRow& r) { return r.case_name; }).size();
-  const size_t solvers = names_in(rows, [](const CompareRow& r) { return r.solver; }).size();
-  Html html =
-      Html{"<header>\n<h1>Solvers of frictional contact, compared</h1>\n<p class=\"lede\">"} +
-      exact(static_cast<double>(solvers)) + Html{" backends on "} +
-      exact(static_cast<double>(cases)) + Html{" problems, "} +
-      exact(static_cast<double>(rows.size())) + Html{" solves. Measure: "} +
-      escaped(rows.empty() ? "" : name_of(rows[0].measure)) + Html{".</p>\n"};
-  if (const std::string made = made_by(data); !made.empty())
-    html += Html{"<p class=\"lede\">"} + escaped(made) + Html{"</p>\n"};
-  return html + Html{"</header>\n"};
+page::Text time_of(double seconds) {
+  if (!std::isfinite(seconds)) return {"–", page::note};
+  return seconds < 1.0 ? page::quantity(1e3 * seconds, "ms") : page::quantity(seconds, "s");
 }
 
-Html explanation(double limit) {
-  return Html{
-             "<p><i>Solved</i>: the backend says so, and the judge, outside the backend’s process "
-             "and from the impulses alone, agrees. Times are of prepare and solve, "
-             "medians over repeats. <i>Mean time</i>: shifted geometric mean over all cases (shift "
-             "1&#8239;ms); what was not solved counts with "} +
-         quantity(limit, "s") +
-         Html{". <i>Over fastest</i>: the same of the time over the fastest backend’s.</p>\n"};
+page::Table backends_table(const CompareTable& table, double limit) {
+  page::Table result;
+  result.head = {"backend",  "law",     "solved",    "mean time",     "over fastest",
+                 "timeouts", "crashes", "not taken", "claims denied", "spread"};
+  result.is_number = {false, false, true, true, true, true, true, true, true, true};
+  for (const BackendSummary& s : backend_summaries(table, limit))
+    result.rows.push_back(
+        {s.solver, s.law, page::exact(s.solved) + " of " + count_of(table.cases.size()),
+         time_of(s.mean_seconds), page::number(s.mean_ratio), if_any(s.timeouts), if_any(s.crashes),
+         if_any(s.unsupported), page::styled(if_any(s.false_successes), page::bad),
+         s.largest_spread > 0.0 ? page::quantity(100.0 * s.largest_spread, "%", 2) : page::Text()});
+  return result;
 }
 
-Html options_table(const RunData& data) {
-  HtmlTable table;
-  table.css_class = "facts";
+/// The row that came nearest to the tolerance, of all backends; null when none gave an answer.
+const CompareRow* nearest(const std::vector<CompareCell>& line) {
+  const CompareRow* best = nullptr;
+  for (const CompareCell& cell : line)
+    if (cell.row && std::isfinite(cell.row->error) && (!best || cell.row->error < best->error))
+      best = cell.row;
+  return best;
+}
+
+/// Case by case: fastest backend, its time and error, or how near anybody came; the worst contact
+/// by name.
+page::Table cases_table(const CompareTable& table) {
+  page::Table result;
+  result.head = {"case", "contacts", "solved by", "fastest", "time", "error", "worst contact"};
+  result.is_number = {false, true, true, false, true, true, false};
+  for (size_t c = 0; c < table.cases.size(); ++c) {
+    const std::vector<CompareCell>& line = table.cells[c];
+    const double best = table.fastest(c);
+    const CompareRow *row = nullptr, *any = nullptr;
+    long solvers = 0;
+    for (const CompareCell& cell : line) {
+      if (!any) any = cell.row;
+      solvers += cell.solved;
+      if (cell.solved && cell.median == best) row = cell.row;
+    }
+    const bool is_solved = row != nullptr;
+    if (!row) row = nearest(line);
+    std::vector<page::Text> cells = {
+        table.cases[c], page::exact(any->facts.contacts),
+        is_solved ? page::exact(static_cast<double>(solvers)) : page::Text("none", page::bad)};
+    if (row)
+      cells.insert(cells.end(), {is_solved ? row->solver : "nearest: " + row->solver,
+                                 time_of(is_solved ? best : row->seconds()),
+                                 page::number(row->error, 2), row->worst});
+    cells.resize(result.head.size());
+    result.rows.push_back(std::move(cells));
+  }
+  return result;
+}
+
+/// Claims that the judge denies, crashes and memory.
+page::Table failures_table(std::span<const CompareRow> rows) {
+  page::Table result;
+  result.head = {"case", "backend", "tolerance", "what happened", "error"};
+  result.is_number = {false, false, true, false, true};
+  for (const CompareRow& row : rows) {
+    const bool died = row.outcome == Outcome::crashed || row.outcome == Outcome::out_of_memory;
+    if (!died && !row.is_false_success() && (row.note.empty() || row.outcome != Outcome::stopped))
+      continue;
+    const std::string what = row.is_false_success() ? "claims success, the judge denies it"
+                                                    : std::string(name_of(row.outcome)) +
+                                                          (row.note.empty() ? "" : ": " + row.note);
+    result.rows.push_back(
+        {row.case_name, row.solver, page::exact(row.tolerance), what, page::number(row.error, 2)});
+  }
+  return result;
+}
+
+/// What the comparison noted of its options in the manifest.
+page::Table options_table(const RunData& data) {
+  page::Table table = page::facts_table();
   if (const auto summary = data.manifest.find("summary"); summary != data.manifest.end())
     for (const auto& [name, value] : summary->items())
-      table.rows.push_back(
-          {escaped(name), value.is_number() ? exact(value.get<double>())
-                                            : escaped(value.is_string() ? value.get<std::string>()
-                                                                        : value.dump())});
-  return to_html(table);
+      table.rows.push_back({name, value.is_number()   ? page::exact(value.get<double>())
+                                  : value.is_string() ? page::Text(value.get<std::string>())
+                                                      : page::Text(value.dump())});
+  return table;
 }
 
-Html case_figures(std::span<const CompareRow> rows, PageDrawing& drawing) {
-  Html html;
-  for (const StartKind start : starts_in(rows))
-    for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.case_name; }))
-      html += drawing.draw(work_precision_figure(rows, name, start));
-  return html;
+page::Table ratios_table(const ReferenceComparison& comparison, double limit) {
+  page::Table ratios;
+  ratios.head = {"shift of the mean", "our fastest over theirs",
+                 page::marked("`auto` over theirs")};
+  ratios.is_number = {true, true, true};
+  for (const double shift : mean_shifts)
+    ratios.rows.push_back({page::quantity(1e3 * shift, "ms"),
+                           page::number(comparison.ratio(shift, limit, false)),
+                           page::number(comparison.ratio(shift, limit, true))});
+  return ratios;
 }
 
-Html family_figures(std::span<const CompareRow> rows, PageDrawing& drawing) {
-  Html html;
-  for (const StartKind start : starts_in(rows))
+page::Table reference_lines(const ReferenceComparison& comparison) {
+  page::Table lines;
+  lines.head = {"case", "theirs", "by", "ours", "by", "ratio", page::Text("auto", page::code),
+                "ratio"};
+  lines.is_number = {false, true, false, true, false, true, true, true};
+  for (const ReferenceComparison::Line& line : comparison.lines) {
+    const auto ratio = [&](double ours) {
+      return line.theirs > 0.0 ? page::number(ours / line.theirs) : page::Text();
+    };
+    lines.rows.push_back({line.case_name, time_of(line.theirs), line.their_solver,
+                          time_of(line.ours), line.our_solver, ratio(line.ours),
+                          time_of(line.automatic), ratio(line.automatic)});
+  }
+  return lines;
+}
+
+void add_reference(const ReferenceComparison& comparison, double limit, page::Section& section) {
+  section.add(page::Subheading{"Tolerance " + page::exact(comparison.tolerance)});
+  section.add(ratios_table(comparison, limit));
+  section.add(compare_text("reference.ratios", {{"problems", count_of(comparison.lines.size())},
+                                                {"limit", page::quantity(limit, "s")}}));
+  if (!comparison.missing.empty())
+    section.add(page::Text("Not solved by us:", page::bad) +
+                (" " + joined(comparison.missing) + "."));
+  if (!comparison.only_ours.empty())
+    section.add(page::Text("Solved by us alone: " + joined(comparison.only_ours) + "."));
+  section.add(reference_lines(comparison));
+}
+
+page::Text lede(std::span<const CompareRow> rows) {
+  const auto count = [&](const auto& name) { return count_of(names_in(rows, name).size()); };
+  return compare_text("lede", {{"solvers", count([](const CompareRow& r) { return r.solver; })},
+                               {"problems", count([](const CompareRow& r) { return r.case_name; })},
+                               {"solves", count_of(rows.size())},
+                               {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
+}
+
+page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
+                        std::span<const ReferenceTimes> reference) {
+  const std::vector<CompareTable> tables = compare_tables(rows);
+  const double limit = limit_of(rows);
+  page::Section backends{"backends", "The backends"},
+      references{"reference", "Beside the reference"}, profiles{"profiles", "Profiles"},
+      families{"families", "Accuracy against cost, by family"},
+      costs{"cost", "What cost depends on"}, cases{"cases", "Case by case"},
+      case_figures{"case-figures", "Accuracy against cost, case by case"};
+  backends.add(compare_text("explanation", {{"shift", page::quantity(1e3 * summary_shift, "ms", 1)},
+                                            {"limit", page::quantity(limit, "s")}}));
+  for (const CompareTable& table : tables) {
+    backends.add(page::Subheading{heading_of(table)});
+    backends.add(backends_table(table, limit));
+    cases.add(page::Subheading{heading_of(table)});
+    cases.add(cases_table(table));
+    profiles.add(profile_figures(table));
+    costs.add(cost_figures(table));
+  }
+  for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
+    add_reference(comparison, limit, references);
+  for (const StartKind start : starts_in(rows)) {
     for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.family; }))
-      html += drawing.draw(family_figure(rows, name, start));
-  return html;
+      families.add(family_figure(rows, name, start));
+    for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.case_name; }))
+      case_figures.add(work_precision_figure(rows, name, start));
+  }
+  page::Page page{.title = "Solvers of frictional contact, compared", .lede = {lede(rows)}};
+  if (!reference.empty() && !rows.empty() && rows[0].measure != Measure::fclib)
+    page.notices.items.push_back(compare_text("reference.unlike"));
+  page.add(backends);
+  page.add(references);
+  page.add({"failures", "What must not happen", {failures_table(rows)}});
+  for (const page::Section& section : {profiles, families, costs, cases, case_figures})
+    page.add(section);
+  page.add({"options", "Options", {options_table(data)}});
+  return page;
 }
 
 }  // namespace
 
 void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows,
                         std::span<const ReferenceTimes> reference) {
-  const RunData data = read_provenance(folder);
-  const std::vector<CompareTable> tables = compare_tables(rows);
-  const double limit = limit_of(rows);
-  PageDrawing drawing(folder / "figures");
-  Html overview = explanation(limit), profiles, costs, per_case, references;
-  for (const CompareTable& table : tables) {
-    const Html heading = Html{"<h3>"} + escaped(heading_of(table)) + Html{"</h3>\n"};
-    overview += heading + backends_html(table, limit);
-    per_case += heading + cases_html(table);
-    profiles += drawing.draw(profile_figures(table));
-    costs += drawing.draw(cost_figures(table));
-  }
-  if (!reference.empty() && !rows.empty() && rows[0].measure != Measure::fclib)
-    drawing.notices.push_back(
-        "The reference's times are to the measure fclib, this comparison's are not: their ratio "
-        "compares unlike things.");
-  for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
-    references += reference_html(comparison, limit);
-  const Html families = family_figures(rows, drawing), cases = case_figures(rows, drawing);
-  Html body = header(rows, data) + drawing.notices_html();
-  body += section("backends", "The backends", overview);
-  body += section("reference", "Beside the reference", references);
-  body += section("failures", "What must not happen", failures_html(rows));
-  body += section("profiles", "Profiles", profiles);
-  body += section("families", "Accuracy against cost, by family", families);
-  body += section("cost", "What cost depends on", costs);
-  body += section("cases", "Case by case", per_case);
-  body += section("case-figures", "Accuracy against cost, case by case", cases);
-  body += section("options", "Options", options_table(data));
-  body += section("provenance", "Program and machine",
-                  Html{page::html_of(page::Block(provenance_table(data)))});
-  write_whole_file(folder / "compare.html",
-                   html_page("Solvers of frictional contact, compared", body));
-}
-
-std::string compare_summary(std::span<const CompareRow> rows,
-                            std::span<const ReferenceTimes> reference) {
-  std::string text;
-  const double limit = limit_of(rows);
-  const std::vector<CompareTable> tables = compare_tables(rows);
-  for (const CompareTable& table : tables) {
-    text += heading_of(table) + ", " + std::to_string(table.cases.size()) + " cases\n";
-    for (const BackendSummary& s : backend_summaries(table, limit)) {
-      text += printed(
-          "  %-16s solved %4d   mean %10.4g ms   over fastest %8.3g   timeouts %d, "
-          "crashes %d, not taken %d%s\n",
-          s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.mean_ratio, s.timeouts, s.crashes,
-          s.unsupported, s.false_successes ? "   CLAIMS DENIED" : "");
-    }
-  }
-  for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
-    for (const double shift : mean_shifts) {
-      text += printed(
-          "reference, tolerance %g, shift %g ms: our fastest / theirs %.3g, auto / "
-          "theirs %.3g (%zu problems, %zu not solved by us)\n",
-          comparison.tolerance, 1e3 * shift, comparison.ratio(shift, limit, false),
-          comparison.ratio(shift, limit, true), comparison.lines.size(), comparison.missing.size());
-    }
-  return text;
+  const RunData data = read_origin(folder);
+  write_with_origin(compare_page(data, rows, reference), data, folder / "compare.html");
 }
 
 }  // namespace ballast

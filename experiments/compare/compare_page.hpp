@@ -14,8 +14,4 @@ namespace ballast {
 void write_compare_page(const std::filesystem::path& folder, std::span<const CompareRow> rows,
                         std::span<const ReferenceTimes> reference);
 
-/// The table of backends as text for a terminal, and the ratios to the reference.
-std::string compare_summary(std::span<const CompareRow> rows,
-                            std::span<const ReferenceTimes> reference);
-
 }  // namespace ballast

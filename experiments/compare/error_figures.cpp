@@ -5,6 +5,7 @@
 #include <set>
 
 #include "experiments/compare/compare_figures.hpp"
+#include "experiments/compare/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -94,14 +95,14 @@ Figure figure_of(const std::string& name, const std::string& title, Panel panel)
 
 }  // namespace
 
-ReportFigure work_precision_figure(std::span<const CompareRow> rows, const std::string& case_name,
-                                   StartKind start) {
+page::Picture work_precision_figure(std::span<const CompareRow> rows, const std::string& case_name,
+                                    StartKind start) {
   const std::vector<const CompareRow*> mine =
       selected(rows, start, [&](const CompareRow& row) { return row.case_name == case_name; });
   const std::vector<std::string> solvers = solvers_of(rows);
   Panel panel = error_panel();
   for (size_t s = 0; s < solvers.size(); ++s) {
-    const Curve style = styled(s, solvers[s]);
+    const Curve style = backend_curve(s, solvers[s]);
     bool is_drawn = false;
     if (const CompareRow* row = longest_history(mine, solvers[s])) {
       StepCurve best = best_so_far(*row);
@@ -118,20 +119,21 @@ ReportFigure work_precision_figure(std::span<const CompareRow> rows, const std::
     panel.curves.push_back(std::move(points));
   }
   mark_tolerances(mine, panel);
-  Html caption =
-      Html{"<b>"} + escaped(case_name) + Html{"</b>, "} + Html{name_of(start)} + Html{" start"};
-  if (!mine.empty())
-    caption += Html{": "} + exact(mine[0]->facts.contacts) + Html{" contacts, rank deficiency "} +
-               number(mine[0]->facts.rank_deficiency, 2) + Html{", mass ratio "} +
-               number(mine[0]->facts.mass_ratio, 2);
-  caption += Html{". Lines: least error so far; dots: where a tolerance was reached."};
+  if (mine.empty()) return {};
+  const CaseFacts& facts = mine[0]->facts;
+  const page::Text caption =
+      compare_text("case.caption", {{"case", case_name},
+                                    {"start", name_of(start)},
+                                    {"contacts", page::exact(facts.contacts)},
+                                    {"rank_deficiency", page::number(facts.rank_deficiency, 2)},
+                                    {"mass_ratio", page::number(facts.mass_ratio, 2)}});
   return {figure_of("case_" + figure_name(case_name) + "_" + name_of(start),
                     "Error against time: " + case_name, std::move(panel)),
-          std::move(caption)};
+          {caption}};
 }
 
-ReportFigure family_figure(std::span<const CompareRow> rows, const std::string& family,
-                           StartKind start) {
+page::Picture family_figure(std::span<const CompareRow> rows, const std::string& family,
+                            StartKind start) {
   const std::vector<const CompareRow*> mine =
       selected(rows, start, [&](const CompareRow& row) { return row.family == family; });
   std::set<std::string> cases;
@@ -156,7 +158,7 @@ ReportFigure family_figure(std::span<const CompareRow> rows, const std::string& 
           last = std::max(last, x);
         }
     if (!(last > first)) continue;
-    Curve curve = styled(s, solvers[s]);
+    Curve curve = backend_curve(s, solvers[s]);
     constexpr int samples = 160;
     for (int k = 0; k <= samples; ++k)
       curve.x.push_back(first * std::pow(last / first, static_cast<double>(k) / samples));
@@ -164,16 +166,13 @@ ReportFigure family_figure(std::span<const CompareRow> rows, const std::string& 
     panel.curves.push_back(std::move(curve));
   }
   mark_tolerances(mine, panel);
-  Html caption = Html{"<b>Family "} + escaped(family) + Html{"</b>, "} +
-                 exact(static_cast<double>(cases.size())) + Html{" cases, "} +
-                 Html{name_of(start)} +
-                 Html{
-                     " start: geometric mean over the cases of the least error reached by then. "
-                     "Backends that cannot take every case of "
-                     "the family are left out."};
+  const page::Text caption =
+      compare_text("family.caption", {{"family", family},
+                                      {"cases", page::exact(static_cast<double>(cases.size()))},
+                                      {"start", name_of(start)}});
   return {figure_of("family_" + figure_name(family) + "_" + name_of(start),
                     "Error against time: family " + family, std::move(panel)),
-          std::move(caption)};
+          {caption}};
 }
 
 }  // namespace ballast

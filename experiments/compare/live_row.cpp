@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/measure/curve_fit.hpp"
+#include "platform/csv.hpp"
 
 namespace ballast {
 namespace {

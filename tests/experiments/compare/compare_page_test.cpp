@@ -1,4 +1,4 @@
-// The page of a comparison and its summary for the terminal.
+// The page of a comparison: well-formed, with its figures beside it.
 
 #include "experiments/compare/compare_page.hpp"
 
@@ -36,5 +36,4 @@ TEST_CASE("The page of a comparison is well-formed and has what it promises") {
       CHECK(std::filesystem::file_size(folder.path() / "figures" / (std::string(name) + ".pdf")) >
             1000);
     }
-  CHECK(compare_summary(rows, {}).find("CLAIMS DENIED") != std::string::npos);
 }

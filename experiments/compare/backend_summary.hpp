@@ -1,23 +1,28 @@
 #pragma once
-// Tables of a comparison's page.
+// Backends side by side on all cases of one tolerance and start: what the page's first table and
+// the terminal show.
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "experiments/compare/compare_table.hpp"
 #include "experiments/compare/reference_times.hpp"
-#include "experiments/page/html_page.hpp"
 
 namespace ballast {
 
 /// Shifts of the geometric means [s]: the smaller, the more the tiny problems count.
 inline constexpr double mean_shifts[] = {1e-5, 1e-4, 1e-3};
 
+/// Of the means in a BackendSummary [s].
+inline constexpr double summary_shift = 1e-3;
+
 /// One backend in a table of one tolerance and start.
 struct BackendSummary {
   std::string solver, law;
   int solved = 0, timeouts = 0, crashes = 0, unsupported = 0, false_successes = 0;
   double mean_seconds =
-      0.0;  ///< shifted geometric mean over all cases (shift 1 ms); unsolved: the limit
+      0.0;  ///< shifted geometric mean over all cases (summary_shift); unsolved: the limit
   double mean_ratio =
       0.0;  ///< the same of time over the fastest backend's, over cases that somebody solved
   double largest_spread = 0.0;  ///< (slowest - fastest)/median over repeats
@@ -28,12 +33,11 @@ std::vector<BackendSummary> backend_summaries(const CompareTable& table, double 
 /// What an unsolved case counts: the largest limit of the rows.
 double limit_of(std::span<const CompareRow> rows);
 
-Html backends_html(const CompareTable& table, double limit);
-/// Case by case: fastest backend, its time and spread, or how near anybody came; the worst contact
-/// by name.
-Html cases_html(const CompareTable& table);
-/// Claims that the judge denies, crashes and memory: empty when there are none.
-Html failures_html(std::span<const CompareRow> rows);
-Html reference_html(const ReferenceComparison& comparison, double limit);
+/// "Tolerance 0.01, cold start"
+std::string heading_of(const CompareTable& table);
+
+/// The table of backends as text for a terminal, and the ratios to the reference.
+std::string compare_summary(std::span<const CompareRow> rows,
+                            std::span<const ReferenceTimes> reference);
 
 }  // namespace ballast

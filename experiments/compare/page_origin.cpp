@@ -1,0 +1,30 @@
+#include "experiments/compare/page_origin.hpp"
+
+#include <utility>
+
+#include "experiments/page/drawing.hpp"
+#include "experiments/page/html.hpp"
+#include "experiments/run_page/report_origin.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
+
+namespace ballast {
+
+RunData read_origin(const std::filesystem::path& folder) {
+  RunData data;
+  data.folder = folder;
+  data.manifest_text = read_whole_file(folder / "manifest.json");
+  data.manifest = nlohmann::ordered_json::parse(data.manifest_text, nullptr, false);
+  if (!data.manifest.is_object())
+    throw Error((folder / "manifest.json").string() + ": is no JSON object");
+  return data;
+}
+
+void write_with_origin(page::Page page, const RunData& data, const std::filesystem::path& file) {
+  if (const std::string made = made_by(data); !made.empty()) page.lede.push_back(made);
+  page.add({"provenance", "Program and machine", {provenance_table(data)}});
+  page::draw_pictures(page, file.parent_path());
+  write_whole_file(file, page::html_of(page));
+}
+
+}  // namespace ballast
