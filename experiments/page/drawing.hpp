@@ -13,10 +13,11 @@ inline constexpr const char* picture_folder = "figures";
 
 /// What is left beside the page for each figure; the SVG always is.
 struct Drawing {
-  bool with_pdf = true;      ///< for papers
-  bool with_script = true;   ///< gnuplot's script, which holds the data
-  bool on_white = false;     ///< the SVG as a file has a white ground: for pages that show the file
-  std::string command = {};  ///< named where gnuplot is missing: "ballast report" draws them later
+  bool with_pdf = true;     ///< for papers
+  bool with_script = true;  ///< gnuplot's script, which holds the data
+  bool on_white = false;    ///< the SVG as a file has a white ground: for pages that show the file
+  std::string command =
+      {};  ///< named where gnuplot is missing: "ballast run SCENE --resume" draws them later
 };
 
 /// Draws every picture of `page` into folder/figures and fills its svg. Pictures without panels are

@@ -76,7 +76,7 @@ void write_report(const std::filesystem::path& folder) {
             {provenance_table(data),
              page::Folded{"The whole manifest (manifest.json)", data.manifest_text}}});
   // figures are drawn before their folder is listed
-  page::draw_pictures(page, folder, {.with_pdf = false, .command = "ballast report"});
+  page::draw_pictures(page, folder, {.with_pdf = false, .command = "ballast run SCENE --resume"});
   page.add({"reproduce",
             "How to make it again",
             {page::Listing{reproduce_commands(data)}, files_table(data)}});

@@ -215,12 +215,12 @@ std::string next_commands(bool has_grains) {
             "plan\n" +
             program + "paper fig12 --jobs 2\n";
   text +=
-      "# a sweep: every combination of the values, several runs at a time\n"
-      "printf '[[sweep]]\\nname = \"nu\"\\nscene = "
+      "# a plan: every combination of the values, several runs at a time\n"
+      "printf '[[grid]]\\nname = \"nu\"\\nscene = "
       "\"vibrated_box_small\"\\nvary.\"drive.frequency\" = [5, 10, 20]\\n' > "
-      "my_sweep.toml\n" +
+      "my_plan.toml\n" +
       program +
-      "sweep my_sweep.toml --jobs 2\n"
+      "plan my_plan.toml --jobs 2\n"
       "# solvers beside each other in the same closed loop\n" +
       program +
       "compare --live vibrated_box_small --duration 0.02 --solvers pgs,nncg --tolerances "

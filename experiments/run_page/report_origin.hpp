@@ -21,7 +21,7 @@ std::string made_by(const RunData& data);
 std::string reproduce_commands(const RunData& data);
 
 /// What to do next with the program, from the project's root: another run, a figure of the paper, a
-/// sweep, a comparison of solvers. `has_grains`: of a vibrated box.
+/// plan, a comparison of solvers. `has_grains`: of a vibrated box.
 std::string next_commands(bool has_grains);
 
 /// A word as a shell reads it back.

@@ -1,5 +1,6 @@
 #include "problems/scene/toml_text.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "experiments/step/time_step.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/bench/tiny_box.hpp"

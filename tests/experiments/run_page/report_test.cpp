@@ -80,7 +80,7 @@ TEST_CASE("the box's page says the numbers beside what is asked and what the pap
   CHECK_THAT(page, Contains("✓ met") && Contains("≤\u00a0250\u202fµm") && Contains("≤\u00a00.001"));
   CHECK_THAT(page, Contains("3 of 3 periods"));
   for (const char* next :
-       {"paper fig12", "sweep my_sweep.toml", "compare --live", "run vibrated_box --set"})
+       {"paper fig12", "plan my_plan.toml", "compare --live", "run vibrated_box --set"})
     CHECK_THAT(page.substr(page.find("What next")), Contains(next));
   CHECK_THAT(page, Contains("git checkout 0123456789abcdef0123") &&
                        Contains("./run.sh vibrated_box --set drive.frequency=5 --set "));

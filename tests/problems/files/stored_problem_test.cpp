@@ -6,6 +6,7 @@
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 
