@@ -12,9 +12,8 @@
 function(ballast_room name folder)
   cmake_parse_arguments(ROOM "QUICK_TO_COMPILE" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
-  foreach(file IN LISTS ROOM_EXCEPT)
-    list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/${file})
-  endforeach()
+  list(TRANSFORM ROOM_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/)
+  list(REMOVE_ITEM sources ${ROOM_EXCEPT})
   add_library(ballast_${name} STATIC ${sources})
   list(TRANSFORM ROOM_DOORS PREPEND ballast_)
   target_link_libraries(ballast_${name}

@@ -36,21 +36,19 @@ install_packages() {
 # show_progress LOG: copies the build's output into LOG and says how far it is, on a terminal on one
 # line that rewrites itself, elsewhere a line for every tenth.
 show_progress() {
-  local terminal=0
-  [ -t 1 ] && terminal=1
-  awk -v log_file="$1" -v terminal="$terminal" '
-    { print >> log_file }
-    match($0, /^\[[0-9]+\/[0-9]+\]/) {
-      split(substr($0, 2, RLENGTH - 2), part, "/")
-      tenth = int(10 * part[1] / part[2])
-      if (terminal) {
-        printf "\r   %d of %d", part[1], part[2]; fflush(); open = 1
-      } else if (tenth > last) {
-        printf "   %d of %d\n", part[1], part[2]; fflush()
-      }
-      last = tenth
-    }
-    END { if (open) printf "\r\033[K" }'
+  local line done_count all last=0
+  while IFS= read -r line; do
+    printf '%s\n' "$line" >>"$1"
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    done_count=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+    if [ -t 1 ]; then
+      printf '\r   %d of %d' "$done_count" "$all"
+    elif [ $((10 * done_count / all)) -gt "$last" ]; then
+      printf '   %d of %d\n' "$done_count" "$all"
+    fi
+    last=$((10 * done_count / all))
+  done
+  [ ! -t 1 ] || printf '\r\033[K'
 }
 
 # ballast_setup PRESET TARGET [--no-install]

@@ -7,6 +7,23 @@
 #include "platform/text.hpp"
 
 namespace ballast {
+
+PaperSection fig3_section(PaperData& data);   ///< x(t) and f(t), first contraction (Eq. 1)
+PaperSection fig4_section(PaperData& data);   ///< f_g(x), its branches, the jam
+PaperSection fig5_section(PaperData& data);   ///< the phenomenological model (Eq. 2)
+PaperSection fig6_section(PaperData& data);   ///< grain velocities, vorticity
+PaperSection fig7_section(PaperData& data);   ///< force chains, principal stress directions
+PaperSection fig8_section(PaperData& data);   ///< phase portraits
+PaperSection fig9_section(PaperData& data);   ///< Delta x_max and v_max against nu
+PaperSection fig10_section(PaperData& data);  ///< Delta x_max against f_max
+PaperSection fig11_section(PaperData& data);  ///< Eq. 3
+PaperSection fig12_section(PaperData& data);  ///< solid fraction against time
+PaperSection fig13_section(PaperData& data);  ///< compaction rate (Eqs. 4 and 5)
+PaperSection packing_section(PaperData& data);
+PaperSection looseness_section(PaperData& data);
+PaperSection sensitivity_section(PaperData& data);
+PaperSection investigation_section(PaperData& data);  ///< why exponents, C and compaction differ
+
 namespace {
 
 /// Fig. 8 compares the motion at 5 and 10 Hz.

@@ -11,22 +11,6 @@
 
 namespace ballast {
 
-PaperSection fig3_section(PaperData& data);   ///< x(t) and f(t), first contraction (Eq. 1)
-PaperSection fig4_section(PaperData& data);   ///< f_g(x), its branches, the jam
-PaperSection fig5_section(PaperData& data);   ///< the phenomenological model (Eq. 2)
-PaperSection fig6_section(PaperData& data);   ///< grain velocities, vorticity
-PaperSection fig7_section(PaperData& data);   ///< force chains, principal stress directions
-PaperSection fig8_section(PaperData& data);   ///< phase portraits
-PaperSection fig9_section(PaperData& data);   ///< Delta x_max and v_max against nu
-PaperSection fig10_section(PaperData& data);  ///< Delta x_max against f_max
-PaperSection fig11_section(PaperData& data);  ///< Eq. 3
-PaperSection fig12_section(PaperData& data);  ///< solid fraction against time
-PaperSection fig13_section(PaperData& data);  ///< compaction rate (Eqs. 4 and 5)
-PaperSection packing_section(PaperData& data);
-PaperSection looseness_section(PaperData& data);
-PaperSection sensitivity_section(PaperData& data);
-PaperSection investigation_section(PaperData& data);  ///< why exponents, C and compaction differ
-
 /// One section of the report: the target of `ballast paper` that makes it, what it is called, and
 /// which of the campaign's runs it draws.
 struct ReportSection {
@@ -37,7 +21,8 @@ struct ReportSection {
   std::vector<Varied> needs;                                  ///< points of these
   bool (*needs_point)(const CampaignPoint& point) = nullptr;  ///< of them only where true
 };
-/// In the paper's order. A new figure is its file, its declaration above, and a row here.
+/// In the paper's order. A new figure is its file, its words in texts/, and in sections.cpp its
+/// declaration and its row.
 std::span<const ReportSection> paper_sections();
 
 /// Names that `ballast paper` takes: those of the sections, and "all".
