@@ -10,6 +10,6 @@ cmake --preset tidy >build-tidy.log 2>&1 || { cat build-tidy.log; exit 1; }
 cmake --build build/tidy --target ballast_build_info >>build-tidy.log 2>&1
 words=$(IFS='|'; echo "${*:-.}")
 grep -o '"file": "[^"]*"' build/tidy/compile_commands.json | cut -d'"' -f4 |
-  grep -v '/precompiled/' | grep -E "$words" | sort |
+  grep -v -e /precompiled/ -e '/build/tidy/[^U]*$' | grep -E "$words" | sort |
   xargs -P "$(nproc)" -n 1 \
     clang-tidy -p build/tidy --quiet --header-filter="^$root/" 2>build-tidy.err

@@ -95,7 +95,8 @@ GrainPairs grain_pairs(int vertices, bool touching, int count) {
     Quat turn[2];
     for (int side = 0; side < 2; ++side) {
       pairs.shapes.push_back(std::make_shared<const Polyhedron>(
-          make_grain(settings, grain_radius, static_cast<std::uint64_t>(2 * k + side + 1)).shape));
+          make_grain(settings, grain_radius, 2 * std::uint64_t(k) + std::uint64_t(side) + 1)
+              .shape));
       turn[side] = random_rotation(random);
       shake.push_back(random_rotation(random) * Vec3(grain_radius, 0, 0));
       spin.push_back(random_rotation(random) * Vec3::UnitZ());

@@ -25,7 +25,7 @@ std::vector<PrincipalShape> grains_from_meshes(const GrainsSpec& spec) {
     std::vector<std::vector<int>> faces;
     for (int f = 0; f < mesh.face_count(); ++f)
       faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
-    grains.push_back(to_principal_frame(Polyhedron(std::move(vertices), std::move(faces))));
+    grains.push_back(to_principal_frame(Polyhedron(std::move(vertices), faces)));
   }
   return grains;
 }

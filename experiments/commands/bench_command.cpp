@@ -9,6 +9,7 @@
 #include "experiments/bench/kernels.hpp"
 #include "experiments/bench/scaling_bench.hpp"
 #include "experiments/bench/step_bench.hpp"
+#include "experiments/commands/bench_help.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "platform/interrupt.hpp"
@@ -200,16 +201,90 @@ CLI::App* add_measuring(CLI::App* bench, const Words& words, Action& action,
   return command;
 }
 
-constexpr const char* bench_footer =
-    R"(Results are <kind>.json and <kind>.csv with machine and commit; medians, means and quartiles.
+const CLI::Range positive(1L, 1'000'000'000L);
 
-Examples:
-  ballast bench kernels                                     on 60 grains; vibrated_box: on 1200
-  ballast bench step vibrated_box --steps 1000 --threads 1,2
-  ballast bench scaling --grains 1000,10000,100000
-  ballast bench accuracy vibrated_box --from 0.05 --duration 0.01 --solvers nncg,pgs \
-    --iterations 20,50,100,200
-  ballast bench diff old/step.json new/step.json)";
+void add_kernels(CLI::App* bench, Action& action) {
+  const auto words = std::make_shared<BenchWords>();
+  CLI::App* command =
+      add_measuring(bench, words, action,
+                    {"kernels", "The inner loops on their own, beside the machine's limits",
+                     "vibrated_box_small", bench_kernels});
+  command->add_option("--filter", words->kernels.filter, "Regular expression over group/name");
+  command->add_option("--min-time", words->kernels.min_time, "CPU seconds of a repetition")
+      ->capture_default_str();
+  command->add_option("--repeats", words->kernels.repeats, "Repetitions")
+      ->capture_default_str()
+      ->check(positive);
+  command->add_option("--streaming-MB", words->kernels.streaming_MB,
+                      "Least records of the streaming sweep (0: twice the last cache)");
+}
+
+void add_step(CLI::App* bench, Action& action) {
+  const auto words = std::make_shared<BenchWords>();
+  CLI::App* command =
+      add_measuring(bench, words, action,
+                    {"step", "Whole steps by phase, from the deposited packing driven",
+                     "vibrated_box", bench_step});
+  command->add_option("--steps", words->steps, "Steps")->capture_default_str()->check(positive);
+  command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
+      ->capture_default_str();
+}
+
+void add_scaling(CLI::App* bench, Action& action) {
+  const auto words = std::make_shared<BenchWords>();
+  words->steps = 10;
+  words->solvers = "pgs,nncg";
+  CLI::App* command = add_measuring(
+      bench, words, action,
+      {"scaling", "Cost per grain of growing packings: copies of the deposited one side by side",
+       "vibrated_box", bench_scaling});
+  command
+      ->add_option("--grains", words->grains,
+                   "Grains, separated by commas: each the nearest number of copies")
+      ->capture_default_str();
+  command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
+      ->capture_default_str();
+  command->add_option("--steps", words->steps, "Measured steps")
+      ->capture_default_str()
+      ->check(positive);
+  command->add_option("--warm-up", words->warm_up, "Steps before them")
+      ->capture_default_str()
+      ->check(positive);
+  command->add_option("--solvers", words->solvers, "Whose iterations are counted")
+      ->capture_default_str();
+  command->add_option("--tolerance", words->tolerance, "To this error [g h]")
+      ->capture_default_str();
+  command->add_flag("--cold", words->cold_start, "From no impulses, not from the last step's");
+  command->add_option("--max-iterations", words->max_iterations, "At most so many")
+      ->capture_default_str()
+      ->check(positive);
+}
+
+void add_accuracy(CLI::App* bench, Action& action) {
+  const auto words = std::make_shared<BenchWords>();
+  words->solvers = "nncg,pgs,anderson_pgs,apgd";
+  CLI::App* command = add_measuring(
+      bench, words, action,
+      {"accuracy", "What a simulated second costs at which error", "vibrated_box", bench_accuracy});
+  command->add_option("--solvers", words->solvers, "Separated by commas")->capture_default_str();
+  command->add_option("--tolerances", words->tolerances, "Solved to these [g h]; none: not")
+      ->capture_default_str();
+  command
+      ->add_option("--iterations", words->iterations, "And with so many iterations in every step")
+      ->capture_default_str();
+  command->add_option("--from", words->from, "Simulated time where all begin [s]")
+      ->capture_default_str();
+  command->add_option("--duration", words->duration, "Simulated from there [s]")
+      ->capture_default_str();
+}
+
+void add_diff(CLI::App* bench, Action& action) {
+  const auto words = std::make_shared<BenchWords>();
+  CLI::App* command = bench->add_subcommand("diff", "Two result files as a ratio table (Markdown)");
+  command->add_option("A", words->a, "A .json of ballast bench")->required();
+  command->add_option("B", words->b, "Another of the same kind")->required();
+  command->callback([words, &action] { action = [words] { return bench_diff(*words); }; });
+}
 
 }  // namespace
 
@@ -218,83 +293,8 @@ void add_bench_command(CLI::App& program, Action& action) {
       "bench", "How fast: kernels, whole steps, scaling, cost against accuracy");
   bench->require_subcommand(1);
   bench->footer(bench_footer);
-  const auto positive = CLI::Range(1L, 1'000'000'000L);
-  {
-    const auto words = std::make_shared<BenchWords>();
-    CLI::App* command =
-        add_measuring(bench, words, action,
-                      {"kernels", "The inner loops on their own, beside the machine's limits",
-                       "vibrated_box_small", bench_kernels});
-    command->add_option("--filter", words->kernels.filter, "Regular expression over group/name");
-    command->add_option("--min-time", words->kernels.min_time, "CPU seconds of a repetition")
-        ->capture_default_str();
-    command->add_option("--repeats", words->kernels.repeats, "Repetitions")
-        ->capture_default_str()
-        ->check(positive);
-    command->add_option("--streaming-MB", words->kernels.streaming_MB,
-                        "Least records of the streaming sweep (0: twice the last cache)");
-  }
-  {
-    const auto words = std::make_shared<BenchWords>();
-    CLI::App* command =
-        add_measuring(bench, words, action,
-                      {"step", "Whole steps by phase, from the deposited packing driven",
-                       "vibrated_box", bench_step});
-    command->add_option("--steps", words->steps, "Steps")->capture_default_str()->check(positive);
-    command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
-        ->capture_default_str();
-  }
-  {
-    const auto words = std::make_shared<BenchWords>();
-    words->steps = 10;
-    words->solvers = "pgs,nncg";
-    CLI::App* command = add_measuring(
-        bench, words, action,
-        {"scaling", "Cost per grain of growing packings: copies of the deposited one side by side",
-         "vibrated_box", bench_scaling});
-    command
-        ->add_option("--grains", words->grains,
-                     "Grains, separated by commas: each the nearest number of copies")
-        ->capture_default_str();
-    command->add_option("--threads", words->threads, "Threads of the solver, separated by commas")
-        ->capture_default_str();
-    command->add_option("--steps", words->steps, "Measured steps")
-        ->capture_default_str()
-        ->check(positive);
-    command->add_option("--warm-up", words->warm_up, "Steps before them")
-        ->capture_default_str()
-        ->check(positive);
-    command->add_option("--solvers", words->solvers, "Whose iterations are counted")
-        ->capture_default_str();
-    command->add_option("--tolerance", words->tolerance, "To this error [g h]")
-        ->capture_default_str();
-    command->add_flag("--cold", words->cold_start, "From no impulses, not from the last step's");
-    command->add_option("--max-iterations", words->max_iterations, "At most so many")
-        ->capture_default_str()
-        ->check(positive);
-  }
-  {
-    const auto words = std::make_shared<BenchWords>();
-    words->solvers = "nncg,pgs,anderson_pgs,apgd";
-    CLI::App* command = add_measuring(bench, words, action,
-                                      {"accuracy", "What a simulated second costs at which error",
-                                       "vibrated_box", bench_accuracy});
-    command->add_option("--solvers", words->solvers, "Separated by commas")->capture_default_str();
-    command->add_option("--tolerances", words->tolerances, "Solved to these [g h]; none: not")
-        ->capture_default_str();
-    command
-        ->add_option("--iterations", words->iterations, "And with so many iterations in every step")
-        ->capture_default_str();
-    command->add_option("--from", words->from, "Simulated time where all begin [s]")
-        ->capture_default_str();
-    command->add_option("--duration", words->duration, "Simulated from there [s]")
-        ->capture_default_str();
-  }
-  const auto words = std::make_shared<BenchWords>();
-  CLI::App* command = bench->add_subcommand("diff", "Two result files as a ratio table (Markdown)");
-  command->add_option("A", words->a, "A .json of ballast bench")->required();
-  command->add_option("B", words->b, "Another of the same kind")->required();
-  command->callback([words, &action] { action = [words] { return bench_diff(*words); }; });
+  for (const auto add : {add_kernels, add_step, add_scaling, add_accuracy, add_diff})
+    add(bench, action);
 }
 
 }  // namespace ballast

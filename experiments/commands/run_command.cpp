@@ -38,6 +38,33 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
             << next_commands(end.has_grains) << std::flush;
 }
 
+/// What happens beside the run itself. `options` must live as long as the command.
+void add_packing_and_limits(CLI::App& command, RunOptions& options) {
+  command.add_flag("--deposit-only", options.deposit_only,
+                   "Only sees to it that the packing is in the cache");
+  command.add_flag("--new-packing", options.new_packing,
+                   "Deposits the grains again, whatever the cache has");
+  command
+      .add_option("--packing-cache", options.packing_cache,
+                  "Where deposited packings are kept (<output>/../packings)")
+      ->type_name("DIR");
+  command
+      .add_option("--capture", options.capture,
+                  "Keeps the friction problems of steps as FCLIB files in <output>/capture: "
+                  "every=50 (two consecutive "
+                  "ones each; steps=3: three), from=1000,to=1020")
+      ->type_name("WHICH");
+  command
+      .add_option("--threads", options.threads,
+                  "Threads of the solver (1); the results are the same to the last bit")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  command
+      .add_option("--max-seconds", options.max_seconds,
+                  "Wall clock after which to write a checkpoint and exit with 3")
+      ->type_name("S");
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& program, Action& action) {
@@ -65,31 +92,9 @@ void add_run_command(CLI::App& program, Action& action) {
           "Continues the run found in the folder or begins one; does nothing when it is finished")
       ->excludes(resume)
       ->excludes(overwrite);
-  command->add_flag("--deposit-only", options->deposit_only,
-                    "Only sees to it that the packing is in the cache");
-  command->add_flag("--new-packing", options->new_packing,
-                    "Deposits the grains again, whatever the cache has");
-  command
-      ->add_option("--packing-cache", options->packing_cache,
-                   "Where deposited packings are kept (<output>/../packings)")
-      ->type_name("DIR");
-  command
-      ->add_option("--capture", options->capture,
-                   "Keeps the friction problems of steps as FCLIB files in <output>/capture: "
-                   "every=50 (two consecutive "
-                   "ones each; steps=3: three), from=1000,to=1020")
-      ->type_name("WHICH");
-  command
-      ->add_option("--threads", options->threads,
-                   "Threads of the solver (1); the results are the same to the last bit")
-      ->type_name("N")
-      ->check(CLI::Range(1, 256));
+  add_packing_and_limits(*command, *options);
   command->add_flag_callback(
       "--no-report", [with_page] { *with_page = false; }, "No figures and no page at the end");
-  command
-      ->add_option("--max-seconds", options->max_seconds,
-                   "Wall clock after which to write a checkpoint and exit with 3")
-      ->type_name("S");
   command->footer(
       "Examples:\n  ballast run vibrated_box\n"
       "  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 --output "

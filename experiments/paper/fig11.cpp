@@ -95,6 +95,33 @@ Agreement judge_prefactor(double factor, double low, double high, int points) {
   return ratio > 0.4 && ratio < 2.5 ? Agreement::partly : Agreement::differs;
 }
 
+/// Whether all sweeps lie on one line, and what its factor C is.
+std::vector<AgreementRow> rows_of(const VariedCurve& pooled, const Proportion& line,
+                                  const PowerFit& power, double by_grain) {
+  const bool is_line = line.samples > 4 && line.spread < 1.25;
+  std::vector<AgreementRow> rows = {
+      {"Fig. 11, Eq. 3", "one line through all sweeps",
+       "spread about the line: factor " + page::number(line.spread) + "; exponent " +
+           words_of(power) + ", " + misfit_words(power, pooled),
+       line.samples < 5    ? Agreement::reported
+       : is_line           ? Agreement::agrees
+       : line.spread < 1.6 ? Agreement::partly
+                           : Agreement::differs},
+      {"Eq. 3", "C ~ 0.01",
+       "C = " + page::number(line.factor) + " " + page::interval(line.low, line.high) +
+           " (m all grains); " + page::number(by_grain) + " (m one grain)",
+       judge_prefactor(line.factor, line.low, line.high, line.samples)}};
+  if (line.samples < 5) return rows;
+  const double linear = linear_prefactor(pooled);
+  rows.push_back({"Eq. 3", "C ~ 0.01, as a line through a linear plot",
+                  "C = " + page::number(linear) +
+                      " by least squares on linear axes, where the largest displacement "
+                      "decides; without it " +
+                      page::number(linear_prefactor(without_largest(pooled))),
+                  judge_prefactor(linear, linear, linear, line.samples)});
+  return rows;
+}
+
 }  // namespace
 
 PaperSection fig11_section(PaperData& data) {
@@ -141,26 +168,7 @@ PaperSection fig11_section(PaperData& data) {
                                             {"grain", page::number(by_grain)}});
   section.figures = {figure};
   section.tables = {table};
-  const bool is_line = line.samples > 4 && line.spread < 1.25;
-  section.rows = {{"Fig. 11, Eq. 3", "one line through all sweeps",
-                   "spread about the line: factor " + page::number(line.spread) + "; exponent " +
-                       words_of(power) + ", " + misfit_words(power, pooled),
-                   line.samples < 5    ? Agreement::reported
-                   : is_line           ? Agreement::agrees
-                   : line.spread < 1.6 ? Agreement::partly
-                                       : Agreement::differs},
-                  {"Eq. 3", "C ~ 0.01",
-                   "C = " + page::number(line.factor) + " " + page::interval(line.low, line.high) +
-                       " (m all grains); " + page::number(by_grain) + " (m one grain)",
-                   judge_prefactor(line.factor, line.low, line.high, line.samples)}};
-  if (line.samples < 5) return section;
-  const double linear = linear_prefactor(pooled);
-  section.rows.push_back({"Eq. 3", "C ~ 0.01, as a line through a linear plot",
-                          "C = " + page::number(linear) +
-                              " by least squares on linear axes, where the largest displacement "
-                              "decides; without it " +
-                              page::number(linear_prefactor(without_largest(pooled))),
-                          judge_prefactor(linear, linear, linear, line.samples)});
+  section.rows = rows_of(pooled, line, power, by_grain);
   return section;
 }
 

@@ -82,6 +82,29 @@ struct PhaseStress {
 constexpr std::pair<WallPhase, const char*> stress_phases[] = {
     {WallPhase::passive, "passive"}, {WallPhase::jammed, "jammed"}, {WallPhase::active, "active"}};
 
+/// Within 20 degrees of the direction that the paper names: agrees; within 45: partly.
+Agreement judge_direction(const SampleMean& angle, bool is_horizontal) {
+  if (angle.samples == 0) return Agreement::reported;
+  const double off = is_horizontal ? angle.mean : 90.0 - angle.mean;
+  return off < 20.0 ? Agreement::agrees : off < 45.0 ? Agreement::partly : Agreement::differs;
+}
+
+/// Force chains in a section, passive above active. `aspect`: height over width of a panel.
+PaperFigure chains_figure(const std::array<Panel, 2>& panels, double aspect,
+                          const std::array<SampleMean, 3>& mean) {
+  PaperFigure figure;
+  figure.plot.name = "fig07";
+  figure.plot.title = "Normal forces in a section while the wall moves in and out";
+  figure.plot.width = 760;
+  figure.plot.height = static_cast<int>(2.0 * (78.0 + 640.0 * aspect));
+  figure.plot.panels = {panels[0], panels[1]};
+  figure.paper = paper_text("fig7.paper");
+  figure.found =
+      paper_text("fig7.found", {{"passive", page::with_error(mean[0].mean, mean[0].error)},
+                                {"active", page::with_error(mean[2].mean, mean[2].error)}});
+  return figure;
+}
+
 }  // namespace
 
 PaperSection fig7_section(PaperData& data) {
@@ -127,29 +150,14 @@ PaperSection fig7_section(PaperData& data) {
   }
   section.tables = {table};
   if (!panels[0].curves.empty() && !panels[1].curves.empty()) {
-    PaperFigure figure;
-    figure.plot.name = "fig07";
-    figure.plot.title = "Normal forces in a section while the wall moves in and out";
-    figure.plot.width = 760;
-    figure.plot.height = static_cast<int>(2.0 * (78.0 + 640.0 * aspect));
-    figure.plot.panels = {panels[0], panels[1]};
-    figure.paper = paper_text("fig7.paper");
-    figure.found =
-        paper_text("fig7.found", {{"passive", page::with_error(mean[0].mean, mean[0].error)},
-                                  {"active", page::with_error(mean[2].mean, mean[2].error)}});
-    section.figures = {figure};
+    section.figures = {chains_figure(panels, aspect, mean)};
   }
-  const auto judge = [](const SampleMean& angle, bool is_horizontal) {
-    if (angle.samples == 0) return Agreement::reported;
-    const double off = is_horizontal ? angle.mean : 90.0 - angle.mean;
-    return off < 20.0 ? Agreement::agrees : off < 45.0 ? Agreement::partly : Agreement::differs;
-  };
-  section.rows = {
-      {"Fig. 7a", "major stress horizontal in the passive state",
-       page::with_error(mean[0].mean, mean[0].error) + "° to the horizontal", judge(mean[0], true)},
-      {"Fig. 7b", "major stress vertical in the active state",
-       page::with_error(mean[2].mean, mean[2].error) + "° to the horizontal",
-       judge(mean[2], false)}};
+  section.rows = {{"Fig. 7a", "major stress horizontal in the passive state",
+                   page::with_error(mean[0].mean, mean[0].error) + "° to the horizontal",
+                   judge_direction(mean[0], true)},
+                  {"Fig. 7b", "major stress vertical in the active state",
+                   page::with_error(mean[2].mean, mean[2].error) + "° to the horizontal",
+                   judge_direction(mean[2], false)}};
   return section;
 }
 

@@ -168,7 +168,7 @@ Mat3 velocity_gradient(const MechanicalSystem& system, const MotionState& state)
 double vorticity_xz(const Mat3& gradient) { return gradient(0, 2) - gradient(2, 0); }
 
 Vec3 wall_place(const MechanicalSystem& system, const MotionState& state, BoxWall wall) {
-  return state.pose[static_cast<size_t>(system.grain_count + wall)].position;
+  return state.pose[static_cast<size_t>(system.grain_count) + static_cast<size_t>(wall)].position;
 }
 
 double box_volume(const MechanicalSystem& system, const MotionState& state) {

@@ -67,17 +67,35 @@ struct Histogram {
   }
 };
 
+/// By phase and column: a value for each state, or for each sample.
+using PhaseValues =
+    std::array<std::array<std::vector<double>, columns.size()>, force_phases.size()>;
+
+page::Table phases_table(const PhaseValues& values) {
+  page::Table table{"By phase at 5 Hz, means over samples ± standard error",
+                    {"", "jammed", "active", "passive"},
+                    {}};
+  for (size_t c = 0; c < columns.size(); ++c) {
+    table.rows.push_back({columns[c].name});
+    for (size_t p = 0; p < force_phases.size(); ++p) {
+      const SampleMean mean = sample_mean(values[p][c]);
+      table.rows.back().push_back(page::with_error(mean.mean, mean.error));
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
 PaperSection packing_section(PaperData& data) {
   PaperSection section;
   section.text = {paper_text("packing.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
-  std::array<std::array<std::vector<double>, columns.size()>, force_phases.size()> values;
+  PhaseValues values;
   std::array<Histogram, force_phases.size()> histograms;
   int states = 0;
   for (const MotionRun& run : runs) {
-    std::array<std::array<std::vector<double>, columns.size()>, force_phases.size()> of_run;
+    PhaseValues of_run;
     states += for_each_state(run, [&](const StoredState& state) {
       for (size_t p = 0; p < force_phases.size(); ++p) {
         if (state.phase != force_phases[p].first) continue;
@@ -98,17 +116,7 @@ PaperSection packing_section(PaperData& data) {
     section.notes.push_back("PARTIAL: no stored states.");
     return section;
   }
-  page::Table table{"By phase at 5 Hz, means over samples ± standard error",
-                    {"", "jammed", "active", "passive"},
-                    {}};
-  for (size_t c = 0; c < columns.size(); ++c) {
-    table.rows.push_back({columns[c].name});
-    for (size_t p = 0; p < force_phases.size(); ++p) {
-      const SampleMean mean = sample_mean(values[p][c]);
-      table.rows.back().push_back(page::with_error(mean.mean, mean.error));
-    }
-  }
-  section.tables = {table};
+  section.tables = {phases_table(values)};
   Panel panel;
   panel.x_label = "{/:Italic f}_n / ⟨{/:Italic f}_n⟩";
   panel.y_label = "probability density";

@@ -165,7 +165,8 @@ void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector
       below = std::min(below, faces_[left].offset - left_normal.dot(polyhedron.vertex(v)) +
                                   faces_[right].offset - right_normal.dot(polyhedron.vertex(v)));
     }
-    const Vec3 tail = polyhedron.vertex(edge.tail), along = polyhedron.vertex(edge.head) - tail;
+    const Vec3& tail = polyhedron.vertex(edge.tail);
+    const Vec3 along = polyhedron.vertex(edge.head) - tail;
     const double length = along.norm(), sine = left_normal.cross(right_normal).norm();
     edges_.push_back({tail, along, left_normal, right_normal, length, below * length / sine,
                       edge.tail, edge.head, left, right});
