@@ -138,7 +138,7 @@ FrictionProblem to_friction_problem(LocalProblem local) {
   FrictionProblem problem;
   set_contacts(problem, local.mu);
   problem.has_delassus = true;
-  problem.delassus.w = std::move(local.w);
+  problem.delassus.w.swap(local.w);
   problem.delassus.w.makeCompressed();
   problem.delassus.q = std::move(local.q);
   return problem;
