@@ -9,8 +9,9 @@ root=$PWD
 echo "== clang-tidy"
 cmake --preset tidy >build-tidy.log 2>&1 || { cat build-tidy.log; exit 1; }
 cmake --build build/tidy --target ballast_build_info >>build-tidy.log 2>&1
+rooms='(platform|geometry|problems|solvers|experiments)'
 words=$(IFS='|'; echo "${*:-.}")
 grep -o '"file": "[^"]*"' build/tidy/compile_commands.json | cut -d'"' -f4 |
   grep -v -e /precompiled/ -e '/build/tidy/[^U]*$' -e /tests/ | grep -E "$words" | sort |
   xargs -P "$(nproc)" -n 1 \
-    clang-tidy -p build/tidy --quiet --header-filter="^$root/" 2>build-tidy.err
+    clang-tidy -p build/tidy --quiet --header-filter="^$root/$rooms/" 2>build-tidy.err
