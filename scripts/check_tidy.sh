@@ -14,4 +14,4 @@ words=$(IFS='|'; echo "${*:-.}")
 grep -o '"file": "[^"]*"' build/tidy/compile_commands.json | cut -d'"' -f4 |
   grep -v -e /precompiled/ -e '/build/tidy/[^U]*$' -e /tests/ | grep -E "$words" | sort |
   xargs -P "$(nproc)" -n 1 \
-    clang-tidy -p build/tidy --quiet --header-filter="^$root/$rooms/" 2>build-tidy.err
+    clang-tidy -p build/tidy --quiet --header-filter="^$root/$rooms/" 2>build/tidy/clang-tidy.err
