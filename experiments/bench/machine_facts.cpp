@@ -7,17 +7,11 @@
 #include <fstream>
 
 #include "platform/clock.hpp"
+#include "platform/for_each_cpu.hpp"
 
 // Vectors stay inside inlined functions, so GCC's note about their calling convention does not
 // apply.
 #pragma GCC diagnostic ignored "-Wpsabi"
-
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
-#define BALLAST_FOR_EACH_CPU __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define BALLAST_FOR_EACH_CPU
-#endif
 
 namespace ballast {
 namespace {

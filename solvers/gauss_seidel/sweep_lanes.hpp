@@ -5,18 +5,11 @@
 // GCC's vector extensions: the same element-wise operations in the same order on every instruction
 // set, hence the same bits (-ffp-contract=off keeps multiplications and additions apart).
 
+#include "platform/for_each_cpu.hpp"
+
 // Vectors are returned by inlined functions only, so GCC's note about their calling convention does
 // not apply.
 #pragma GCC diagnostic ignored "-Wpsabi"
-
-// Before a function that is compiled for several instruction sets, and chosen when the program
-// starts.
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
-#define BALLAST_FOR_EACH_CPU __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define BALLAST_FOR_EACH_CPU
-#endif
 
 #define BALLAST_INLINE inline __attribute__((always_inline))
 
