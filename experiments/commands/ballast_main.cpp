@@ -1,11 +1,16 @@
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <iostream>
 #include <new>
 #include <ostream>
 
 #include "experiments/commands/command.hpp"
 #include "experiments/run/build_info.hpp"
+#include "experiments/run_page/report_origin.hpp"
+#include "platform/error.hpp"
+#include "platform/program.hpp"
+#include "platform/text.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -44,7 +49,78 @@ void print_failure(std::ostream& err, const std::string& what) {
   err << "ballast: " << line << std::endl;
 }
 
+/// "--output" of "--output DIR".
+std::string name_of(const Word& word) { return word.name.substr(0, word.name.find(' ')); }
+
+/// Tells CLI11 of one word.
+void add_word(CLI::App& app, const Word& word) {
+  const std::string name = name_of(word);
+  CLI::Option* option = std::visit(
+      [&](auto* value) {
+        if constexpr (std::is_same_v<decltype(value), bool*>) {
+          const bool on = !name.starts_with("--no-");
+          return app.add_flag_callback(
+              name, [value, on] { *value = on; }, word.meaning);
+        } else {
+          return app.add_option(name, *value, word.meaning);
+        }
+      },
+      word.value);
+  if (name.size() < word.name.size()) option->type_name(word.name.substr(name.size() + 1));
+  // a list behind an option grows by one value each time; an argument takes all that follow
+  if (name.starts_with("--") && std::holds_alternative<std::vector<std::string>*>(word.value))
+    option->take_all()->expected(1);
+  if (word.is_required) option->required();
+  if (word.shows_default) option->capture_default_str();
+  if (word.between) option->check(CLI::Range(word.between->first, word.between->second));
+  for (const std::string& other : word.excludes) option->excludes(app.get_option(other));
+  for (const std::string& other : word.needs) option->needs(app.get_option(other));
+}
+
+/// Tells CLI11 of a command; when it is the one that is named, `chosen` is set.
+void add_command(CLI::App& app, const Command& command, const Command*& chosen) {
+  CLI::App* added = app.add_subcommand(command.name, command.meaning);
+  if (!command.alias.empty()) added->alias(command.alias);
+  if (!command.footer.empty()) added->footer(command.footer);
+  for (const Word& word : command.words) add_word(*added, word);
+  for (const Command& part : command.parts) add_command(*added, part, chosen);
+  if (command.parts.empty())
+    added->callback([&command, &chosen] { chosen = &command; });
+  else
+    added->require_subcommand(1);
+}
+
+/// The rules that CLI11 does not see to. Throws UsageError "<command>: <word>: ...".
+void check_word(const std::string& command, const Word& word) {
+  const auto refuse = [&](const std::string& what) {
+    throw UsageError(command + ": " + name_of(word) + ": " + what);
+  };
+  double number = std::nan("");
+  if (const auto* value = std::get_if<double*>(&word.value)) number = **value;
+  if (const auto* value = std::get_if<int*>(&word.value)) number = **value;
+  if (word.above && !(number > *word.above)) refuse(printed("expected a number > %g", *word.above));
+  if (word.at_least && !(number >= *word.at_least))
+    refuse(printed("expected a number >= %g", *word.at_least));
+  if (!word.parse) return;
+  try {
+    word.parse(*std::get<std::string*>(word.value));
+  } catch (const UnknownSolver& error) {
+    throw UsageError(error.what());
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
+  } catch (const Error& error) {
+    refuse(error.what());
+  }
+}
+
 }  // namespace
+
+std::string own_command() {
+  std::string text = "ballast";
+  const std::vector<std::string> words = own_words();
+  for (size_t k = 1; k < words.size(); ++k) text += ' ' + shell_word(words[k]);
+  return text;
+}
 
 ExitCode perform(const Action& action, std::ostream& err) {
   try {
@@ -69,10 +145,9 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
       "ballast");
   program.footer(examples);
   program.set_version_flag("--version", build_line());
-  Action action = []() -> ExitCode {
-    throw UsageError("a subcommand is required (ballast --help)");
-  };
-  for (const Command& command : commands()) command.add(program, action);
+  const std::vector<Command> all = commands();
+  const Command* chosen = nullptr;
+  for (const Command& command : all) add_command(program, command, chosen);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -80,8 +155,14 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
     print_failure(err, std::string(error.what()) + " (ballast --help)");
     return static_cast<int>(ExitCode::usage);
   }
+  const auto act = [&] {
+    if (!chosen) throw UsageError("a subcommand is required (ballast --help)");
+    const std::string name = program.get_subcommands().front()->get_name();
+    for (const Word& word : chosen->words) check_word(name, word);
+    return chosen->act();
+  };
   // a full disk may show only when the last of the output is written
-  ExitCode code = perform(action, err);
+  ExitCode code = perform(act, err);
   out.flush();
   if (!out && code == ExitCode::ok) {
     print_failure(err, "standard output: cannot be written");

@@ -1,7 +1,5 @@
 // What is in a file, and whether it is sound: scene, mesh, stored problem, checkpoint.
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -98,37 +96,26 @@ void check(const std::string& file, const CheckOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand(
-      "check", "Says what is in files, or what is wrong with the first bad one");
-  auto options = std::make_shared<CheckOptions>();
-  command
-      ->add_option("files", options->files,
-                   "Scenes (.toml, or by name), meshes (.obj, .stl), problems (.hdf5, .dat), "
-                   "checkpoints (.bin)")
-      ->required();
-  command
-      ->add_option("--set", options->overrides,
-                   "Overrides one value of the scenes: dotted.key=value")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1);
-  command
-      ->add_option("--scale", options->scale,
-                   "Metres per unit of the meshes: 0.001 for millimetres")
-      ->capture_default_str();
-  command->add_flag("--hull", options->hull,
-                    "Meshes: the convex hull of the vertices, for scanned grains");
-  command->footer(
+Command check_command() {
+  const auto options = std::make_shared<CheckOptions>();
+  return {
+      "check",
+      "Says what is in files, or what is wrong with the first bad one",
+      {{"files", &options->files,
+        "Scenes (.toml, or by name), meshes (.obj, .stl), problems (.hdf5, .dat), checkpoints "
+        "(.bin)",
+        required},
+       {"--set KEY=VALUE", &options->overrides,
+        "Overrides one value of the scenes: dotted.key=value"},
+       {"--scale", &options->scale, "Metres per unit of the meshes: 0.001 for millimetres", shown,
+        above(0)},
+       {"--hull", &options->hull, "Meshes: the convex hull of the vertices, for scanned grains"}},
       "Examples:\n  ballast check mine.toml grain.stl problem.hdf5 results/mine/checkpoint.bin\n"
-      "  ballast check scan.stl --hull --scale 0.001");
-  command->callback([options, &action] {
-    action = [options] {
-      if (!(options->scale > 0.0)) throw UsageError("check: --scale: expected a number > 0");
-      for (const std::string& file : options->files) check(file, *options);
-      return ExitCode::ok;
-    };
-  });
+      "  ballast check scan.stl --hull --scale 0.001",
+      [options] {
+        for (const std::string& file : options->files) check(file, *options);
+        return ExitCode::ok;
+      }};
 }
 
 }  // namespace ballast

@@ -1,8 +1,5 @@
 // Backends on identical problems: rows, figures and a page.
 
-#include <CLI/CLI.hpp>
-
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -13,7 +10,6 @@
 #include "experiments/compare/live_page.hpp"
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/run/manifest.hpp"
-#include "experiments/run_page/report_origin.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
@@ -23,7 +19,8 @@
 namespace ballast {
 namespace {
 
-struct CompareWords {
+/// The words of the command line, and what is made of them.
+struct CompareRequest {
   LiveOptions live;
   std::vector<std::string> cases;
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
@@ -42,37 +39,6 @@ bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
   return !InterruptGuard::requested();
 }
 
-/// What is wrong with the words; std::invalid_argument from the parsers gets its option's name
-/// here.
-void parse(CompareWords& options) {
-  const auto with_name = [](const char* option, const auto& work) {
-    try {
-      work();
-    } catch (const std::invalid_argument& error) {
-      throw UsageError(std::string("compare: ") + option + ": " + error.what());
-    } catch (const UnknownSolver& error) {
-      throw UsageError(error.what());
-    }
-  };
-  CompareOptions& comparison = options.comparison;
-  with_name("--solvers", [&] { comparison.solvers = parse_solvers(options.solvers); });
-  with_name("--tolerances", [&] { comparison.tolerances = parse_tolerances(options.tolerances); });
-  with_name("--starts", [&] { comparison.starts = parse_starts(options.starts); });
-  with_name("--measure", [&] { comparison.measure = measure_of(options.measure); });
-  if (options.cases.empty() == options.live.scene.empty())
-    throw UsageError("compare: expected cases, or --live SCENE");
-  if (!(options.live.start >= 0.0)) throw UsageError("compare: --from: expected a number >= 0");
-  if (!(options.live.duration > 0.0))
-    throw UsageError("compare: --duration: expected a number > 0");
-  if (!(options.live.trajectory_seconds > 0.0))
-    throw UsageError("compare: --trajectory-seconds: expected a number > 0");
-  if (comparison.repeats < 1) throw UsageError("compare: --repeats: expected a number >= 1");
-  if (!(comparison.max_seconds > 0.0))
-    throw UsageError("compare: --max-seconds: expected a number > 0");
-  if (!(comparison.limits.memory_MB >= 0.0))
-    throw UsageError("compare: --memory: expected a number >= 0");
-}
-
 ExitCode interrupted() {
   std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on"
             << std::endl;
@@ -86,7 +52,7 @@ bool show_trajectory(const Trajectory& trajectory) {
 }
 
 /// The closed loop under each backend.
-ExitCode compare_live(const CompareWords& options) {
+ExitCode compare_live(const CompareRequest& options) {
   LiveOptions live = options.live;
   live.solvers = options.comparison.solvers;
   live.tolerances = options.comparison.tolerances;
@@ -105,14 +71,12 @@ ExitCode compare_live(const CompareWords& options) {
   return ExitCode::ok;
 }
 
-ExitCode compare(CompareWords options) {
-  parse(options);
+ExitCode compare(CompareRequest& options) {
+  if (options.cases.empty() == options.live.scene.empty())
+    throw UsageError("compare: expected cases, or --live SCENE");
   restart_with_one_algebra_thread();
-  const std::vector<std::string> words = own_words();
   options.comparison.folder = options.output;
-  for (const std::string& word : words)
-    options.comparison.command += (options.comparison.command.empty() ? "" : " ") +
-                                  shell_word(&word == &words[0] ? "ballast" : word);
+  options.comparison.command = own_command();
   if (!options.live.scene.empty()) return compare_live(options);
   std::vector<ReferenceTimes> reference;
   if (!options.reference.empty()) reference = read_reference_times(options.reference);
@@ -166,64 +130,45 @@ Examples:
 
 }  // namespace
 
-void add_compare_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand(
-      "compare", "Backends on identical problems: accuracy against cost, figures, a page");
-  auto options = std::make_shared<CompareWords>();
+Command compare_command() {
+  const auto options = std::make_shared<CompareRequest>();
   CompareOptions& comparison = options->comparison;
-  command->add_option("cases", options->cases,
-                      "Problem files, folders, patterns, known:..., stress:...");
-  command->add_option("--solvers", options->solvers, "Names, separated by commas, or all")
-      ->capture_default_str();
-  command->add_option("--tolerances", options->tolerances, "Separated by commas")
-      ->capture_default_str();
-  command
-      ->add_option("--starts", options->starts,
-                   "cold, warm or cold,warm; warm where a case has a warm start")
-      ->capture_default_str();
-  command->add_option("--measure", options->measure, "natural_map or fclib")->capture_default_str();
-  command->add_option("--repeats", comparison.repeats, "Interleaved; tables show the median")
-      ->capture_default_str();
-  command
-      ->add_option("--max-seconds", comparison.max_seconds,
-                   "Wall clock of one solve, prepare included")
-      ->capture_default_str();
-  command
-      ->add_option("--memory", comparison.limits.memory_MB,
-                   "Address space of one child in MB; 0: no limit")
-      ->capture_default_str();
-  command
-      ->add_option("--reference", options->reference,
-                   "CSV of others' times: problem,ms_1e-4,solver_1e-4,...")
-      ->type_name("FILE");
-  command->add_option("--output", options->output, "Folder of the results")
-      ->capture_default_str()
-      ->type_name("DIR");
-  command->add_flag_callback(
-      "--no-report", [options] { options->report = false; }, "No figures and no page");
   LiveOptions& live = options->live;
-  command
-      ->add_option(
-          "--live", live.scene,
-          "Instead of cases: a scene's closed loop from one start under each backend and tolerance")
-      ->type_name("SCENE");
-  command->add_option("--set", live.overrides, "Of that scene: dotted.key=value")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1);
-  command->add_option("--from", live.start,
-                      "Simulated time up to which the scene's own solver goes, once for all [s]");
-  command->add_option("--duration", live.duration, "Simulated from there under each backend [s]")
-      ->capture_default_str();
-  command
-      ->add_option("--trajectory-seconds", live.trajectory_seconds, "Wall clock of one trajectory")
-      ->capture_default_str();
-  command
-      ->add_option("--packing-cache", live.packing_cache,
-                   "Where deposited packings are kept (<output>/packings)")
-      ->type_name("DIR");
-  command->footer(compare_footer);
-  command->callback([options, &action] { action = [options] { return compare(*options); }; });
+  return {
+      "compare",
+      "Backends on identical problems: accuracy against cost, figures, a page",
+      {{"cases", &options->cases, "Problem files, folders, patterns, known:..., stress:..."},
+       {"--solvers", &options->solvers, "Names, separated by commas, or all", shown,
+        into(comparison.solvers, parse_solvers)},
+       {"--tolerances", &options->tolerances, "Separated by commas", shown,
+        into(comparison.tolerances, parse_tolerances)},
+       {"--starts", &options->starts, "cold, warm or cold,warm; warm where a case has a warm start",
+        shown, into(comparison.starts, parse_starts)},
+       {"--measure", &options->measure, "natural_map or fclib", shown,
+        into(comparison.measure, measure_of)},
+       {"--repeats", &comparison.repeats, "Interleaved; tables show the median", shown,
+        at_least(1)},
+       {"--max-seconds", &comparison.max_seconds, "Wall clock of one solve, prepare included",
+        shown, above(0)},
+       {"--memory", &comparison.limits.memory_MB, "Address space of one child in MB; 0: no limit",
+        shown, at_least(0)},
+       {"--reference FILE", &options->reference,
+        "CSV of others' times: problem,ms_1e-4,solver_1e-4,..."},
+       {"--output DIR", &options->output, "Folder of the results", shown},
+       {"--no-report", &options->report, "No figures and no page"},
+       {"--live SCENE", &live.scene,
+        "Instead of cases: a scene's closed loop from one start under each backend and tolerance"},
+       {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value"},
+       {"--from", &live.start,
+        "Simulated time up to which the scene's own solver goes, once for all [s]", at_least(0)},
+       {"--duration", &live.duration, "Simulated from there under each backend [s]", shown,
+        above(0)},
+       {"--trajectory-seconds", &live.trajectory_seconds, "Wall clock of one trajectory", shown,
+        above(0)},
+       {"--packing-cache DIR", &live.packing_cache,
+        "Where deposited packings are kept (<output>/packings)"}},
+      compare_footer,
+      [options] { return compare(*options); }};
 }
 
 }  // namespace ballast

@@ -1,7 +1,5 @@
 // One state of a run as a file for other programs.
 
-#include <CLI/CLI.hpp>
-
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -17,9 +15,9 @@ namespace ballast {
 namespace {
 
 struct ExportOptions {
-  std::filesystem::path source;
-  std::string format = "obj";
-  std::filesystem::path output;
+  std::filesystem::path source, output;
+  std::string format_name = "obj";
+  ExportFormat format = ExportFormat::obj;
   double time = std::numeric_limits<double>::quiet_NaN();
   bool last = false;
 };
@@ -35,12 +33,6 @@ void state_at(const std::filesystem::path& folder, double time, MotionState& sta
 }
 
 ExitCode export_run(const ExportOptions& options) {
-  ExportFormat format;
-  try {
-    format = export_format(options.format);
-  } catch (const Error& error) {
-    throw UsageError("export: --format: " + std::string(error.what()));
-  }
   if (!std::filesystem::exists(options.source))
     throw Error(options.source.string() + ": no such run folder or checkpoint");
   const bool is_folder = std::filesystem::is_directory(options.source);
@@ -56,7 +48,7 @@ ExitCode export_run(const ExportOptions& options) {
   if (state.pose.size() != system.bodies.size())
     throw Error(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
                 " bodies, the scene beside it " + std::to_string(system.bodies.size()));
-  export_state(system, state, format, options.output);
+  export_state(system, state, options.format, options.output);
   std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step
             << '\n';
   return ExitCode::ok;
@@ -64,29 +56,22 @@ ExitCode export_run(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export_command(CLI::App& program, Action& action) {
-  CLI::App* command =
-      program.add_subcommand("export", "Writes one state of a run for other programs");
-  auto options = std::make_shared<ExportOptions>();
-  command->add_option("source", options->source, "A run's folder, or a checkpoint in it")
-      ->required();
-  command
-      ->add_option("--format", options->format,
-                   "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two "
-                   "files for other "
-                   "engines' benches")
-      ->capture_default_str();
-  command->add_option("--output", options->output, "The file to write")
-      ->required()
-      ->type_name("FILE");
-  CLI::Option* time =
-      command->add_option("--time", options->time, "The stored frame nearest to this time [s]");
-  command->add_flag("--last", options->last, "The latest checkpoint (default)")->excludes(time);
-  command->footer(
-      "Examples:\n  ballast export results/vibrated_box --format vtp --time 0.25 --output "
-      "quarter.vtp\n"
-      "  ballast export results/vibrated_box/checkpoint.bin --format text --output state.txt");
-  command->callback([options, &action] { action = [options] { return export_run(*options); }; });
+Command export_command() {
+  const auto options = std::make_shared<ExportOptions>();
+  return {"export",
+          "Writes one state of a run for other programs",
+          {{"source", &options->source, "A run's folder, or a checkpoint in it", required},
+           {"--format", &options->format_name,
+            "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two files for "
+            "other engines' benches",
+            shown, into(options->format, export_format)},
+           {"--output FILE", &options->output, "The file to write", required},
+           {"--time", &options->time, "The stored frame nearest to this time [s]"},
+           {"--last", &options->last, "The latest checkpoint (default)", excludes("--time")}},
+          "Examples:\n"
+          "  ballast export results/vibrated_box --format vtp --time 0.25 --output quarter.vtp\n"
+          "  ballast export results/vibrated_box/checkpoint.bin --format text --output state.txt",
+          [options] { return export_run(*options); }};
 }
 
 }  // namespace ballast

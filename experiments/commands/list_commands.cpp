@@ -1,7 +1,5 @@
 // What there is: solvers, scenes, version.
 
-#include <CLI/CLI.hpp>
-
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -83,65 +81,53 @@ void print_version() {
 
 }  // namespace
 
-void add_solvers_command(CLI::App& program, Action& action) {
-  CLI::App* command =
-      program.add_subcommand("solvers", "Lists the solvers: name, law, whether built, what it is");
-  auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "As JSON");
-  command->callback([json, &action] {
-    action = [json] {
-      *json ? print_solvers_json() : print_solvers();
-      return ExitCode::ok;
-    };
-  });
+Command solvers_command() {
+  const auto json = std::make_shared<bool>(false);
+  return {"solvers",
+          "Lists the solvers: name, law, whether built, what it is",
+          {{"--json", json.get(), "As JSON"}},
+          "",
+          [json] {
+            *json ? print_solvers_json() : print_solvers();
+            return ExitCode::ok;
+          }};
 }
 
-void add_scenes_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("scenes", "Lists the scenes, or prints one");
+Command scenes_command() {
   struct Options {
     std::string name;
     std::vector<std::string> overrides;
     bool resolved = false, keys = false;
   };
-  auto options = std::make_shared<Options>();
-  command->add_option("name", options->name, "The scene to print: a start for one of your own");
-  command
-      ->add_flag("--resolved", options->resolved, "With every default filled in, as runs keep it")
-      ->needs("name");
-  command->add_option("--set", options->overrides, "With this override, resolved: dotted.key=value")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1)
-      ->needs("name");
-  command
-      ->add_flag("--keys", options->keys,
-                 "Every key of a scene file as Markdown: unit, default, what is expected, meaning")
-      ->excludes("name");
-  command->footer(
-      "Examples:\n  ballast scenes\n  ballast scenes incline > mine.toml\n  ballast scenes "
-      "vibrated_box --resolved");
-  command->callback([options, &action] {
-    action = [options] {
-      if (options->keys)
-        std::cout << scene_keys_markdown();
-      else if (options->name.empty())
-        print_scenes();
-      else
-        print_scene(options->name, options->overrides, options->resolved);
-      return ExitCode::ok;
-    };
-  });
+  const auto options = std::make_shared<Options>();
+  return {"scenes",
+          "Lists the scenes, or prints one",
+          {{"name", &options->name, "The scene to print: a start for one of your own"},
+           {"--resolved", &options->resolved, "With every default filled in, as runs keep it",
+            needs("name")},
+           {"--set KEY=VALUE", &options->overrides,
+            "With this override, resolved: dotted.key=value", needs("name")},
+           {"--keys", &options->keys,
+            "Every key of a scene file as Markdown: unit, default, what is expected, meaning",
+            excludes("name")}},
+          "Examples:\n  ballast scenes\n  ballast scenes incline > mine.toml\n"
+          "  ballast scenes vibrated_box --resolved",
+          [options] {
+            if (options->keys)
+              std::cout << scene_keys_markdown();
+            else if (options->name.empty())
+              print_scenes();
+            else
+              print_scene(options->name, options->overrides, options->resolved);
+            return ExitCode::ok;
+          }};
 }
 
-void add_version_command(CLI::App& program, Action& action) {
-  CLI::App* command =
-      program.add_subcommand("version", "Version, commit, compiler, libraries, processor");
-  command->callback([&action] {
-    action = [] {
-      print_version();
-      return ExitCode::ok;
-    };
-  });
+Command version_command() {
+  return {"version", "Version, commit, compiler, libraries, processor", {}, "", [] {
+            print_version();
+            return ExitCode::ok;
+          }};
 }
 
 }  // namespace ballast

@@ -1,5 +1,3 @@
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
@@ -66,8 +64,6 @@ ExitCode run_stages(const Campaign& campaign, const PaperOptions& options) {
 }
 
 ExitCode reproduce(PaperOptions options) {
-  if (!(options.running.max_seconds > 0.0))
-    throw UsageError("paper: --max-seconds: expected a number > 0");
   const std::vector<std::string> targets = paper_targets();
   const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
   if (!is_target && options.target != "plan" && options.target != "report")
@@ -93,51 +89,39 @@ ExitCode reproduce(PaperOptions options) {
 
 }  // namespace
 
-void add_paper_command(CLI::App& program, Action& action) {
-  CLI::App* command =
-      program.add_subcommand("paper", "Reproduces the paper: runs, figures 3 to 13, one report");
-  auto options = std::make_shared<PaperOptions>();
-  options->running.results = "results/paper";
-  options->running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  command
-      ->add_option("target", options->target,
-                   "What: all; " + joined(paper_targets()) +
-                       "; plan (lists the runs); report (draws what is there, runs nothing)")
-      ->required();
-  command
-      ->add_option("--jobs", options->running.jobs,
-                   "Runs at a time (as many as there are processors)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096));
-  command->add_option("--results", options->running.results, "The folder of runs (results/paper)")
-      ->type_name("DIR");
-  command->add_option("--output", options->output, "The folder of the report (<results>/report)")
-      ->type_name("DIR");
-  command
-      ->add_option(
-          "--max-seconds", options->running.max_seconds,
-          "Wall clock after which runs write checkpoints; the report is written all the same")
-      ->type_name("S");
-  command->add_option("--scene", options->campaign.scene, "Another vibrated box (vibrated_box)")
-      ->type_name("SCENE");
-  command->add_option("--set", options->campaign.overrides, "Overrides one value in every run")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1);
-  command->add_option("--seeds", options->campaign.seeds, "Samples of each scaling point (3)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000));
-  command
-      ->add_option("--iterations", options->campaign.iterations,
-                   "Solver iterations a step, where they are not what is varied")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000000));
-  command->footer(
-      "Finished runs are not made again; stopped ones go on. What is missing is said in the "
-      "report.\n\n"
-      "Examples:\n  ballast paper all --jobs 2\n  ballast paper fig9\n  ballast paper plan\n"
-      "  ballast paper report --results results/paper --output my_report");
-  command->callback([options, &action] { action = [options] { return reproduce(*options); }; });
+Command paper_command() {
+  const auto options = std::make_shared<PaperOptions>();
+  PlanOptions& running = options->running;
+  CampaignSettings& campaign = options->campaign;
+  running.results = "results/paper";
+  running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return {
+      "paper",
+      "Reproduces the paper: runs, figures 3 to 13, one report",
+      {{"target", &options->target,
+        "What: all; " + joined(paper_targets()) +
+            "; plan (lists the runs); report (draws what is there, runs nothing)",
+        required},
+       {"--jobs N", &running.jobs, "Runs at a time (as many as there are processors)",
+        between(1, 4096)},
+       {"--results DIR", &running.results, "The folder of runs (results/paper)"},
+       {"--output DIR", &options->output, "The folder of the report (<results>/report)"},
+       {"--max-seconds S", &running.max_seconds,
+        "Wall clock after which runs write checkpoints; the report is written all the same",
+        above(0)},
+       {"--scene SCENE", &campaign.scene, "Another vibrated box (vibrated_box)"},
+       {"--set KEY=VALUE", &campaign.overrides, "Overrides one value in every run"},
+       {"--seeds N", &campaign.seeds, "Samples of each scaling point (3)", between(1, 1000)},
+       {"--iterations N", &campaign.iterations,
+        "Solver iterations a step, where they are not what is varied", between(1, 1'000'000)}},
+      R"(Finished runs are not made again; stopped ones go on. What is missing is said in the report.
+
+Examples:
+  ballast paper all --jobs 2
+  ballast paper fig9
+  ballast paper plan
+  ballast paper report --results results/paper --output my_report)",
+      [options] { return reproduce(*options); }};
 }
 
 }  // namespace ballast

@@ -1,5 +1,3 @@
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
@@ -49,8 +47,6 @@ void list_runs(const Plan& plan, const PlanOptions& running) {
 }
 
 ExitCode run_planned(PlanRequest options) {
-  if (!(options.running.max_seconds > 0.0))
-    throw UsageError("plan: --max-seconds: expected a number > 0");
   const Plan plan = read_plan(options.plan);
   if (options.running.results.empty()) options.running.results = fs::path("results") / plan.name;
   if (options.dry_run) {
@@ -68,51 +64,45 @@ ExitCode run_planned(PlanRequest options) {
   return run_plan(plan, options.running);
 }
 
+constexpr const char* plan_footer =
+    R"(Finished runs are skipped, stopped ones go on at their checkpoints, failed ones are tried again:
+the same command continues after Ctrl-C, kill -9 or a power cut.
+
+Examples:
+  ballast plan frequencies.toml --jobs 2
+  ballast plan frequencies.toml --dry-run
+  ballast plan frequencies.toml --only 'nu-drive.frequency=5-*' --output results/shared
+  ballast plan frequencies.toml --snakemake cluster && cd cluster && snakemake -s Snakefile )"
+    "--profile slurm";
+
 }  // namespace
 
-void add_plan_command(CLI::App& program, Action& action) {
-  CLI::App* command =
-      program.add_subcommand("plan", "Many runs, several at a time, each only once");
-  command->alias("sweep");  // its name of before
-  auto options = std::make_shared<PlanRequest>();
-  options->running.results.clear();
-  options->running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  command->add_option("plan", options->plan, "A plan's file (docs/manual/plans.md)")->required();
-  command
-      ->add_option("--jobs", options->running.jobs,
-                   "Runs at a time (as many as there are processors)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 4096));
-  command
-      ->add_option("--output", options->running.results,
-                   "The folder of results (results/<plan>); plans may share one")
-      ->type_name("DIR");
-  command->add_option("--only", options->running.only, "Only runs whose names match: 'nu-*seed=1'")
-      ->type_name("PATTERN");
-  CLI::Option* dry_run =
-      command->add_flag("--dry-run", options->dry_run,
-                        "Lists the runs, their keys and how far they are; runs nothing");
-  command
-      ->add_option("--snakemake", options->snakemake,
-                   "Runs nothing, but writes the plan as a Snakefile with a profile for Slurm into "
-                   "this folder")
-      ->type_name("DIR")
-      ->excludes(dry_run);
-  command
-      ->add_option(
-          "--max-seconds", options->running.max_seconds,
-          "Wall clock after which everything writes a checkpoint and the program exits with 3")
-      ->type_name("S");
-  command->footer(
-      "Finished runs are skipped, stopped ones go on at their checkpoints, failed ones are tried "
-      "again:\n"
-      "the same command continues after Ctrl-C, kill -9 or a power cut.\n\n"
-      "Examples:\n  ballast plan frequencies.toml --jobs 2\n"
-      "  ballast plan frequencies.toml --dry-run\n"
-      "  ballast plan frequencies.toml --only 'nu-drive.frequency=5-*' --output results/shared\n"
-      "  ballast plan frequencies.toml --snakemake cluster && cd cluster && snakemake -s "
-      "Snakefile --profile slurm");
-  command->callback([options, &action] { action = [options] { return run_planned(*options); }; });
+Command plan_command() {
+  const auto options = std::make_shared<PlanRequest>();
+  PlanOptions& running = options->running;
+  running.results.clear();
+  running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return {"plan",
+          "Many runs, several at a time, each only once",
+          {{"plan", &options->plan, "A plan's file (docs/manual/plans.md)", required},
+           {"--jobs N", &running.jobs, "Runs at a time (as many as there are processors)",
+            between(1, 4096)},
+           {"--output DIR", &running.results,
+            "The folder of results (results/<plan>); plans may share one"},
+           {"--only PATTERN", &running.only, "Only runs whose names match: 'nu-*seed=1'"},
+           {"--dry-run", &options->dry_run,
+            "Lists the runs, their keys and how far they are; runs nothing"},
+           {"--snakemake DIR", &options->snakemake,
+            "Runs nothing, but writes the plan as a Snakefile with a profile for Slurm into this "
+            "folder",
+            excludes("--dry-run")},
+           {"--max-seconds S", &running.max_seconds,
+            "Wall clock after which everything writes a checkpoint and the program exits with 3",
+            above(0)}},
+          plan_footer,
+          [options] { return run_planned(*options); },
+          {},
+          "sweep"};  // its name of before
 }
 
 }  // namespace ballast

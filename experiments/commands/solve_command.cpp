@@ -1,7 +1,5 @@
 // Stored problems through one solver, with every measure of the judge.
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,16 +135,8 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
 }
 
 ExitCode solve(const SolveOptions& options) {
-  if (!(options.tolerance >= 0.0) || !std::isfinite(options.tolerance))
-    throw UsageError("solve: --tolerance: expected a number >= 0");
-  if (options.max_iterations < 1)
-    throw UsageError("solve: --max-iterations: expected a number >= 1");
-  if (!(options.max_seconds > 0.0)) throw UsageError("solve: --max-seconds: expected a number > 0");
-  try {
-    make_solver(options.solver);  // before any file is read
-  } catch (const UnknownSolver& error) {
-    throw UsageError(error.what());
-  }
+  if (std::isinf(options.tolerance))
+    throw UsageError("solve: --tolerance: expected a finite number");
   size_t width = 7;
   for (const std::string& file : options.files)
     width = std::max(width, std::filesystem::path(file).filename().string().size());
@@ -187,22 +177,22 @@ Examples:
 
 }  // namespace
 
-void add_solve_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand(
-      "solve", "Solves stored problems and prints every measure of their errors");
-  auto options = std::make_shared<SolveOptions>();
-  command->add_option("files", options->files, "Problems: FCLIB .hdf5, Siconos .dat")->required();
-  command->add_option("--solver", options->solver, "As listed by ballast solvers")
-      ->capture_default_str();
-  command->add_option("--tolerance", options->tolerance, "Relative to the velocity scale")
-      ->capture_default_str();
-  command->add_flag("--absolute", options->absolute, "The tolerance is in m/s");
-  command->add_option("--max-iterations", options->max_iterations, "Sweeps, Newton steps, ...")
-      ->capture_default_str();
-  command->add_option("--max-seconds", options->max_seconds, "Wall clock per problem");
-  command->add_flag("--json", options->json, "Rows as JSON instead of a table");
-  command->footer(solve_footer);
-  command->callback([options, &action] { action = [options] { return solve(*options); }; });
+Command solve_command() {
+  const auto options = std::make_shared<SolveOptions>();
+  return {
+      "solve",
+      "Solves stored problems and prints every measure of their errors",
+      {{"files", &options->files, "Problems: FCLIB .hdf5, Siconos .dat", required},
+       {"--solver", &options->solver, "As listed by ballast solvers", shown,
+        parsed([](const std::string& name) { make_solver(name); })},
+       {"--tolerance", &options->tolerance, "Relative to the velocity scale", shown, at_least(0)},
+       {"--absolute", &options->absolute, "The tolerance is in m/s"},
+       {"--max-iterations", &options->max_iterations, "Sweeps, Newton steps, ...", shown,
+        at_least(1)},
+       {"--max-seconds", &options->max_seconds, "Wall clock per problem", above(0)},
+       {"--json", &options->json, "Rows as JSON instead of a table"}},
+      solve_footer,
+      [options] { return solve(*options); }};
 }
 
 }  // namespace ballast

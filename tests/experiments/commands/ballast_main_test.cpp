@@ -46,8 +46,8 @@ TEST_CASE("help names every command and every exit code") {
   CHECK(help.err.empty());
   for (const Command& command : commands())
     // a comma where it has an alias
-    CHECK_THAT(help.out, Catch::Contains(std::string("\n  ") + command.name + " ") ||
-                             Catch::Contains(std::string("\n  ") + command.name + ","));
+    CHECK_THAT(help.out, Catch::Contains("\n  " + command.name + " ") ||
+                             Catch::Contains("\n  " + command.name + ","));
   CHECK_THAT(help.out, Catch::Contains("4  the solver was built without the library it needs"));
 }
 

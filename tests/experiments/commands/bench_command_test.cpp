@@ -35,9 +35,9 @@ TEST_CASE("steps are measured, and how is kept with them") {
   REQUIRE(result.status == 0);
   CHECK_THAT(result.output, Catch::Contains("1 thread, all/step"));
   const BenchResult kept = read_bench_result(output / "step.json");
-  CHECK(kept.command ==
-        "ballast bench step --steps 5 --threads 1 vibrated_box_small --set 'grains.count=12' --set "
-        "'box.length=0.12' --set 'box.width=0.12' --set 'control_volume.margin_x=0.02'");
+  CHECK_THAT(kept.command,
+             Catch::StartsWith("ballast bench step vibrated_box_small --set grains.count=12 ") &&
+                 Catch::Contains(" --steps 5 --no-plot "));
   REQUIRE_FALSE(kept.measurements.empty());
   CHECK(kept.measurements[0].samples == 5);
   CHECK_FALSE(std::filesystem::exists(output / "step.svg"));

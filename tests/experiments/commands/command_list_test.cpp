@@ -12,11 +12,11 @@ TEST_CASE("every row of the table adds the command of its name, with words of it
   for (const Command& command : commands()) {
     INFO(command.name);
     CHECK(names.insert(command.name).second);
-    const char* arguments[] = {"ballast", command.name, "--help"};
+    const char* arguments[] = {"ballast", command.name.c_str(), "--help"};
     std::ostringstream out, err;
     CHECK(ballast_main(3, arguments, out, err) == 0);
     CHECK(err.str().empty());
-    CHECK_THAT(out.str(), Catch::Contains("ballast " + std::string(command.name) + " "));
+    CHECK_THAT(out.str(), Catch::Contains("ballast " + command.name + " "));
     CHECK(helps.insert(out.str().substr(0, out.str().find('\n'))).second);
   }
 }
