@@ -16,6 +16,7 @@ namespace {
 constexpr char magic[8] = {'B', 'A', 'L', 'L', 'R', 'O', 'W', 'S'};
 constexpr std::uint32_t version = 1;
 constexpr std::uint32_t byte_order = 0x01020304;
+constexpr std::uint64_t largest_row = std::uint64_t{1} << 32;  // numbers: 300 million bodies
 
 struct FixedHeader {
   char magic[8];
@@ -62,10 +63,11 @@ RowReader::RowReader(const std::filesystem::path& file)
   if (error) throw Error(path_.string() + ": cannot read: " + error.message());
   // The length of the file says how many whole rows there may be; their checksums decide later.
   row_count_ = static_cast<long>((bytes - header_bytes_) / row_bytes(header_.row_size));
-  if (row_count_ < safe_count_)
+  if (safe_count_ < 0 || row_count_ < safe_count_)
     throw Error(path_.string() + ": is truncated: " + std::to_string(row_count_) + " rows of " +
                 std::to_string(safe_count_) + " are there");
-  values_.resize(header_.row_size);
+  // Memory only for a row that the file is long enough for.
+  if (row_count_ > 0) values_.resize(header_.row_size);
 }
 
 void RowReader::read_header() {
@@ -84,6 +86,9 @@ void RowReader::read_header() {
     refuse("is damaged: the checksum of its count of rows is wrong");
   const std::uintmax_t bytes = std::filesystem::file_size(path_);
   if (fixed.text_length > bytes) refuse("is truncated in its header");
+  // A row has a number at least; the bytes of one can be counted.
+  if (fixed.row_size == 0 || fixed.row_size > largest_row)
+    refuse("is damaged: a row of " + std::to_string(fixed.row_size) + " numbers");
   header_.text.resize(fixed.text_length);
   read(header_.text.data(), header_.text.size());
   std::uint64_t checksum;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/record/bits_generation.hpp"
 #include "platform/error.hpp"
 #include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
@@ -179,6 +180,7 @@ void write_record_file(const std::filesystem::path& path, const MechanicalSystem
                        const std::string& manifest_text) {
   Hdf5Writer file(path, Hdf5Storage::compressed);
   file.add_attribute("/", "format", "ballast record 2");
+  file.add_attribute("/", "bits_generation", std::to_string(bits_generation));
   file.add_attribute("/", "scene", scene_text);
   file.add_attribute("/", "manifest", manifest_text);
   add_steps(file, steps);

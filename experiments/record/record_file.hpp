@@ -1,7 +1,8 @@
 #pragma once
 // record.h5: all that a run recorded, in one file that explains itself.
 //
-//   /                attributes format ("ballast record 2"), scene (TOML), manifest (JSON)
+//   /                attributes format ("ballast record 2"), bits_generation (bits_generation.hpp),
+//                    scene (TOML), manifest (JSON)
 //   /steps/<column>  (steps): one dataset for each column of step_columns()
 //   /poses/time, step                 (frames)
 //   /poses/position, velocity, spin   (frames, bodies, 3): world frame; spin in the body frame

@@ -160,3 +160,16 @@ TEST_CASE("a row of another size is refused") {
   CHECK_THROWS_WITH(writer.append(std::vector<double>(2)),
                     Catch::Contains("log: a row of 2 numbers instead of 3"));
 }
+
+TEST_CASE("a size of rows that no file can hold is refused, not asked of memory or divided by") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "log";
+  // 2^61 - 1: the bytes of a row and its checksum would be 2^64, which is zero
+  for (const size_t size : {size_t{0}, (size_t{1} << 61) - 1, size_t{1} << 40}) {
+    RowWriter(file, {"", 0, size});
+    CHECK(read_all(file) == "is damaged: a row of " + std::to_string(size) + " numbers");
+  }
+  // 32 GB a row, and no row there yet: a log that has just begun
+  RowWriter(file, {"", 0, size_t{1} << 32});
+  CHECK(RowReader(file).next().empty());
+}

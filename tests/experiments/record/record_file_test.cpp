@@ -1,5 +1,6 @@
 #include "experiments/record/record_file.hpp"
 
+#include "experiments/record/bits_generation.hpp"
 #include "platform/hdf5_reader.hpp"
 #include "tests/support/sample_record.hpp"
 
@@ -33,6 +34,7 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
   const Hdf5Reader file(folder.path() / "record.h5");
   CHECK(file.read_attribute("/", "scene") == scene);
   CHECK(file.read_attribute("/", "manifest") == manifest);
+  CHECK(file.read_attribute("/", "bits_generation") == std::to_string(bits_generation));
   for (const StepColumn& column : step_columns()) {
     const std::string name = std::string("steps/") + column.name;
     CHECK(file.read_attribute(name, "unit") == column.unit);
