@@ -1,30 +1,14 @@
 #include "solvers/parts/sparse_factor.hpp"
 
-#include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include <cholmod.h>
 #include <umfpack.h>
 
+#include "solvers/parts/front_lu.hpp"
+
 namespace ballast {
-
-/// Remembers a pattern; tells whether the next one is the same.
-class SparsePattern {
- public:
-  bool is(const SparseColumns& a) const {
-    return static_cast<Eigen::Index>(outer_.size()) == a.outerSize() + 1 &&
-           static_cast<Eigen::Index>(inner_.size()) == a.nonZeros() &&
-           std::equal(outer_.begin(), outer_.end(), a.outerIndexPtr()) &&
-           std::equal(inner_.begin(), inner_.end(), a.innerIndexPtr());
-  }
-  void take(const SparseColumns& a) {
-    outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
-    inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
-  }
-
- private:
-  std::vector<int> outer_, inner_;
-};
 
 bool has_sparse_factors() { return true; }
 
@@ -154,6 +138,37 @@ void LuFactor::solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::Ve
   s.control[UMFPACK_IRSTEP] = refinements;
   umfpack_di_wsolve(UMFPACK_A, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), x.data(),
                     b.data(), s.numeric, s.control, s.info, s.index_work.data(), s.work.data());
+}
+
+std::vector<int> dissection_order(const BlockGraph& graph) {
+  // The graph as the pattern of a symmetric matrix's lower triangle.
+  const int nodes = graph.node_count();
+  std::vector<int> outer{0}, inner, order(nodes);
+  for (int k = 0; k < nodes; ++k) {
+    for (int i = graph.begin[k]; i < graph.begin[k + 1]; ++i)
+      if (graph.neighbour[i] > k) inner.push_back(graph.neighbour[i]);
+    outer.push_back(static_cast<int>(inner.size()));
+  }
+  std::iota(order.begin(), order.end(), 0);
+  if (inner.empty()) return order;
+  cholmod_sparse view{};
+  view.nrow = view.ncol = static_cast<size_t>(nodes);
+  view.nzmax = inner.size();
+  view.p = outer.data();
+  view.i = inner.data();
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_PATTERN;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  cholmod_common common;
+  cholmod_start(&common);
+  common.print = 0;
+  if (!cholmod_metis(&view, nullptr, 0, 1, order.data(), &common))
+    std::iota(order.begin(), order.end(), 0);
+  cholmod_finish(&common);
+  return order;
 }
 
 }  // namespace ballast

@@ -1,5 +1,6 @@
 #pragma once
-// Sparse factorisations by SuiteSparse: the only place that knows CHOLMOD and UMFPACK.
+// Sparse factorisations by SuiteSparse: the only place that knows CHOLMOD and UMFPACK. Beside them
+// stands our own, parts/front_lu, for matrices whose unknowns come in blocks.
 //
 // Both keep the symbolic analysis while the pattern stays the same, so that a sequence of matrices
 // is ordered once.
@@ -7,11 +8,10 @@
 #include <memory>
 
 #include <Eigen/Dense>
-#include <Eigen/Sparse>
+
+#include "solvers/parts/sparse_pattern.hpp"
 
 namespace ballast {
-
-using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
 /// This build has SuiteSparse. Where it has not, sparse_factor_missing.cpp stands in: whatever
 /// factorises still compiles and links, factor() throws UnsupportedProblem, and the list of solvers

@@ -1,0 +1,68 @@
+#pragma once
+// Multifrontal LU without pivoting, for the matrices of Newton's steps on bodies: M + H^T K H.
+//
+// Their symmetric part is nearly always positive definite and large on the diagonal, so that rows
+// need not be exchanged; whoever solves looks at the residual. What is saved against a general LU:
+// the analysis works on bodies, the fronts are dense and go through BLAS, and the pattern's
+// symmetry halves the bookkeeping. Needs SuiteSparse (the ordering) and BLAS, like sparse_factor:
+// without them analyse() throws UnsupportedProblem.
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solvers/parts/front_tree.hpp"
+#include "solvers/parts/sparse_pattern.hpp"
+
+namespace ballast {
+
+/// An order of elimination with little fill: nested dissection of the graph by METIS, a function of
+/// the graph alone. Where nodes are few or the library is content with less, it may be another
+/// order.
+std::vector<int> dissection_order(const BlockGraph& graph);
+
+/// A = L U in an order of its own.
+class FrontLu {
+ public:
+  /// Orders and analyses. `a` square, compressed, any pattern; `unknown_begin[k]` is the first
+  /// unknown of block k, from 0 to the size of `a`. Where the pattern is the last one's, nothing is
+  /// done; where only the graph of the blocks is, no new order is looked for.
+  void analyse(const SparseColumns& a, const std::vector<int>& unknown_begin);
+  /// `a` with the pattern of analyse(). False: a pivot is not finite, or below 1e-14 of the
+  /// largest entry of its column in `a`; solve() must then not be called.
+  bool factor(const SparseColumns& a);
+  /// x = A^-1 b. `x` may be `b`.
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
+  /// What a factorisation costs: multiplications and additions in dense blocks.
+  double operations() const;
+  const FrontTree& tree() const { return tree_; }
+
+ private:
+  /// An entry of the matrix and where it goes among a front's numbers.
+  struct Entry {
+    int from, to;
+  };
+  void layout();
+  void place_entries(const SparseColumns& a);
+  void assemble(const Front& front, int number, const double* values, double* boundary);
+  void extend_add(const Front& child, const double* from, const Front& front, double* boundary);
+  bool eliminate(const Front& front, double* boundary);
+
+  SparsePattern pattern_;
+  BlockGraph graph_;
+  FrontTree tree_;
+  /// A front's numbers, from numbers_begin_: its own columns (rows x own, column-major), in which L
+  /// below and U above the diagonal come to stand, then the rest of its own rows (own x boundary).
+  std::vector<double> numbers_;
+  std::vector<std::int64_t> numbers_begin_;
+  std::vector<Entry> entries_;      ///< by front
+  std::vector<int> entries_begin_;  ///< fronts + 1
+  /// Boundaries that wait for their parents (boundary x boundary, column-major), one on the other.
+  std::vector<double> stack_;
+  std::vector<double> largest_;  ///< by place: the largest entry of the column in the matrix
+  Eigen::VectorXd work_, below_;
+};
+
+}  // namespace ballast

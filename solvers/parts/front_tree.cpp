@@ -1,0 +1,199 @@
+#include "solvers/parts/front_tree.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ballast {
+namespace {
+
+/// The elimination tree on nodes numbered by the order of elimination.
+struct NodeTree {
+  std::vector<int> parent;                 ///< -1: a root
+  std::vector<std::vector<int>> boundary;  ///< nodes eliminated later that a node sees, ascending
+};
+
+/// `order` with every subtree of the elimination tree in one piece, children before parents.
+std::vector<int> postorder(const std::vector<int>& parent, const std::vector<int>& weight) {
+  const int n = static_cast<int>(parent.size());
+  // The heaviest child last: it is the one that can be joined with its parent.
+  std::vector<std::vector<int>> children(n);
+  std::vector<int> roots;
+  for (int k = 0; k < n; ++k) (parent[k] < 0 ? roots : children[parent[k]]).push_back(k);
+  for (std::vector<int>& list : children)
+    std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return weight[a] < weight[b]; });
+  std::vector<int> result, stack;
+  std::vector<std::size_t> next(n, 0);
+  for (const int root : roots) {
+    stack.push_back(root);
+    while (!stack.empty()) {
+      const int k = stack.back();
+      if (next[k] < children[k].size()) {
+        stack.push_back(children[k][next[k]++]);
+      } else {
+        result.push_back(k);
+        stack.pop_back();
+      }
+    }
+  }
+  return result;
+}
+
+/// The tree, and what every node sees when its turn comes: its own later neighbours and what its
+/// children saw.
+NodeTree eliminate(const BlockGraph& graph, const std::vector<int>& order) {
+  const int n = graph.node_count();
+  std::vector<int> turn(n);
+  for (int k = 0; k < n; ++k) turn[order[k]] = k;
+  NodeTree tree{std::vector<int>(n, -1), std::vector<std::vector<int>>(n)};
+  std::vector<std::vector<int>> children(n);
+  std::vector<int> seen(n, -1);
+  for (int k = 0; k < n; ++k) {
+    std::vector<int>& boundary = tree.boundary[k];
+    seen[k] = k;
+    const auto see = [&](int other) {
+      if (other < k || seen[other] == k) return;
+      seen[other] = k;
+      boundary.push_back(other);
+    };
+    for (int i = graph.begin[order[k]]; i < graph.begin[order[k] + 1]; ++i)
+      see(turn[graph.neighbour[i]]);
+    for (const int child : children[k])
+      for (const int other : tree.boundary[child]) see(other);
+    std::sort(boundary.begin(), boundary.end());
+    if (boundary.empty()) continue;
+    tree.parent[k] = boundary.front();
+    children[boundary.front()].push_back(k);
+  }
+  return tree;
+}
+
+/// Some consecutive nodes that become one front.
+struct Group {
+  int first_node, last_node;  ///< inclusive; the boundary is the last node's
+  int own;                    ///< unknowns
+  double zeros = 0.0;         ///< stored although nothing fills them
+};
+
+/// Entries of a front's columns on and below the diagonal.
+double entries(double own, double boundary) { return own * (own + 1.0) / 2.0 + own * boundary; }
+
+/// Small fronts are joined gladly, large ones only where hardly a zero is stored. The steps are
+/// CHOLMOD's, in unknowns.
+bool worth_joining(int own, double zero_share) {
+  if (own <= 4 || zero_share == 0.0) return true;
+  if (own <= 16) return zero_share < 0.8;
+  if (own <= 48) return zero_share < 0.1;
+  return zero_share < 0.05;
+}
+
+/// Each node a group of its own, then joined with the group before it wherever that is its child
+/// and it pays. `size` in unknowns, `seen[k]`: unknowns on node k's boundary.
+std::vector<Group> join(const NodeTree& tree, const std::vector<int>& size,
+                        const std::vector<int>& seen) {
+  std::vector<Group> groups;
+  for (int k = 0; k < static_cast<int>(size.size()); ++k) {
+    groups.push_back({k, k, size[k]});
+    while (groups.size() > 1) {
+      const Group &child = groups[groups.size() - 2], &parent = groups.back();
+      if (tree.parent[child.last_node] < 0 || tree.parent[child.last_node] > parent.last_node)
+        break;
+      const int own = child.own + parent.own, boundary = seen[parent.last_node];
+      const double zeros =
+          child.zeros + parent.zeros +
+          static_cast<double>(child.own) * (parent.own + boundary - seen[child.last_node]);
+      if (!worth_joining(own, zeros / entries(own, boundary))) break;
+      const Group joined{child.first_node, parent.last_node, own, zeros};
+      groups.pop_back();
+      groups.back() = joined;
+    }
+  }
+  return groups;
+}
+
+}  // namespace
+
+BlockGraph block_graph(const std::vector<int>& unknown_begin, const int* outer, const int* inner) {
+  BlockGraph graph;
+  graph.unknown_begin = unknown_begin;
+  const int nodes = graph.node_count();
+  std::vector<int> node_of(graph.unknown_count());
+  for (int k = 0; k < nodes; ++k)
+    std::fill(node_of.begin() + unknown_begin[k], node_of.begin() + unknown_begin[k + 1], k);
+  // Every pair that an entry joins, from both ends, once.
+  std::vector<std::vector<int>> near(nodes);
+  std::vector<int> met(nodes, -1);
+  for (int k = 0; k < nodes; ++k) {
+    met[k] = k;
+    for (int i = outer[unknown_begin[k]]; i < outer[unknown_begin[k + 1]]; ++i) {
+      const int other = node_of[inner[i]];
+      if (met[other] == k) continue;
+      met[other] = k;
+      near[k].push_back(other);
+      near[other].push_back(k);
+    }
+  }
+  for (std::vector<int>& list : near) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    graph.neighbour.insert(graph.neighbour.end(), list.begin(), list.end());
+    graph.begin.push_back(static_cast<int>(graph.neighbour.size()));
+  }
+  return graph;
+}
+
+FrontTree make_front_tree(const BlockGraph& graph, const std::vector<int>& order) {
+  const int nodes = graph.node_count();
+  // The order, then the same with every subtree in one piece.
+  const NodeTree unordered = eliminate(graph, order);
+  std::vector<int> weight(nodes);
+  for (int k = 0; k < nodes; ++k) weight[k] = static_cast<int>(unordered.boundary[k].size());
+  std::vector<int> ordered = postorder(unordered.parent, weight);
+  for (int& k : ordered) k = order[k];
+  const NodeTree tree = eliminate(graph, ordered);
+
+  // Places of nodes and unknowns; how many unknowns each boundary has.
+  FrontTree result;
+  result.place.resize(graph.unknown_count());
+  std::vector<int> size(nodes), seen(nodes, 0), node_place(nodes + 1, 0);
+  for (int k = 0; k < nodes; ++k) {
+    size[k] = graph.size(ordered[k]);
+    node_place[k + 1] = node_place[k] + size[k];
+    for (int i = 0; i < size[k]; ++i)
+      result.place[graph.unknown_begin[ordered[k]] + i] = node_place[k] + i;
+  }
+  for (int k = 0; k < nodes; ++k)
+    for (const int other : tree.boundary[k]) seen[k] += size[other];
+
+  // Groups become fronts with their rows.
+  const std::vector<Group> groups = join(tree, size, seen);
+  std::vector<int> front_of(nodes);
+  for (int f = 0; f < static_cast<int>(groups.size()); ++f) {
+    const Group& group = groups[f];
+    std::fill(front_of.begin() + group.first_node, front_of.begin() + group.last_node + 1, f);
+    Front front{.first = node_place[group.first_node],
+                .own = group.own,
+                .rows = group.own + seen[group.last_node],
+                .rows_begin = static_cast<int>(result.places.size())};
+    for (int i = 0; i < front.own; ++i) result.places.push_back(front.first + i);
+    for (const int node : tree.boundary[group.last_node])
+      for (int i = 0; i < size[node]; ++i) result.places.push_back(node_place[node] + i);
+    result.fronts.push_back(front);
+  }
+  // Parents, and where each boundary row stands in the parent's front.
+  result.row_in_parent.assign(result.places.size(), -1);
+  for (int f = 0; f < static_cast<int>(groups.size()); ++f) {
+    Front& front = result.fronts[f];
+    const int parent = tree.parent[groups[f].last_node];
+    if (parent < 0) continue;
+    front.parent = front_of[parent];
+    ++result.fronts[front.parent].child_count;
+    int row = result.fronts[front.parent].rows_begin;
+    for (int i = front.rows_begin + front.own; i < front.rows_begin + front.rows; ++i) {
+      while (result.places[row] != result.places[i]) ++row;
+      result.row_in_parent[i] = row - result.fronts[front.parent].rows_begin;
+    }
+  }
+  return result;
+}
+
+}  // namespace ballast

@@ -1,0 +1,55 @@
+#pragma once
+// The symbolic half of a multifrontal factorisation: which unknowns are eliminated together, and
+// what their elimination touches. Pure bookkeeping on a graph, without any library.
+//
+// Unknowns come in blocks, one per node of a graph (a body has six, a contact three), and are
+// always eliminated block by block. So the analysis looks at thousands of nodes, not at tens of
+// thousands of unknowns. Liu 1992, "The multifrontal method for sparse matrix solution".
+
+#include <vector>
+
+namespace ballast {
+
+/// Nodes, each with some unknowns, and who is next to whom.
+struct BlockGraph {
+  std::vector<int> unknown_begin{0};  ///< node k has unknowns unknown_begin[k] ..; nodes + 1
+  std::vector<int> begin{0};          ///< of each node's neighbours; nodes + 1
+  std::vector<int> neighbour;  ///< ascending, each edge from both ends, never the node itself
+
+  int node_count() const { return static_cast<int>(unknown_begin.size()) - 1; }
+  int unknown_count() const { return unknown_begin.back(); }
+  int size(int node) const { return unknown_begin[node + 1] - unknown_begin[node]; }
+  bool operator==(const BlockGraph&) const = default;
+};
+
+/// The graph of a square matrix in columns (`outer`, `inner` as Eigen stores them) whose unknowns
+/// come in blocks: nodes are neighbours where any entry, on either side of the diagonal, joins
+/// them.
+BlockGraph block_graph(const std::vector<int>& unknown_begin, const int* outer, const int* inner);
+
+/// A front eliminates its own unknowns and passes what remains, a dense matrix on its boundary, to
+/// its parent. A place is an unknown's number in the order of elimination.
+struct Front {
+  int first = 0;        ///< place of its first own unknown; the others follow
+  int own = 0;          ///< how many it eliminates
+  int rows = 0;         ///< own, then the boundary
+  int rows_begin = 0;   ///< in FrontTree::places: the places of all its rows, ascending
+  int parent = -1;      ///< -1: a root, whose boundary is empty
+  int child_count = 0;  ///< its children are the last ones before it that have no parent yet
+  int boundary() const { return rows - own; }
+};
+
+/// All fronts, children before parents: exactly the order of a stack of boundaries.
+struct FrontTree {
+  std::vector<int> place;  ///< of every unknown
+  std::vector<Front> fronts;
+  std::vector<int> places;  ///< see Front::rows_begin
+  /// Beside `places`: for a boundary row, its row in the parent's front; -1 for own rows.
+  std::vector<int> row_in_parent;
+};
+
+/// `order[k]` is the node to eliminate k-th; the tree may exchange nodes that do not see each
+/// other. Fronts that are nearly alike are joined: some zeros are stored for larger dense blocks.
+FrontTree make_front_tree(const BlockGraph& graph, const std::vector<int>& order);
+
+}  // namespace ballast
