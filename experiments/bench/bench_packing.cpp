@@ -73,41 +73,36 @@ BenchStart tiled_start(const DepositedBox& box, int nx, int ny) {
   Scene scene = box.scene;
   scene.box.length *= nx;
   scene.box.width *= ny;
-  const int grains = static_cast<int>(box.rain.grains.size());
-  const TileMap map(grains, nx, ny);
+  const size_t grains = box.rain.grains.size();
+  const TileMap map(static_cast<int>(grains), nx, ny);
+  const auto shift = [&](size_t ix, size_t iy) {
+    return Vec3(ix * box.scene.box.length, iy * box.scene.box.width, 0.0);
+  };
   Rain rain;
   BenchStart start;
-  MotionState& state = start.state;
   for (int iy = 0; iy < ny; ++iy)
     for (int ix = 0; ix < nx; ++ix) {
-      const Vec3 shift(ix * box.scene.box.length, iy * box.scene.box.width, 0.0);
       rain.grains.insert(rain.grains.end(), box.rain.grains.begin(), box.rain.grains.end());
-      for (int b = 0; b < grains; ++b) {
-        state.pose.push_back(
-            {box.packing.state.pose[b].position + shift, box.packing.state.pose[b].rotation});
-        state.velocity.push_back(box.packing.state.velocity[b]);
-        state.spin.push_back(box.packing.state.spin[b]);
-      }
       for (size_t c = 0; c < box.packing.memory.contacts.size(); ++c) {
         ContactPoint contact = box.packing.memory.contacts[c];
         contact.body_a = map.body(contact.body_a, ix, iy);
         contact.body_b = map.body(contact.body_b, ix, iy);
         if (contact.body_a < 0 || contact.body_b < 0) continue;
-        contact.position += shift;
+        contact.position += shift(ix, iy);
         start.memory.contacts.push_back(contact);
         start.memory.impulses.push_back(box.packing.memory.impulses[c]);
       }
     }
   sort_memory(start.memory);
-  start.system = box_system(scene, rain, BoxStage::settle, box.packing.deposit.lid);
-  for (int w = 0; w < box_wall_count; ++w) {
-    const WallSpec& wall = start.system.bodies[start.system.grain_count + w].wall;
-    Pose pose;
-    pose.position = wall.offset * wall.normal;
-    state.pose.push_back(pose);
+  start.system = box_system(scene, rain, BoxStage::settle, box.packing.deposit.lid, &start.state);
+  // the grains of each copy are where they rest in the packing, not where they begin to rain
+  for (size_t b = 0; b < rain.grains.size(); ++b) {
+    const size_t tile = b / grains, grain = b % grains;
+    start.state.pose[b] = box.packing.state.pose[grain];
+    start.state.pose[b].position += shift(tile % nx, tile / nx);
+    start.state.velocity[b] = box.packing.state.velocity[grain];
+    start.state.spin[b] = box.packing.state.spin[grain];
   }
-  state.velocity.resize(state.pose.size(), Vec3::Zero());
-  state.spin.resize(state.pose.size(), Vec3::Zero());
   return start;
 }
 

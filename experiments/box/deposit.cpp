@@ -75,16 +75,7 @@ class Depositor {
 
   void start() {
     packing_.deposit.lid = 2.0 * rain_.height;  // out of the way
-    const MechanicalSystem system = box_system(scene_, rain_, BoxStage::rain, packing_.deposit.lid);
-    for (const BodySpec& grain : rain_.grains) packing_.state.pose.push_back(grain.pose);
-    for (int w = 0; w < box_wall_count; ++w) {
-      Pose pose;
-      const WallSpec& wall = system.bodies[system.grain_count + w].wall;
-      pose.position = wall.offset * wall.normal;
-      packing_.state.pose.push_back(pose);
-    }
-    packing_.state.velocity.assign(packing_.state.pose.size(), Vec3::Zero());
-    packing_.state.spin.assign(packing_.state.pose.size(), Vec3::Zero());
+    box_system(scene_, rain_, BoxStage::rain, packing_.deposit.lid, &packing_.state);
   }
 
   bool rain_to_rest() {

@@ -78,17 +78,8 @@ void drive_by(WallSpec& spec, double mass, const HarmonicLoad& load) {
 }  // namespace
 
 const char* name_of(BoxStage stage) {
-  switch (stage) {
-    case BoxStage::rain:
-      return "rain";
-    case BoxStage::press:
-      return "press";
-    case BoxStage::settle:
-      return "settle";
-    case BoxStage::drive:
-      return "drive";
-  }
-  return "?";
+  constexpr const char* names[] = {"rain", "press", "settle", "drive"};
+  return names[static_cast<size_t>(stage)];
 }
 
 Rain make_rain(const Scene& scene) {
@@ -125,15 +116,16 @@ Vec3 deposit_gravity(const Scene& scene) {
   return scene.deposit.gravity > 0.0 ? Vec3(0, 0, -scene.deposit.gravity) : scene.gravity;
 }
 
-MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage, double lid) {
+MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage, double lid,
+                            MotionState* start) {
   MechanicalSystem system;
-  MotionState unused;
+  MotionState state;
   const bool deposits = stage != BoxStage::drive;
   system.gravity = deposits ? deposit_gravity(scene) : scene.gravity;
   system.friction = deposits ? scene.deposit.friction : scene.friction;
   system.restitution = scene.restitution;
   for (const BodySpec& grain : rain.grains)
-    add_body(system, unused, grain, grain.mass / scene.grains->density);
+    add_body(system, state, grain, grain.mass / scene.grains->density);
 
   const BoxSpec& box = scene.box;
   const double horizontal = deposits ? scene.deposit.friction : box.friction_horizontal;
@@ -155,7 +147,8 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
     drive_by(walls[wall_x_max], drive.wall_mass_over_grains * mass,
              {drive.f_min_over_weight * weight, drive.f_max_over_weight * weight, drive.frequency});
   }
-  for (const WallSpec& spec : walls) add_wall(system, unused, spec);
+  for (const WallSpec& spec : walls) add_wall(system, state, spec);
+  if (start) *start = std::move(state);
   return system;
 }
 

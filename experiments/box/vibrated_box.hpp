@@ -33,7 +33,9 @@ struct Rain {
 Rain make_rain(const Scene& scene);
 
 /// The system of one stage. `lid`: height of the lid's plane at the start of the stage [m].
-MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage, double lid);
+/// `start`, where it is given: grains as they are in the rain, and the walls, all at rest.
+MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage, double lid,
+                            MotionState* start = nullptr);
 
 /// Gravity while depositing [m/s^2]: deposit.gravity, else the scene's.
 Vec3 deposit_gravity(const Scene& scene);

@@ -8,6 +8,7 @@
 #include "experiments/record/checkpoint.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
+#include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
@@ -22,76 +23,71 @@ struct CheckOptions {
   bool hull = false;
 };
 
-void check_scene(const std::string& file, const CheckOptions& options) {
+std::string check_scene(const std::string& file, const CheckOptions& options) {
   const Scene scene = read_scene(file, options.overrides);
   make_solver(scene.solver.name);
-  std::cout << file << ": scene " << scene.name << ": ";
-  if (scene.grains)
-    std::cout << scene.grains->count << " grains in a box of " << scene.box.length << " m x "
-              << scene.box.width << " m, driven at " << scene.drive.frequency << " Hz";
-  else
-    std::cout << scene.bodies.size() << " bodies, " << scene.walls.size() << " walls";
-  std::cout << ", " << scene.step_count() << " steps of " << scene.step << " s, solver "
-            << scene.solver.name << '\n';
+  const std::string what =
+      scene.grains
+          ? printed("%d grains in a box of %g m x %g m, driven at %g Hz", scene.grains->count,
+                    scene.box.length, scene.box.width, scene.drive.frequency)
+          : printed("%zu bodies, %zu walls", scene.bodies.size(), scene.walls.size());
+  return printed("scene %s: %s, %ld steps of %g s, solver %s", scene.name.c_str(), what.c_str(),
+                 scene.step_count(), scene.step, scene.solver.name.c_str());
 }
 
-void check_mesh(const std::string& file, const CheckOptions& options) {
+std::string check_mesh(const std::string& file, const CheckOptions& options) {
   const Polyhedron mesh =
       options.hull ? read_mesh_hull(file, options.scale) : read_mesh(file, options.scale);
   const PrincipalShape principal = to_principal_frame(mesh);
-  std::cout << file << ": mesh: " << mesh.vertex_count() << " vertices, " << mesh.edge_count()
-            << " edges, " << mesh.face_count() << " faces, volume " << principal.volume
-            << " m^3, centre of mass (" << principal.pose.position.x() << ", "
-            << principal.pose.position.y() << ", " << principal.pose.position.z()
-            << ") m, circumradius " << principal.shape.circumradius() << " m, inradius "
-            << principal.shape.inradius() << " m, principal inertia per density ("
-            << principal.inertia.x() << ", " << principal.inertia.y() << ", "
-            << principal.inertia.z() << ") m^5\n";
+  const Vec3 centre = principal.pose.position, inertia = principal.inertia;
+  return printed(
+      "mesh: %d vertices, %d edges, %d faces, volume %g m^3, centre of mass (%g, %g, %g) m, "
+      "circumradius %g m, inradius %g m, principal inertia per density (%g, %g, %g) m^5",
+      mesh.vertex_count(), mesh.edge_count(), mesh.face_count(), principal.volume, centre.x(),
+      centre.y(), centre.z(), principal.shape.circumradius(), principal.shape.inradius(),
+      inertia.x(), inertia.y(), inertia.z());
 }
 
-void check_problem(const std::string& file) {
+std::string check_problem(const std::string& file) {
   const FrictionProblem problem = read_problem(file);
   problem.validate();
-  std::cout << file << ": problem: " << problem.contact_count() << " contacts, "
-            << problem.row_count() << " rows";
+  std::string text =
+      printed("problem: %d contacts, %d rows", problem.contact_count(), problem.row_count());
   if (problem.has_dynamics)
-    std::cout << ", M and H of " << problem.dynamics.body_count() << " bodies, "
-              << problem.dynamics.dof_count() << " unknowns";
-  if (problem.has_delassus) std::cout << ", W with " << problem.delassus.w.nonZeros() << " entries";
+    text += printed(", M and H of %d bodies, %d unknowns", problem.dynamics.body_count(),
+                    problem.dynamics.dof_count());
+  if (problem.has_delassus)
+    text += printed(", W with %ld entries", static_cast<long>(problem.delassus.w.nonZeros()));
   if (problem.contact_count() > 0) {
     const auto [low, high] = std::minmax_element(problem.friction.begin(), problem.friction.end());
-    std::cout << ", friction " << *low << " to " << *high;
+    text += printed(", friction %g to %g", *low, *high);
   }
-  std::cout << '\n';
+  return text;
 }
 
-void check_checkpoint(const std::string& file) {
+std::string check_checkpoint(const std::string& file) {
   const Checkpoint checkpoint = read_checkpoint(file);
-  std::cout << file << ": checkpoint of scene " << checkpoint.key << ": phase " << checkpoint.phase
-            << ", step " << checkpoint.state.step << ", " << checkpoint.state.time << " s, "
-            << checkpoint.state.pose.size() << " bodies, " << checkpoint.memory.contacts.size()
-            << " contacts\n";
+  return printed("checkpoint of scene %s: phase %s, step %ld, %g s, %zu bodies, %zu contacts",
+                 checkpoint.key.c_str(), checkpoint.phase.c_str(), checkpoint.state.step,
+                 checkpoint.state.time, checkpoint.state.pose.size(),
+                 checkpoint.memory.contacts.size());
 }
 
-void check(const std::string& file, const CheckOptions& options) {
+/// What is in the file, by its suffix.
+std::string check(const std::string& file, const CheckOptions& options) {
   std::filesystem::path path = file;
   if (!path.has_filename()) path = path.parent_path();  // a folder, written with its slash
   std::string suffix = path.extension().string();
   std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (suffix == ".toml")
-    check_scene(file, options);
-  else if (suffix == ".obj" || suffix == ".stl")
-    check_mesh(file, options);
-  else if (suffix == ".hdf5" || suffix == ".h5" || suffix == ".dat")
-    check_problem(file);
-  else if (suffix == ".bin" || suffix == ".part")
-    check_checkpoint(file);
-  else if (std::filesystem::exists(file) || !suffix.empty())
+  if (suffix == ".toml") return check_scene(file, options);
+  if (suffix == ".obj" || suffix == ".stl") return check_mesh(file, options);
+  if (suffix == ".hdf5" || suffix == ".h5" || suffix == ".dat") return check_problem(file);
+  if (suffix == ".bin" || suffix == ".part") return check_checkpoint(file);
+  if (std::filesystem::exists(file) || !suffix.empty())
     throw UsageError(
         file + ": unknown kind of file, expected .toml, .obj, .stl, .hdf5, .h5, .dat or .bin");
-  else
-    check_scene(find_scene(file).string(), options);
+  return check_scene(find_scene(file).string(), options);
 }
 
 }  // namespace
@@ -113,7 +109,8 @@ Command check_command() {
       "Examples:\n  ballast check mine.toml grain.stl problem.hdf5 results/mine/checkpoint.bin\n"
       "  ballast check scan.stl --hull --scale 0.001",
       [options] {
-        for (const std::string& file : options->files) check(file, *options);
+        for (const std::string& file : options->files)
+          std::cout << file << ": " << check(file, *options) << '\n';
         return ExitCode::ok;
       }};
 }

@@ -1,7 +1,6 @@
 // What there is: solvers, scenes, version.
 
 #include <fstream>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 
@@ -9,6 +8,8 @@
 
 #include "experiments/commands/command.hpp"
 #include "experiments/run/build_info.hpp"
+#include "experiments/run/manifest.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/scene_keys_page.hpp"
 #include "solvers/solver_list.hpp"
@@ -17,13 +18,13 @@ namespace ballast {
 namespace {
 
 void print_solvers() {
-  std::cout << std::left << std::setw(16) << "name" << std::setw(19) << "law" << std::setw(7)
-            << "built" << std::setw(10) << "largest"
+  std::cout << printed("%-16s%-19s%-7s%-10s", "name", "law", "built", "largest")
             << "what it is (largest: contacts with friction that it takes)\n";
   for (const SolverEntry& entry : solver_list()) {
-    std::cout << std::setw(16) << entry.name << std::setw(19) << name_of(entry.law) << std::setw(7)
-              << (entry.make ? "yes" : "no") << std::setw(10)
-              << (entry.largest.none() ? "any" : std::to_string(entry.largest.with_friction))
+    const std::string largest =
+        entry.largest.none() ? "any" : std::to_string(entry.largest.with_friction);
+    std::cout << printed("%-16s%-19s%-7s%-10s", entry.name, name_of(entry.law),
+                         entry.make ? "yes" : "no", largest.c_str())
               << entry.description;
     if (!entry.make) std::cout << " [install " << entry.needs.package << "]";
     std::cout << '\n';
@@ -45,9 +46,9 @@ void print_solvers_json() {
 }
 
 void print_scenes() {
-  std::cout << "in " << scene_folder().string() << ":\n" << std::left;
+  std::cout << "in " << scene_folder().string() << ":\n";
   for (const auto& [name, title] : list_scenes())
-    std::cout << std::setw(22) << name << title << '\n';
+    std::cout << printed("%-22s", name.c_str()) << title << '\n';
 }
 
 void print_scene(const std::string& name, const std::vector<std::string>& overrides,
@@ -60,13 +61,6 @@ void print_scene(const std::string& name, const std::vector<std::string>& overri
   std::cout << std::ifstream(file).rdbuf();
 }
 
-std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
 void print_version() {
   const BuildInfo& info = build_info();
   std::cout << "ballast " << info.version << '\n'
@@ -75,8 +69,8 @@ void print_version() {
             << "build type    " << info.build_type << '\n'
             << "flags         " << info.flags << '\n';
   for (const auto& [name, version] : info.libraries)
-    std::cout << std::left << std::setw(14) << name << version << '\n';
-  std::cout << "processor     " << processor() << '\n';
+    std::cout << printed("%-14s", name.c_str()) << version << '\n';
+  std::cout << "processor     " << cpu_model() << '\n';
 }
 
 }  // namespace

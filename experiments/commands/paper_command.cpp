@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -27,23 +26,21 @@ struct PaperOptions {
 
 void print_plan(const Campaign& campaign, const fs::path& results) {
   const PaperData data(campaign, results);
-  std::cout << std::left << std::setw(16) << "stage" << std::setw(52) << "run" << std::right
-            << std::setw(8) << "steps" << std::setw(10) << "core-s"
-            << "  state\n";
+  std::cout << printed("%-16s%-52s%8s%10s  state\n", "stage", "run", "steps", "core-s");
   double left = 0.0;
   for (size_t k = 0; k < campaign.runs.size(); ++k) {
     const CampaignRun& run = campaign.runs[k];
     if (!data.has(k)) left += run.seconds;
-    std::cout << std::left << std::setw(16) << run.stage << std::setw(52) << run.planned.name
-              << std::right << std::setw(8) << run.steps << std::setw(10)
-              << std::lround(run.seconds) << (data.has(k) ? "  finished\n" : "  –\n");
+    std::cout << printed("%-16s%-52s%8ld%10ld  %s\n", run.stage.c_str(), run.planned.name.c_str(),
+                         run.steps, std::lround(run.seconds), data.has(k) ? "finished" : "–");
   }
-  std::cout << '\n'
-            << campaign.runs.size() << " runs, " << campaign.steps() << " steps, "
-            << campaign.packings << " packings: about " << std::lround(campaign.seconds())
-            << " core-seconds (1200 grains, a core to each run); " << data.finished()
-            << " finished, about " << std::lround(left) << " core-seconds of drives left"
-            << std::endl;
+  std::cout
+      << printed(
+             "\n%zu runs, %ld steps, %d packings: about %ld core-seconds (1200 grains, a core "
+             "to each run); %d finished, about %ld core-seconds of drives left",
+             campaign.runs.size(), campaign.steps(), campaign.packings,
+             std::lround(campaign.seconds()), data.finished(), std::lround(left))
+      << std::endl;
 }
 
 /// Stage by stage, so that time running out leaves whole figures.
@@ -95,33 +92,33 @@ Command paper_command() {
   CampaignSettings& campaign = options->campaign;
   running.results = "results/paper";
   running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  return {
-      "paper",
-      "Reproduces the paper: runs, figures 3 to 13, one report",
-      {{"target", &options->target,
-        "What: all; " + joined(paper_targets()) +
-            "; plan (lists the runs); report (draws what is there, runs nothing)",
-        required},
-       {"--jobs N", &running.jobs, "Runs at a time (as many as there are processors)",
-        between(1, 4096)},
-       {"--results DIR", &running.results, "The folder of runs (results/paper)"},
-       {"--output DIR", &options->output, "The folder of the report (<results>/report)"},
-       {"--max-seconds S", &running.max_seconds,
-        "Wall clock after which runs write checkpoints; the report is written all the same",
-        above(0)},
-       {"--scene SCENE", &campaign.scene, "Another vibrated box (vibrated_box)"},
-       {"--set KEY=VALUE", &campaign.overrides, "Overrides one value in every run"},
-       {"--seeds N", &campaign.seeds, "Samples of each scaling point (3)", between(1, 1000)},
-       {"--iterations N", &campaign.iterations,
-        "Solver iterations a step, where they are not what is varied", between(1, 1'000'000)}},
-      R"(Finished runs are not made again; stopped ones go on. What is missing is said in the report.
+  return {"paper",
+          "Reproduces the paper: runs, figures 3 to 13, one report",
+          {{"target", &options->target,
+            "What: all; " + joined(paper_targets()) +
+                "; plan (lists the runs); report (draws what is there, runs nothing)",
+            required},
+           {"--jobs N", &running.jobs, "Runs at a time (as many as there are processors)",
+            between(1, 4096)},
+           {"--results DIR", &running.results, "The folder of runs (results/paper)"},
+           {"--output DIR", &options->output, "The folder of the report (<results>/report)"},
+           {"--max-seconds S", &running.max_seconds,
+            "Wall clock after which runs write checkpoints; the report is written all the same",
+            above(0)},
+           {"--scene SCENE", &campaign.scene, "Another vibrated box (vibrated_box)"},
+           {"--set KEY=VALUE", &campaign.overrides, "Overrides one value in every run"},
+           {"--seeds N", &campaign.seeds, "Samples of each scaling point (3)", between(1, 1000)},
+           {"--iterations N", &campaign.iterations,
+            "Solver iterations a step, where they are not what is varied", between(1, 1'000'000)}},
+          "Finished runs are not made again; stopped ones go on. What is missing is said in the "
+          R"(report.
 
 Examples:
   ballast paper all --jobs 2
   ballast paper fig9
   ballast paper plan
   ballast paper report --results results/paper --output my_report)",
-      [options] { return reproduce(*options); }};
+          [options] { return reproduce(*options); }};
 }
 
 }  // namespace ballast

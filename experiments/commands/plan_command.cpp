@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -11,6 +10,7 @@
 #include "experiments/plans/snakemake.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/program.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -27,22 +27,21 @@ struct PlanRequest {
 /// What would be run.
 void list_runs(const Plan& plan, const PlanOptions& running) {
   const std::vector<ResolvedRun> runs = resolve(Plan{plan.name, select(plan, running.only)});
-  size_t widest = 4;
-  for (const ResolvedRun& run : runs) widest = std::max(widest, run.run.name.size());
-  std::cout << std::left << std::setw(static_cast<int>(widest)) << "name"
-            << "  key               state     " << std::right << std::setw(9) << "steps"
-            << "  packing\n";
+  int widest = 4;
+  for (const ResolvedRun& run : runs)
+    widest = std::max(widest, static_cast<int>(run.run.name.size()));
+  std::cout << printed("%-*s  %-16s  %-8s  %9s  packing\n", widest, "name", "key", "state",
+                       "steps");
   for (const ResolvedRun& run : runs) {
     const RunFolder folder(run_folder(running.results, run));
     const char* state = folder.is_finished(run.key) ? "finished"
                         : folder.has_run()          ? "begun"
                                                     : "waiting";
     const bool is_there = fs::exists(packing_file(packing_folder(running.results), run.packing));
-    std::cout << std::left << std::setw(static_cast<int>(widest)) << run.run.name << "  " << run.key
-              << "  " << std::setw(8) << state << "  " << std::right << std::setw(9) << run.steps
-              << "  "
-              << (run.packing.empty() ? "none" : run.packing + (is_there ? "" : " (to deposit)"))
-              << '\n';
+    const std::string packing =
+        run.packing.empty() ? "none" : run.packing + (is_there ? "" : " (to deposit)");
+    std::cout << printed("%-*s  %s  %-8s  %9ld  %s\n", widest, run.run.name.c_str(),
+                         run.key.c_str(), state, run.steps, packing.c_str());
   }
 }
 
@@ -65,7 +64,8 @@ ExitCode run_planned(PlanRequest options) {
 }
 
 constexpr const char* plan_footer =
-    R"(Finished runs are skipped, stopped ones go on at their checkpoints, failed ones are tried again:
+    "Finished runs are skipped, stopped ones go on at their checkpoints, failed ones are tried "
+    R"(again:
 the same command continues after Ctrl-C, kill -9 or a power cut.
 
 Examples:

@@ -44,7 +44,8 @@ ExitCode run_scene(const RunRequest& request) {
 
 constexpr const char* run_footer = R"(Examples:
   ballast run vibrated_box
-  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 --output results/fine
+  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 )"
+                                   R"(--output results/fine
   ballast run vibrated_box --threads 2
   ballast run vibrated_box --capture every=500 --output results/captured
   ballast run incline --set 'gravity.direction=[0.3, 0, -1]')";

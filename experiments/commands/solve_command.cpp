@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 
@@ -39,31 +38,30 @@ struct SolvedFile {
 struct Measure {
   const char* heading;
   const char* name;
-  double (*value)(const SolvedFile&);
+  std::variant<double ContactError::*, double SolverRun::*, double Solved::*> member;
+
+  double value(const SolvedFile& s) const {
+    if (const auto* error = std::get_if<double ContactError::*>(&member))
+      return s.run.error.**error;
+    if (const auto* solved = std::get_if<double Solved::*>(&member)) return s.run.solved.**solved;
+    return s.run.*std::get<double SolverRun::*>(member);
+  }
 };
 
 // What the headings mean is said in the command's help.
-constexpr std::array measures{
-    Measure{"rms", "natural_map_rms",
-            [](const SolvedFile& s) { return s.run.error.natural_map_rms; }},
-    Measure{"max", "natural_map_max",
-            [](const SolvedFile& s) { return s.run.error.natural_map_max; }},
-    Measure{"scale", "velocity_scale",
-            [](const SolvedFile& s) { return s.run.error.velocity_scale; }},
-    Measure{"fclib", "fclib", [](const SolvedFile& s) { return s.run.error.fclib; }},
-    Measure{"cone", "cone_violation",
-            [](const SolvedFile& s) { return s.run.error.cone_violation; }},
-    Measure{"min_uN", "min_normal_velocity",
-            [](const SolvedFile& s) { return s.run.error.min_normal_velocity; }},
-    Measure{"compl", "complementarity",
-            [](const SolvedFile& s) { return s.run.error.complementarity; }},
-    Measure{"power", "power", [](const SolvedFile& s) { return s.run.error.power; }},
-    Measure{"momentum", "momentum_residual",
-            [](const SolvedFile& s) { return s.run.error.momentum_residual; }},
-    Measure{"own", "own_residual", [](const SolvedFile& s) { return s.run.solved.own_residual; }},
-    Measure{"prepare_s", "prepare_seconds",
-            [](const SolvedFile& s) { return s.run.prepare_seconds; }},
-    Measure{"solve_s", "solve_seconds", [](const SolvedFile& s) { return s.run.solve_seconds; }},
+const Measure measures[] = {
+    {"rms", "natural_map_rms", &ContactError::natural_map_rms},
+    {"max", "natural_map_max", &ContactError::natural_map_max},
+    {"scale", "velocity_scale", &ContactError::velocity_scale},
+    {"fclib", "fclib", &ContactError::fclib},
+    {"cone", "cone_violation", &ContactError::cone_violation},
+    {"min_uN", "min_normal_velocity", &ContactError::min_normal_velocity},
+    {"compl", "complementarity", &ContactError::complementarity},
+    {"power", "power", &ContactError::power},
+    {"momentum", "momentum_residual", &ContactError::momentum_residual},
+    {"own", "own_residual", &Solved::own_residual},
+    {"prepare_s", "prepare_seconds", &SolverRun::prepare_seconds},
+    {"solve_s", "solve_seconds", &SolverRun::solve_seconds},
 };
 
 SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner) {
@@ -81,24 +79,20 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
   return solved;
 }
 
-void print_heading(size_t width) {
-  std::cout << std::left << std::setw(static_cast<int>(width)) << "problem" << std::right
-            << std::setw(9) << "contacts" << std::setw(8) << "rows"
-            << "  " << std::left << std::setw(18) << "stopped" << std::right << std::setw(8)
-            << "iter" << std::setw(4) << "ok";
-  for (const Measure& m : measures) std::cout << std::setw(10) << m.heading;
-  std::cout << std::setw(8) << "worst" << '\n';
+void print_heading(int width) {
+  std::string line = printed("%-*s%9s%8s  %-18s%8s%4s", width, "problem", "contacts", "rows",
+                             "stopped", "iter", "ok");
+  for (const Measure& m : measures) line += printed("%10s", m.heading);
+  std::cout << line << printed("%8s\n", "worst");
 }
 
-void print_row(const SolvedFile& s, size_t width) {
-  std::cout << std::left << std::setw(static_cast<int>(width))
-            << std::filesystem::path(s.file).filename().string() << std::right << std::setw(9)
-            << s.contacts << std::setw(8) << s.rows << "  " << std::left << std::setw(18)
-            << name_of(s.run.solved.reason) << std::right << std::setw(8) << s.run.solved.iterations
-            << std::setw(4) << (s.run.success ? "yes" : "no") << std::scientific
-            << std::setprecision(2);
-  for (const Measure& m : measures) std::cout << std::setw(10) << m.value(s);
-  std::cout << std::setw(8) << s.run.error.worst_contact << std::endl;
+void print_row(const SolvedFile& s, int width) {
+  std::string line =
+      printed("%-*s%9d%8d  %-18s%8d%4s", width, std::filesystem::path(s.file).filename().c_str(),
+              s.contacts, s.rows, name_of(s.run.solved.reason), s.run.solved.iterations,
+              s.run.success ? "yes" : "no");
+  for (const Measure& m : measures) line += printed("%10.2e", m.value(s));
+  std::cout << line << printed("%8d", s.run.error.worst_contact) << std::endl;
 }
 
 nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options) {
@@ -137,9 +131,10 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
 ExitCode solve(const SolveOptions& options) {
   if (std::isinf(options.tolerance))
     throw UsageError("solve: --tolerance: expected a finite number");
-  size_t width = 7;
+  int width = 7;
   for (const std::string& file : options.files)
-    width = std::max(width, std::filesystem::path(file).filename().string().size());
+    width =
+        std::max(width, static_cast<int>(std::filesystem::path(file).filename().string().size()));
   SolverRunner runner;
   std::vector<SolvedFile> solved;
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();

@@ -30,16 +30,6 @@ std::string utc_now() {
   return text;
 }
 
-/// As the kernel names it; "unknown" where it doesn't (other architectures).
-std::string cpu_model() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    const size_t colon = line.find(':');
-    if (line.rfind("model name", 0) == 0 && colon + 2 < line.size()) return line.substr(colon + 2);
-  }
-  return "unknown";
-}
-
 /// The program: version, commit, compiler, libraries.
 Json build_json() {
   const BuildInfo& info = build_info();
@@ -67,6 +57,15 @@ Json machine_json() {
 }
 
 }  // namespace
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const size_t colon = line.find(':');
+    if (line.starts_with("model name") && colon + 2 < line.size()) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
 
 Manifest::Manifest(const std::string& scene, const std::vector<std::string>& overrides,
                    const std::string& key)

@@ -21,6 +21,9 @@
 
 namespace ballast {
 
+/// The processor as the kernel names it; "unknown" where it doesn't (other architectures).
+std::string cpu_model();
+
 class Manifest {
  public:
   /// Of a run that starts now, on this machine, with this program.

@@ -10,15 +10,6 @@
 namespace ballast {
 namespace {
 
-HarmonicLoad read_load(TomlTable& wall) {
-  TomlTable table = wall.section("load");
-  HarmonicLoad load;
-  read_keys(table, load_keys(), load);
-  if (load.f_min > load.f_max) table.fail("f_min", "larger than f_max, expected f_min <= f_max");
-  table.finish();
-  return load;
-}
-
 void check_direction(TomlTable& table, const char* key, const Vec3& v) {
   if (v.norm() == 0.0) table.fail(key, "has no direction, expected a vector that is not zero");
 }
@@ -40,24 +31,20 @@ WallSpec read_wall(TomlTable& table, const std::string& default_name) {
   } else if (given.motion == "driven") {
     wall.motion = WallMotion::driven;
     read_keys(table, driven_wall_keys(), wall);
-    wall.load = read_load(table);
+    wall.load = read_section(
+        table.section("load"), load_keys(), [](TomlTable& load_table, const HarmonicLoad& load) {
+          if (load.f_min > load.f_max)
+            load_table.fail("f_min", "larger than f_max, expected f_min <= f_max");
+        });
   }
   table.finish();
   return wall;
 }
 
-ForceSpec read_force(TomlTable table) {
-  ForceSpec force;
-  read_keys(table, force_keys(), force);
-  table.finish();
-  return force;
-}
-
 Quat read_orientation(TomlTable table) {
-  OrientationText given;
-  read_keys(table, orientation_keys(), given);
-  check_direction(table, "axis", given.axis);
-  table.finish();
+  const OrientationText given = read_section(
+      std::move(table), orientation_keys(),
+      [](TomlTable& own, const OrientationText& text) { check_direction(own, "axis", text.axis); });
   const double angle = given.angle_degrees * std::numbers::pi / 180.0;
   return Quat(Eigen::AngleAxisd(angle, given.axis.normalized())).normalized();
 }
@@ -98,9 +85,9 @@ double mass_of(TomlTable& table, BodyText& given, double volume, bool can_move) 
   if (has_mass && has_density)
     table.fail("mass", "given together with density, expected one of the two");
   if (can_move && !has_mass && !has_density)  // reading it as required says what is missing
-    std::find_if(body_keys().begin(), body_keys().end(), [](const SceneKey<BodyText>& key) {
-      return std::string_view(key.name) == "density";
-    })->value->read(table, "density", true, given);
+    for (const SceneKey<BodyText>& key : body_keys())
+      if (key.name == std::string_view("density"))
+        table.read(key.name, key.value.rule, true, key.value.in(given));
   return has_mass ? given.mass : volume * given.density;
 }
 
@@ -152,7 +139,7 @@ BodySpec read_body(TomlTable& table, const std::filesystem::path& folder,
   body.velocity = given.velocity;
   body.spin = body.pose.rotation.conjugate() * given.spin;
   check_locked_velocity(table, body, given.spin);
-  body.force = read_force(table.section("force"));
+  body.force = read_section(table.section("force"), force_keys());
   table.finish();
   return body;
 }

@@ -12,13 +12,6 @@
 namespace ballast {
 namespace {
 
-/// A section whose keys are all in one table.
-template <class Spec>
-void read_section(TomlTable table, const SceneKeys<Spec>& keys, Spec& spec) {
-  read_keys(table, keys, spec);
-  table.finish();
-}
-
 void read_head(TomlTable table, Scene& scene, const std::filesystem::path& file) {
   scene.name = file.stem().string();
   read_keys(table, head_keys(), scene);
@@ -35,13 +28,13 @@ void read_head(TomlTable table, Scene& scene, const std::filesystem::path& file)
   table.finish();
 }
 
-void read_gravity(TomlTable table, Scene& scene) {
-  GravityText given;
-  read_keys(table, gravity_keys(), given);
-  if (given.direction.norm() == 0.0)
-    table.fail("direction", "has no direction, expected a vector that is not zero");
-  scene.gravity = given.magnitude * given.direction.normalized();
-  table.finish();
+Vec3 read_gravity(TomlTable table) {
+  const GravityText given = read_section(
+      std::move(table), gravity_keys(), [](const TomlTable& own, const GravityText& gravity) {
+        if (gravity.direction.norm() == 0.0)
+          own.fail("direction", "has no direction, expected a vector that is not zero");
+      });
+  return given.magnitude * given.direction.normalized();
 }
 
 /// Classes by number; given sizes must have fractions that sum to 1. Without the key: the paper's.
@@ -57,10 +50,8 @@ std::vector<SizeClass> read_distribution(TomlTable& grains) {
   std::vector<SizeClass> classes;
   double sum = 0.0;
   for (TomlTable& table : grains.sections("distribution")) {
-    classes.push_back({});
-    read_keys(table, distribution_keys(), classes.back());
+    classes.push_back(read_section(std::move(table), distribution_keys()));
     sum += classes.back().fraction;
-    table.finish();
   }
   if (std::abs(sum - 1.0) > 1e-9)
     grains.fail("distribution", "fractions sum to " +
@@ -68,17 +59,13 @@ std::vector<SizeClass> read_distribution(TomlTable& grains) {
   return classes;
 }
 
-GrainShapeSettings read_grain_shape(TomlTable table) {
-  GrainShapeSettings shape;
-  read_keys(table, grain_shape_keys(), shape);
+void check_grain_shape(const TomlTable& table, const GrainShapeSettings& shape) {
   if (shape.min_vertices > shape.max_vertices)
     table.fail("min_vertices", "larger than max_vertices, expected at most that");
   if (shape.elongation_min > shape.elongation_max)
     table.fail("elongation_min", "larger than elongation_max");
   if (shape.flatness_min > shape.flatness_max)
     table.fail("flatness_min", "larger than flatness_max");
-  table.finish();
-  return shape;
 }
 
 GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {
@@ -91,7 +78,7 @@ GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {
   grains.size_convention =
       given.size == "radius" ? SizeConvention::radius : SizeConvention::diameter;
   grains.distribution = read_distribution(table);
-  grains.shape = read_grain_shape(table.section("shape"));
+  grains.shape = read_section(table.section("shape"), grain_shape_keys(), check_grain_shape);
   // files are named in the resolved text by where they are, so that it can be read elsewhere
   toml::array kept;
   for (const std::string& name : given.meshes) {
@@ -108,10 +95,8 @@ GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {
   return grains;
 }
 
-BoxSpec read_box(TomlTable table, const GrainsSpec& grains) {
-  BoxSpec box;
-  read_keys(table, box_keys(), box);
-  // a box that no grain fits through cannot be filled
+/// A box that no grain fits through cannot be filled.
+void check_box(const TomlTable& table, const BoxSpec& box, const GrainsSpec& grains) {
   double widest = 0.0;
   for (const SizeClass& c : grains.distribution)
     widest =
@@ -120,57 +105,45 @@ BoxSpec read_box(TomlTable table, const GrainsSpec& grains) {
                                toml_value_text(toml::value<double>(widest), 30) + " [m]";
   if (box.length < widest) table.fail("length", expected);
   if (box.width < widest) table.fail("width", expected);
-  table.finish();
-  return box;
 }
 
-DriveSpec read_drive(TomlTable table) {
-  DriveSpec drive;
-  read_keys(table, drive_keys(), drive);
+void check_drive(const TomlTable& table, const DriveSpec& drive) {
   if (drive.f_min_over_weight > drive.f_max_over_weight)
     table.fail("f_min_over_weight", "larger than f_max_over_weight, expected at most that");
-  table.finish();
-  return drive;
 }
 
-ControlVolumeSpec read_control_volume(TomlTable table, const BoxSpec& box) {
-  ControlVolumeSpec volume;
-  read_keys(table, control_volume_keys(), volume);
+void check_volume(const TomlTable& table, const ControlVolumeSpec& volume, const BoxSpec& box) {
   if (2.0 * volume.margin_x >= box.length)
     table.fail("margin_x", "leaves nothing, expected less than half of box.length");
   if (2.0 * volume.margin_y >= box.width)
     table.fail("margin_y", "leaves nothing, expected less than half of box.width");
-  table.finish();
-  return volume;
 }
 
-/// Resolved only where given: a run from before it keeps its text and its key.
-void read_sleep(TomlTable& root, Scene& scene) {
-  if (!root.has("sleep")) return;
-  TomlTable table = root.section("sleep");
-  read_keys(table, sleep_keys(), scene.sleep);
-  if (scene.sleep.enabled && scene.gravity.isZero(0.0))
-    table.fail("enabled", "rest is measured in g h, expected a gravity.magnitude > 0");
-  table.finish();
-}
-
-void read_detection(TomlTable table, Scene& scene) {
-  read_keys(table, detection_keys(), scene.detection);
-  if (table.has("reuse_motion") && !scene.detection.use_cache)
+void check_detection(const TomlTable& table, const DetectionSettings& detection,
+                     const SleepSpec& sleep) {
+  if (table.has("reuse_motion") && !detection.use_cache)
     table.fail("reuse_motion", "needs use_cache = true");
-  if (table.has("reuse_motion") && scene.sleep.enabled)
+  if (table.has("reuse_motion") && sleep.enabled)
     table.fail("reuse_motion", "given together with sleep.enabled = true");
   if (table.has("refresh_steps") && !table.has("reuse_motion"))
     table.fail("refresh_steps", "has no meaning without reuse_motion");
-  table.finish();
 }
 
 void read_numerics(TomlTable& root, Scene& scene) {
-  read_sleep(root, scene);
-  read_section(root.section("solver"), solver_keys(), scene.solver);
-  read_section(root.section("correction"), correction_keys(), scene.correction);
-  read_detection(root.section("detection"), scene);
-  read_section(root.section("record"), record_keys(), scene.record);
+  // resolved only where given: a run from before it keeps its text and its key
+  if (root.has("sleep"))
+    scene.sleep = read_section(
+        root.section("sleep"), sleep_keys(), [&](const TomlTable& table, const SleepSpec& sleep) {
+          if (sleep.enabled && scene.gravity.isZero(0.0))
+            table.fail("enabled", "rest is measured in g h, expected a gravity.magnitude > 0");
+        });
+  scene.solver = read_section(root.section("solver"), solver_keys());
+  scene.correction = read_section(root.section("correction"), correction_keys());
+  scene.detection = read_section(root.section("detection"), detection_keys(),
+                                 [&](const TomlTable& table, const DetectionSettings& detection) {
+                                   check_detection(table, detection, scene.sleep);
+                                 });
+  scene.record = read_section(root.section("record"), record_keys());
 }
 
 /// The vibrated box: everything is made from the grains and the box.
@@ -182,10 +155,15 @@ void read_box_scene(TomlTable& root, Scene& scene, const std::filesystem::path& 
     root.fail("gravity",
               "grains are deposited along -z, expected magnitude > 0 and direction [0, 0, -1]");
   scene.grains = read_grains(root.section("grains"), folder);
-  scene.box = read_box(root.section("box"), *scene.grains);
-  read_section(root.section("deposit"), deposit_keys(), scene.deposit);
-  scene.drive = read_drive(root.section("drive"));
-  scene.control_volume = read_control_volume(root.section("control_volume"), scene.box);
+  scene.box = read_section(
+      root.section("box"), box_keys(),
+      [&](const TomlTable& table, const BoxSpec& box) { check_box(table, box, *scene.grains); });
+  scene.deposit = read_section(root.section("deposit"), deposit_keys());
+  scene.drive = read_section(root.section("drive"), drive_keys(), check_drive);
+  scene.control_volume = read_section(root.section("control_volume"), control_volume_keys(),
+                                      [&](const TomlTable& table, const ControlVolumeSpec& volume) {
+                                        check_volume(table, volume, scene.box);
+                                      });
 }
 
 void read_body_scene(TomlTable& root, Scene& scene, const std::filesystem::path& folder,
@@ -212,8 +190,10 @@ Scene read(const std::filesystem::path& file, std::span<const std::string> overr
   // grains decide the kind of scene: a box to be filled, or single bodies and walls
   Scene scene;
   read_head(root.section("scene"), scene, file);
-  read_gravity(root.section("gravity"), scene);
-  read_section(root.section("contact"), contact_keys(), scene);
+  scene.gravity = read_gravity(root.section("gravity"));
+  TomlTable contact = root.section("contact");
+  read_keys(contact, contact_keys(), scene);
+  contact.finish();
   if (root.has("grains"))
     read_box_scene(root, scene, file.parent_path());
   else

@@ -4,13 +4,12 @@
 // from them. The default is the member's own initial value.
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "problems/scene/key_kind.hpp"
 #include "problems/scene/scene.hpp"
+#include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
 
@@ -22,44 +21,23 @@ enum class Presence {
   only_where_given
 };
 
-/// What a key's value is, and where a Spec keeps it.
+/// Where a Spec keeps a key's value, and what is asked of it.
 template <class Spec>
-class KeyValue {
- public:
-  virtual ~KeyValue() = default;
-  /// The member is the fallback unless the key is required. Throws SceneFileError.
-  virtual void read(TomlTable& table, const char* key, bool is_required, Spec& spec) const = 0;
-  virtual std::string unit() const = 0;
-  virtual std::string default_text(const Spec& defaults) const = 0;
-  virtual std::string expected() const = 0;
-};
+struct KeyValue {
+  std::variant<double Spec::*, int Spec::*, std::uint64_t Spec::*, bool Spec::*,
+               std::string Spec::*, Vec3 Spec::*, std::vector<std::string> Spec::*>
+      member;
+  ValueRule rule;
 
-/// A value of one of the kinds, in a member of Spec.
-template <class Kind, class Spec>
-class KeptValue final : public KeyValue<Spec> {
- public:
-  using Member = typename Kind::Value Spec::*;
-  KeptValue(Kind kind, Member member) : kind_(std::move(kind)), member_(member) {}
-  void read(TomlTable& table, const char* key, bool is_required, Spec& spec) const override {
-    std::optional fallback(spec.*member_);
-    if (is_required) fallback.reset();
-    spec.*member_ = kind_.read(table, key, fallback);
+  ValuePlace in(Spec& spec) const {
+    return std::visit([&](auto place) -> ValuePlace { return &(spec.*place); }, member);
   }
-  std::string unit() const override { return kind_.unit; }
-  std::string default_text(const Spec& defaults) const override {
-    return kind_.default_text(defaults.*member_);
-  }
-  std::string expected() const override { return kind_.expected(); }
-
- private:
-  Kind kind_;
-  Member member_;
 };
 
 template <class Spec>
 struct SceneKey {
   const char* name;
-  std::shared_ptr<const KeyValue<Spec>> value;
+  KeyValue<Spec> value;
   const char* meaning;
   Presence presence = Presence::optional;
   const char* default_words = nullptr;  ///< for the docs, where the default is not the member's
@@ -70,45 +48,37 @@ template <class Spec>
 using SceneKeys = std::vector<SceneKey<Spec>>;
 
 // Words for the rows of the tables: number(&Spec::member, range, unit) and its like.
-template <class Kind, class Spec>
-std::shared_ptr<const KeyValue<Spec>> kept_value(Kind kind, typename Kind::Value Spec::*member) {
-  return std::make_shared<KeptValue<Kind, Spec>>(std::move(kind), member);
-}
-
 template <class Spec>
-std::shared_ptr<const KeyValue<Spec>> number(double Spec::*member, const NumberRange& range,
-                                             const char* unit = "") {
-  return kept_value(NumberKind{range, unit}, member);
+KeyValue<Spec> number(double Spec::*member, const NumberRange& range, const char* unit = "") {
+  return {member, {.range = range, .unit = unit}};
 }
 template <class Spec>
-std::shared_ptr<const KeyValue<Spec>> whole(int Spec::*member, int low,
-                                            int high = WholeKind::no_limit) {
-  return kept_value(WholeKind{low, high}, member);
+KeyValue<Spec> whole(int Spec::*member, int low, int high = ValueRule::no_limit) {
+  return {member, {.low = low, .high = high}};
 }
 template <class Spec>
-std::shared_ptr<const KeyValue<Spec>> seed(std::uint64_t Spec::*member) {
-  return kept_value(SeedKind{}, member);
+KeyValue<Spec> seed(std::uint64_t Spec::*member) {
+  return {member, {}};
 }
 template <class Spec>
-std::shared_ptr<const KeyValue<Spec>> flag(bool Spec::*member) {
-  return kept_value(FlagKind{}, member);
+KeyValue<Spec> flag(bool Spec::*member) {
+  return {member, {}};
 }
 template <class Spec>
-std::shared_ptr<const KeyValue<Spec>> text(std::string Spec::*member) {
-  return kept_value(TextKind{}, member);
+KeyValue<Spec> text(std::string Spec::*member) {
+  return {member, {}};
 }
 template <class Spec>
-std::shared_ptr<const KeyValue<Spec>> choice(std::string Spec::*member,
-                                             std::vector<const char*> words) {
-  return kept_value(ChoiceKind{std::move(words)}, member);
+KeyValue<Spec> choice(std::string Spec::*member, std::vector<const char*> words) {
+  return {member, {.words = std::move(words)}};
 }
 template <class Spec>
-std::shared_ptr<const KeyValue<Spec>> vector(Vec3 Spec::*member, const char* unit = "") {
-  return kept_value(VectorKind{unit}, member);
+KeyValue<Spec> vector(Vec3 Spec::*member, const char* unit = "") {
+  return {member, {.unit = unit}};
 }
 template <class Spec>
-std::shared_ptr<const KeyValue<Spec>> texts(std::vector<std::string> Spec::*member) {
-  return kept_value(TextsKind{}, member);
+KeyValue<Spec> texts(std::vector<std::string> Spec::*member) {
+  return {member, {}};
 }
 
 // What a file says where a Scene keeps it in another form.
@@ -183,8 +153,23 @@ void read_keys(TomlTable& table, const SceneKeys<Spec>& keys, Spec& spec) {
   for (const SceneKey<Spec>& key : keys) {
     table.know(key.name);
     if (key.presence != Presence::only_where_given || table.has(key.name))
-      key.value->read(table, key.name, key.presence == Presence::required, spec);
+      table.read(key.name, key.value.rule, key.presence == Presence::required, key.value.in(spec));
   }
+}
+
+/// A section whose keys are all in one table; `check(table, spec)` says what its keys must be to
+/// each other.
+template <class Spec, class Check>
+Spec read_section(TomlTable table, const SceneKeys<Spec>& keys, const Check& check) {
+  Spec spec;
+  read_keys(table, keys, spec);
+  check(table, spec);
+  table.finish();
+  return spec;
+}
+template <class Spec>
+Spec read_section(TomlTable table, const SceneKeys<Spec>& keys) {
+  return read_section(std::move(table), keys, [](const TomlTable&, const Spec&) {});
 }
 
 }  // namespace ballast

@@ -14,12 +14,14 @@ std::string unit_words(std::string unit) {
 
 template <class Spec>
 std::string row_of(const std::string& table, const SceneKey<Spec>& key) {
-  std::string fallback = key.value->default_text(Spec{});
+  Spec defaults;
+  const ValuePlace place = key.value.in(defaults);
+  std::string fallback = kept_text(place);
   if (fallback == "\"\"") fallback = "empty";
   if (key.presence == Presence::required) fallback = "required";
   if (key.default_words) fallback = key.default_words;
-  return "| `" + table + key.name + "` | " + unit_words(key.value->unit()) + " | " + fallback +
-         " | " + key.value->expected() + " | " + key.meaning + " |\n";
+  return "| `" + table + key.name + "` | " + unit_words(key.value.rule.unit) + " | " + fallback +
+         " | " + expected_text(place, key.value.rule) + " | " + key.meaning + " |\n";
 }
 
 template <class Spec>

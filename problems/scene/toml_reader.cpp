@@ -1,6 +1,7 @@
 #include "problems/scene/toml_reader.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 
@@ -32,6 +33,93 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string unit_text(const char* unit) { return *unit ? std::string(" [") + unit + "]" : ""; }
 
+/// Shortest digits, an exponent without zeros: 2e-4.
+std::string digits_of(double value) {
+  char digits[32];
+  std::string text(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  if (const size_t zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
+  if (const size_t plus = text.find("e+"); plus != std::string::npos) text.erase(plus + 1, 1);
+  return text;
+}
+
+// What is expected of each type.
+std::string words_of(const double&, const ValueRule& rule) { return rule.range.words; }
+std::string words_of(const std::int64_t&, const ValueRule& rule) {
+  const std::string low = std::to_string(rule.low);
+  if (rule.high >= ValueRule::no_limit) return "a whole number >= " + low;
+  return "a whole number from " + low + " to " + std::to_string(rule.high);
+}
+std::string words_of(const int&, const ValueRule& rule) { return words_of(std::int64_t{}, rule); }
+std::string words_of(const std::uint64_t&, const ValueRule& rule) {
+  return words_of(std::int64_t{}, rule);
+}
+std::string words_of(const bool&, const ValueRule&) { return "true or false"; }
+std::string words_of(const std::string&, const ValueRule& rule) {
+  std::string text;
+  for (const char* word : rule.words) add_to_list(text, '"' + std::string(word) + '"');
+  return rule.words.empty() ? "a text" : "one of " + text;
+}
+std::string words_of(const Vec3&, const ValueRule&) { return "three finite numbers"; }
+std::string words_of(const std::vector<std::string>&, const ValueRule&) {
+  return "a list of texts";
+}
+
+// Each takes the value that stands in the file, or says what is wrong with it.
+std::string take(const toml::node& node, const ValueRule& rule, double& value) {
+  const auto read = node.is_number() ? node.value<double>() : std::nullopt;
+  value = read.value_or(value);
+  return !read ? "not a number" : rule.range.contains(value) ? "" : "out of range";
+}
+template <class Whole>
+requires std::is_integral_v<Whole> std::string take(const toml::node& node, const ValueRule& rule,
+                                                    Whole& value) {
+  const auto* read = node.as_integer();
+  if (!read) return "not a whole number";
+  value = static_cast<Whole>(read->get());
+  return read->get() < rule.low || read->get() > rule.high ? "out of range" : "";
+}
+std::string take(const toml::node& node, const ValueRule&, bool& value) {
+  const auto* read = node.as_boolean();
+  if (read) value = read->get();
+  return read ? "" : "neither";
+}
+std::string take(const toml::node& node, const ValueRule& rule, std::string& value) {
+  const auto* read = node.as_string();
+  if (!read) return "not a text in quotes";
+  value = read->get();
+  const bool is_word = std::find(rule.words.begin(), rule.words.end(), value) != rule.words.end();
+  return rule.words.empty() || is_word ? "" : "unknown word";
+}
+std::string take(const toml::node& node, const ValueRule&, Vec3& value) {
+  const auto* read = node.as_array();
+  if (!read || read->size() != 3) return "not a vector [x, y, z]";
+  for (int i = 0; i < 3; ++i) {
+    const std::string wrong = take((*read)[static_cast<size_t>(i)], {}, value[i]);
+    if (!wrong.empty()) return "entry " + std::to_string(i) + " is no finite number";
+  }
+  return "";
+}
+std::string take(const toml::node& node, const ValueRule&, std::vector<std::string>& values) {
+  if (!node.is_array()) return "not a list";
+  values.clear();
+  for (const toml::node& entry : *node.as_array())
+    if (!take(entry, {}, values.emplace_back()).empty()) return "not only texts";
+  return "";
+}
+
+// As toml++ keeps them.
+double as_toml(double value) { return value; }
+std::int64_t as_toml(int value) { return value; }
+std::int64_t as_toml(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+bool as_toml(bool value) { return value; }
+std::string as_toml(const std::string& value) { return value; }
+toml::array as_toml(const Vec3& value) { return toml::array{value.x(), value.y(), value.z()}; }
+toml::array as_toml(const std::vector<std::string>& values) {
+  toml::array array;
+  for (const std::string& value : values) array.push_back(value);
+  return array;
+}
+
 }  // namespace
 
 bool NumberRange::contains(double x) const {
@@ -39,116 +127,53 @@ bool NumberRange::contains(double x) const {
   return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
 }
 
+std::string expected_text(ValuePlace place, const ValueRule& rule) {
+  return std::visit([&](auto* value) { return words_of(*value, rule); }, place);
+}
+
+std::string kept_text(ValuePlace place) {
+  if (const auto* vector = std::get_if<Vec3*>(&place)) {
+    const Vec3& v = **vector;
+    return '[' + digits_of(v.x()) + ", " + digits_of(v.y()) + ", " + digits_of(v.z()) + ']';
+  }
+  if (const auto* number = std::get_if<double*>(&place)) return digits_of(**number);
+  toml::array one;
+  std::visit([&](auto* value) { one.push_back(as_toml(*value)); }, place);
+  return toml_value_text(one[0], std::string::npos);
+}
+
 TomlTable::TomlTable(std::string file, const toml::table& table, toml::table& resolved,
                      std::string path)
     : file_(std::move(file)), path_(std::move(path)), table_(&table), resolved_(&resolved) {}
 
-double TomlTable::number(std::string_view key, const NumberRange& range, const char* unit,
-                         std::optional<double> fallback) {
-  const std::string expected = range.words + unit_text(unit);
-  double x = fallback.value_or(0.0);
-  if (const toml::node* node = find(key)) {
-    const auto read = node->is_number() ? node->value<double>() : std::nullopt;
-    if (!read) fail(key, "not a number, expected " + expected);
-    x = *read;
-    if (!range.contains(x)) fail(key, "out of range, expected " + expected);
-  } else if (!fallback) {
-    fail_missing(key, expected);
-  }
-  resolved_->insert_or_assign(key, x);
-  return x;
+void TomlTable::read(std::string_view key, const ValueRule& rule, bool is_required,
+                     ValuePlace place) {
+  const std::string expected = ", expected " + expected_text(place, rule) + unit_text(rule.unit);
+  const toml::node* node = find(key);
+  if (!node && is_required)
+    throw SceneFileError(place_of(table_) + ": " + full_key(key) + " is missing" + expected);
+  const auto keep = [&](auto* value) {
+    const std::string wrong = node ? take(*node, rule, *value) : "";
+    if (!wrong.empty()) fail(key, wrong + expected);
+    resolved_->insert_or_assign(key, as_toml(*value));
+  };
+  std::visit(keep, place);
 }
 
-std::int64_t TomlTable::whole(std::string_view key, std::int64_t low, std::int64_t high,
-                              std::optional<std::int64_t> fallback) {
-  std::string expected = "a whole number";
-  if (high == std::numeric_limits<std::int64_t>::max())
-    expected += " >= " + std::to_string(low);
-  else
-    expected += " from " + std::to_string(low) + " to " + std::to_string(high);
-  std::int64_t n = fallback.value_or(0);
-  if (const toml::node* node = find(key)) {
-    const auto* read = node->as_integer();
-    if (!read) fail(key, "not a whole number, expected " + expected);
-    n = read->get();
-    if (n < low || n > high) fail(key, "out of range, expected " + expected);
-  } else if (!fallback) {
-    fail_missing(key, expected);
-  }
-  resolved_->insert_or_assign(key, n);
-  return n;
-}
-
-bool TomlTable::flag(std::string_view key, std::optional<bool> fallback) {
-  bool value = fallback.value_or(false);
-  if (const toml::node* node = find(key)) {
-    const auto* read = node->as_boolean();
-    if (!read) fail(key, "expected true or false");
-    value = read->get();
-  } else if (!fallback) {
-    fail_missing(key, "true or false");
-  }
-  resolved_->insert_or_assign(key, value);
+std::string TomlTable::text(std::string_view key) {
+  std::string value;
+  read(key, {}, true, &value);
   return value;
 }
 
-std::string TomlTable::text(std::string_view key, std::optional<std::string> fallback) {
-  std::string value = fallback.value_or("");
-  if (const toml::node* node = find(key)) {
-    const auto* read = node->as_string();
-    if (!read) fail(key, "not a text, expected a text in quotes");
-    value = read->get();
-  } else if (!fallback) {
-    fail_missing(key, "a text");
-  }
-  resolved_->insert_or_assign(key, value);
-  return value;
-}
-
-std::string TomlTable::choice(std::string_view key, const std::vector<const char*>& words,
-                              std::optional<std::string> fallback) {
-  std::string expected = "one of ";
-  for (const char* word : words)
-    expected += (word == words.front() ? "\"" : ", \"") + std::string(word) + '"';
-  if (!fallback && !has(key)) fail_missing(key, expected);
-  const std::string value = text(key, std::move(fallback));
-  if (std::find(words.begin(), words.end(), value) == words.end())
-    fail(key, "unknown word, expected " + expected);
-  return value;
-}
-
-Vec3 TomlTable::vector(std::string_view key, const char* unit, std::optional<Vec3> fallback) {
-  const std::string expected = "three finite numbers [x, y, z]" + unit_text(unit);
-  Vec3 v = fallback.value_or(Vec3::Zero());
-  if (const toml::node* node = find(key)) {
-    const auto* read = node->as_array();
-    if (!read || read->size() != 3) fail(key, "not a vector, expected " + expected);
-    for (int i = 0; i < 3; ++i) {
-      const toml::node& entry = (*read)[static_cast<size_t>(i)];
-      const auto x = entry.is_number() ? entry.value<double>() : std::nullopt;
-      if (!x || !std::isfinite(*x))
-        fail(key, "entry " + std::to_string(i) + " is no finite number, expected " + expected);
-      v[i] = *x;
-    }
-  } else if (!fallback) {
-    fail_missing(key, expected);
-  }
-  resolved_->insert_or_assign(key, toml::array{v.x(), v.y(), v.z()});
-  return v;
+std::string TomlTable::text(std::string_view key, std::string fallback) {
+  read(key, {}, false, &fallback);
+  return fallback;
 }
 
 std::vector<std::string> TomlTable::texts(std::string_view key) {
   std::vector<std::string> values;
-  toml::array kept;
-  if (const toml::node* node = find(key)) {
-    if (!node->is_array()) fail(key, "expected a list of texts");
-    for (const toml::node& entry : *node->as_array()) {
-      if (!entry.is_string()) fail(key, "expected a list of texts");
-      values.push_back(entry.as_string()->get());
-      kept.push_back(values.back());
-    }
-  }
-  resolved_->insert_or_assign(key, std::move(kept));
+  read(key, {}, false, &values);
   return values;
 }
 
@@ -202,11 +227,7 @@ void TomlTable::finish() const {
 void TomlTable::fail(std::string_view key, const std::string& what) const {
   const toml::node* node = table_->get(key);
   const std::string value = node ? " = " + toml_value_text(*node, shown_value) : "";
-  throw SceneFileError(place(node) + ": " + full_key(key) + value + ": " + what);
-}
-
-void TomlTable::fail_missing(std::string_view key, const std::string& expected) const {
-  throw SceneFileError(place(table_) + ": " + full_key(key) + " is missing, expected " + expected);
+  throw SceneFileError(place_of(node) + ": " + full_key(key) + value + ": " + what);
 }
 
 const toml::node* TomlTable::find(std::string_view key) {
@@ -218,14 +239,14 @@ std::string TomlTable::full_key(std::string_view key) const {
   return path_.empty() ? std::string(key) : path_ + '.' + std::string(key);
 }
 
-std::string TomlTable::place(const toml::node* node) const {
+std::string TomlTable::place_of(const toml::node* node) const {
   if (!node) return file_;
   const toml::source_region& source = node->source();
   if (source.path && *source.path == override_source) return file_ + " (" + override_source + ")";
   if (source.begin.line > 0) return file_ + ':' + std::to_string(source.begin.line);
   // a table that an override made has no source of its own
   if (const auto* table = node->as_table(); table && !table->empty())
-    return place(&table->begin()->second);
+    return place_of(&table->begin()->second);
   return file_;
 }
 

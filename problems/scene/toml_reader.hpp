@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "geometry/shape/pose.hpp"
@@ -35,6 +35,25 @@ inline constexpr NumberRange not_negative{"a number >= 0", 0.0,
 inline constexpr NumberRange zero_to_one{"a number from 0 to 1", 0.0, 1.0, true, true};
 inline constexpr NumberRange part_of_one{"a number > 0 and <= 1", 0.0, 1.0, false, true};
 
+/// What is asked of a value besides its type.
+struct ValueRule {
+  NumberRange range = any_number;  ///< of a number
+  std::int64_t low = 0;            ///< of a whole number, included
+  std::int64_t high = std::numeric_limits<std::int64_t>::max();
+  static constexpr std::int64_t no_limit = 1'000'000'000;  ///< from here on it is not spoken of
+  const char* unit = "";                ///< as messages write it, "kg/m^3"; empty: a pure number
+  std::vector<const char*> words = {};  ///< one of which a text must be; none: any text
+};
+
+/// Where a value is kept; its type says what stands in the file.
+using ValuePlace = std::variant<double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
+                                std::vector<std::string>*>;
+
+/// "a number > 0", "true or false", ...: what is expected, without its unit.
+std::string expected_text(ValuePlace place, const ValueRule& rule);
+/// What is kept there, as one would write it into a scene: 2e-4, "pgs", [0, 0, 1].
+std::string kept_text(ValuePlace place);
+
 /// Parses a file and applies overrides "dotted.key=value" (elements of arrays of tables by index:
 /// body.0.mass=2). A value is TOML; a bare word is taken as a string, so that a shell needs no
 /// quotes within quotes. Throws SceneFileError.
@@ -52,18 +71,13 @@ class TomlTable {
 
   bool has(std::string_view key) const { return table_->contains(key); }
 
-  // Each throws SceneFileError when the key is absent and there is no fallback, of another type or
-  // out of range.
-  double number(std::string_view key, const NumberRange& range, const char* unit,
-                std::optional<double> fallback = {});
-  std::int64_t whole(std::string_view key, std::int64_t low, std::int64_t high,
-                     std::optional<std::int64_t> fallback = {});
-  bool flag(std::string_view key, std::optional<bool> fallback = {});
-  std::string text(std::string_view key, std::optional<std::string> fallback = {});
-  std::string choice(std::string_view key, const std::vector<const char*>& words,
-                     std::optional<std::string> fallback = {});
-  Vec3 vector(std::string_view key, const char* unit, std::optional<Vec3> fallback = {});
-  std::vector<std::string> texts(std::string_view key);  ///< absent: empty
+  /// What is kept in `place` stays when the key is absent, unless it is required. Throws
+  /// SceneFileError: missing, of another type, out of range.
+  void read(std::string_view key, const ValueRule& rule, bool is_required, ValuePlace place);
+  /// A text that must be there, a text, a list of texts that may be empty.
+  std::string text(std::string_view key);
+  std::string text(std::string_view key, std::string fallback);
+  std::vector<std::string> texts(std::string_view key);
 
   TomlTable section(std::string_view key);  ///< absent: an empty table, so that all fallbacks hold
   std::vector<TomlTable> sections(std::string_view key);  ///< an array of tables; absent: empty
@@ -82,9 +96,8 @@ class TomlTable {
 
  private:
   const toml::node* find(std::string_view key);
-  [[noreturn]] void fail_missing(std::string_view key, const std::string& expected) const;
   std::string full_key(std::string_view key) const;
-  std::string place(const toml::node* node) const;
+  std::string place_of(const toml::node* node) const;
 
   std::string file_, path_;
   const toml::table* table_;
