@@ -4,7 +4,7 @@
 //
 //   template <class Carrier, class State>
 //   void carry(Carrier& carrier, State& state) {
-//     carrier.number(state.time);
+//     carrier.numbers(state.time, state.step);
 //     carrier.text(state.name);
 //     carrier.list(state.spin, [&](auto& spin) { carrier.fixed(spin); });
 //   }
@@ -34,6 +34,10 @@ class Packer {
   void number(const Number& value) {
     static_assert(std::is_arithmetic_v<Number> || std::is_enum_v<Number>);
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  template <class... Numbers>
+  void numbers(const Numbers&... values) {
+    (..., number(values));
   }
   void text(const std::string& value) {
     length(value.size());
@@ -79,6 +83,10 @@ class Unpacker {
       value = *take(1).data() != 0;
     else
       std::memcpy(&value, take(sizeof value).data(), sizeof value);
+  }
+  template <class... Numbers>
+  void numbers(Numbers&... values) {
+    (..., number(values));
   }
   void text(std::string& value) { value = take(length(1)); }
   template <class Numbers>

@@ -17,9 +17,7 @@ void write_sealed_file(const std::filesystem::path& file, const SealedKind& kind
                        std::string_view body) {
   Packer head;
   head.fixed(kind.magic);
-  head.number(kind.format);
-  head.number(this_byte_order);
-  head.number(std::uint64_t{body.size()});
+  head.numbers(kind.format, this_byte_order, std::uint64_t{body.size()});
   std::string bytes = head.bytes();
   bytes += body;
   Packer checksum;
@@ -41,9 +39,7 @@ SealedBody read_sealed_file(const std::filesystem::path& file, const SealedKind&
   Unpacker head(all.substr(kind.magic.size()), file.string() + ": " + name);
   std::uint32_t format = 0, byte_order = 0;
   std::uint64_t body = 0, checksum = 0;
-  head.number(format);
-  head.number(byte_order);
-  head.number(body);
+  head.numbers(format, byte_order, body);
   if (byte_order != this_byte_order)
     refuse(name + " was written on a machine of another byte order");
   if (format < kind.oldest || format > kind.format)

@@ -1,9 +1,11 @@
 #pragma once
 // Text out of numbers and lists.
 
+#include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ballast {
 
@@ -24,6 +26,21 @@ std::string joined(const Words& words) {
     first = false;
   }
   return list;
+}
+
+/// What stands between the separators: one more than there are of them.
+std::vector<std::string> split(std::string_view text, char separator);
+
+/// Letters and digits of ASCII and `also` alone, at least one.
+bool is_plain(std::string_view text, std::string_view also);
+
+/// The number that all of `text` is, without blanks; nothing when it is none.
+template <class Number>
+std::optional<Number> parsed(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 /// The number that all of `text` is, blanks around it apart; nothing when it is none. "nan" and

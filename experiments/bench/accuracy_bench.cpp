@@ -58,6 +58,7 @@ std::vector<AccuracyRow> measure_accuracy(const AccuracyOptions& options,
     scale = comparison.velocity_scale;
     for (Trajectory& t : comparison.trajectories) trajectories.push_back(std::move(t));
   };
+  // First to tolerances, with as many iterations as that takes; then by number of iterations.
   if (!options.live.tolerances.empty()) run(options.live);
   for (const int iterations : options.iterations) {
     LiveOptions live = options.live;
@@ -67,6 +68,7 @@ std::vector<AccuracyRow> measure_accuracy(const AccuracyOptions& options,
   }
   std::vector<AccuracyRow> rows;
   for (const Trajectory& t : trajectories) rows.push_back(row_of(t, scale));
+  // The most exact trajectory is what the others are compared with.
   const size_t best = least_error(rows);
   for (size_t k = 0; k < rows.size() && best < rows.size(); ++k) {
     const std::vector<double> d = distances(trajectories[k], trajectories[best]);

@@ -56,6 +56,7 @@ FrictionProblem repeated(const FrictionProblem& one, int copies) {
     const int base = to.back();
     for (size_t k = 1; k < begins.size(); ++k) to.push_back(base + begins[k]);
   };
+  // Each copy's bodies follow the last one's; only the walls' "no body" (-1) is shared.
   for (int copy = 0; copy < copies; ++copy) {
     const int bodies = d.body_count();
     const auto shifted = [bodies](int body) { return body < 0 ? body : body + bodies; };
@@ -101,6 +102,7 @@ GrainPairs grain_pairs(int vertices, bool touching, int count) {
       shake.push_back(random_rotation(random) * Vec3(grain_radius, 0, 0));
       spin.push_back(random_rotation(random) * Vec3::UnitZ());
     }
+    // The pair is put as deep or as far apart as asked for, measured from where it just touches.
     const double touch =
         touching_distance(*pairs.shapes[2 * k], *pairs.shapes[2 * k + 1], turn[0], turn[1]);
     const Vec3 place(0.0, pair_spacing * k, 0.0);
@@ -111,6 +113,7 @@ GrainPairs grain_pairs(int vertices, bool touching, int count) {
   const double amplitude =
       4e-4 * visits /
       (2.0 * std::numbers::pi);  // the fastest step is 4e-4, half of it motion and half turn
+  // All bodies swing about their places, back and forth, so that poses can be visited for ever.
   for (int visit = 0; visit < visits; ++visit) {
     const double at = 0.5 * amplitude * std::sin(2.0 * std::numbers::pi * visit / visits);
     std::vector<Pose> poses = base;

@@ -66,6 +66,7 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
   std::vector<double> detect, assemble, solve, step;
   TimeStepper stepper(start.system, settings, -1);
   const double ns = 1e9 / point.grains;
+  // Steps with k < 0 warm up: the seams between the copies settle, caches fill.
   for (int k = -options.warm_up; k < options.steps; ++k) {
     const StepRecord r = stepper.step(start.state, start.memory);
     if (k < 0) continue;
@@ -80,6 +81,7 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
   point.solve = median_of(std::move(solve));
   point.step = median_of(std::move(step));
   point.bytes = (peak_bytes() - before) / point.grains;
+  // The last step's problem once more: a sweep alone, then each solver to the tolerance.
   Impulses warm;
   stepper.warm_start(warm);
   point.sweep = ns * sweep_seconds(stepper.problem(), warm, options.sweeps, point.threads);
@@ -95,10 +97,8 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
 /// What the child measured, on its way to the parent.
 template <class Carrier, class Point>
 void carry(Carrier& carrier, Point& point) {
-  for (const auto value :
-       {&ScalingPoint::contacts, &ScalingPoint::detect, &ScalingPoint::assemble,
-        &ScalingPoint::solve, &ScalingPoint::step, &ScalingPoint::sweep, &ScalingPoint::bytes})
-    carrier.number(point.*value);
+  carrier.numbers(point.contacts, point.detect, point.assemble, point.solve, point.step,
+                  point.sweep, point.bytes);
   carrier.list(point.iterations);
   carrier.list(point.seconds);
 }

@@ -90,6 +90,7 @@ class Depositor {
       throw Error("deposit: after deposit.max_time = " + std::to_string(scene_.deposit.max_time) +
                   " s the grains still move at " + std::to_string(rms_velocity_) +
                   " m/s rms: raise deposit.max_time or deposit.rest_velocity");
+    // The lid comes down on the highest vertex, or, unpressed, to where it stays for good.
     packing_.deposit.rain_time = packing_.state.time;
     const MechanicalSystem system = box_system(scene_, rain_, BoxStage::rain, packing_.deposit.lid);
     packing_.deposit.top = packing_top(system, packing_.state);
@@ -101,6 +102,7 @@ class Depositor {
 
   bool press() {
     if (!steps(scene_.deposit.lid_time, [](double, double) { return false; })) return false;
+    // Pressed down, the lid itself says how high the packing is; then it is raised.
     packing_.deposit.top = packing_.state.pose[rain_.grains.size() + wall_lid].position.z();
     place_lid(packing_.deposit.top + scene_.drive.lid_raise);
     enter(BoxStage::settle);
@@ -128,6 +130,7 @@ class Depositor {
       const StepRecord record = stepper.step(packing_.state, packing_.memory);
       rms_velocity_ = grain_rms_velocity(system, packing_.state);
       const bool goes_on = progress_(stage_, packing_.state.time, rms_velocity_, record);
+      // A checkpoint now and then, and one when it is to stop: the same call goes on there.
       if (!goes_on || since_saved.seconds() > scene_.record.checkpoint_seconds) {
         save(part_, key_, name_of(stage_), packing_);
         since_saved.restart();

@@ -42,6 +42,7 @@ std::vector<Vec3> scatter(const std::vector<double>& radii, double length, doubl
   for (size_t done = 0; done < order.size(); ++done) {
     const double r = radii[order[done]];
     for (int attempt = 0;; ++attempt) {
+      // So many places were taken: the rain becomes a little higher.
       if (attempt == 2000) {
         height *= 1.05;
         attempt = 0;
@@ -94,6 +95,7 @@ Rain make_rain(const Scene& scene) {
     radii.push_back(shape.shape.circumradius());
     sphere_volume += 4.0 / 3.0 * std::numbers::pi * std::pow(radii.back(), 3);
   }
+  // As high as makes the spheres the wanted part of its volume, and no grain sticks out.
   Rain rain;
   rain.height =
       std::max(sphere_volume / (scene.deposit.fill_fraction * scene.box.length * scene.box.width),

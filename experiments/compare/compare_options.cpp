@@ -1,11 +1,11 @@
 #include "experiments/compare/compare_options.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
 
+#include "platform/text.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -13,12 +13,7 @@ namespace {
 
 /// The words between the commas of a list; `what` says what was expected there.
 std::vector<std::string> words_of(const std::string& list, const std::string& what) {
-  std::vector<std::string> words;
-  for (size_t begin = 0; begin <= list.size();) {
-    const size_t end = std::min(list.find(',', begin), list.size());
-    words.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  std::vector<std::string> words = split(list, ',');
   for (const std::string& word : words)
     if (word.empty())
       throw std::invalid_argument("'" + list + "': expected " + what + ", separated by commas");
@@ -47,10 +42,8 @@ std::vector<ComparedSolver> parse_solvers(const std::string& list) {
 std::vector<double> parse_tolerances(const std::string& list) {
   std::vector<double> tolerances;
   for (const std::string& word : words_of(list, "numbers > 0")) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !(value > 0.0) ||
-        !std::isfinite(value))
+    const double value = parsed<double>(word).value_or(-1.0);
+    if (!(value > 0.0) || !std::isfinite(value))
       throw std::invalid_argument("'" + word + "': expected a number > 0");
     tolerances.push_back(value);
   }
@@ -63,9 +56,8 @@ std::vector<long> parse_counts(const std::string& list, long most) {
   const std::string expected = "whole numbers from 1 to " + std::to_string(most);
   std::vector<long> counts;
   for (const std::string& word : words_of(list, expected)) {
-    long count = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-    if (error != std::errc() || end != word.data() + word.size() || count < 1 || count > most)
+    const long count = parsed<long>(word).value_or(0);
+    if (count < 1 || count > most)
       throw std::invalid_argument("'" + word + "': expected " + expected + ", separated by commas");
     counts.push_back(count);
   }

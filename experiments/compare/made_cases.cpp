@@ -2,7 +2,6 @@
 // those that break solvers.
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -19,10 +18,9 @@ namespace {
 class MadeWord {
  public:
   explicit MadeWord(const std::string& word) : word_(word) {
-    std::string rest = word.substr(word.find(':') + 1);
-    while (!rest.empty()) {
-      const std::string item = rest.substr(0, rest.find(','));
-      rest.erase(0, item.size() + 1);
+    const std::string settings = word.substr(word.find(':') + 1);
+    if (settings.empty()) return;
+    for (const std::string& item : split(settings, ',')) {
       const size_t equals = item.find('=');
       if (equals == std::string::npos) {
         if (!what_.empty()) fail(item + ": expected name=value");
@@ -56,11 +54,8 @@ class MadeWord {
 
  private:
   double number_of(const std::string& item, const std::string& text) const {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0) ||
-        !(value <= 1e9))
-      fail(item + ": expected a number from 0 to 1e9");
+    const double value = parsed<double>(text).value_or(-1.0);
+    if (!(value >= 0.0 && value <= 1e9)) fail(item + ": expected a number from 0 to 1e9");
     return value;
   }
 

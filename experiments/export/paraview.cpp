@@ -1,7 +1,6 @@
 #include "experiments/export/paraview.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <string>
 
 #include "experiments/export/vtp_file.hpp"
@@ -21,10 +20,8 @@ long step_of_frame(const std::string& file, const std::string& name) {
   if (file.size() <= prefix.size() + suffix.size() || file.rfind(prefix, 0) != 0 ||
       !file.ends_with(suffix))
     return -1;
-  const char *begin = file.data() + prefix.size(), *end = file.data() + file.size() - suffix.size();
-  long step = -1;
-  const auto [stop, error] = std::from_chars(begin, end, step);
-  return error == std::errc() && stop == end ? step : -1;
+  const size_t digits = file.size() - prefix.size() - suffix.size();
+  return parsed<long>(std::string_view(file).substr(prefix.size(), digits)).value_or(-1);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_text.hpp"
 
@@ -12,10 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 void check_name(const std::string& name, const std::string& what, const std::string& origin) {
-  const bool plain = name.find_first_not_of(
-                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.=") ==
-                     std::string::npos;
-  if (name.empty() || name[0] == '.' || name[0] == '-' || !plain)
+  if (!is_plain(name, "_-.=") || name[0] == '.' || name[0] == '-')
     throw SceneFileError(origin + ": " + what + " = \"" + name +
                          "\": expected letters, digits, _, -, . and =");
 }

@@ -2,9 +2,9 @@
 // docs/manual/plans.md.
 
 #include <map>
-#include <optional>
 
 #include "experiments/plans/plan.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
 #include "problems/scene/toml_text.hpp"
@@ -72,16 +72,7 @@ std::vector<Axis> read_axes(const toml::table& table, const char* key) {
 
 /// 1 and 1.0 are the same value.
 bool same_value(const std::string& a, const std::string& b) {
-  const auto number = [](const std::string& text) -> std::optional<double> {
-    try {
-      size_t end = 0;
-      const double x = std::stod(text, &end);
-      if (end == text.size()) return x;
-    } catch (const std::exception&) {
-    }
-    return std::nullopt;
-  };
-  const auto x = number(a), y = number(b);
+  const auto x = parsed_number(a), y = parsed_number(b);
   return x && y ? *x == *y : a == b;
 }
 
@@ -108,6 +99,7 @@ Where read_where(TomlTable& table, const toml::table& raw, const std::vector<Axi
   table.section("when");  // known; its keys are those of the axes, not a table's of ours
   if (where.when.empty())
     table.fail("when", "no condition, expected when = { \"a varied key\" = its values }");
+  // A condition that no member can meet is a slip of the pen.
   for (const Axis& condition : where.when) {
     const auto axis = std::find_if(axes.begin(), axes.end(),
                                    [&](const Axis& a) { return a.key == condition.key; });
@@ -158,6 +150,7 @@ PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
     while (grid.axes[a].key != key) ++a;
     return grid.axes[a].values[chosen[a]];
   };
+  // The name says the values, the overrides set them.
   for (const Axis& axis : grid.axes) {
     run.name += '-' + axis.key + '=' + name_part(value_of(axis.key));
     run.overrides.push_back(axis.key + '=' + value_of(axis.key));
@@ -196,6 +189,7 @@ Plan read_plan(const fs::path& file) {
   std::map<std::string, std::vector<TomlTable>> grids;
   for (const char* key : {"grid", "sweep"}) grids[key] = root.sections(key);  // sweep: its old name
   root.finish();
+  // Single runs as they stand, then the members of each grid.
   for (TomlTable& table : runs) {
     const std::string name = table.text("name");
     Base own = read_base(table, file, base);

@@ -15,6 +15,7 @@ PlanProgress::PlanProgress(StatusLine::Style style, const std::vector<Task>& tas
 }
 
 double PlanProgress::work_done() const {
+  // A run that goes on counts by its steps; a deposit counts when it is through.
   double done = 0.0;
   for (const Task& task : tasks_) {
     if (task.state == TaskState::finished)
@@ -35,6 +36,7 @@ std::string PlanProgress::text(double now) const {
     running += task.is_run() && task.state == TaskState::running;
     deposits += !task.is_run() && task.state == TaskState::running;
   }
+  // What is left takes as long as what was done since the beginning, in proportion to the work.
   const double done = work_done(), gained = done - work_before_;
   const double fraction = all_work_ > 0.0 ? done / all_work_ : 1.0;
   std::string text = line_.style() == StatusLine::Style::bar ? bar_text(fraction) : "";

@@ -97,6 +97,7 @@ void write_index(const fs::path& results, const std::map<std::string, std::strin
   CsvWriter csv;
   csv.add_row(std::vector<std::string>{"plan", "name", "key", "state", "steps_done", "steps",
                                        "seconds", "error_mean", "commit"});
+  // Plans may share a folder: all that were ever run there are in the one table.
   for (const fs::path& file : files) add_rows(csv, results, file, failed);
   write_whole_file(results / "index.csv", csv.take());
 }

@@ -20,21 +20,16 @@ void carry_motion(Carrier& carrier, Of& checkpoint) {
   carrier.text(checkpoint.key);
   carrier.text(checkpoint.phase);
   auto& state = checkpoint.state;
-  carrier.number(state.time);
-  carrier.number(state.step);
+  carrier.numbers(state.time, state.step);
   carrier.list(state.pose, [&](auto& pose) {
     carrier.fixed(pose.position);
-    carrier.number(pose.rotation.w());
-    carrier.number(pose.rotation.x());
-    carrier.number(pose.rotation.y());
-    carrier.number(pose.rotation.z());
+    auto& q = pose.rotation;
+    carrier.numbers(q.w(), q.x(), q.y(), q.z());
   });
   carrier.list(state.velocity, vector);
   carrier.list(state.spin, vector);
   carrier.list(checkpoint.memory.contacts, [&](auto& contact) {
-    carrier.number(contact.body_a);
-    carrier.number(contact.body_b);
-    carrier.number(contact.feature);
+    carrier.numbers(contact.body_a, contact.body_b, contact.feature);
     carrier.fixed(contact.normal);
     carrier.fixed(contact.position);
     carrier.number(contact.gap);

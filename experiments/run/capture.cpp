@@ -1,8 +1,8 @@
 #include "experiments/run/capture.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -14,9 +14,8 @@ namespace ballast {
 namespace {
 
 long positive_number(std::string_view name, std::string_view text) {
-  long value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 1)
+  const long value = parsed<long>(text).value_or(0);
+  if (value < 1)
     throw std::invalid_argument(std::string(name) + "=" + std::string(text) +
                                 ": expected a whole number >= 1");
   return value;
@@ -27,24 +26,16 @@ long positive_number(std::string_view name, std::string_view text) {
 CaptureSettings CaptureSettings::parse(std::string_view text) {
   CaptureSettings settings;
   bool has_range = false;
-  while (!text.empty()) {
-    const std::string_view item = text.substr(0, text.find(','));
-    text.remove_prefix(std::min(item.size() + 1, text.size()));
-    const size_t equals = item.find('=');
-    const std::string_view name = item.substr(0, equals);
-    const std::string_view value =
-        equals == std::string_view::npos ? std::string_view() : item.substr(equals + 1);
-    if (name == "every")
-      settings.every = positive_number(name, value);
-    else if (name == "steps")
-      settings.steps = positive_number(name, value);
-    else if (name == "from")
-      settings.from = positive_number(name, value);
-    else if (name == "to")
-      settings.to = positive_number(name, value);
-    else
-      throw std::invalid_argument("'" + std::string(item) +
-                                  "': expected every=, steps=, from= or to=");
+  const std::map<std::string, long*> places{{"every", &settings.every},
+                                            {"steps", &settings.steps},
+                                            {"from", &settings.from},
+                                            {"to", &settings.to}};
+  for (const std::string& item : split(text, ',')) {
+    const std::string name = item.substr(0, item.find('='));
+    const auto place = places.find(name);
+    if (place == places.end())
+      throw std::invalid_argument("'" + item + "': expected every=, steps=, from= or to=");
+    *place->second = positive_number(name, item.substr(std::min(name.size() + 1, item.size())));
     has_range = has_range || name == "from" || name == "to";
   }
   if (settings.every == 0 && !has_range)
@@ -89,6 +80,7 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
   captured.wall_x = record.wall_x;
   captured.wall_v = record.wall_v;
   captured.load = record.load;
+  // Of each contact what a solver may not need, but whoever looks at its answer does.
   for (const int c : stepper.assembler().detected()) {
     const ContactPoint& contact = stepper.contacts()[static_cast<size_t>(c)];
     captured.gap.push_back(contact.gap);

@@ -14,6 +14,7 @@ namespace {
 void note_box(const Scene& scene, const DepositState& deposit, PreparedRun& run,
               Manifest& manifest) {
   const double mass = run.system.mass_of_grains(), g = scene.gravity.norm();
+  // What the run's page and the campaign's figures scale with.
   manifest.summary("grains", run.system.grain_count);
   manifest.summary("grain_mass_kg", mass);
   manifest.summary("weight_N", mass * g);

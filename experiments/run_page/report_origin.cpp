@@ -173,12 +173,7 @@ std::string made_by(const RunData& data) {
 }
 
 std::string shell_word(const std::string& word) {
-  const bool is_plain =
-      !word.empty() &&
-      word.find_first_not_of(
-          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,@%") ==
-          std::string::npos;
-  if (is_plain) return word;
+  if (is_plain(word, "_-./=+:,@%")) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + '\'';

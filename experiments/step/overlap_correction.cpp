@@ -47,6 +47,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
       contacts.begin(), contacts.end(), [&](const ContactPoint& c) { return c.gap < tolerated; });
   if (nothing_overlaps) return 0.0;
 
+  // A row for each contact point: how far its bodies must be moved apart, and how stiff that is.
   rows_.clear();
   for (int c = 0; c < problem.contact_count(); ++c) {
     const ContactPoint& contact = contacts[assembler.detected()[c]];
@@ -60,6 +61,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
     if (compliance > 0.0) rows_.push_back({c, wanted - next_gap, 1.0 / compliance, 0.0});
   }
 
+  // Projected Gauss-Seidel on displacements: pushes only push (>= 0), heavy bodies move less.
   displacement_.setZero();
   for (int sweep = 0; sweep < spec_.sweeps; ++sweep) {
     for (Row& row : rows_) {
@@ -77,6 +79,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
     }
   }
 
+  // The poses follow; lifting a body against gravity is energy that the books must know of.
   double potential = 0.0;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
     const int first = assembler.first_dof(static_cast<int>(b));

@@ -87,6 +87,7 @@ void RestingIslands::detect(ContactDetector& detector, std::span<const Pose> pos
     return (a == Activity::asleep && b == Activity::awake) ||
            (a == Activity::awake && b == Activity::asleep);
   });
+  // An awake body that touches a sleeper wakes its whole island.
   if (wakes) {
     if (calm_is_used_)
       detector.detect(poses, reach, contacts);  // whoever wakes needs all its contacts
@@ -97,6 +98,7 @@ void RestingIslands::detect(ContactDetector& detector, std::span<const Pose> pos
   std::erase_if(contacts, [&](const ContactPoint& c) {
     return is_kept(c) || (!has_unknowns_[c.body_a] && !has_unknowns_[c.body_b]);
   });
+  // Sleepers' contacts are not solved for: they keep the impulses that they fell asleep with.
   kept_contacts_.clear();
   kept_impulses_.clear();
   for (size_t c = 0; c < memory.contacts.size(); ++c) {
@@ -115,6 +117,7 @@ const DetectionCounters& RestingIslands::counters(const ContactDetector& detecto
 void RestingIslands::choose_detector() {
   calm_steps_ = activity_ == last_activity_ ? calm_steps_ + 1 : 0;
   last_activity_ = activity_;
+  // Sleepers in all, and those that the detector at hand looks at although they sleep.
   int asleep = 0, looked_at = 0;
   calm_is_used_ = calm_.has_value();
   for (size_t b = 0; b < activity_.size(); ++b) {
@@ -175,6 +178,7 @@ void RestingIslands::restore_kept(StepMemory& memory) {
     merged_contacts_.push_back(contacts[k]);
     merged_impulses_.push_back(impulses[k++]);
   };
+  // Both lists are sorted by key, and so is what they are merged into.
   size_t k = 0;
   for (size_t c = 0; c < memory.contacts.size();) {
     if (k < kept_contacts_.size() && key_of(kept_contacts_[k]) < key_of(memory.contacts[c]))
@@ -200,6 +204,7 @@ bool RestingIslands::counts_rest(const MotionState& state, StepMemory& memory) c
     if (!has_unknowns_[b] || body.is_wall() || activity_[b] == Activity::asleep) continue;
     const double speed =
         state.velocity[b].norm() + state.spin[b].norm() * body.shape.polyhedron->circumradius();
+    // One step of motion begins the count anew.
     const bool rests = speed <= velocity_limit_ && !is_disturbed_[b];
     memory.rest[b] = rests ? std::min(memory.rest[b] + 1, steps_) : 0;
     enough = enough || memory.rest[b] >= steps_;
@@ -213,6 +218,7 @@ void RestingIslands::look_at_islands(const StepMemory& memory) {
   for (int b = 0; b < static_cast<int>(activity_.size()); ++b)
     if (has_unknowns_[b] && memory.rest[b] < steps_ && memory.rest[b] != StepMemory::asleep)
       flags_[sets_.find(b)] |= restless;
+  // A body without unknowns supports the island, unless it is a wall that moves.
   for (const ContactPoint& c : memory.contacts) {
     const int other = has_unknowns_[c.body_a] ? c.body_b : c.body_a;
     if (has_unknowns_[other]) continue;

@@ -33,6 +33,8 @@ StepSettings step_settings(const Scene& scene) {
 }
 
 Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
+  // Implicit mid-point rule for Euler's equations, I dw/dt = (I w) x w, by fixed-point iteration:
+  // it keeps the kinetic energy.
   Vec3 next = spin;
   for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few times
     const Vec3 mean = 0.5 * (spin + next);
@@ -95,6 +97,7 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
       const double gravity = body.is_wall() ? 0.0 : h * axis.dot(system_.gravity);
       v_free_[first + d] += gravity + force_[first + d] / body.mass;
     }
+    // The gyroscopic term is solved for here, once, and not with the contacts.
     if (!body.freedom.rotation) continue;
     const int spin = first + body.freedom.translations;
     const Vec3 after = free_spin(body.inertia, state.spin[b], h);
@@ -105,10 +108,12 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
 
 void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
   const double g = system_.gravity.norm();
+  // Two bodies further apart than the sum of their reaches cannot touch within the step.
   for (size_t b = 0; b < system_.bodies.size(); ++b)
     reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
   if (mid.step % settings_.detection.refresh_steps == 0) detector_.refresh();
   resting_.detect(detector_, mid.pose, reach_, memory, contacts_);
+  // A contact that was there in the last step begins with the impulse that it had then.
   if (settings_.solver.warm_start)
     carry_impulses(memory.contacts, memory.impulses, contacts_, carried_);
   else

@@ -77,11 +77,9 @@ class Words {
   template <typename Number>
   Number number(std::string_view word, const char* of) const {
     if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-    Number value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size())
-      fail_here(std::string(of) + ": '" + std::string(word) + "' is not a number");
-    return value;
+    const std::optional<Number> value = parsed<Number>(word);
+    if (!value) fail_here(std::string(of) + ": '" + std::string(word) + "' is not a number");
+    return *value;
   }
 
   std::string name_, text_;

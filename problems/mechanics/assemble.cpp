@@ -33,6 +33,7 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(sys
       problem_body_.push_back(-1);
       continue;
     }
+    // Bodies without unknowns are no bodies of the problem; the others are numbered through.
     problem_body_.push_back(static_cast<int>(dof_begin_.size()) - 1);
     dof_begin_.push_back(dof_begin_.back() + dofs);
     // orthonormal axes and principal frame: the block is diagonal
@@ -100,9 +101,11 @@ void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionP
   detected_.clear();
   for (size_t c = 0; c < contacts.size(); ++c) {
     const ContactPoint& contact = contacts[c];
+    // With restitution only points that touch are contacts: an open one has nothing to reflect.
     if (system_.restitution > 0.0 && contact.gap > 0.0) continue;
     detected_.push_back(static_cast<int>(c));
     const double mu = system_.pair_friction(contact.body_a, contact.body_b);
+    // One row, the normal, without friction; with it two tangents besides.
     const int rows = mu > 0.0 ? 3 : 1;
     const int dofs = system_.bodies[contact.body_a].freedom.count() +
                      system_.bodies[contact.body_b].freedom.count();
@@ -154,6 +157,7 @@ void ProblemAssembler::write_bias(const StepInput& step, FrictionProblem& proble
   DynamicsForm& dynamics = problem.dynamics;
   prescribed_part(step.contacts, step.end_time, dynamics.bias);
   const double e = system_.restitution;
+  // Without restitution an open point may close its gap within the step: u_N + gap / h >= 0.
   if (!(e > 0.0)) {
     for (int c = 0; c < problem.contact_count(); ++c)
       dynamics.bias[problem.row_begin[c]] +=

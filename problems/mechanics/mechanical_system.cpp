@@ -60,9 +60,10 @@ void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec
   body.freedom.translations = 0;
   body.freedom.rotation = false;
   if (spec.motion == WallMotion::driven) {
+    // Its one unknown, the velocity along -normal, is positive outwards.
     body.mass = spec.mass;
     body.freedom.translations = 1;
-    body.freedom.axes.col(0) = -spec.normal;  // the unknown is the outward velocity
+    body.freedom.axes.col(0) = -spec.normal;
   }
   body.shape.plane.normal = spec.normal;
   body.shape.fixed = spec.motion != WallMotion::driven;
@@ -80,6 +81,7 @@ MechanicalSystem make_system(const Scene& scene, MotionState& state) {
   system.gravity = scene.gravity;
   system.friction = scene.friction;
   system.restitution = scene.restitution;
+  // Bodies first, then walls: detection relies on that order.
   for (const BodySpec& body : scene.bodies) {
     double volume = 0.0;
     if (body.shape) volume = mass_properties(*body.shape).volume;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/shape/mesh_file.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_bodies.hpp"
 #include "problems/scene/scene_key.hpp"
 #include "problems/scene/scene_keys.hpp"
@@ -16,10 +17,7 @@ void read_head(TomlTable table, Scene& scene, const std::filesystem::path& file)
   scene.name = file.stem().string();
   read_keys(table, head_keys(), scene);
   // a name is also a folder's name
-  const bool plain =
-      scene.name.find_first_not_of(
-          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == std::string::npos;
-  if (scene.name.empty() || scene.name[0] == '.' || !plain)
+  if (!is_plain(scene.name, "_-.") || scene.name[0] == '.')
     table.fail("name", "expected letters, digits, _, - and .");
   if (scene.step > scene.duration)
     table.fail("step", "longer than the scene, expected step <= duration");

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "platform/text.hpp"
 #include "problems/scene/scene_file_error.hpp"
 #include "problems/scene/toml_reader.hpp"
 
@@ -21,17 +22,6 @@ struct Override {
                        const std::string& what) {
   const std::string first_line = o.text.substr(0, o.text.find_first_of("\r\n"));
   throw SceneFileError(file.string() + " (--set): " + first_line + ": " + what);
-}
-
-std::vector<std::string> split_at_dots(const std::string& text) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == '.')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
 }
 
 toml::table parse_value(const std::filesystem::path& file, const Override& o,
@@ -52,7 +42,7 @@ Override parse_override(const std::filesystem::path& file, const std::string& te
   o.text = text;
   const size_t equals = text.find('=');
   if (equals == std::string::npos) fail(file, o, "expected dotted.key=value");
-  o.path = split_at_dots(text.substr(0, equals));
+  o.path = split(text.substr(0, equals), '.');
   for (const std::string& part : o.path)
     if (part.empty()) fail(file, o, "empty part in the key, expected dotted.key=value");
   o.value = parse_value(file, o, text.substr(equals + 1));

@@ -38,11 +38,7 @@ std::string string_text(const std::string& s) {
 }
 
 std::string key_text(std::string_view key) {
-  const bool bare =
-      !key.empty() &&
-      key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
-          std::string_view::npos;
-  return bare ? std::string(key) : string_text(std::string(key));
+  return is_plain(key, "_-") ? std::string(key) : string_text(std::string(key));
 }
 
 std::string inline_text(const toml::node& node) {

@@ -27,9 +27,7 @@ struct Sample {
 
 template <class Carrier, class Of>
 void carry(Carrier& carrier, Of& sample) {
-  carrier.number(sample.flag);
-  carrier.number(sample.colour);
-  carrier.number(sample.count);
+  carrier.numbers(sample.flag, sample.colour, sample.count);
   carrier.text(sample.text);
   carrier.fixed(sample.corner);
   carrier.list(sample.numbers);

@@ -50,3 +50,29 @@ TEST_CASE("durations are told in two units") {
   CHECK(duration_text(1e7) == "?");
   CHECK(duration_text(std::nan("")) == "?");
 }
+
+TEST_CASE("a text is cut at every separator and nowhere else") {
+  using Parts = std::vector<std::string>;
+  CHECK(split("a,b", ',') == Parts{"a", "b"});
+  CHECK(split("", ',') == Parts{""});
+  CHECK(split(",a,,b c,", ',') == Parts{"", "a", "", "b c", ""});
+  CHECK(split("a.b", ',') == Parts{"a.b"});
+}
+
+TEST_CASE("a plain text is letters, digits and what else was said") {
+  CHECK(is_plain("azAZ09", ""));
+  CHECK(is_plain("a_b-c", "_-"));
+  for (const char* text : {"", "a_b", "ä", "a b", "@", "[", "`", "{", "/", ":"}) {
+    CAPTURE(text);
+    CHECK_FALSE(is_plain(text, "-"));
+  }
+}
+
+TEST_CASE("what is parsed is all of a text, without blanks") {
+  CHECK(parsed<long>("-12") == -12);
+  CHECK(parsed<double>("1e-4") == 1e-4);
+  for (const char* text : {"", " 1", "1 ", "1.5", "1x", "9223372036854775808"}) {
+    CAPTURE(text);
+    CHECK_FALSE(parsed<long>(text));
+  }
+}
