@@ -73,3 +73,23 @@ function(ballast_texts name folder)
   endif()
   target_sources(ballast_${name} PRIVATE ${source})
 endfunction()
+
+# ballast_files(NAME FOLDER FUNCTION): builds the files of FOLDER into the room ballast_NAME, as
+#   std::string ballast::FUNCTION(const std::string& name);
+# which returns what stands in the file of that name; empty where there is none.
+function(ballast_files name folder function)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
+  set(code "#include <map>\n#include <string>\n\nnamespace ballast {\n\n")
+  string(APPEND code "std::string ${function}(const std::string& name) {\n")
+  string(APPEND code "  static const std::map<std::string, std::string> files{\n")
+  foreach(path IN LISTS files)
+    get_filename_component(file ${path} NAME)
+    file(READ ${path} text)
+    string(APPEND code "{\"${file}\", R\"file(${text})file\"},\n")
+  endforeach()
+  string(APPEND code "  };\n  const auto found = files.find(name);\n")
+  string(APPEND code "  return found == files.end() ? \"\" : found->second;\n}\n\n}  // namespace ballast\n")
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp CONTENT "${code}" @ONLY)
+  target_sources(ballast_${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
+endfunction()

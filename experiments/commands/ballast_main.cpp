@@ -14,27 +14,10 @@
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
+
+std::string help_file(const std::string& name);  // of experiments/commands/help
+
 namespace {
-
-constexpr const char* examples = R"(Examples:
-  ballast run vibrated_box                       the paper's experiment, into results/vibrated_box
-  ballast run vibrated_box --set drive.frequency=10 --set grains.seed=2 --output results/10Hz
-  ballast run vibrated_box --resume              goes on where it was stopped
-  ballast solve problem.hdf5 --tolerance 1e-8    a stored problem, every measure of its error
-  ballast compare problems/*.hdf5 --solvers all  every backend on the same problems, with a page
-  ballast plan frequencies.toml --jobs 2         many runs, several at a time, each only once
-  ballast bench step vibrated_box --steps 1000   where the time of a step goes
-  ballast paper fig9                             runs and draws a figure of the paper; all: a report
-  ballast check myscene.toml grain.stl           what is wrong with my files?
-  ballast export results/10Hz --format vtp --output last.vtp
-
-Exit codes:
-  0  done
-  1  failed; one line on standard error says why (bad scene, mesh or problem, disk full,
-     not converged, ...)
-  2  the command line is wrong
-  3  stopped by --max-seconds; a run goes on with --resume
-  4  the solver was built without the library it needs)";
 
 void print_failure(std::ostream& err, const std::string& what) {
   std::string line;
@@ -77,11 +60,18 @@ void add_word(CLI::App& app, const Word& word) {
   for (const std::string& other : word.needs) option->needs(app.get_option(other));
 }
 
+/// What --help says after the options: built in by CMake, without its last line end.
+std::string help_text(const std::string& command) {
+  std::string text = help_file(command + ".txt");
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
 /// Tells CLI11 of a command; when it is the one that is named, `chosen` is set.
 void add_command(CLI::App& app, const Command& command, const Command*& chosen) {
   CLI::App* added = app.add_subcommand(command.name, command.meaning);
   if (!command.alias.empty()) added->alias(command.alias);
-  if (!command.footer.empty()) added->footer(command.footer);
+  if (const std::string text = help_text(command.name); !text.empty()) added->footer(text);
   for (const Word& word : command.words) add_word(*added, word);
   for (const Command& part : command.parts) add_command(*added, part, chosen);
   if (command.parts.empty())
@@ -143,7 +133,7 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
   CLI::App program(
       "Nonsmooth contact dynamics of polyhedral grains, and a bench of frictional-contact solvers",
       "ballast");
-  program.footer(examples);
+  program.footer(help_text("ballast"));
   program.set_version_flag("--version", build_line());
   const std::vector<Command> all = commands();
   const Command* chosen = nullptr;

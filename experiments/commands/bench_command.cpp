@@ -140,7 +140,7 @@ Command measuring(const char* name, const char* meaning, const std::shared_ptr<R
       {"--output DIR", &request->output, "Folder of the results", shown},
       {"--no-plot", &request->plot, "No figure"}};
   words.insert(words.end(), more.begin(), more.end());
-  return {name, meaning, words, "", [=] { return act(*request); }};
+  return {name, meaning, words, [=] { return act(*request); }};
 }
 
 Command kernels_command() {
@@ -212,23 +212,11 @@ Command diff_command() {
           "Two result files as a ratio table (Markdown)",
           {{"A", &files->a, "A .json of ballast bench", required},
            {"B", &files->b, "Another of the same kind", required}},
-          "",
           [files] {
             say(bench_ratio_table(read_bench_result(files->a), read_bench_result(files->b)));
             return ExitCode::ok;
           }};
 }
-
-constexpr const char* bench_footer =
-    R"(Results are <kind>.json and <kind>.csv with machine and commit; medians, means and quartiles.
-
-Examples:
-  ballast bench kernels                                     on 60 grains; vibrated_box: on 1200
-  ballast bench step vibrated_box --steps 1000 --threads 1,2
-  ballast bench scaling --grains 1000,10000,100000
-  ballast bench accuracy vibrated_box --from 0.05 --duration 0.01 --solvers nncg,pgs \
-    --iterations 20,50,100,200
-  ballast bench diff old/step.json new/step.json)";
 
 }  // namespace
 
@@ -237,7 +225,6 @@ Command bench_command() {
       "bench",
       "How fast: kernels, whole steps, scaling, cost against accuracy",
       {},
-      bench_footer,
       {},
       {kernels_command(), step_command(), scaling_command(), accuracy_command(), diff_command()}};
 }

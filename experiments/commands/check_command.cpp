@@ -106,8 +106,6 @@ Command check_command() {
        {"--scale", &options->scale, "Metres per unit of the meshes: 0.001 for millimetres", shown,
         above(0)},
        {"--hull", &options->hull, "Meshes: the convex hull of the vertices, for scanned grains"}},
-      "Examples:\n  ballast check mine.toml grain.stl problem.hdf5 results/mine/checkpoint.bin\n"
-      "  ballast check scan.stl --hull --scale 0.001",
       [options] {
         for (const std::string& file : options->files)
           std::cout << file << ": " << check(file, *options) << '\n';

@@ -85,11 +85,11 @@ Rule into(Value& value, Parser parser) {
   return parsed([&value, parser](const std::string& text) { value = parser(text); });
 }
 
-/// One command of the program.
+/// One command of the program. What its --help says after the options is help/<name>.txt; where
+/// there is no such file, that of the command above it.
 struct Command {
   std::string name, meaning;
   std::vector<Word> words;
-  std::string footer;  ///< of its --help; empty: that of the command above it
   /// Keeps alive what the values of `words` are in.
   Action act;
   std::vector<Command> parts = {};  ///< its subcommands, one of which must be named

@@ -94,40 +94,6 @@ ExitCode compare(CompareRequest& options) {
   return ExitCode::ok;
 }
 
-constexpr const char* compare_footer =
-    R"(Cases are files (.hdf5, .h5, .dat), folders, patterns, and problems made on the spot:
-  known:bodies=20,contacts=40,seed=1,count=3
-                                   problems with a known solution; also copies=1, mass_ratio=1e3,
-                                   friction_min=0, friction_max=1, open=.25, slip=.35,
-                                   frictionless=.1
-  stress:all                       the small ones that break solvers
-  stress:stack,n=2,ratio=1e6       n boxes, the uppermost of so many times the others' mass
-                                   (rows=1: without friction)
-  stress:chain,grains=50,force=1e4 grains jammed between walls
-  stress:table,copies=25,mu=.5,speed=.01
-
-Each solve runs in a child process under limits of time and memory; a timeout or a crash is a row.
-A solve shorter than a quarter of a second is repeated in its child, and the fastest run counts.
-"solved": the backend says so and the judge, outside the child, agrees.
-
-The tolerance bounds, by --measure
-  natural_map   the judge's scaled natural map, rms over contacts, relative to the rms of q, or to
-                g h for captured problems
-  fclib         what Siconos prints: natural map with rho = 1 over max(|q|, |r|, |u|). Backends
-                stop on the natural map, so its tolerance falls in rounds, each from the last one's
-                impulses, until the judge is satisfied; the rounds' times are added
-
-What is in the output folder is kept: the same command goes on after an interrupt; rows made by
-another binary are made again.
-
-Examples:
-  ballast compare my_problems --measure fclib --reference times_of_another.csv
-  ballast compare results/captured/capture --solvers pgs,nncg,admm --starts cold,warm \
-    --tolerances 1e-3,1e-4,1e-6
-  ballast compare known:contacts=200,count=5 --repeats 5
-  ballast compare --live vibrated_box --from 0.25 --duration 0.02 --solvers pgs,nncg \
-    --tolerances 1e-2,1e-3,1e-4)";
-
 }  // namespace
 
 Command compare_command() {
@@ -167,7 +133,6 @@ Command compare_command() {
         above(0)},
        {"--packing-cache DIR", &live.packing_cache,
         "Where deposited packings are kept (<output>/packings)"}},
-      compare_footer,
       [options] { return compare(*options); }};
 }
 

@@ -68,9 +68,6 @@ Command export_command() {
            {"--output FILE", &options->output, "The file to write", required},
            {"--time", &options->time, "The stored frame nearest to this time [s]"},
            {"--last", &options->last, "The latest checkpoint (default)", excludes("--time")}},
-          "Examples:\n"
-          "  ballast export results/vibrated_box --format vtp --time 0.25 --output quarter.vtp\n"
-          "  ballast export results/vibrated_box/checkpoint.bin --format text --output state.txt",
           [options] { return export_run(*options); }};
 }
 

@@ -80,7 +80,6 @@ Command solvers_command() {
   return {"solvers",
           "Lists the solvers: name, law, whether built, what it is",
           {{"--json", json.get(), "As JSON"}},
-          "",
           [json] {
             *json ? print_solvers_json() : print_solvers();
             return ExitCode::ok;
@@ -104,8 +103,6 @@ Command scenes_command() {
            {"--keys", &options->keys,
             "Every key of a scene file as Markdown: unit, default, what is expected, meaning",
             excludes("name")}},
-          "Examples:\n  ballast scenes\n  ballast scenes incline > mine.toml\n"
-          "  ballast scenes vibrated_box --resolved",
           [options] {
             if (options->keys)
               std::cout << scene_keys_markdown();
@@ -118,7 +115,7 @@ Command scenes_command() {
 }
 
 Command version_command() {
-  return {"version", "Version, commit, compiler, libraries, processor", {}, "", [] {
+  return {"version", "Version, commit, compiler, libraries, processor", {}, [] {
             print_version();
             return ExitCode::ok;
           }};

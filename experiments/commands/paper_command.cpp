@@ -110,14 +110,6 @@ Command paper_command() {
            {"--seeds N", &campaign.seeds, "Samples of each scaling point (3)", between(1, 1000)},
            {"--iterations N", &campaign.iterations,
             "Solver iterations a step, where they are not what is varied", between(1, 1'000'000)}},
-          "Finished runs are not made again; stopped ones go on. What is missing is said in the "
-          R"(report.
-
-Examples:
-  ballast paper all --jobs 2
-  ballast paper fig9
-  ballast paper plan
-  ballast paper report --results results/paper --output my_report)",
           [options] { return reproduce(*options); }};
 }
 

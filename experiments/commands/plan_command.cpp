@@ -63,18 +63,6 @@ ExitCode run_planned(PlanRequest options) {
   return run_plan(plan, options.running);
 }
 
-constexpr const char* plan_footer =
-    "Finished runs are skipped, stopped ones go on at their checkpoints, failed ones are tried "
-    R"(again:
-the same command continues after Ctrl-C, kill -9 or a power cut.
-
-Examples:
-  ballast plan frequencies.toml --jobs 2
-  ballast plan frequencies.toml --dry-run
-  ballast plan frequencies.toml --only 'nu-drive.frequency=5-*' --output results/shared
-  ballast plan frequencies.toml --snakemake cluster && cd cluster && snakemake -s Snakefile )"
-    "--profile slurm";
-
 }  // namespace
 
 Command plan_command() {
@@ -99,7 +87,6 @@ Command plan_command() {
            {"--max-seconds S", &running.max_seconds,
             "Wall clock after which everything writes a checkpoint and the program exits with 3",
             above(0)}},
-          plan_footer,
           [options] { return run_planned(*options); },
           {},
           "sweep"};  // its name of before

@@ -42,14 +42,6 @@ ExitCode run_scene(const RunRequest& request) {
   return end.code;
 }
 
-constexpr const char* run_footer = R"(Examples:
-  ballast run vibrated_box
-  ballast run vibrated_box --set drive.frequency=10 --set solver.tolerance=1e-4 )"
-                                   R"(--output results/fine
-  ballast run vibrated_box --threads 2
-  ballast run vibrated_box --capture every=500 --output results/captured
-  ballast run incline --set 'gravity.direction=[0.3, 0, -1]')";
-
 }  // namespace
 
 Command run_command() {
@@ -83,7 +75,6 @@ Command run_command() {
        {"--max-seconds S", &run.max_seconds,
         "Wall clock after which to write a checkpoint and exit with 3", above(0)},
        {"--no-report", &request->with_page, "No figures and no page at the end"}},
-      run_footer,
       [request] { return run_scene(*request); }};
 }
 

@@ -150,26 +150,6 @@ ExitCode solve(const SolveOptions& options) {
   return verdict(solved);
 }
 
-constexpr const char* solve_footer =
-    R"(The tolerance is on the judge's scaled natural map, rms over contacts, relative to the
-problem's velocity scale, the rms of q over rows; with --absolute it is in m/s.
-
-Columns: rms, max    scaled natural map [m/s], of the contact `worst` the largest
-         scale       velocity scale [m/s]: rms/scale is what the tolerance bounds
-         fclib       what Siconos prints as error: natural map with rho = 1 over max(|q|, |r|, |u|)
-         cone        largest distance of an impulse from its cone [N s]
-         min_uN      smallest normal velocity [m/s]: negative sinks in
-         compl       largest |r . (u + mu |u_T| n)| [J]
-         power       r . (u - bias) summed [J]: what the impulses do to the bodies at their
-                     end-of-step velocities
-         momentum    |M (v - v_free) - H^T r|, largest entry [N s]
-         own         the solver's own residual: never used as evidence
-         ok          the solver says that it is done and the judge agrees
-
-Examples:
-  ballast solve Capsules.hdf5 --tolerance 1e-6
-  ballast solve problems/*.hdf5 --solver pgs --max-seconds 10 --json > rows.json)";
-
 }  // namespace
 
 Command solve_command() {
@@ -186,7 +166,6 @@ Command solve_command() {
         at_least(1)},
        {"--max-seconds", &options->max_seconds, "Wall clock per problem", above(0)},
        {"--json", &options->json, "Rows as JSON instead of a table"}},
-      solve_footer,
       [options] { return solve(*options); }};
 }
 
