@@ -18,6 +18,14 @@ inline void record(Recorder& recorder, const MechanicalSystem& system, long firs
   }
 }
 
+/// The logs of a run of the sample system that died after its checkpoint at step `last`.
+inline void leave_logs(const std::filesystem::path& folder, const MechanicalSystem& system,
+                       long last) {
+  Recorder recorder(folder, system, 0);
+  record(recorder, system, 1, last);
+  recorder.flush();
+}
+
 inline void check_record(const std::filesystem::path& folder, const MechanicalSystem& system,
                          long steps) {
   const auto rows = read_steps(folder);

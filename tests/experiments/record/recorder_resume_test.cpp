@@ -72,11 +72,7 @@ TEST_CASE("a log torn in the middle of a row is read up to there") {
 TEST_CASE("logs that do not fit the checkpoint or the system are refused") {
   const TemporaryFolder folder;
   const MechanicalSystem system = sample_system();
-  {
-    Recorder recorder(folder.path(), system, 0);
-    record(recorder, system, 1, 10);
-    recorder.flush();
-  }
+  leave_logs(folder.path(), system, 10);
   const auto refusal = [&](const MechanicalSystem& other, long last_step) {
     return run_error([&] { Recorder(folder.path(), other, last_step); });
   };
@@ -103,11 +99,7 @@ TEST_CASE("logs that do not fit the checkpoint or the system are refused") {
 TEST_CASE("any flipped bit of a flushed log is found") {
   const TemporaryFolder folder;
   const MechanicalSystem system = sample_system();
-  {
-    Recorder recorder(folder.path(), system, 0);
-    record(recorder, system, 1, 5);
-    recorder.flush();
-  }
+  leave_logs(folder.path(), system, 5);
   for (const fs::path& log : {steps_log(folder.path()), poses_log(folder.path())}) {
     std::string bytes = file_bytes(log);
     for (size_t at = 0; at < bytes.size(); ++at) {

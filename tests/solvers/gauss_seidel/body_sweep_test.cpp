@@ -5,6 +5,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/slow_sweep.hpp"
 
 using namespace ballast;
 
@@ -84,18 +85,7 @@ TEST_CASE("a sweep over bodies is that of dense matrices, in its own order") {
   sweep.load(problem, fast);
   for (int k = 0; k < 4; ++k) {
     sweep.sweep();
-    for (const int c : sweep.order()) {
-      const int begin = problem.row_begin[c], rows = problem.contact_rows(c);
-      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-      block.topLeftCorner(rows, rows) = w.block(begin, begin, rows, rows);
-      Eigen::Vector3d others = Eigen::Vector3d::Zero(), own = Eigen::Vector3d::Zero();
-      own.head(rows) = slow.segment(begin, rows);
-      others.head(rows) = w.middleRows(begin, rows) * slow + q.segment(begin, rows);
-      others -= block * own;
-      double slip = 0.0;
-      solve_one_contact(block, others, problem.friction[c], own, slip);
-      slow.segment(begin, rows) = own.head(rows);
-    }
+    slow_sweep(problem, w, q, sweep.order(), slow);
     sweep.store(problem, fast);
     CHECK((fast - slow).norm() <= 1e-10 * slow.norm());
     CHECK(sweep.error() == Approx(contact_error(problem, fast).natural_map_rms).margin(1e-13));

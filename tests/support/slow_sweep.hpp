@@ -1,0 +1,28 @@
+#pragma once
+// The obvious twin of every Gauss-Seidel sweep: dense matrices, one contact after the other.
+
+#include "problems/algebra/friction_problem.hpp"
+#include "solvers/parts/one_contact.hpp"
+
+namespace ballast {
+
+/// One sweep in the given order; each contact is solved by itself against all others. `w`, `q`: of
+/// the whole problem, dense.
+template <class Order>
+void slow_sweep(const FrictionProblem& problem, const Eigen::MatrixXd& w, const Eigen::VectorXd& q,
+                const Order& order, Impulses& r) {
+  for (const int c : order) {
+    const int begin = problem.row_begin[c], rows = problem.contact_rows(c);
+    Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+    block.topLeftCorner(rows, rows) = w.block(begin, begin, rows, rows);
+    Eigen::Vector3d others = Eigen::Vector3d::Zero(), own = Eigen::Vector3d::Zero();
+    own.head(rows) = r.segment(begin, rows);
+    others.head(rows) = w.middleRows(begin, rows) * r + q.segment(begin, rows);
+    others -= block * own;
+    double slip = 0.0;
+    solve_one_contact(block, others, problem.friction[c], own, slip);
+    r.segment(begin, rows) = own.head(rows);
+  }
+}
+
+}  // namespace ballast
