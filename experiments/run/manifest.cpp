@@ -120,7 +120,6 @@ void Manifest::summary(const std::string& name, const std::string& value) {
   (*json_)["summary"][name] = value;
 }
 
-std::string Manifest::scene() const { return json_->at("scene").get<std::string>(); }
 std::string Manifest::key() const { return json_->at("key").get<std::string>(); }
 
 std::string Manifest::commit() const {

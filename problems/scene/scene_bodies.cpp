@@ -17,7 +17,7 @@ void check_direction(TomlTable& table, const char* key, const Vec3& v) {
 WallSpec read_wall(TomlTable& table, const std::string& default_name) {
   WallText given;
   given.name = default_name;
-  read_keys(table, wall_keys(), given);
+  read_keys(table, wall_keys, given);
   check_direction(table, "normal", given.normal);
   WallSpec wall;
   wall.name = given.name;
@@ -27,12 +27,12 @@ WallSpec read_wall(TomlTable& table, const std::string& default_name) {
   wall.friction = given.friction;
   if (given.motion == "prescribed") {
     wall.motion = WallMotion::prescribed;
-    read_keys(table, prescribed_wall_keys(), wall);
+    read_keys(table, prescribed_wall_keys, wall);
   } else if (given.motion == "driven") {
     wall.motion = WallMotion::driven;
-    read_keys(table, driven_wall_keys(), wall);
+    read_keys(table, driven_wall_keys, wall);
     wall.load = read_section(
-        table.section("load"), load_keys(), [](TomlTable& load_table, const HarmonicLoad& load) {
+        table.section("load"), load_keys, [](TomlTable& load_table, const HarmonicLoad& load) {
           if (load.f_min > load.f_max)
             load_table.fail("f_min", "larger than f_max, expected f_min <= f_max");
         });
@@ -43,7 +43,7 @@ WallSpec read_wall(TomlTable& table, const std::string& default_name) {
 
 Quat read_orientation(TomlTable table) {
   const OrientationText given = read_section(
-      std::move(table), orientation_keys(),
+      std::move(table), orientation_keys,
       [](TomlTable& own, const OrientationText& text) { check_direction(own, "axis", text.axis); });
   const double angle = given.angle_degrees * std::numbers::pi / 180.0;
   return Quat(Eigen::AngleAxisd(angle, given.axis.normalized())).normalized();
@@ -85,7 +85,7 @@ double mass_of(TomlTable& table, BodyText& given, double volume, bool can_move) 
   if (has_mass && has_density)
     table.fail("mass", "given together with density, expected one of the two");
   if (can_move && !has_mass && !has_density)  // reading it as required says what is missing
-    for (const SceneKey<BodyText>& key : body_keys())
+    for (const SceneKey<BodyText>& key : body_keys)
       if (key.name == std::string_view("density"))
         table.read(key.name, key.value.rule, true, key.value.in(given));
   return has_mass ? given.mass : volume * given.density;
@@ -121,7 +121,7 @@ BodySpec read_body(TomlTable& table, const std::filesystem::path& folder,
                    const std::string& default_name) {
   BodyText given;
   given.name = default_name;
-  read_keys(table, body_keys(), given);
+  read_keys(table, body_keys, given);
   BodySpec body;
   PrincipalShape shape = read_shape(table, given.shape, folder, body.mesh_key);
   body.name = given.name;
@@ -139,7 +139,7 @@ BodySpec read_body(TomlTable& table, const std::filesystem::path& folder,
   body.velocity = given.velocity;
   body.spin = body.pose.rotation.conjugate() * given.spin;
   check_locked_velocity(table, body, given.spin);
-  body.force = read_section(table.section("force"), force_keys());
+  body.force = read_section(table.section("force"), force_keys);
   table.finish();
   return body;
 }

@@ -15,7 +15,7 @@ namespace {
 
 void read_head(TomlTable table, Scene& scene, const std::filesystem::path& file) {
   scene.name = file.stem().string();
-  read_keys(table, head_keys(), scene);
+  read_keys(table, head_keys, scene);
   // a name is also a folder's name
   if (!is_plain(scene.name, "_-.") || scene.name[0] == '.')
     table.fail("name", "expected letters, digits, _, - and .");
@@ -28,7 +28,7 @@ void read_head(TomlTable table, Scene& scene, const std::filesystem::path& file)
 
 Vec3 read_gravity(TomlTable table) {
   const GravityText given = read_section(
-      std::move(table), gravity_keys(), [](const TomlTable& own, const GravityText& gravity) {
+      std::move(table), gravity_keys, [](const TomlTable& own, const GravityText& gravity) {
         if (gravity.direction.norm() == 0.0)
           own.fail("direction", "has no direction, expected a vector that is not zero");
       });
@@ -48,7 +48,7 @@ std::vector<SizeClass> read_distribution(TomlTable& grains) {
   std::vector<SizeClass> classes;
   double sum = 0.0;
   for (TomlTable& table : grains.sections("distribution")) {
-    classes.push_back(read_section(std::move(table), distribution_keys()));
+    classes.push_back(read_section(std::move(table), distribution_keys));
     sum += classes.back().fraction;
   }
   if (std::abs(sum - 1.0) > 1e-9)
@@ -68,7 +68,7 @@ void check_grain_shape(const TomlTable& table, const GrainShapeSettings& shape) 
 
 GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {
   GrainsText given;
-  read_keys(table, grains_keys(), given);
+  read_keys(table, grains_keys, given);
   GrainsSpec grains;
   grains.count = given.count;
   grains.seed = given.seed;
@@ -76,7 +76,7 @@ GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {
   grains.size_convention =
       given.size == "radius" ? SizeConvention::radius : SizeConvention::diameter;
   grains.distribution = read_distribution(table);
-  grains.shape = read_section(table.section("shape"), grain_shape_keys(), check_grain_shape);
+  grains.shape = read_section(table.section("shape"), grain_shape_keys, check_grain_shape);
   // files are named in the resolved text by where they are, so that it can be read elsewhere
   toml::array kept;
   for (const std::string& name : given.meshes) {
@@ -131,17 +131,17 @@ void read_numerics(TomlTable& root, Scene& scene) {
   // resolved only where given: a run from before it keeps its text and its key
   if (root.has("sleep"))
     scene.sleep = read_section(
-        root.section("sleep"), sleep_keys(), [&](const TomlTable& table, const SleepSpec& sleep) {
+        root.section("sleep"), sleep_keys, [&](const TomlTable& table, const SleepSpec& sleep) {
           if (sleep.enabled && scene.gravity.isZero(0.0))
             table.fail("enabled", "rest is measured in g h, expected a gravity.magnitude > 0");
         });
-  scene.solver = read_section(root.section("solver"), solver_keys());
-  scene.correction = read_section(root.section("correction"), correction_keys());
-  scene.detection = read_section(root.section("detection"), detection_keys(),
+  scene.solver = read_section(root.section("solver"), solver_keys);
+  scene.correction = read_section(root.section("correction"), correction_keys);
+  scene.detection = read_section(root.section("detection"), detection_keys,
                                  [&](const TomlTable& table, const DetectionSettings& detection) {
                                    check_detection(table, detection, scene.sleep);
                                  });
-  scene.record = read_section(root.section("record"), record_keys());
+  scene.record = read_section(root.section("record"), record_keys);
 }
 
 /// The vibrated box: everything is made from the grains and the box.
@@ -154,11 +154,11 @@ void read_box_scene(TomlTable& root, Scene& scene, const std::filesystem::path& 
               "grains are deposited along -z, expected magnitude > 0 and direction [0, 0, -1]");
   scene.grains = read_grains(root.section("grains"), folder);
   scene.box = read_section(
-      root.section("box"), box_keys(),
+      root.section("box"), box_keys,
       [&](const TomlTable& table, const BoxSpec& box) { check_box(table, box, *scene.grains); });
-  scene.deposit = read_section(root.section("deposit"), deposit_keys());
-  scene.drive = read_section(root.section("drive"), drive_keys(), check_drive);
-  scene.control_volume = read_section(root.section("control_volume"), control_volume_keys(),
+  scene.deposit = read_section(root.section("deposit"), deposit_keys);
+  scene.drive = read_section(root.section("drive"), drive_keys, check_drive);
+  scene.control_volume = read_section(root.section("control_volume"), control_volume_keys,
                                       [&](const TomlTable& table, const ControlVolumeSpec& volume) {
                                         check_volume(table, volume, scene.box);
                                       });
@@ -190,7 +190,7 @@ Scene read(const std::filesystem::path& file, std::span<const std::string> overr
   read_head(root.section("scene"), scene, file);
   scene.gravity = read_gravity(root.section("gravity"));
   TomlTable contact = root.section("contact");
-  read_keys(contact, contact_keys(), scene);
+  read_keys(contact, contact_keys, scene);
   contact.finish();
   if (root.has("grains"))
     read_box_scene(root, scene, file.parent_path());

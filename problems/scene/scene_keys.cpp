@@ -9,227 +9,182 @@ constexpr NumberRange roughness_range{"a number from 0 to 0.2", 0.0, 0.2, true, 
 
 }  // namespace
 
-const SceneKeys<Scene>& head_keys() {
-  static const SceneKeys<Scene> keys{
-      {"name", text(&Scene::name), "letters, digits, `_`, `-`, `.`; names the results' folder",
-       Presence::optional, "the file's name"},
-      {"title", text(&Scene::title), "one line for lists and reports"},
-      {"step", number(&Scene::step, positive, "s"), "step h; at most the duration"},
-      {"duration", number(&Scene::duration, positive, "s"),
-       "simulated time; with grains: of the driven phase"},
-  };
-  return keys;
-}
+const SceneKeys<Scene> head_keys{
+    {"name", text(&Scene::name), "letters, digits, `_`, `-`, `.`; names the results' folder",
+     Presence::optional, "the file's name"},
+    {"title", text(&Scene::title), "one line for lists and reports"},
+    {"step", number(&Scene::step, positive, "s"), "step h; at most the duration"},
+    {"duration", number(&Scene::duration, positive, "s"),
+     "simulated time; with grains: of the driven phase"},
+};
 
-const SceneKeys<GravityText>& gravity_keys() {
-  static const SceneKeys<GravityText> keys{
-      {"magnitude", number(&GravityText::magnitude, not_negative, "m/s^2"), "g"},
-      {"direction", vector(&GravityText::direction),
-       "any length but 0; with grains it must be straight down"},
-  };
-  return keys;
-}
+const SceneKeys<GravityText> gravity_keys{
+    {"magnitude", number(&GravityText::magnitude, not_negative, "m/s^2"), "g"},
+    {"direction", vector(&GravityText::direction),
+     "any length but 0; with grains it must be straight down"},
+};
 
-const SceneKeys<Scene>& contact_keys() {
-  static const SceneKeys<Scene> keys{
-      {"friction", number(&Scene::friction, not_negative), "Coulomb's μ between bodies"},
-      {"restitution", number(&Scene::restitution, zero_to_one), "Newton's e"},
-  };
-  return keys;
-}
+const SceneKeys<Scene> contact_keys{
+    {"friction", number(&Scene::friction, not_negative), "Coulomb's μ between bodies"},
+    {"restitution", number(&Scene::restitution, zero_to_one), "Newton's e"},
+};
 
-const SceneKeys<SolverSpec>& solver_keys() {
-  static const SceneKeys<SolverSpec> keys{
-      {"name", text(&SolverSpec::name), "as listed by `ballast solvers`"},
-      {"tolerance", number(&SolverSpec::tolerance, not_negative, "g h"),
-       "scaled natural map, rms over contacts, in units of g h (of 1 m/s without gravity)"},
-      {"max_iterations", whole(&SolverSpec::max_iterations, 1),
-       "Gauss–Seidel sweeps, Newton steps, ... per step"},
-      {"max_seconds", number(&SolverSpec::max_seconds, positive, "s"),
-       "wall clock per step; a finite one makes runs irreproducible"},
-      {"warm_start", flag(&SolverSpec::warm_start), "start from the last step's impulses"},
-      {"islands", flag(&SolverSpec::islands),
-       "heaps that no contact joins are solved one by one, each to the tolerance and with "
-       "`max_iterations` of its own; one heap: the same bits as with false. Pays where several "
-       "heaps are. A deposit never does",
-       Presence::only_where_given},
-  };
-  return keys;
-}
+const SceneKeys<SolverSpec> solver_keys{
+    {"name", text(&SolverSpec::name), "as listed by `ballast solvers`"},
+    {"tolerance", number(&SolverSpec::tolerance, not_negative, "g h"),
+     "scaled natural map, rms over contacts, in units of g h (of 1 m/s without gravity)"},
+    {"max_iterations", whole(&SolverSpec::max_iterations, 1),
+     "Gauss–Seidel sweeps, Newton steps, ... per step"},
+    {"max_seconds", number(&SolverSpec::max_seconds, positive, "s"),
+     "wall clock per step; a finite one makes runs irreproducible"},
+    {"warm_start", flag(&SolverSpec::warm_start), "start from the last step's impulses"},
+    {"islands", flag(&SolverSpec::islands),
+     "heaps that no contact joins are solved one by one, each to the tolerance and with "
+     "`max_iterations` of its own; one heap: the same bits as with false. Pays where several "
+     "heaps are. A deposit never does",
+     Presence::only_where_given},
+};
 
-const SceneKeys<SleepSpec>& sleep_keys() {
-  static const SceneKeys<SleepSpec> keys{
-      {"enabled", flag(&SleepSpec::enabled),
-       "islands at rest are frozen until something comes near: **not exact** "
-       "([method.md](../theory/method.md)); needs gravity. The section is in `scene.toml` only "
-       "where "
-       "given; "
-       "a deposit never sleeps"},
-      {"velocity", number(&SleepSpec::velocity, positive, "g h"),
-       "a body whose speed + spin · circumradius is at most this counts as at rest"},
-      {"steps", whole(&SleepSpec::steps, 1),
-       "for so many steps all bodies of an island must have been at rest"},
-  };
-  return keys;
-}
+const SceneKeys<SleepSpec> sleep_keys{
+    {"enabled", flag(&SleepSpec::enabled),
+     "islands at rest are frozen until something comes near: **not exact** "
+     "([method.md](../theory/method.md)); needs gravity. The section is in `scene.toml` only "
+     "where "
+     "given; "
+     "a deposit never sleeps"},
+    {"velocity", number(&SleepSpec::velocity, positive, "g h"),
+     "a body whose speed + spin · circumradius is at most this counts as at rest"},
+    {"steps", whole(&SleepSpec::steps, 1),
+     "for so many steps all bodies of an island must have been at rest"},
+};
 
-const SceneKeys<CorrectionSpec>& correction_keys() {
-  static const SceneKeys<CorrectionSpec> keys{
-      {"enabled", flag(&CorrectionSpec::enabled),
-       "moves overlapping bodies apart, velocities untouched"},
-      {"slop", number(&CorrectionSpec::slop, not_negative, "m"), "overlap left alone"},
-      {"fraction", number(&CorrectionSpec::fraction, part_of_one),
-       "of the overlap beyond the slop that is removed per step"},
-      {"sweeps", whole(&CorrectionSpec::sweeps, 1), "Gauss–Seidel sweeps of the correction"},
-  };
-  return keys;
-}
+const SceneKeys<CorrectionSpec> correction_keys{
+    {"enabled", flag(&CorrectionSpec::enabled),
+     "moves overlapping bodies apart, velocities untouched"},
+    {"slop", number(&CorrectionSpec::slop, not_negative, "m"), "overlap left alone"},
+    {"fraction", number(&CorrectionSpec::fraction, part_of_one),
+     "of the overlap beyond the slop that is removed per step"},
+    {"sweeps", whole(&CorrectionSpec::sweeps, 1), "Gauss–Seidel sweeps of the correction"},
+};
 
-const SceneKeys<DetectionSettings>& detection_keys() {
-  static const SceneKeys<DetectionSettings> keys{
-      {"max_points", whole(&DetectionSettings::max_points, 1), "contact points per pair of bodies"},
-      {"skin", number(&DetectionSettings::skin, not_negative, "m"),
-       "margin of the broad phase; 0: chosen from the shapes"},
-      {"use_cache", flag(&DetectionSettings::use_cache),
-       "start from the last step's separating axes; the contacts are the same without"},
-      {"reuse_motion", number(&DetectionSettings::reuse_motion, part_of_one, "of circumradii"),
-       "a pair's contact points are held on to until its bodies have moved against each other by "
-       "this part of the sum of their circumradii: **not exact** "
-       "([method.md](../theory/method.md)); "
-       "1e-3 is "
-       "a good value. Not together with sleep; a deposit never does",
-       Presence::only_where_given, "off"},
-      {"refresh_steps", whole(&DetectionSettings::refresh_steps, 1),
-       "then all points are found anew every so many steps; checkpoints are at multiples of this",
-       Presence::only_where_given},
-  };
-  return keys;
-}
+const SceneKeys<DetectionSettings> detection_keys{
+    {"max_points", whole(&DetectionSettings::max_points, 1), "contact points per pair of bodies"},
+    {"skin", number(&DetectionSettings::skin, not_negative, "m"),
+     "margin of the broad phase; 0: chosen from the shapes"},
+    {"use_cache", flag(&DetectionSettings::use_cache),
+     "start from the last step's separating axes; the contacts are the same without"},
+    {"reuse_motion", number(&DetectionSettings::reuse_motion, part_of_one, "of circumradii"),
+     "a pair's contact points are held on to until its bodies have moved against each other by "
+     "this part of the sum of their circumradii: **not exact** "
+     "([method.md](../theory/method.md)); "
+     "1e-3 is "
+     "a good value. Not together with sleep; a deposit never does",
+     Presence::only_where_given, "off"},
+    {"refresh_steps", whole(&DetectionSettings::refresh_steps, 1),
+     "then all points are found anew every so many steps; checkpoints are at multiples of this",
+     Presence::only_where_given},
+};
 
-const SceneKeys<RecordSpec>& record_keys() {
-  static const SceneKeys<RecordSpec> keys{
-      {"pose_rate", number(&RecordSpec::pose_rate, positive, "1/s"),
-       "stored poses per simulated second"},
-      {"state_rate", number(&RecordSpec::state_rate, not_negative, "1/s"),
-       "whole states, with contacts and impulses, kept per simulated second in `states/` "
-       "([records.md](records.md)); 0: none"},
-      {"checkpoint_seconds", number(&RecordSpec::checkpoint_seconds, positive, "s"),
-       "wall clock between checkpoints"},
-      {"paraview", flag(&RecordSpec::paraview), "`.vtp` and `.pvd` beside the record"},
-  };
-  return keys;
-}
+const SceneKeys<RecordSpec> record_keys{
+    {"pose_rate", number(&RecordSpec::pose_rate, positive, "1/s"),
+     "stored poses per simulated second"},
+    {"state_rate", number(&RecordSpec::state_rate, not_negative, "1/s"),
+     "whole states, with contacts and impulses, kept per simulated second in `states/` "
+     "([records.md](records.md)); 0: none"},
+    {"checkpoint_seconds", number(&RecordSpec::checkpoint_seconds, positive, "s"),
+     "wall clock between checkpoints"},
+    {"paraview", flag(&RecordSpec::paraview), "`.vtp` and `.pvd` beside the record"},
+};
 
-const SceneKeys<GrainsText>& grains_keys() {
-  static const SceneKeys<GrainsText> keys{
-      {"count", whole(&GrainsText::count, 1, 1'000'000), "grains in the box", Presence::required},
-      {"seed", seed(&GrainsText::seed), "of shapes, sizes, places and orientations"},
-      {"density", number(&GrainsText::density, positive, "kg/m^3"), "of the grains' material"},
-      {"size", choice(&GrainsText::size, {"radius", "diameter"}),
-       "how `distribution.size` is read: largest distance from the centre of mass to a vertex "
-       "(\"radius\"), or twice that (\"diameter\")"},
-      {"meshes", texts(&GrainsText::meshes),
-       "OBJ or STL files, used in turn instead of generated shapes (their convex hulls, scaled to "
-       "the sizes); relative to the scene file"},
-  };
-  return keys;
-}
+const SceneKeys<GrainsText> grains_keys{
+    {"count", whole(&GrainsText::count, 1, 1'000'000), "grains in the box", Presence::required},
+    {"seed", seed(&GrainsText::seed), "of shapes, sizes, places and orientations"},
+    {"density", number(&GrainsText::density, positive, "kg/m^3"), "of the grains' material"},
+    {"size", choice(&GrainsText::size, {"radius", "diameter"}),
+     "how `distribution.size` is read: largest distance from the centre of mass to a vertex "
+     "(\"radius\"), or twice that (\"diameter\")"},
+    {"meshes", texts(&GrainsText::meshes),
+     "OBJ or STL files, used in turn instead of generated shapes (their convex hulls, scaled to "
+     "the sizes); relative to the scene file"},
+};
 
-const SceneKeys<SizeClass>& distribution_keys() {
-  static const SceneKeys<SizeClass> keys{
-      {"size", number(&SizeClass::size, positive, "m"), "of one class; see `grains.size`",
-       Presence::required, "the paper's three classes: 0.025, 0.0375, 0.05"},
-      {"fraction", number(&SizeClass::fraction, part_of_one, "by number"),
-       "the fractions of `[[grains.distribution]]` sum to 1", Presence::required,
-       "0.50, 0.34, 0.16"},
-  };
-  return keys;
-}
+const SceneKeys<SizeClass> distribution_keys{
+    {"size", number(&SizeClass::size, positive, "m"), "of one class; see `grains.size`",
+     Presence::required, "the paper's three classes: 0.025, 0.0375, 0.05"},
+    {"fraction", number(&SizeClass::fraction, part_of_one, "by number"),
+     "the fractions of `[[grains.distribution]]` sum to 1", Presence::required, "0.50, 0.34, 0.16"},
+};
 
-const SceneKeys<GrainShapeSettings>& grain_shape_keys() {
-  using Shape = GrainShapeSettings;
-  static const SceneKeys<Shape> keys{
-      {"min_vertices", whole(&Shape::min_vertices, 4, 200), "of the generated hulls"},
-      {"max_vertices", whole(&Shape::max_vertices, 4, 200), "at least `min_vertices`"},
-      {"elongation_min", number(&Shape::elongation_min, axis_ratio), "intermediate / longest axis"},
-      {"elongation_max", number(&Shape::elongation_max, axis_ratio), "at least `elongation_min`"},
-      {"flatness_min", number(&Shape::flatness_min, axis_ratio), "shortest / longest axis"},
-      {"flatness_max", number(&Shape::flatness_max, axis_ratio), "at least `flatness_min`"},
-      {"roughness", number(&Shape::roughness, roughness_range),
-       "relative standard deviation of the vertex radii"},
-  };
-  return keys;
-}
+const SceneKeys<GrainShapeSettings> grain_shape_keys{
+    {"min_vertices", whole(&GrainShapeSettings::min_vertices, 4, 200), "of the generated hulls"},
+    {"max_vertices", whole(&GrainShapeSettings::max_vertices, 4, 200), "at least `min_vertices`"},
+    {"elongation_min", number(&GrainShapeSettings::elongation_min, axis_ratio),
+     "intermediate / longest axis"},
+    {"elongation_max", number(&GrainShapeSettings::elongation_max, axis_ratio),
+     "at least `elongation_min`"},
+    {"flatness_min", number(&GrainShapeSettings::flatness_min, axis_ratio),
+     "shortest / longest axis"},
+    {"flatness_max", number(&GrainShapeSettings::flatness_max, axis_ratio),
+     "at least `flatness_min`"},
+    {"roughness", number(&GrainShapeSettings::roughness, roughness_range),
+     "relative standard deviation of the vertex radii"},
+};
 
-const SceneKeys<BoxSpec>& box_keys() {
-  static const SceneKeys<BoxSpec> keys{
-      {"length", number(&BoxSpec::length, positive, "m"),
-       "along x, the driven direction; at least the largest grain's width", Presence::required},
-      {"width", number(&BoxSpec::width, positive, "m"),
-       "along y; at least the largest grain's width", Presence::required},
-      {"friction_horizontal", number(&BoxSpec::friction_horizontal, not_negative),
-       "μ at floor and lid"},
-      {"friction_vertical", number(&BoxSpec::friction_vertical, not_negative),
-       "μ at the side walls"},
-  };
-  return keys;
-}
+const SceneKeys<BoxSpec> box_keys{
+    {"length", number(&BoxSpec::length, positive, "m"),
+     "along x, the driven direction; at least the largest grain's width", Presence::required},
+    {"width", number(&BoxSpec::width, positive, "m"), "along y; at least the largest grain's width",
+     Presence::required},
+    {"friction_horizontal", number(&BoxSpec::friction_horizontal, not_negative),
+     "μ at floor and lid"},
+    {"friction_vertical", number(&BoxSpec::friction_vertical, not_negative), "μ at the side walls"},
+};
 
-const SceneKeys<DepositSpec>& deposit_keys() {
-  static const SceneKeys<DepositSpec> keys{
-      {"step", number(&DepositSpec::step, positive, "s"), "h until the lid is raised"},
-      {"friction", number(&DepositSpec::friction, not_negative),
-       "between grains and at floor and lid until the drive begins"},
-      {"fill_fraction", number(&DepositSpec::fill_fraction, fill_range, "of the bounding spheres"),
-       "in the rain: its height follows"},
-      {"max_time", number(&DepositSpec::max_time, positive, "s"),
-       "a rain that is not at rest by then is an error"},
-      {"rest_velocity", number(&DepositSpec::rest_velocity, positive, "m/s"),
-       "rms velocity of the grains that counts as rest"},
-      {"lid_pressure_weight",
-       number(&DepositSpec::lid_pressure_weight, not_negative, "grain weights"),
-       "load on the lid while it presses; 0: it is only placed"},
-      {"lid_time", number(&DepositSpec::lid_time, not_negative, "s"), "how long it presses"},
-      {"settle_time", number(&DepositSpec::settle_time, not_negative, "s"),
-       "rest under the raised lid"},
-      {"settle_step", number(&DepositSpec::settle_step, positive, "s"), "h of that rest"},
-      {"gravity", number(&DepositSpec::gravity, not_negative, "m/s^2"),
-       "until the drive begins; 0: `gravity.magnitude`. Given, one packing serves drives under "
-       "several g"},
-      {"solver", text(&DepositSpec::solver),
-       "of the deposit: the drive's solver, step and friction don't enter, so all drives can start "
-       "from one packing"},
-      {"tolerance", number(&DepositSpec::tolerance, not_negative, "g h"), "of that solver"},
-      {"max_iterations", whole(&DepositSpec::max_iterations, 1), "of that solver"},
-  };
-  return keys;
-}
+const SceneKeys<DepositSpec> deposit_keys{
+    {"step", number(&DepositSpec::step, positive, "s"), "h until the lid is raised"},
+    {"friction", number(&DepositSpec::friction, not_negative),
+     "between grains and at floor and lid until the drive begins"},
+    {"fill_fraction", number(&DepositSpec::fill_fraction, fill_range, "of the bounding spheres"),
+     "in the rain: its height follows"},
+    {"max_time", number(&DepositSpec::max_time, positive, "s"),
+     "a rain that is not at rest by then is an error"},
+    {"rest_velocity", number(&DepositSpec::rest_velocity, positive, "m/s"),
+     "rms velocity of the grains that counts as rest"},
+    {"lid_pressure_weight",
+     number(&DepositSpec::lid_pressure_weight, not_negative, "grain weights"),
+     "load on the lid while it presses; 0: it is only placed"},
+    {"lid_time", number(&DepositSpec::lid_time, not_negative, "s"), "how long it presses"},
+    {"settle_time", number(&DepositSpec::settle_time, not_negative, "s"),
+     "rest under the raised lid"},
+    {"settle_step", number(&DepositSpec::settle_step, positive, "s"), "h of that rest"},
+    {"gravity", number(&DepositSpec::gravity, not_negative, "m/s^2"),
+     "until the drive begins; 0: `gravity.magnitude`. Given, one packing serves drives under "
+     "several g"},
+    {"solver", text(&DepositSpec::solver),
+     "of the deposit: the drive's solver, step and friction don't enter, so all drives can start "
+     "from one packing"},
+    {"tolerance", number(&DepositSpec::tolerance, not_negative, "g h"), "of that solver"},
+    {"max_iterations", whole(&DepositSpec::max_iterations, 1), "of that solver"},
+};
 
-const SceneKeys<DriveSpec>& drive_keys() {
-  static const SceneKeys<DriveSpec> keys{
-      {"frequency", number(&DriveSpec::frequency, positive, "Hz"), "ν"},
-      {"f_max_over_weight", number(&DriveSpec::f_max_over_weight, not_negative, "grain weights"),
-       "largest force on the wall, in weights of all grains"},
-      {"f_min_over_weight", number(&DriveSpec::f_min_over_weight, not_negative, "grain weights"),
-       "smallest, at most the largest"},
-      {"wall_mass_over_grains", number(&DriveSpec::wall_mass_over_grains, positive, "grain masses"),
-       "the wall's mass in masses of all grains"},
-      {"lid_raise", number(&DriveSpec::lid_raise, not_negative, "m"), "gap that the lid leaves"},
-  };
-  return keys;
-}
+const SceneKeys<DriveSpec> drive_keys{
+    {"frequency", number(&DriveSpec::frequency, positive, "Hz"), "ν"},
+    {"f_max_over_weight", number(&DriveSpec::f_max_over_weight, not_negative, "grain weights"),
+     "largest force on the wall, in weights of all grains"},
+    {"f_min_over_weight", number(&DriveSpec::f_min_over_weight, not_negative, "grain weights"),
+     "smallest, at most the largest"},
+    {"wall_mass_over_grains", number(&DriveSpec::wall_mass_over_grains, positive, "grain masses"),
+     "the wall's mass in masses of all grains"},
+    {"lid_raise", number(&DriveSpec::lid_raise, not_negative, "m"), "gap that the lid leaves"},
+};
 
-const SceneKeys<ControlVolumeSpec>& control_volume_keys() {
-  using Volume = ControlVolumeSpec;
-  static const SceneKeys<Volume> keys{
-      {"margin_x", number(&Volume::margin_x, not_negative, "m"),
-       "where the solid fraction is taken: a box at rest this far from both walls x, clear of the "
-       "driven wall's motion"},
-      {"margin_y", number(&Volume::margin_y, not_negative, "m"), "from both walls y"},
-      {"margin_floor", number(&Volume::margin_floor, not_negative, "m"), "from the floor"},
-      {"margin_top", number(&Volume::margin_top, not_negative, "m"),
-       "below the packing's top before the drive"},
-  };
-  return keys;
-}
+const SceneKeys<ControlVolumeSpec> control_volume_keys{
+    {"margin_x", number(&ControlVolumeSpec::margin_x, not_negative, "m"),
+     "where the solid fraction is taken: a box at rest this far from both walls x, clear of the "
+     "driven wall's motion"},
+    {"margin_y", number(&ControlVolumeSpec::margin_y, not_negative, "m"), "from both walls y"},
+    {"margin_floor", number(&ControlVolumeSpec::margin_floor, not_negative, "m"), "from the floor"},
+    {"margin_top", number(&ControlVolumeSpec::margin_top, not_negative, "m"),
+     "below the packing's top before the drive"},
+};
 }  // namespace ballast

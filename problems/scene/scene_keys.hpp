@@ -53,7 +53,7 @@ KeyValue<Spec> number(double Spec::*member, const NumberRange& range, const char
   return {member, {.range = range, .unit = unit}};
 }
 template <class Spec>
-KeyValue<Spec> whole(int Spec::*member, int low, int high = ValueRule::no_limit) {
+KeyValue<Spec> whole(int Spec::*member, int low, int high = 1'000'000'000) {
   return {member, {.low = low, .high = high}};
 }
 template <class Spec>
@@ -119,32 +119,32 @@ struct BodyText {
   Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), spin = Vec3::Zero();  ///< world frame
 };
 
-const SceneKeys<Scene>& head_keys();     ///< [scene]
-const SceneKeys<Scene>& contact_keys();  ///< [contact]
-const SceneKeys<GravityText>& gravity_keys();
-const SceneKeys<SolverSpec>& solver_keys();
-const SceneKeys<SleepSpec>& sleep_keys();
-const SceneKeys<CorrectionSpec>& correction_keys();
-const SceneKeys<DetectionSettings>& detection_keys();
-const SceneKeys<RecordSpec>& record_keys();
+extern const SceneKeys<Scene> head_keys;     ///< [scene]
+extern const SceneKeys<Scene> contact_keys;  ///< [contact]
+extern const SceneKeys<GravityText> gravity_keys;
+extern const SceneKeys<SolverSpec> solver_keys;
+extern const SceneKeys<SleepSpec> sleep_keys;
+extern const SceneKeys<CorrectionSpec> correction_keys;
+extern const SceneKeys<DetectionSettings> detection_keys;
+extern const SceneKeys<RecordSpec> record_keys;
 
-const SceneKeys<GrainsText>& grains_keys();
-const SceneKeys<SizeClass>& distribution_keys();  ///< [[grains.distribution]]
-const SceneKeys<GrainShapeSettings>& grain_shape_keys();
-const SceneKeys<BoxSpec>& box_keys();
-const SceneKeys<DepositSpec>& deposit_keys();
-const SceneKeys<DriveSpec>& drive_keys();
-const SceneKeys<ControlVolumeSpec>& control_volume_keys();
+extern const SceneKeys<GrainsText> grains_keys;
+extern const SceneKeys<SizeClass> distribution_keys;  ///< [[grains.distribution]]
+extern const SceneKeys<GrainShapeSettings> grain_shape_keys;
+extern const SceneKeys<BoxSpec> box_keys;
+extern const SceneKeys<DepositSpec> deposit_keys;
+extern const SceneKeys<DriveSpec> drive_keys;
+extern const SceneKeys<ControlVolumeSpec> control_volume_keys;
 
-const SceneKeys<WallText>& wall_keys();
-const SceneKeys<WallSpec>& prescribed_wall_keys();
-const SceneKeys<WallSpec>& driven_wall_keys();
-const SceneKeys<HarmonicLoad>& load_keys();
-const SceneKeys<BodyText>& body_keys();
+extern const SceneKeys<WallText> wall_keys;
+extern const SceneKeys<WallSpec> prescribed_wall_keys;
+extern const SceneKeys<WallSpec> driven_wall_keys;
+extern const SceneKeys<HarmonicLoad> load_keys;
+extern const SceneKeys<BodyText> body_keys;
 /// What a body of this shape ("box", "sphere", "grain" or "mesh") has besides.
 const SceneKeys<ShapeText>& shape_keys(const std::string& shape);
-const SceneKeys<OrientationText>& orientation_keys();
-const SceneKeys<ForceSpec>& force_keys();
+extern const SceneKeys<OrientationText> orientation_keys;
+extern const SceneKeys<ForceSpec> force_keys;
 
 /// Reads a whole table's keys. Throws SceneFileError; keys that are not in `keys` are found by
 /// TomlTable::finish.

@@ -38,28 +38,28 @@ constexpr const char* head =
 
 std::string scene_keys_markdown() {
   std::string text = std::string("## Both kinds\n") + head;
-  text += rows_of("scene.", head_keys()) + rows_of("gravity.", gravity_keys()) +
-          rows_of("contact.", contact_keys()) + rows_of("solver.", solver_keys()) +
-          rows_of("sleep.", sleep_keys()) + rows_of("correction.", correction_keys()) +
-          rows_of("detection.", detection_keys()) + rows_of("record.", record_keys());
+  text += rows_of("scene.", head_keys) + rows_of("gravity.", gravity_keys) +
+          rows_of("contact.", contact_keys) + rows_of("solver.", solver_keys) +
+          rows_of("sleep.", sleep_keys) + rows_of("correction.", correction_keys) +
+          rows_of("detection.", detection_keys) + rows_of("record.", record_keys);
   text +=
       "\n## Grains in a box\n\n"
       "The grains fall into the box, a lid presses them, is raised and fixed, and the wall at\n"
       "x = length is pushed inwards by f(t) = (f_max + f_min)/2 − (f_max − f_min)/2 · sin 2πνt.\n";
-  text += head + rows_of("grains.", grains_keys()) +
-          rows_of("grains.distribution.", distribution_keys()) +
-          rows_of("grains.shape.", grain_shape_keys()) + rows_of("box.", box_keys()) +
-          rows_of("deposit.", deposit_keys()) + rows_of("drive.", drive_keys()) +
-          rows_of("control_volume.", control_volume_keys());
+  text += head + rows_of("grains.", grains_keys) +
+          rows_of("grains.distribution.", distribution_keys) +
+          rows_of("grains.shape.", grain_shape_keys) + rows_of("box.", box_keys) +
+          rows_of("deposit.", deposit_keys) + rows_of("drive.", drive_keys) +
+          rows_of("control_volume.", control_volume_keys);
   text +=
       "\n## Bodies and walls\n\n"
       "`[[wall]]`: the half-space boundary normal·x = offset, for a normal of any length.\n";
-  text += head + rows_of("", wall_keys()) + rows_of("", prescribed_wall_keys()) +
-          rows_of("", driven_wall_keys()) + rows_of("load.", load_keys());
-  text += std::string("\n`[[body]]`\n") + head + rows_of("", body_keys());
+  text += head + rows_of("", wall_keys) + rows_of("", prescribed_wall_keys) +
+          rows_of("", driven_wall_keys) + rows_of("load.", load_keys);
+  text += std::string("\n`[[body]]`\n") + head + rows_of("", body_keys);
   for (const char* shape : {"box", "sphere", "grain", "mesh"})
     text += rows_of("", shape_keys(shape));
-  return text + rows_of("orientation.", orientation_keys()) + rows_of("force.", force_keys());
+  return text + rows_of("orientation.", orientation_keys) + rows_of("force.", force_keys);
 }
 
 }  // namespace ballast

@@ -46,7 +46,7 @@ std::string digits_of(double value) {
 std::string words_of(const double&, const ValueRule& rule) { return rule.range.words; }
 std::string words_of(const std::int64_t&, const ValueRule& rule) {
   const std::string low = std::to_string(rule.low);
-  if (rule.high >= ValueRule::no_limit) return "a whole number >= " + low;
+  if (rule.high == std::numeric_limits<std::int64_t>::max()) return "a whole number >= " + low;
   return "a whole number from " + low + " to " + std::to_string(rule.high);
 }
 std::string words_of(const int&, const ValueRule& rule) { return words_of(std::int64_t{}, rule); }

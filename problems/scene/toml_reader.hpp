@@ -40,7 +40,6 @@ struct ValueRule {
   NumberRange range = any_number;  ///< of a number
   std::int64_t low = 0;            ///< of a whole number, included
   std::int64_t high = std::numeric_limits<std::int64_t>::max();
-  static constexpr std::int64_t no_limit = 1'000'000'000;  ///< from here on it is not spoken of
   const char* unit = "";                ///< as messages write it, "kg/m^3"; empty: a pure number
   std::vector<const char*> words = {};  ///< one of which a text must be; none: any text
 };
