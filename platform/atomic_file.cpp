@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdarg>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -38,28 +39,63 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), neighbour_(target_) {
-  neighbour_ += ".tmp";
+namespace {
+
+/// Where a file's name leads: whether it must be written in place, and to which regular file.
+struct Destination {
+  bool is_in_place = false;
+  fs::path file;
+};
+
+/// Follows symbolic links one by one. One that passes through /proc, as /dev/stdout does, means an
+/// open descriptor: a file that somebody has open must not be replaced under his hands.
+Destination destination_of(const fs::path& name) {
+  Destination end{false, name};
+  std::error_code error;
+  constexpr int most_links = 40;  // as many as the kernel follows
+  for (int link = 0; link < most_links && fs::is_symlink(end.file, error); ++link) {
+    const fs::path next = fs::read_symlink(end.file, error);
+    if (error) break;
+    const fs::path followed = end.file.parent_path() / next;  // `next` alone where it is absolute
+    if (followed.lexically_normal().string().starts_with("/proc/")) return {true, name};
+    end.file = followed;
+  }
+  if (fs::is_symlink(end.file, error)) return {true, name};  // a ring: opening it says so
+  const fs::file_status status = fs::status(end.file, error);
+  end.is_in_place = fs::exists(status) && !fs::is_regular_file(status);
+  return end;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)) {
+  const Destination destination = destination_of(name_);
+  target_ = destination.file;
   errno = 0;
-  struct stat status;
-  // Renaming over a folder fails only after all has been written; over a device it would replace
-  // the device.
-  if (stat(target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-    throw Error(target_.string() + ": cannot write: it is not a regular file");
-  file_ = std::fopen(neighbour_.c_str(), "wb");
-  if (!file_) throw_file_error(target_, "write");
+  if (destination.is_in_place) {
+    file_ = std::fopen(target_.c_str(), "wb");  // a folder: "Is a directory"
+  } else {
+    neighbour_ = target_.string() + ".tmp";
+    file_ = std::fopen(neighbour_.c_str(), "wb");
+    struct stat old, mine;
+    // Who may read and write it stays as it was.
+    if (file_ && stat(target_.c_str(), &old) == 0 && fstat(fileno(file_), &mine) == 0 &&
+        S_ISREG(mine.st_mode) && old.st_mode != mine.st_mode)
+      if (fchmod(fileno(file_), old.st_mode & 07777) != 0) errno = 0;  // not ours: it stays new
+  }
+  if (!file_) throw_file_error(name_, "write");
 }
 
 AtomicFile::~AtomicFile() {
   if (!file_) return;
   // There was no commit(): the target stays as it was.
   std::fclose(file_);
-  std::remove(neighbour_.c_str());
+  if (!neighbour_.empty()) std::remove(neighbour_.c_str());
 }
 
 void AtomicFile::write(const void* data, size_t bytes) {
   errno = 0;
-  if (std::fwrite(data, 1, bytes, file_) != bytes) throw_file_error(target_, "write");
+  if (std::fwrite(data, 1, bytes, file_) != bytes) throw_file_error(name_, "write");
 }
 
 void AtomicFile::print(const char* format, ...) {
@@ -68,18 +104,19 @@ void AtomicFile::print(const char* format, ...) {
   errno = 0;
   const int written = std::vfprintf(file_, format, arguments);
   va_end(arguments);
-  if (written < 0) throw_file_error(target_, "write");
+  if (written < 0) throw_file_error(name_, "write");
 }
 
 void AtomicFile::commit() {
   // The bytes are on the disk before the name points to them, and the name before commit() returns.
-  sync_to_disk(file_, target_);
+  sync_to_disk(file_, name_);
   close();
+  if (neighbour_.empty()) return;
   if (std::rename(neighbour_.c_str(), target_.c_str()) != 0) {
     const int error = errno;
     std::remove(neighbour_.c_str());
     errno = error;
-    throw_file_error(target_, "write");
+    throw_file_error(name_, "write");
   }
   sync_folder(target_.parent_path());
 }
@@ -88,9 +125,9 @@ void AtomicFile::close() {
   errno = 0;
   if (std::fclose(std::exchange(file_, nullptr)) == 0) return;
   const int error = errno;
-  std::remove(neighbour_.c_str());
+  if (!neighbour_.empty()) std::remove(neighbour_.c_str());
   errno = error;
-  throw_file_error(target_, "write");
+  throw_file_error(name_, "write");
 }
 
 void write_whole_file(const fs::path& target, std::string_view text) {
@@ -101,17 +138,21 @@ void write_whole_file(const fs::path& target, std::string_view text) {
 
 std::string read_whole_file(const fs::path& path) {
   errno = 0;
-  std::FILE* file = std::fopen(path.c_str(), "rb");
+  // Without O_NONBLOCK a pipe would be waited for until somebody writes into it.
+  const int descriptor = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) throw_file_error(path, "open");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(fdopen(descriptor, "rb"), std::fclose);
   if (!file) throw_file_error(path, "open");
+  struct stat status;
+  if (fstat(descriptor, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+    throw Error(
+        path.string() + ": cannot read: it is a " +
+        (S_ISFIFO(status.st_mode) ? "pipe, not a regular file" : "device, not a regular file"));
   std::string text;
   char block[1 << 16];
   size_t got;
-  while ((got = std::fread(block, 1, sizeof block, file)) > 0) text.append(block, got);
-  const bool failed = std::ferror(file);
-  const int error = errno;
-  std::fclose(file);
-  errno = error;
-  if (failed) throw_file_error(path, "read");
+  while ((got = std::fread(block, 1, sizeof block, file.get())) > 0) text.append(block, got);
+  if (std::ferror(file.get())) throw_file_error(path, "read");
   return text;
 }
 

@@ -9,7 +9,9 @@ namespace ballast {
 
 /// A file written as `<target>.tmp` beside its target; commit() makes it safe on disk and renames
 /// it over the target. Without commit() the target stays as it was and the neighbour is removed.
-/// Every failure is a Error that names the target and the reason.
+/// A symbolic link stays: what it points to is the target. Devices, pipes and what /dev/stdout
+/// leads to are written as they are, never replaced. Every failure is an Error that names the file
+/// as it was given and the reason.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);
@@ -25,14 +27,17 @@ class AtomicFile {
 
  private:
   void close();
-  std::filesystem::path target_, neighbour_;
+  std::filesystem::path name_;       // as it was given
+  std::filesystem::path target_;     // what it leads to
+  std::filesystem::path neighbour_;  // empty: the target itself is written
   std::FILE* file_ = nullptr;
 };
 
 /// Writes all of `text` through an AtomicFile.
 void write_whole_file(const std::filesystem::path& target, std::string_view text);
 
-/// The whole file. Throws Error: missing, a folder, unreadable.
+/// The whole file. Throws Error: missing, unreadable, or no regular file. A pipe or a device is
+/// never waited for: it could be without end.
 std::string read_whole_file(const std::filesystem::path& file);
 
 /// Makes a folder and its parents. Throws Error.

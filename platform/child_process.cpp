@@ -96,7 +96,8 @@ ChildProcess::ChildProcess(const std::function<void()>& live) {
   if (child_ > 0) return;
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // the parent died before the line above
-  for (const int number : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGFPE}) signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE, SIGABRT, SIGSEGV, SIGFPE})
+    signal(number, SIG_DFL);
   try {
     live();
   } catch (...) {

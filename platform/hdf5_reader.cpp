@@ -7,7 +7,8 @@ namespace {
 
 hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) file.fail("no such file");
+  if (!std::filesystem::is_regular_file(path, error))
+    file.fail(std::filesystem::exists(path, error) ? "not a regular file" : "no such file");
   // The signature first, so that a text file and a truncated HDF5 file get different answers.
   if (H5Fis_hdf5(path.c_str()) <= 0) file.fail("not an HDF5 file");
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -43,6 +44,19 @@ Hdf5Shape Hdf5Reader::shape(const std::string& name) const {
   return shape;
 }
 
+/// Before memory is asked for: a damaged header can claim any number of entries. What is stored of
+/// them is part of the file, and no compression of HDF5's makes it more than 1032 times smaller.
+void Hdf5Reader::require_stored(const std::string& name, const Hdf5Id& dataset,
+                                unsigned long long entries) const {
+  constexpr unsigned long long most_compressed = 1032;
+  const unsigned long long stored = H5Dget_storage_size(dataset);
+  std::error_code error;
+  const std::uintmax_t file = std::filesystem::file_size(path_, error);
+  if (error || stored > file || entries > (stored + 1) * most_compressed)
+    fail(name + ": claims " + std::to_string(entries) + " entries, of which " +
+         std::to_string(stored) + " bytes are stored");
+}
+
 template <typename Value>
 std::vector<Value> Hdf5Reader::read(const std::string& name, std::int64_t type) const {
   // What is stored may have any width or byte order: HDF5 converts it to `type` while reading.
@@ -50,9 +64,9 @@ std::vector<Value> Hdf5Reader::read(const std::string& name, std::int64_t type) 
                stored(H5Dget_type(dataset), H5Tclose);
   const H5T_class_t kind = stored >= 0 ? H5Tget_class(stored) : H5T_NO_CLASS;
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(name + ": does not hold numbers");
-  // More entries than any file of ours has: a damaged header, not a dataset.
   const hssize_t size = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
-  if (size < 0 || size > (hssize_t{1} << 31)) fail(name + ": has no readable extent");
+  if (size < 0) fail(name + ": has no readable extent");
+  require_stored(name, dataset, static_cast<unsigned long long>(size));
   std::vector<Value> values(static_cast<size_t>(size));
   if (size > 0 && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(name + ": cannot be read (damaged or truncated)");
@@ -85,6 +99,7 @@ std::string Hdf5Reader::read_text(const std::string& name) const {
   const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
   if (space < 0 || H5Sget_simple_extent_npoints(space) != 1) fail(name + ": is not one text");
   // The stored length may include a zero at the end.
+  require_stored(name, dataset, H5Tget_size(type));
   std::string text(H5Tget_size(type), '\0');
   if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     fail(name + ": cannot be read (damaged or truncated)");
@@ -96,6 +111,7 @@ std::vector<double> Hdf5Reader::read_slice(const std::string& name, size_t index
   const std::string what = "read slice " + std::to_string(index) + " of " + name;
   const Hdf5Shape slice = select_slice(space, index);
   if (slice.empty()) fail("HDF5 cannot " + what);
+  require_stored(name, dataset, product(slice));
   std::vector<double> values(product(slice));
   const Hdf5Id memory = space_of(slice);
   check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), what);
@@ -103,8 +119,10 @@ std::vector<double> Hdf5Reader::read_slice(const std::string& name, size_t index
 }
 
 std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
-  std::vector<char*> pointers(product(shape(name)), nullptr);
   const Hdf5Id dataset = open(name), type = text_type(), space(H5Dget_space(dataset), H5Sclose);
+  const unsigned long long count = product(shape(name));
+  require_stored(name, dataset, count);
+  std::vector<char*> pointers(count, nullptr);
   check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "read " + name);
   // HDF5 allocated each text: copied, then given back to it.
   std::vector<std::string> texts(pointers.begin(), pointers.end());

@@ -30,6 +30,8 @@ class Hdf5Reader : public Hdf5File {
 
  private:
   Hdf5Id open(const std::string& name) const;
+  void require_stored(const std::string& name, const Hdf5Id& dataset,
+                      unsigned long long entries) const;
   template <typename Value>
   std::vector<Value> read(const std::string& name, std::int64_t type) const;
 

@@ -10,23 +10,30 @@ std::atomic<bool> interrupted{false};
 // The only kind that a signal handler may touch.
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+constexpr int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
+
 extern "C" void on_signal(int signal) {
   interrupted = true;
-  // Whoever asks twice does not want to wait for a checkpoint.
-  std::signal(signal, SIG_DFL);
+  // Whoever asks twice does not want to wait for a checkpoint. A terminal that closes and a batch
+  // system may say it several times without meaning that.
+  if (signal == SIGINT || signal == SIGTERM) std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   interrupted = false;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  for (const int signal : caught)
+    if (std::signal(signal, on_signal) == SIG_IGN && signal == SIGHUP) std::signal(signal, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : caught) {
+    const auto before = std::signal(signal, SIG_DFL);
+    if (before == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+  std::signal(SIGPIPE, SIG_DFL);
 }
 
 bool InterruptGuard::requested() { return interrupted; }

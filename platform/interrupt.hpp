@@ -1,10 +1,12 @@
 #pragma once
-// Ctrl-C and kill: asked once per step, so that a run ends at a step with a checkpoint.
+// Ctrl-C, kill, a closed terminal, a batch system's warning: asked once per step, so that a run
+// ends at a step with a checkpoint.
 
 namespace ballast {
 
-/// Catches SIGINT and SIGTERM while alive; a second signal of the same kind ends the program at
-/// once.
+/// Catches SIGINT, SIGTERM, SIGHUP (unless it is ignored, as under nohup) and SIGUSR1 (Slurm's
+/// warning before a time limit) while alive; a second SIGINT or SIGTERM ends the program at once.
+/// SIGPIPE is ignored meanwhile: who stops reading what a run prints does not end the run.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -147,6 +147,27 @@ std::string last_line(const fs::path& log) {
   return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
 }
 
+std::string shell_word(const std::string& word) {
+  const bool is_plain =
+      !word.empty() &&
+      word.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,@%") ==
+          std::string::npos;
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + '\'';
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) {
+    if (!line.empty()) line += ' ';
+    line += shell_word(word);
+  }
+  return line;
+}
+
 fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
 
 std::vector<std::string> own_words() {

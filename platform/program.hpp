@@ -49,6 +49,11 @@ class BackgroundProgram {
 /// The last line of a log that says anything; without "ballast: ".
 std::string last_line(const std::filesystem::path& log);
 
+/// A word as a shell reads it back: in quotes where it has to be.
+std::string shell_word(const std::string& word);
+/// Words as a line for a shell.
+std::string shell_line(const std::vector<std::string>& words);
+
 /// This program's file.
 std::filesystem::path own_program();
 /// The command line of this process, as it was given.

@@ -1,11 +1,20 @@
 #include "platform/worker_team.hpp"
 
+#include <sched.h>
+
+#include <algorithm>
+
+#include "platform/clock.hpp"
+
 namespace ballast {
 namespace {
 
-/// Some hundred microseconds: longer than the gap between two loops of a solve, shorter than the
-/// rest of a time step.
-constexpr int spins = 10000;
+/// Pauses before the core is offered to others; some microseconds.
+constexpr int spins = 100;
+/// Then, between two looks at the clock of whoever waits.
+constexpr int looks = 16;
+/// Longer than the gap between two loops of a solve, shorter than the rest of a time step [s].
+constexpr double wakeful = 3e-4;
 
 inline void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -13,7 +22,29 @@ inline void pause() {
 #endif
 }
 
+/// Until `is_over()`; the core goes to others early, as one of them may be the one that is waited
+/// for. False when it took longer than `most` seconds.
+template <class Over>
+bool wait_awake(double most, const Over& is_over) {
+  for (int spin = 0; spin < spins; ++spin) {
+    if (is_over()) return true;
+    pause();
+  }
+  const Stopwatch watch;
+  for (long look = 1; !is_over(); ++look) {
+    std::this_thread::yield();
+    if (look % looks == 0 && watch.seconds() > most) return is_over();
+  }
+  return true;
+}
+
 }  // namespace
+
+int available_cores() {
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 WorkerTeam::~WorkerTeam() { stop(); }
 
@@ -22,8 +53,10 @@ void WorkerTeam::resize(int threads) {
   if (threads == members_) return;
   stop();
   members_ = threads;
+  shares_ = std::make_unique<Share[]>(static_cast<size_t>(threads));
+  patience_ = TeamPatience();
   // Taken here, not by the thread: one that starts late must not miss the first round.
-  const unsigned seen = round_.load();
+  const std::uint32_t seen = round_.load();
   for (int member = 1; member < threads; ++member)
     workers_.emplace_back([this, member, seen] { work(member, seen); });
 }
@@ -39,37 +72,52 @@ void WorkerTeam::stop() {
 }
 
 void WorkerTeam::start(int parts, Call call, const void* context) {
-  parts_ = parts;
+  const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
+  parts_.store(parts, std::memory_order_relaxed);
   call_ = call;
   context_ = context;
-  busy_.store(members_ - 1, std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
+  left_.store(parts, std::memory_order_relaxed);
+  for (int member = 0; member < members_; ++member)
+    shares_[static_cast<size_t>(member)].taken.store(std::uint64_t{round} << 32,
+                                                     std::memory_order_release);
+  round_.store(round, std::memory_order_release);
   round_.notify_all();
-  for (int part = 0; part < parts; part += members_) call(context, part);
-  // The others are about to end: spin, but let go of the core if one of them waits for it.
-  for (int spin = 0; busy_.load(std::memory_order_acquire) > 0; ++spin) {
-    if (spin < spins)
-      pause();
-    else
-      std::this_thread::yield();
+  // The caller's own parts, then those that the others have not begun.
+  const Stopwatch watch;
+  for (int member = 0; member < members_; ++member) do_parts(member, round);
+  const auto is_done = [&] { return left_.load(std::memory_order_acquire) == 0; };
+  if (wait_awake(watch.seconds() + TeamPatience::late, is_done)) return patience_.note(false);
+  patience_.note(true);
+  wait_awake(1e30, is_done);
+}
+
+/// Those of `member`'s parts that nobody has taken yet. False when the round is over.
+bool WorkerTeam::do_parts(int member, std::uint32_t round) {
+  std::atomic<std::uint64_t>& taken = shares_[static_cast<size_t>(member)].taken;
+  while (true) {
+    std::uint64_t now = taken.load(std::memory_order_acquire);
+    if (now >> 32 != round) return false;
+    const std::int64_t part = member + static_cast<std::int64_t>(now & 0xffffffffu) * members_;
+    if (part >= parts_.load(std::memory_order_relaxed)) return true;
+    if (!taken.compare_exchange_weak(now, now + 1, std::memory_order_acq_rel)) continue;
+    // As long as this part is not done the round goes on: its task is there.
+    call_(context_, static_cast<int>(part));
+    left_.fetch_sub(1, std::memory_order_release);
   }
 }
 
-void WorkerTeam::work(int member, unsigned seen) {
+void WorkerTeam::work(int member, std::uint32_t seen) {
   while (true) {
-    // Spin for a short while, in which the next task usually comes; then sleep until it does.
-    unsigned now = seen;
-    for (int spin = 0; spin < spins && (now = round_.load(std::memory_order_acquire)) == seen;
-         ++spin)
-      pause();
-    if (now == seen) {
+    // Awake for a short while, in which the next task usually comes; then asleep until it does.
+    std::uint32_t now = seen;
+    const auto has_come = [&] { return (now = round_.load(std::memory_order_acquire)) != seen; };
+    if (!wait_awake(wakeful, has_come)) {
       round_.wait(seen, std::memory_order_acquire);
       continue;
     }
     seen = now;
     if (ends_) return;
-    for (int part = member; part < parts_; part += members_) call_(context_, part);
-    busy_.fetch_sub(1, std::memory_order_release);
+    do_parts(member, now);
   }
 }
 

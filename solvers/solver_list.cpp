@@ -133,7 +133,10 @@ std::span<const SolverEntry> solver_list() { return entries(); }
 const SolverEntry& find_solver(std::string_view name) {
   for (const SolverEntry& entry : entries())
     if (name == entry.name) return entry;
-  throw UnknownSolver("no solver is called '" + std::string(name) + "'; there are: " + all_names());
+  std::vector<std::string> names;
+  for (const SolverEntry& entry : entries()) names.emplace_back(entry.name);
+  throw UnknownSolver("no solver is called '" + std::string(name) + "'" +
+                      did_you_mean(name, names) + "; there are: " + joined(names));
 }
 
 std::unique_ptr<Solver> make_solver(std::string_view name) {

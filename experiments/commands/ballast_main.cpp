@@ -1,13 +1,14 @@
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <ostream>
 
 #include "experiments/commands/command.hpp"
 #include "experiments/run/build_info.hpp"
-#include "experiments/run_page/report_origin.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
@@ -103,13 +104,39 @@ void check_word(const std::string& command, const Word& word) {
   }
 }
 
+/// The first word that is no command or option there, and what was probably meant; empty when all
+/// are known.
+std::string unknown_word(const std::vector<Command>& all, int argc, const char* const* argv) {
+  const Command* at = nullptr;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k], in = at ? at->name : "ballast";
+    std::vector<std::string> names;
+    if (word.starts_with("--") && word.size() > 2) {
+      names = {"--help", "--version"};
+      for (const Word& known : at ? at->words : std::vector<Word>{})
+        names.push_back(name_of(known));
+      const std::string given = word.substr(0, word.find('='));
+      if (std::find(names.begin(), names.end(), given) == names.end())
+        return in + ": no option " + given + did_you_mean(given, names);
+    } else if (const auto& below = at ? at->parts : all; !below.empty()) {
+      const auto found = std::find_if(below.begin(), below.end(), [&](const Command& command) {
+        return command.name == word || command.alias == word;
+      });
+      for (const Command& command : below) names.push_back(command.name);
+      if (found == below.end())
+        return in + ": no command '" + word + "'" + did_you_mean(word, names);
+      at = &*found;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string own_command() {
-  std::string text = "ballast";
-  const std::vector<std::string> words = own_words();
-  for (size_t k = 1; k < words.size(); ++k) text += ' ' + shell_word(words[k]);
-  return text;
+  std::vector<std::string> words = own_words();
+  words[0] = "ballast";
+  return shell_line(words);
 }
 
 ExitCode perform(const Action& action, std::ostream& err) {
@@ -123,6 +150,8 @@ ExitCode perform(const Action& action, std::ostream& err) {
     return ExitCode::backend_missing;
   } catch (const std::bad_alloc&) {
     print_failure(err, "out of memory");
+  } catch (const std::filesystem::filesystem_error& error) {
+    print_failure(err, error.path1().string() + ": " + error.code().message());
   } catch (const std::exception& error) {
     print_failure(err, error.what());
   }
@@ -142,7 +171,8 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error, out, err);  // --help
-    print_failure(err, std::string(error.what()) + " (ballast --help)");
+    const std::string unknown = unknown_word(all, argc, argv);
+    print_failure(err, (unknown.empty() ? error.what() : unknown) + " (ballast --help)");
     return static_cast<int>(ExitCode::usage);
   }
   const auto act = [&] {

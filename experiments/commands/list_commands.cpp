@@ -51,11 +51,19 @@ void print_scenes() {
     std::cout << printed("%-22s", name.c_str()) << title << '\n';
 }
 
+/// Without scene.name where it is only the file's: in a file of the user's own it would lead into
+/// the results of the scene that was printed.
+std::string without_name(std::string text, const std::string& name) {
+  const std::string line = "\nname = \"" + name + "\"\n";
+  const size_t at = text.find(line, text.find("[scene]"));
+  return at == std::string::npos ? text : text.erase(at, line.size() - 1);
+}
+
 void print_scene(const std::string& name, const std::vector<std::string>& overrides,
                  bool resolved) {
   const std::filesystem::path file = find_scene(name);
   if (resolved || !overrides.empty()) {
-    std::cout << resolved_scene_text(file, overrides);
+    std::cout << without_name(resolved_scene_text(file, overrides), file.stem().string());
     return;
   }
   std::cout << std::ifstream(file).rdbuf();

@@ -3,5 +3,9 @@
 #include <iostream>
 
 #include "experiments/commands/command.hpp"
+#include "platform/standard_streams.hpp"
 
-int main(int argc, char** argv) { return ballast::ballast_main(argc, argv, std::cout, std::cerr); }
+int main(int argc, char** argv) {
+  ballast::prepare_standard_streams();
+  return ballast::ballast_main(argc, argv, std::cout, std::cerr);
+}

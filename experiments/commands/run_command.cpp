@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -6,6 +7,8 @@
 #include "experiments/run/run.hpp"
 #include "experiments/run_page/report.hpp"
 #include "experiments/run_page/report_origin.hpp"
+#include "platform/program.hpp"
+#include "platform/worker_team.hpp"
 
 namespace ballast {
 
@@ -15,6 +18,33 @@ struct RunRequest {
   RunOptions run;
   bool with_page = true;
 };
+
+/// This command line, so that it goes on with the run that it has begun: from the folder where it
+/// was given, with all its options.
+std::string command_that_goes_on() {
+  std::vector<std::string> words = own_words();
+  words[0] = own_program().string();
+  // What would begin anew is left out.
+  std::erase_if(words, [](const std::string& word) {
+    return word == "--overwrite" || word == "--new-packing";
+  });
+  const auto is_given = [&](const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  if (!is_given("--continue") && !is_given("--resume") && !is_given("--deposit-only"))
+    words.push_back("--continue");
+  return "cd " + shell_word(std::filesystem::current_path().string()) + " && " + shell_line(words);
+}
+
+/// More threads than cores only wait for each other.
+void limit_threads(RunOptions& options) {
+  const int cores = available_cores();
+  if (options.threads <= cores) return;
+  std::cerr << "ballast: --threads " << options.threads << ": there are " << cores
+            << " cores for this program, so many threads are used; the results are the same"
+            << std::endl;
+  options.threads = cores;
+}
 
 /// Draws the run's page where it is asked for or missing, and says what is where and what can be
 /// done next.
@@ -33,12 +63,14 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
             << next_commands(end.has_grains) << std::flush;
 }
 
-ExitCode run_scene(const RunRequest& request) {
+ExitCode run_scene(RunRequest& request) {
+  request.run.again = command_that_goes_on();
+  limit_threads(request.run);
   const RunEnd end = run(request.run);
   if (end.has_record) show_results(end, request.run, request.with_page);
   if (end.code != ExitCode::ok)
     std::cerr << "ballast: " << request.run.scene
-              << ": stopped before its end; --resume continues it" << std::endl;
+              << ": stopped before its end; --continue goes on with it" << std::endl;
   return end.code;
 }
 
@@ -71,7 +103,8 @@ Command run_command() {
           if (!which.empty()) CaptureSettings::parse(which);
         })},
        {"--threads N", &run.threads,
-        "Threads of the solver (1); the results are the same to the last bit", between(1, 256)},
+        "Threads of the solver (1), at most the cores; the results are the same to the last bit",
+        between(1, 256)},
        {"--max-seconds S", &run.max_seconds,
         "Wall clock after which to write a checkpoint and exit with 3", above(0)},
        {"--no-report", &request->with_page, "No figures and no page at the end"}},

@@ -17,7 +17,7 @@ struct Drawing {
   bool with_script = true;  ///< gnuplot's script, which holds the data
   bool on_white = false;    ///< the SVG as a file has a white ground: for pages that show the file
   std::string command =
-      {};  ///< named where gnuplot is missing: "ballast run SCENE --resume" draws them later
+      {};  ///< named where gnuplot is missing: "ballast report RUN" draws them later
 };
 
 /// Draws every picture of `page` into folder/figures and fills its svg. Pictures without panels are

@@ -8,7 +8,7 @@
 //   page.add({"numbers", "The run in numbers", {page::marked("Mean over *all* steps."), table}});
 //   page::Picture wall{plot, {run_page_text("wall.caption", {{"x", page::quantity(x, "mm")}})}};
 //   page.add({"wall", "The wall", {wall}});
-//   page::draw_pictures(page, folder, {.command = "ballast run SCENE --resume"});
+//   page::draw_pictures(page, folder, {.command = "ballast report RUN"});
 //   write_whole_file(folder / "report.html", page::html_of(page));
 //   write_whole_file(folder / "README.md", page::markdown_of(page));
 

@@ -72,11 +72,13 @@ class Run {
       folder_.reopen(resolved_.text);
       options_.resume = true;
     }
-    if (!options_.resume)
-      folder_.begin(resolved_.text, options_.overwrite);
-    else if (std::filesystem::exists(folder_.manifest()))
+    if (!options_.resume) {
+      folder_.begin(resolved_.text, manifest_, options_.overwrite);
+    } else if (std::filesystem::exists(folder_.manifest())) {
       manifest_ = Manifest::read(folder_.manifest());
-    manifest_.write(folder_.manifest());
+    } else {
+      manifest_.write(folder_.manifest());
+    }
     return true;
   }
 
@@ -115,16 +117,10 @@ class Run {
 
   /// What a stopped run tells its user: how to go on.
   ExitCode stopped(DriveEnd end) const {
-    std::string command = "ballast run " + options_.scene;
-    for (const std::string& set : options_.overrides) command += " --set '" + set + "'";
-    if (!options_.capture.empty()) command += " --capture " + options_.capture;
-    if (!options_.output.empty()) command += " --output " + options_.output.string();
-    if (!options_.packing_cache.empty())
-      command += " --packing-cache " + options_.packing_cache.string();
-    command += options_.deposit_only ? " --deposit-only" : " --resume";
     const std::string why = end == DriveEnd::time_limit ? "time limit reached" : "interrupted";
-    std::cout << why << " at t = " << run_.state.time << " s; nothing is lost. Continue with:\n  "
-              << command << std::endl;
+    std::cout << why << " at t = " << run_.state.time << " s; nothing is lost.";
+    if (!options_.again.empty()) std::cout << " Continue with:\n  " << options_.again;
+    std::cout << std::endl;
     return end == DriveEnd::time_limit ? ExitCode::time_limit : ExitCode::failure;
   }
 

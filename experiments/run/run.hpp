@@ -26,6 +26,8 @@ struct RunOptions {
   std::string
       capture;      ///< which steps to keep as problem files (CaptureSettings::parse); empty: none
   int threads = 1;  ///< of the solver; the results are the same whatever their number
+  std::string again;  ///< the command that goes on with this run, for a shell in any folder; empty:
+                      ///< none is told
   double max_seconds = 1e30;  ///< wall clock: checkpoint and exit code 3 after this
 };
 
@@ -38,10 +40,11 @@ struct RunEnd {
   bool has_grains = false;       ///< a vibrated box, not only single bodies
 };
 
-/// Runs to the end, to the time limit, or to SIGINT/SIGTERM (checkpoint, then ExitCode::failure
-/// with the line that resumes). A folder is one process's at a time: another one that runs there
-/// throws, and a packing that another run deposits is waited for. Throws SceneFileError,
-/// InvalidProblem, MissingSolver, UnknownSolver, Error: each with a one-line what().
+/// Runs to the end, to the time limit, or to a signal that InterruptGuard catches (checkpoint, then
+/// ExitCode::failure with the line that goes on). A folder is one process's at a time: another one
+/// that runs there throws, and a packing that another run deposits is waited for. Throws
+/// SceneFileError, InvalidProblem, MissingSolver, UnknownSolver, Error: each with a one-line
+/// what().
 ///
 /// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5,
 /// checkpoint.bin, capture/ (if asked for), log/ (append-only raw rows from which the two records

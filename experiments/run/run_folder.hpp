@@ -6,6 +6,8 @@
 
 namespace ballast {
 
+class Manifest;
+
 class RunFolder {
  public:
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
@@ -25,13 +27,18 @@ class RunFolder {
   /// It holds all of the run of this key: every step, and records that have been closed.
   bool is_finished(const std::string& key) const;
 
-  /// A fresh run: refuses a folder that holds one (unless `overwrite`, which clears what a run
-  /// writes), writes scene.toml.
-  void begin(const std::string& scene_text, bool overwrite) const;
+  /// A fresh run: manifest.json and scene.toml are written. Refuses a folder that holds a run,
+  /// unless `overwrite`: then the files of that run are removed, by their names, and nothing else.
+  /// Refuses a folder with files but without a run of ours: they are somebody's, and are neither
+  /// removed nor mixed with a run's.
+  void begin(const std::string& scene_text, const Manifest& manifest, bool overwrite) const;
   /// A run to continue: refuses a folder without one, or with another scene than `scene_text`.
   void reopen(const std::string& scene_text) const;
 
  private:
+  bool is_of_a_run() const;
+  void clear() const;
+
   std::filesystem::path path_;
 };
 

@@ -11,6 +11,7 @@
 #include "experiments/run_page/report_tables.hpp"
 #include "experiments/run_page/texts.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/program.hpp"
 
 namespace ballast {
 namespace {
@@ -76,7 +77,10 @@ void write_report(const std::filesystem::path& folder) {
             {provenance_table(data),
              page::Folded{"The whole manifest (manifest.json)", data.manifest_text}}});
   // figures are drawn before their folder is listed
-  page::draw_pictures(page, folder, {.with_pdf = false, .command = "ballast run SCENE --resume"});
+  page::draw_pictures(page, folder,
+                      {.with_pdf = false,
+                       .command = shell_line({own_program().string(), "report",
+                                              std::filesystem::absolute(folder).string()})});
   page.add({"reproduce",
             "How to make it again",
             {page::Listing{reproduce_commands(data)}, files_table(data)}});

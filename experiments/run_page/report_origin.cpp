@@ -1,5 +1,6 @@
 #include "experiments/run_page/report_origin.hpp"
 
+#include "platform/program.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -172,35 +173,23 @@ std::string made_by(const RunData& data) {
   return text;
 }
 
-std::string shell_word(const std::string& word) {
-  if (is_plain(word, "_-./=+:,@%")) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + '\'';
-}
-
 std::string reproduce_commands(const RunData& data) {
   std::string text;
   const std::string commit = text_at(data.manifest, "ballast", "commit");
-  if (!commit.empty() && commit != "unknown") text += "git checkout " + shell_word(commit) + '\n';
-  const auto scene = data.manifest.find("scene");
-  if (scene != data.manifest.end() && scene->is_string()) {
-    text += "./run.sh " + shell_word(scene->get<std::string>());
-    const auto overrides = data.manifest.find("overrides");
-    if (overrides != data.manifest.end() && overrides->is_array())
-      for (const auto& entry : *overrides)
-        if (entry.is_string()) text += " --set " + shell_word(entry.get<std::string>());
-    text += '\n';
-  }
-  if (!data.scene_text.empty())
-    text += "# or from the resolved scene of this folder:\n./run.sh " +
-            shell_word((data.folder / "scene.toml").lexically_normal().string()) +
-            " --output results/again\n";
-  return text;
+  if (!commit.empty() && commit != "unknown")
+    text += "# the program of commit " + commit + " made it\n";
+  if (data.scene_text.empty()) return text;
+  // The resolved scene says everything; its name and the --set of the command line do not.
+  const std::filesystem::path folder =
+      std::filesystem::absolute(data.folder / "scene.toml").lexically_normal().parent_path();
+  return text +
+         shell_line({own_program().string(), "run", (folder / "scene.toml").string(), "--output",
+                     folder.string() + "-again"}) +
+         '\n';
 }
 
 std::string next_commands(bool has_grains) {
-  const std::string program = "build/default/bin/ballast ";
+  const std::string program = shell_word(own_program().string()) + ' ';
   std::string text;
   if (has_grains)
     text += "# another frequency, other grains; every key of a scene: docs/manual/scenes.md\n" +
@@ -211,7 +200,7 @@ std::string next_commands(bool has_grains) {
             program + "paper fig12 --jobs 2\n";
   text +=
       "# a plan: every combination of the values, several runs at a time\n"
-      "printf '[[grid]]\\nname = \"nu\"\\nscene = "
+      "test -e my_plan.toml || printf '[[grid]]\\nname = \"nu\"\\nscene = "
       "\"vibrated_box_small\"\\nvary.\"drive.frequency\" = [5, 10, 20]\\n' > "
       "my_plan.toml\n" +
       program +

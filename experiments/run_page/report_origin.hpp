@@ -17,14 +17,11 @@ page::Table provenance_table(const RunData& data);
 page::Table files_table(const RunData& data);
 /// One line for the head of the page: program, machine, date; empty when the manifest says nothing.
 std::string made_by(const RunData& data);
-/// Commands that make the run again, as text for a shell.
+/// Commands that make the run again, as text for a shell in any folder.
 std::string reproduce_commands(const RunData& data);
 
-/// What to do next with the program, from the project's root: another run, a figure of the paper, a
-/// plan, a comparison of solvers. `has_grains`: of a vibrated box.
+/// What to do next with the program, as text for a shell in any folder: another run, a figure of
+/// the paper, a plan, a comparison of solvers. `has_grains`: of a vibrated box.
 std::string next_commands(bool has_grains);
-
-/// A word as a shell reads it back.
-std::string shell_word(const std::string& word);
 
 }  // namespace ballast

@@ -145,11 +145,12 @@ LocalProblem read_local(const Hdf5Reader& file) {
   const int contacts = contact_count(file, root + "/W", w.rows());
   require_shape(file, root + "/W", w, 3 * contacts, 3 * contacts);
   LocalProblem local;
+  // The vectors first: the sizes of the matrices are theirs, and not only what a header claims.
+  local.q = as_eigen(read_vector(file, root + "/vectors/q", w.rows()));
+  local.mu = read_vector(file, root + "/vectors/mu", contacts);
   const Triplets entries = w.entries();
   local.w.resize(w.rows(), w.columns());
   local.w.setFromTriplets(entries.begin(), entries.end());
-  local.q = as_eigen(read_vector(file, root + "/vectors/q", w.rows()));
-  local.mu = read_vector(file, root + "/vectors/mu", contacts);
   return local;
 }
 
@@ -161,14 +162,14 @@ GlobalProblem read_global(const Hdf5Reader& file) {
   require_shape(file, root + "/M", m, m.rows(), m.rows());
   require_shape(file, root + "/H", h, m.rows(), 3 * contacts);
   GlobalProblem global;
+  global.f = as_eigen(read_vector(file, root + "/vectors/f", m.rows()));
+  global.w = as_eigen(read_vector(file, root + "/vectors/w", 3 * contacts));
+  global.mu = read_vector(file, root + "/vectors/mu", contacts);
   const Triplets mass = m.entries(), directions = h.entries();
   global.m.resize(m.rows(), m.columns());
   global.m.setFromTriplets(mass.begin(), mass.end());
   global.h.resize(h.rows(), h.columns());
   global.h.setFromTriplets(directions.begin(), directions.end());
-  global.f = as_eigen(read_vector(file, root + "/vectors/f", m.rows()));
-  global.w = as_eigen(read_vector(file, root + "/vectors/w", 3 * contacts));
-  global.mu = read_vector(file, root + "/vectors/mu", contacts);
   return global;
 }
 

@@ -3,11 +3,12 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <limits>
 #include <string>
 #include <string_view>
 
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
@@ -19,11 +20,11 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 class Words {
  public:
   explicit Words(const std::filesystem::path& file) : name_(file.string()) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail("cannot be opened");
-    std::ostringstream text;
-    text << stream.rdbuf();
-    text_ = std::move(text).str();
+    try {
+      text_ = read_whole_file(file);
+    } catch (const Error& error) {
+      throw ProblemFileError(error.what());
+    }
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -54,13 +55,21 @@ class Words {
       fail_here(std::string(of) + " = " + std::to_string(value) + " is not finite");
     return value;
   }
-  /// Not negative, and no more than the rest of the file could hold: a wrong count must not be
-  /// allocated.
   int count(const char* of) {
     const int value = integer(of);
     if (value < 0) fail_here(std::string(of) + " = " + std::to_string(value) + " is negative");
     return value;
   }
+  /// A count of things of which the rest of the file has at least one number each: a wrong one is
+  /// not asked memory for, and three times as many are an int.
+  int backed_count(const char* of) {
+    const int value = count(of);
+    if (value > std::numeric_limits<int>::max() / 3)
+      fail_here(std::string(of) + " = " + std::to_string(value) + " is too large");
+    require_room(static_cast<std::size_t>(value), of);
+    return value;
+  }
+  /// So many numbers could stand in the rest of the file: none is shorter than a digit.
   void require_room(std::size_t numbers, const char* of) const {
     if (numbers > text_.size() - at_) fail_here(std::string("the file ends within ") + of);
   }
@@ -180,8 +189,9 @@ void read_sparse(Words& words, TextMatrix& matrix) {
 TextMatrix read_matrix(Words& words) {
   const int storage = words.integer("the storage of a matrix");
   TextMatrix matrix;
-  matrix.rows = words.count("rows");
-  matrix.columns = words.count("columns");
+  // Every row and column has an entry in a vector that follows.
+  matrix.rows = words.backed_count("rows");
+  matrix.columns = words.backed_count("columns");
   switch (storage) {
     case 0:
       read_dense(words, matrix);
@@ -218,7 +228,7 @@ std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesyste
   Words words(file);
   const int dimension = words.integer("the dimension");
   words.require(dimension == 3, "dimension " + std::to_string(dimension) + ": only 3 is supported");
-  const int contacts = words.count("the number of contacts");
+  const int contacts = words.backed_count("the number of contacts");
   const TextMatrix first = read_matrix(words);
   words.require(first.rows == first.columns, "the first matrix is not square");
   if (first.rows == 3 * contacts) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geometry/shape/mesh_file.hpp"
 #include "platform/text.hpp"
@@ -13,8 +14,17 @@
 namespace ballast {
 namespace {
 
+/// A file may have blanks and umlauts in its name, a scene may not.
+std::string name_of_file(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  for (char& c : name)
+    if (!is_plain(std::string_view(&c, 1), "_-.")) c = '_';
+  if (name.empty() || name[0] == '.') name.insert(0, 1, '_');
+  return name;
+}
+
 void read_head(TomlTable table, Scene& scene, const std::filesystem::path& file) {
-  scene.name = file.stem().string();
+  scene.name = name_of_file(file);
   read_keys(table, head_keys, scene);
   // a name is also a folder's name
   if (!is_plain(scene.name, "_-.") || scene.name[0] == '.')
@@ -105,6 +115,18 @@ void check_box(const TomlTable& table, const BoxSpec& box, const GrainsSpec& gra
   if (box.width < widest) table.fail("width", expected);
 }
 
+void check_deposit(const TomlTable& table, const DepositSpec& deposit) {
+  // as for the scene: steps are counted
+  const std::tuple<const char*, double, double> stages[] = {
+      {"max_time", deposit.max_time, deposit.step},
+      {"lid_time", deposit.lid_time, deposit.step},
+      {"settle_time", deposit.settle_time, deposit.settle_step}};
+  for (const auto& [key, time, step] : stages)
+    if (time / step > 1e12) table.fail(key, "too long, expected at most 1e12 steps");
+  if (deposit.max_time < deposit.step)
+    table.fail("max_time", "shorter than a step, expected at least deposit.step");
+}
+
 void check_drive(const TomlTable& table, const DriveSpec& drive) {
   if (drive.f_min_over_weight > drive.f_max_over_weight)
     table.fail("f_min_over_weight", "larger than f_max_over_weight, expected at most that");
@@ -156,7 +178,7 @@ void read_box_scene(TomlTable& root, Scene& scene, const std::filesystem::path& 
   scene.box = read_section(
       root.section("box"), box_keys,
       [&](const TomlTable& table, const BoxSpec& box) { check_box(table, box, *scene.grains); });
-  scene.deposit = read_section(root.section("deposit"), deposit_keys);
+  scene.deposit = read_section(root.section("deposit"), deposit_keys, check_deposit);
   scene.drive = read_section(root.section("drive"), drive_keys, check_drive);
   scene.control_volume = read_section(root.section("control_volume"), control_volume_keys,
                                       [&](const TomlTable& table, const ControlVolumeSpec& volume) {

@@ -40,13 +40,17 @@ fs::path find_scene(const std::string& name_or_path) {
   if (fs::is_regular_file(path)) return path;
   const bool is_name =
       !name_or_path.empty() && !path.has_parent_path() && path.extension() != ".toml";
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
+    throw SceneFileError(name_or_path + ": a pipe or a device, expected a scene file");
   if (!is_name) throw SceneFileError(name_or_path + ": no such scene file");
   const fs::path named = scene_folder() / (name_or_path + ".toml");
   if (fs::is_regular_file(named)) return named;
-  std::string there;
-  for (const auto& [name, title] : list_scenes()) add_to_list(there, name);
-  throw SceneFileError(name_or_path + ": no scene of this name, expected a file or one of " +
-                       there);
+  std::vector<std::string> there;
+  for (const auto& [name, title] : list_scenes()) there.push_back(name);
+  throw SceneFileError(name_or_path + ": no scene of this name" +
+                       did_you_mean(name_or_path, there) + ", expected a file or one of " +
+                       joined(there));
 }
 
 }  // namespace ballast

@@ -1,16 +1,71 @@
 // load_toml: parsing, and overrides merged into the parsed table.
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+#include <string_view>
 
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file_error.hpp"
 #include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
 namespace {
+
+constexpr size_t most_parts = 32;  // of a dotted key, and of brackets in brackets
+constexpr const char* too_deep = "more than 32 levels of tables in one another";
+
+struct Depth {
+  bool is_too_deep = false;
+  long line = 1;  ///< where
+};
+
+/// Each dot of a key and each bracket is a level of tables, and for each level the parser and the
+/// destructors of its tables call themselves: some ten thousand of them leave the stack. What
+/// stands in quotes and in comments does not count.
+Depth depth_of(std::string_view text) {
+  Depth depth;
+  size_t dots = 0, brackets = 0;
+  for (size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      // A text of one line, or of several between three quotes each.
+      const std::string three(3, c);
+      const bool is_long = text.substr(at, 3) == three;
+      at += is_long ? 3 : 1;
+      while (at < text.size() && (is_long ? text.substr(at, 3) != three : text[at] != c)) {
+        if (text[at] == '\n' && !is_long) break;
+        depth.line += text[at] == '\n';
+        at += c == '"' && text[at] == '\\' ? 2 : 1;
+      }
+      if (is_long) at += 2;
+      continue;
+    }
+    if (c == '#') {
+      at = std::min(text.find('\n', at), text.size() - 1);
+      if (text[at] != '\n') break;
+    }
+    if (c == '.')
+      ++dots;
+    else if (c == '\n' || c == '=' || c == ',')
+      dots = 0;
+    else if (c == '[' || c == '{')
+      ++brackets;
+    else if ((c == ']' || c == '}') && brackets > 0)
+      --brackets;
+    if (dots > most_parts || brackets > most_parts) {
+      depth.is_too_deep = true;
+      return depth;
+    }
+    depth.line += text[at] == '\n';
+  }
+  return depth;
+}
+
+void refuse_depth(const std::filesystem::path& file, std::string_view text) {
+  if (const Depth depth = depth_of(text); depth.is_too_deep)
+    throw SceneFileError(file.string() + ':' + std::to_string(depth.line) + ": " + too_deep);
+}
 
 struct Override {
   std::vector<std::string> path;
@@ -45,6 +100,8 @@ Override parse_override(const std::filesystem::path& file, const std::string& te
   o.path = split(text.substr(0, equals), '.');
   for (const std::string& part : o.path)
     if (part.empty()) fail(file, o, "empty part in the key, expected dotted.key=value");
+  if (o.path.size() > most_parts) fail(file, o, too_deep);
+  if (depth_of(text.substr(equals + 1)).is_too_deep) fail(file, o, too_deep);
   o.value = parse_value(file, o, text.substr(equals + 1));
   return o;
 }
@@ -86,14 +143,16 @@ void apply(const std::filesystem::path& file, Override o, toml::table& root) {
 toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
   if (std::filesystem::is_directory(file))
     throw SceneFileError(file.string() + ": is a folder, expected a scene in TOML");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw SceneFileError(file.string() + ": cannot be read: " + std::strerror(errno));
-  std::stringstream content;
-  content << stream.rdbuf();
+  std::string content;
+  try {
+    content = read_whole_file(file);
+  } catch (const Error& error) {
+    throw SceneFileError(error.what());
+  }
+  refuse_depth(file, content);
   toml::table table;
   try {
-    table = toml::parse(content.str(), file.string());
+    table = toml::parse(content, file.string());
   } catch (const toml::parse_error& error) {
     throw SceneFileError(file.string() + ':' + std::to_string(error.source().begin.line) +
                          ": not valid TOML: " + std::string(error.description()));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include "platform/text.hpp"
 #include "problems/scene/scene_file_error.hpp"
@@ -14,22 +13,6 @@ namespace {
 
 constexpr const char* override_source = "--set";
 constexpr size_t shown_value = 60;  // characters of a value in an error message
-
-/// Levenshtein distance: insertions, deletions and substitutions between two keys.
-size_t edit_distance(std::string_view a, std::string_view b) {
-  // one row of the table of distances between prefixes of a and of b
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0]++;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 std::string unit_text(const char* unit) { return *unit ? std::string(" [") + unit + "]" : ""; }
 
@@ -209,17 +192,11 @@ void TomlTable::finish() const {
   for (const auto& [key, value] : *table_) {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    // a word that is nearly one of the known ones is taken for a slip of the finger
-    const auto nearest = std::min_element(known_.begin(), known_.end(),
-                                          [&](const std::string& a, const std::string& b) {
-                                            return edit_distance(name, a) < edit_distance(name, b);
-                                          });
+    if (const std::string meant = did_you_mean(name, known_); !meant.empty())
+      fail(name, "unknown key" + meant);
     std::vector<std::string> sorted = known_;
     std::sort(sorted.begin(), sorted.end());
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    if (nearest != known_.end() &&
-        edit_distance(name, *nearest) <= std::max<size_t>(2, name.size() / 3))
-      fail(name, "unknown key, did you mean \"" + *nearest + "\"?");
     fail(name, "unknown key, expected one of " + joined(sorted));
   }
 }

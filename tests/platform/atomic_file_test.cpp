@@ -2,7 +2,11 @@
 
 #include <cerrno>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include <thread>
 
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
@@ -69,11 +73,10 @@ TEST_CASE("what goes wrong is one line that begins with the file") {
   CHECK(complaint([&] { read_whole_file(absent); }) ==
         absent.string() + ": cannot open: No such file or directory");
   const std::string name = folder.path().string();
-  CHECK(complaint([&] { write_whole_file(name, "x"); }) ==
-        name + ": cannot write: it is not a regular file");
+  CHECK(complaint([&] { write_whole_file(name, "x"); }) == name + ": cannot write: Is a directory");
   CHECK(complaint([&] { read_whole_file(name); }) == name + ": cannot read: Is a directory");
   CHECK(complaint([&] { write_whole_file("/dev/full", "x"); }) ==
-        "/dev/full: cannot write: it is not a regular file");
+        "/dev/full: cannot write: No space left on device");
   errno = ENOSPC;
   CHECK(complaint([&] { throw_file_error("f", "stand"); }) ==
         "f: cannot stand: No space left on device");
@@ -101,4 +104,76 @@ TEST_CASE("folders are made with their parents") {
   CHECK(complaint([&] {
           create_folder(file / "x");
         }).starts_with((file / "x").string() + ": cannot make the folder"));
+}
+
+TEST_CASE("output through symbolic links writes what they point to, be it not there yet") {
+  const TemporaryFolder folder;
+  const fs::path real = folder.write("real.txt", "old"), link = folder.path() / "link",
+                 second = folder.path() / "second", dangling = folder.path() / "dangling";
+  fs::create_symlink("real.txt", link);
+  fs::create_symlink(link, second);
+  fs::create_symlink("new.txt", dangling);
+  write_whole_file(second, "written");
+  CHECK(fs::is_symlink(second));
+  CHECK(fs::is_symlink(link));
+  CHECK(read_whole_file(real) == "written");
+  write_whole_file(dangling, "made");
+  CHECK(fs::is_symlink(dangling));
+  CHECK(read_whole_file(folder.path() / "new.txt") == "made");
+  const fs::path ring = folder.path() / "ring";
+  fs::create_symlink("ring", ring);
+  CHECK_THAT(complaint([&] { write_whole_file(ring, "x"); }),
+             Catch::StartsWith(ring.string() + ": cannot write"));
+}
+
+TEST_CASE("a pipe is written as it is, and stays one") {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::string got;
+  std::thread reader([&] {
+    const int end = open(pipe.c_str(), O_RDONLY);
+    char bytes[64];
+    ssize_t count;
+    while ((count = read(end, bytes, sizeof bytes)) > 0)
+      got.append(bytes, static_cast<size_t>(count));
+    close(end);
+  });
+  write_whole_file(pipe, "through");
+  reader.join();
+  CHECK(got == "through");
+  CHECK(fs::is_fifo(pipe));
+  CHECK_FALSE(fs::exists(pipe.string() + ".tmp"));
+}
+
+TEST_CASE("an open descriptor's file is written in place, not replaced") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("file", "old"), name = folder.path() / "stdout";
+  const int descriptor = open(file.c_str(), O_RDWR);
+  // As /dev/stdout: a link into /proc.
+  fs::create_symlink("/proc/self/fd/" + std::to_string(descriptor), name);
+  write_whole_file(name, "new");
+  char bytes[8] = {};
+  CHECK(pread(descriptor, bytes, sizeof bytes, 0) == 3);
+  CHECK(std::string(bytes) == "new");
+  CHECK(fs::is_symlink(name));
+  close(descriptor);
+}
+
+TEST_CASE("who may read a file stays as it was") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("secret", "old");
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  write_whole_file(file, "new");
+  CHECK(fs::status(file).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+}
+
+TEST_CASE("a pipe or a device is not read: it could be without end") {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(complaint([&] { read_whole_file(pipe); }) ==
+        pipe.string() + ": cannot read: it is a pipe, not a regular file");
+  CHECK(complaint([&] { read_whole_file("/dev/zero"); }) ==
+        "/dev/zero: cannot read: it is a device, not a regular file");
 }

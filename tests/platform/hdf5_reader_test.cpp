@@ -52,7 +52,7 @@ TEST_CASE("what is no HDF5 file is told apart") {
   CHECK(opened() == "");
   fs::resize_file(path, fs::file_size(path) / 2);
   CHECK(opened() == "damaged or truncated HDF5 file");
-  CHECK(complaint(folder.path(), [&] { Hdf5Reader file(folder.path()); }) == "no such file");
+  CHECK(complaint(folder.path(), [&] { Hdf5Reader file(folder.path()); }) == "not a regular file");
 }
 
 TEST_CASE("what a file does not have is named") {

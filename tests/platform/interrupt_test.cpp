@@ -9,7 +9,7 @@
 using namespace ballast;
 
 TEST_CASE("a signal is kept for whoever asks, and a new guard begins without one") {
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
     const InterruptGuard guard;
     CHECK_FALSE(InterruptGuard::requested());
     raise(number);
@@ -51,4 +51,21 @@ TEST_CASE("the second signal of a kind ends the program, and so does one without
           { const InterruptGuard guard; }
           raise(SIGTERM);
         }) == 128 + SIGTERM);
+}
+
+TEST_CASE("a warning may come twice, nohup is respected, and who stops reading ends nothing") {
+  CHECK(end_of([] {
+          const InterruptGuard guard;
+          for (const int number : {SIGUSR1, SIGUSR1, SIGHUP, SIGHUP, SIGPIPE}) raise(number);
+          _exit(InterruptGuard::requested() ? 3 : 4);
+        }) == 3);
+  CHECK(end_of([] {
+          signal(SIGHUP, SIG_IGN);
+          {
+            const InterruptGuard guard;
+            raise(SIGHUP);
+            if (InterruptGuard::requested()) _exit(4);
+          }
+          raise(SIGHUP);
+        }) == 0);
 }

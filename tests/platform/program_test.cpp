@@ -137,3 +137,17 @@ TEST_CASE("this program knows its file and its words") {
   REQUIRE_FALSE(words.empty());
   CHECK(fs::path(words[0]).filename() == "platform_test");
 }
+
+TEST_CASE("words for a shell") {
+  CHECK(shell_word("drive.frequency=5") == "drive.frequency=5");
+  CHECK(shell_word("a b") == "'a b'");
+  CHECK(shell_word("it's $HOME") == "'it'\\''s $HOME'");
+  CHECK(shell_word("") == "''");
+  CHECK(shell_line({"a", "b c", ""}) == "a 'b c' ''");
+  // A shell reads them back.
+  const std::vector<std::string> words{"a b", "it's", "$HOME", "", "*", "x\ny"};
+  std::string expected;
+  for (const std::string& word : words) expected += word + "|";
+  CHECK(run_program("/bin/sh", {"-c", "printf '%s|' " + shell_line(words)}, 10.0).output ==
+        expected);
+}

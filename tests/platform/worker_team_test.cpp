@@ -1,5 +1,6 @@
 #include "platform/worker_team.hpp"
 
+#include <atomic>
 #include <set>
 #include <thread>
 
@@ -52,10 +53,35 @@ TEST_CASE("the caller and each of the others take part") {
   WorkerTeam team;
   team.resize(3);
   std::vector<std::thread::id> by(3);
-  team.run(3, [&](int part) { by[part] = std::this_thread::get_id(); });
+  std::atomic<int> begun{0};
+  team.run(3, [&](int part) {
+    by[part] = std::this_thread::get_id();
+    // Nobody goes on before all have begun: no thread can do two.
+    for (++begun; begun < 3;) std::this_thread::yield();
+  });
   CHECK(by[0] == std::this_thread::get_id());
   CHECK(std::set<std::thread::id>(by.begin(), by.end()).size() == 3);
 }
+
+TEST_CASE("what a member that is held up has not begun is done by the others") {
+  WorkerTeam team;
+  team.resize(2);
+  const std::thread::id caller = std::this_thread::get_id();
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<int> done{0}, held{0};
+    std::vector<int> count(10, 0);
+    team.run(10, [&](int part) {
+      // The other thread's first part lasts until all the others are done.
+      if (std::this_thread::get_id() != caller && ++held == 1)
+        while (done < 9) std::this_thread::yield();
+      ++count[part];
+      ++done;
+    });
+    CHECK(count == std::vector<int>(10, 1));
+  }
+}
+
+TEST_CASE("there is a core for this program") { CHECK(available_cores() >= 1); }
 
 TEST_CASE("a team grows, shrinks and sleeps between two tasks") {
   WorkerTeam team;

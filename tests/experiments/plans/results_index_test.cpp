@@ -23,8 +23,8 @@ ResolvedRun run(const std::string& key) {
 /// A folder as a run leaves it, `left` steps before its end.
 void put_run(const fs::path& results, const std::string& key, double left) {
   const RunFolder folder(results / "runs" / key);
-  folder.begin("scene", false);
   Manifest manifest("incline", {}, key);
+  folder.begin("scene", manifest, false);
   manifest.summary("drive_seconds", 12.5);
   manifest.summary("error_mean_relative", 1e-3);
   manifest.summary(steps_left_entry, left);

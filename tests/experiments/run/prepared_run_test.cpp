@@ -73,10 +73,11 @@ TEST_CASE("the system of a folder without a run, or without a state, is an error
   MotionState state;
   CHECK_THAT(run_error([&] { system_of_run(place.path(), state); }), Contains("no run here"));
   const auto text = resolve_scene(find_scene("vibrated_box_small"), few_grains).text;
-  RunFolder(place.path()).begin(text, false);
+  RunFolder(place.path()).begin(text, Manifest("box", {}, "key"), false);
   CHECK_THAT(run_error([&] { system_of_run(place.path(), state); }),
              Contains("checkpoint.bin: missing: the run has no state yet"));
-  RunFolder(place.path()).begin(resolve_scene(find_scene("incline")).text, true);
+  RunFolder(place.path())
+      .begin(resolve_scene(find_scene("incline")).text, Manifest("incline", {}, "key"), true);
   CHECK(system_of_run(place.path(), state).grain_count == 1);
   CHECK(state.step == 0);
 }

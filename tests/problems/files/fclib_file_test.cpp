@@ -57,6 +57,10 @@ TEST_CASE("each broken local file is refused with one line that says where") {
        [](const fs::path& f) {
          replace(f, "/fclib_local/W/i", std::vector<int>{0, 1, 2});
        }},
+      {"/fclib_local/W/x: claims 2000000000 entries, of which 0 bytes are stored",
+       [](const fs::path& f) { claim(f, "/fclib_local/W/x", 2000000000); }},
+      {"/fclib_local/vectors/q: claims 2000000000 entries",
+       [](const fs::path& f) { claim(f, "/fclib_local/vectors/q", 2000000000); }},
       {"/fclib_local/W/x: does not hold numbers",
        [](const fs::path& f) {
          remove(f, "/fclib_local/W/x");

@@ -77,6 +77,21 @@ inline void replace(const fs::path& file, const char* path, std::vector<double> 
 }
 inline void remove(const fs::path& file, const char* path) { replace<int>(file, path, nullptr); }
 
+/// The dataset replaced by one that claims so many numbers and has stored none: a few bytes.
+inline void claim(const fs::path& file, const char* path, hsize_t entries) {
+  remove(file, path);
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(1, &entries, nullptr), how = H5Pcreate(H5P_DATASET_CREATE);
+  const hsize_t chunk = 1000;
+  H5Pset_chunk(how, 1, &chunk);
+  const hid_t data = H5Dcreate2(id, path, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+  REQUIRE(data >= 0);
+  H5Dclose(data);
+  H5Pclose(how);
+  H5Sclose(space);
+  H5Fclose(id);
+}
+
 inline const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace ballast

@@ -144,3 +144,18 @@ TEST_CASE("each broken text is refused, with its line") {
   CHECK(complaint_of_text("3\n1\n0\n3\n3\n3 3\n-2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n")
             .rfind("delassus.w(0, 0) = -2 is negative", 0) == 0);
 }
+
+TEST_CASE("sizes that the file cannot hold are refused before memory is asked for") {
+  // three times the contacts are no int any more
+  CHECK_THAT(complaint_of_text("3\n1500000000\n2\n3\n3\n"),
+             Catch::Contains("the number of contacts = 1500000000 is too large"));
+  CHECK_THAT(complaint_of_text("3\n700000000\n2\n3\n3\n"),
+             Catch::Contains("the file ends within the number of contacts"));
+  for (const char* storage : {"0", "1", "2"}) {
+    INFO(storage);
+    CHECK_THAT(complaint_of_text("3\n1\n" + std::string(storage) + "\n700000000\n700000000\n"),
+               Catch::Contains("the file ends within rows"));
+    CHECK_THAT(complaint_of_text("3\n1\n" + std::string(storage) + "\n2147483647\n3\n"),
+               Catch::Contains("rows = 2147483647 is too large"));
+  }
+}

@@ -68,3 +68,40 @@ TEST_CASE("a file that cannot be read is said to be what it is") {
   CHECK_THROWS_WITH(load_toml(folder.write("bad.toml", "a = 1\nb = [2\n"), {}),
                     Catch::Contains("bad.toml:") && Catch::Contains("not valid TOML"));
 }
+
+TEST_CASE("tables in tables without end are refused where they stand, before anything is parsed") {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      load_toml(folder.write("scene.toml", text), {});
+    } catch (const SceneFileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto many = [](const std::string& part, int count) {
+    std::string text;
+    for (int k = 0; k < count; ++k) text += part;
+    return text;
+  };
+  const std::string deep = "more than 32 levels";
+  const std::string dots = "a" + many(".a", 20000);
+  CHECK_THAT(refusal("b = 1\n" + dots + " = 1\n"), Catch::Contains("scene.toml:2: " + deep));
+  CHECK_THAT(refusal("[" + dots + "]\n"), Catch::Contains(deep));
+  CHECK_THAT(refusal("a = {" + dots + " = 1}\n"), Catch::Contains(deep));
+  CHECK_THAT(refusal("a = " + many("[", 20000)), Catch::Contains(deep));
+  CHECK_THAT(refusal("a = \"'\"\n" + dots + " = 1\n"), Catch::Contains("scene.toml:2: " + deep));
+  // dots that are no levels
+  const std::string text = many(".", 100);
+  CHECK(refusal("a = \"" + text + "\"\nb = '" + text + "' # " + text + "\nc = \"\"\"\n\\\"" + text +
+                "\n\"\"\"\n") == "");
+  std::string numbers = "a = [";
+  for (int k = 0; k < 100; ++k) numbers += "0.5, ";
+  CHECK(refusal(numbers + "]\n" + many("b = 0.5\n", 1)) == "");
+  for (const std::string& override : {dots + "=1", "b={" + dots + "=1}"}) {
+    CAPTURE(override.substr(0, 10));
+    CHECK_THROWS_WITH(
+        load_toml(folder.write("scene.toml", "a = 1\n"), std::vector<std::string>{override}),
+        Catch::Contains("(--set)") && Catch::Contains(deep));
+  }
+}

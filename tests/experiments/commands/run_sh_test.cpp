@@ -1,0 +1,73 @@
+// run.sh, interrupted and started again.
+
+#include "platform/atomic_file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A tree in which run.sh finds all that it needs but has nothing to build, and a vibrated_box of
+/// few grains.
+void make_tree(const fs::path& root) {
+  for (const char* folder : {"scripts", "build/default/bin", "scenes"})
+    create_folder(root / folder);
+  fs::copy_file(BALLAST_SOURCE_FOLDER "/run.sh", root / "run.sh");
+  write_whole_file(root / "scripts" / "setup.sh", "ballast_setup() { cd \"$root\"; }\n");
+  fs::create_symlink(BALLAST_PROGRAM, root / "build/default/bin/ballast");
+  fs::copy_file(BALLAST_SOURCE_FOLDER "/problems/scenes/vibrated_box_small.toml",
+                root / "scenes" / "vibrated_box.toml");
+}
+
+/// run.sh there with these arguments; stopped by SIGINT when `file` is there.
+ProgramResult run_sh(const fs::path& root, const std::vector<std::string>& arguments,
+                     const std::string& file = "") {
+  std::string words =
+      "cd '" + root.string() + "'; export BALLAST_SCENES='" + (root / "scenes").string() + "'; ";
+  // A shell's child in the background ignores SIGINT: SIGTERM asks for the same.
+  words += file.empty() ? "exec \"$@\""
+                        : "\"$@\" & until ls " + file +
+                              " >/dev/null 2>&1; do sleep 0.01; done; kill -TERM $!; wait $!";
+  std::vector<std::string> all{"-c", words, "sh", (root / "run.sh").string(), "--no-install"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return run_program("/bin/sh", all, 300.0);
+}
+
+}  // namespace
+
+TEST_CASE("run.sh goes on after an interrupt, in the deposit too, with arguments and without") {
+  const std::vector<std::string> small{"vibrated_box",   "--set",           "grains.count=12",
+                                       "--set",          "box.length=0.12", "--set",
+                                       "box.width=0.12", "--set",           "scene.duration=0.05"};
+  for (const bool with_arguments : {true, false}) {
+    const TemporaryFolder folder;
+    const fs::path& root = folder.path();
+    make_tree(root);
+    if (!with_arguments) {
+      // what the arguments say is in the scene then
+      std::string text = read_whole_file(root / "scenes" / "vibrated_box.toml");
+      const auto changed = run_program(
+          BALLAST_PROGRAM,
+          {"scenes", "vibrated_box_small", "--set", "grains.count=12", "--set", "box.length=0.12",
+           "--set", "box.width=0.12", "--set", "scene.duration=0.05"},
+          10.0);
+      write_whole_file(root / "scenes" / "vibrated_box.toml", changed.output);
+    }
+    std::vector<std::string> arguments = with_arguments ? small : std::vector<std::string>{};
+    // in the deposit: before there is any checkpoint of the run
+    ProgramResult stopped = run_sh(root, arguments, "results/packings/*.lock");
+    INFO(stopped.output << stopped.errors);
+    CHECK(stopped.status == 1);
+    CHECK(fs::exists(root / "results/vibrated_box/scene.toml"));
+    CHECK_FALSE(fs::exists(root / "results/vibrated_box/checkpoint.bin"));
+    const ProgramResult finished = run_sh(root, arguments);
+    INFO(finished.output << finished.errors);
+    CHECK(finished.status == 0);
+    CHECK(fs::exists(root / "results/vibrated_box/report.html"));
+    const ProgramResult again = run_sh(root, arguments);
+    CHECK(again.status == 0);
+    CHECK_THAT(again.output, Catch::Contains("finished already"));
+  }
+}
