@@ -72,11 +72,10 @@ void check_spatial(const std::vector<Vec3>& points) {
 /// Ascending indices of the points, without those within kWeld of one that stays (the smaller index
 /// stays).
 std::vector<int> distinct(const std::vector<Vec3>& points) {
-  std::vector<bool> dropped(points.size(), false);
-  for (const auto& [first, second] : close_pairs(points, kWeld)) dropped[second] = true;
+  const std::vector<int> first = first_close(points, kWeld);
   std::vector<int> kept;
   for (size_t i = 0; i < points.size(); ++i) {
-    if (!dropped[i]) kept.push_back(static_cast<int>(i));
+    if (first[i] == static_cast<int>(i)) kept.push_back(static_cast<int>(i));
   }
   return kept;
 }
@@ -93,7 +92,8 @@ Vec3 area_vector(const std::vector<int>& loop, const std::vector<Vec3>& points) 
 /// the hull of the other points may well keep the neighbour.
 std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points) {
   std::vector<int> flat;
-  const auto listed = [&](int v) { return std::find(flat.begin(), flat.end(), v) != flat.end(); };
+  std::vector<bool> is_listed(points.size(), false);
+  const auto listed = [&](int v) { return is_listed[static_cast<size_t>(v)]; };
   for (const auto& loop : loops) {
     const size_t n = loop.size();
     const Vec3 normal = area_vector(loop, points).normalized();
@@ -109,7 +109,9 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
         corner = loop[k];
       }
     }
-    if (corner >= 0 && std::none_of(loop.begin(), loop.end(), listed)) flat.push_back(corner);
+    if (corner < 0 || std::any_of(loop.begin(), loop.end(), listed)) continue;
+    flat.push_back(corner);
+    is_listed[static_cast<size_t>(corner)] = true;
   }
   return flat;
 }
@@ -144,10 +146,10 @@ Loops hull_loops(const std::vector<Vec3>& points, double merge) {
     for (auto& loop : loops)
       for (int& v : loop) v = kept[v];
     make_canonical(loops, points);
-    const std::vector<int> flat = flat_corners(loops, points);
+    std::vector<int> flat = flat_corners(loops, points);
     if (flat.empty()) return loops;
-    std::erase_if(kept,
-                  [&](int i) { return std::find(flat.begin(), flat.end(), i) != flat.end(); });
+    std::sort(flat.begin(), flat.end());
+    std::erase_if(kept, [&](int i) { return std::binary_search(flat.begin(), flat.end(), i); });
   }
   throw InvalidPolyhedron("fewer than 4 distinct corners");
 }

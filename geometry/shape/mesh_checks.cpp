@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "geometry/shape/close_pairs.hpp"
+#include "geometry/shape/front_search.hpp"
 
 namespace ballast::mesh_checks {
 
@@ -21,15 +21,17 @@ void check_coordinates(std::span<const Vec3> vertices) {
 
 void check_indices(int vertex_count, const std::vector<std::vector<int>>& faces) {
   std::vector<bool> used(vertex_count, false);
+  std::vector<int> last_face(vertex_count, -1);  // that a vertex was found in
   for (size_t f = 0; f < faces.size(); ++f) {
     const At here{.face = static_cast<int>(f)};
     if (faces[f].size() < 3)
       invalid(here, "face ", f, " has ", faces[f].size(), " vertices: at least 3 are needed");
-    std::set<int> seen;
     for (const int v : faces[f]) {
       if (v < 0 || v >= vertex_count)
         invalid(here, "face ", f, " names vertex ", v, " of ", vertex_count);
-      if (!seen.insert(v).second) invalid(here, "face ", f, " passes through vertex ", v, " twice");
+      if (last_face[v] == static_cast<int>(f))
+        invalid(here, "face ", f, " passes through vertex ", v, " twice");
+      last_face[v] = static_cast<int>(f);
       used[v] = true;
     }
   }
@@ -39,10 +41,10 @@ void check_indices(int vertex_count, const std::vector<std::vector<int>>& faces)
 }
 
 void check_distinct(std::span<const Vec3> vertices, double reach) {
-  const std::vector<std::pair<int, int>> pairs = close_pairs(vertices, reach);
-  if (pairs.empty()) return;
-  const auto [a, b] = pairs.front();
-  invalid(At{.vertex = b}, "vertices ", a, " and ", b, " coincide");
+  const std::vector<int> first = first_close(vertices, reach);
+  for (size_t v = 0; v < first.size(); ++v)
+    if (first[v] != static_cast<int>(v))
+      invalid(At{.vertex = static_cast<int>(v)}, "vertices ", first[v], " and ", v, " coincide");
 }
 
 /// Corners that all turn left by less than pi, once around, make the loop a simple convex polygon.
@@ -74,9 +76,13 @@ void check_loop(std::span<const Vec3> vertices, int face, std::span<const int> l
 /// hull more than once would need each corner of the hull twice.
 void check_convex(std::span<const Vec3> vertices, std::span<const int> first,
                   std::span<const Vec3> normals, std::span<const double> allowed, double size) {
+  const FrontSearch search(vertices);
   for (size_t f = 0; f < normals.size(); ++f) {
+    const Vec3& origin = vertices[static_cast<size_t>(first[f])];
+    if (!search.any_in_front(normals[f], origin, allowed[f])) continue;
+    // The first of them, for the message.
     for (size_t v = 0; v < vertices.size(); ++v) {
-      const double height = normals[f].dot(vertices[v] - vertices[first[f]]);
+      const double height = normals[f].dot(vertices[v] - origin);
       if (height > allowed[f])
         invalid(At{.face = static_cast<int>(f)}, "not convex: vertex ", v, " lies ", height / size,
                 " of the size in front of face ", f);

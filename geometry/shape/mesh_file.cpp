@@ -1,15 +1,14 @@
 #include "geometry/shape/mesh_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <memory>
-#include <system_error>
 
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/obj_format.hpp"
+#include "geometry/shape/rounded_hull.hpp"
 #include "geometry/shape/stl_format.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -33,22 +32,13 @@ Format format_of(const std::filesystem::path& file) {
   Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read and written");
 }
 
-[[noreturn]] void fail_errno(const std::filesystem::path& file, const std::string& doing,
-                             int code) {
-  Place{file}.fail("cannot " + doing + ": " + std::generic_category().message(code));
-}
-
-struct Close {
-  void operator()(std::FILE* f) const { std::fclose(f); }
-};
-
 std::string content_of(const std::filesystem::path& file) {
-  const std::unique_ptr<std::FILE, Close> in(std::fopen(file.c_str(), "rb"));
-  if (!in) fail_errno(file, "read", errno);
   std::string content;
-  char block[65536];
-  while (const size_t n = std::fread(block, 1, sizeof block, in.get())) content.append(block, n);
-  if (std::ferror(in.get())) fail_errno(file, "read", errno);
+  try {
+    content = read_whole_file(file);
+  } catch (const Error& error) {
+    throw MeshFileError(error.what());
+  }
   if (content.empty()) Place{file}.fail("the file is empty");
   return content;
 }
@@ -101,11 +91,12 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
   try {
     try {
       Polyhedron polyhedron(mesh.vertices, mesh.faces);
+      if (mesh.is_single) return rounded_hull(mesh.vertices, kFileTolerance);
       return has_coplanar_neighbours(polyhedron) ? convex_hull(mesh.vertices) : polyhedron;
     } catch (const InvalidPolyhedron&) {
       const Polyhedron nearly(mesh.vertices, mesh.faces,
                               kFileTolerance);  // throws when the mesh is really broken
-      return convex_hull(nearly.vertices());
+      return rounded_hull(nearly.vertices(), kFileTolerance);
     }
   } catch (const InvalidPolyhedron& error) {
     fail_at(file, mesh, error);
@@ -115,7 +106,8 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
 Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale) {
   const RawMesh mesh = read_raw(file, scale);
   try {
-    return convex_hull(mesh.vertices);
+    return mesh.is_single ? rounded_hull(mesh.vertices, kFileTolerance)
+                          : convex_hull(mesh.vertices);
   } catch (const InvalidPolyhedron& error) {
     Place{file}.fail(error.what());
   }
@@ -125,18 +117,11 @@ void write_mesh(const std::filesystem::path& file, const Polyhedron& polyhedron)
   const Format format = format_of(file);
   const std::string text =
       format == Format::obj ? raw_mesh::obj_text(polyhedron) : raw_mesh::stl_text(polyhedron);
-  const std::filesystem::path beside = file.string() + ".tmp";
-  std::FILE* out = std::fopen(beside.c_str(), "wb");
-  if (!out) fail_errno(file, "write", errno);
-  // a full disk may show only when the last block is flushed or the file is closed
-  int code = 0;
-  if (std::fwrite(text.data(), 1, text.size(), out) != text.size() || std::fflush(out) != 0)
-    code = errno;
-  if (std::fclose(out) != 0 && code == 0) code = errno;
-  if (code == 0 && std::rename(beside.c_str(), file.c_str()) != 0) code = errno;
-  if (code == 0) return;
-  std::remove(beside.c_str());
-  fail_errno(file, "write", code);
+  try {
+    write_whole_file(file, text);
+  } catch (const Error& error) {
+    throw MeshFileError(error.what());
+  }
 }
 
 }  // namespace ballast

@@ -10,8 +10,9 @@ namespace ballast {
 
 /// Reads a closed convex polyhedron; the format follows the suffix (.obj, .stl). `scale` multiplies
 /// coordinates (0.001 for millimetres). STL vertices are welded when they agree to 1e-6 of the
-/// size. Coplanar neighbours become one polygon. Dents up to 1e-6 of the size, which single
-/// precision and short decimals leave, are closed by taking the hull; deeper ones are errors.
+/// size. Coplanar neighbours become one polygon; in binary STL, which is single precision, they are
+/// coplanar to 1e-6 of the size. Dents up to that, which single precision and short decimals leave,
+/// are closed by taking the hull; deeper ones are errors.
 /// Throws MeshFileError.
 Polyhedron read_mesh(const std::filesystem::path& file, double scale = 1.0);
 

@@ -21,6 +21,7 @@ struct RawMesh {
   std::vector<Vec3> vertices;
   std::vector<std::vector<int>> faces;
   std::vector<int> vertex_lines, face_lines;
+  bool is_single = false;  ///< its numbers are single precision
 };
 
 /// A place in a file, for messages "file: line N: defect".

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "geometry/shape/close_pairs.hpp"
@@ -135,9 +134,7 @@ std::vector<int> first_equals(const std::vector<Vec3>& corners) {
     high = high.cwiseMax(p);
   }
   const double reach = kSameCorner * (high - low).maxCoeff();
-  std::vector<int> first(corners.size());
-  std::iota(first.begin(), first.end(), 0);
-  for (const auto& [a, b] : close_pairs(corners, reach)) first[b] = std::min(first[b], a);
+  std::vector<int> first = first_close(corners, reach);
   // Smaller indices are resolved already.
   for (size_t i = 0; i < first.size(); ++i) first[i] = first[first[i]];
   return first;
@@ -169,6 +166,7 @@ RawMesh read_stl(const std::filesystem::path& file, std::string_view content) {
     mesh.faces.push_back(std::move(face));
   }
   mesh.face_lines = soup.lines;
+  mesh.is_single = !is_text;
   return mesh;
 }
 

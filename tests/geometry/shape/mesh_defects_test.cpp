@@ -114,7 +114,7 @@ TEST_CASE("every broken mesh is one line that names the file, the line and the d
   }
   const fs::path missing = folder.path() / "missing.obj";
   CHECK(complaint([&] { read_mesh(missing); }) ==
-        missing.string() + ": cannot read: No such file or directory");
+        missing.string() + ": cannot open: No such file or directory");
   fs::create_directory(folder.path() / "folder.obj");
   CHECK(complaint([&] { read_mesh(folder.path() / "folder.obj"); }).find("Is a directory") !=
         std::string::npos);

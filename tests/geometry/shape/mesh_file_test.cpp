@@ -1,9 +1,13 @@
 #include "geometry/shape/mesh_file.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
@@ -195,4 +199,72 @@ TEST_CASE("writing that fails names the file and the reason, and leaves the old 
   CHECK_FALSE(fs::exists(fs::symlink_status(file.string() + ".tmp")));
   CHECK(said_of(file) == "");
   CHECK(read_mesh(file).face_count() == 6);
+}
+
+TEST_CASE("a turned box in binary STL, which is single precision, has six faces") {
+  const TemporaryFolder folder;
+  Random random(8);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Quat turn = random_rotation(random);
+    const Polyhedron box = make_box(Vec3(1, 2, 3));
+    std::vector<Vec3> corners;
+    std::vector<std::vector<int>> faces;
+    for (const Vec3& v : box.vertices()) corners.push_back(turn * v);
+    for (int f = 0; f < 6; ++f) faces.emplace_back(box.face(f).begin(), box.face(f).end());
+    const fs::path file = folder.path() / "box.stl";
+    save(file, binary_stl(Polyhedron(corners, faces)));
+    for (const Polyhedron& read : {read_mesh(file), read_mesh_hull(file)}) {
+      CHECK(read.face_count() == 6);
+      CHECK(read.vertex_count() == 8);
+    }
+  }
+}
+
+TEST_CASE("a pipe or a device is no mesh, and is not waited for") {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe.obj", zero = folder.path() / "zero.stl";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  fs::create_symlink("/dev/zero", zero);
+  CHECK_THAT(complaint([&] { read_mesh(pipe); }), Catch::Contains("it is a pipe"));
+  CHECK_THAT(complaint([&] { read_mesh(zero); }), Catch::Contains("it is a device"));
+}
+
+TEST_CASE("a large mesh is read in a time that grows as its size") {
+  // 120000 triangles on six flat sides: each face against each vertex would be 7e9 looks.
+  const TemporaryFolder folder;
+  const int n = 100;
+  std::string text;
+  const auto number = [&](int i, int j, int k) {
+    text += "v " + std::to_string(i) + ' ' + std::to_string(j) + ' ' + std::to_string(k) + '\n';
+  };
+  std::map<std::tuple<int, int, int>, int> index;
+  std::string faces;
+  const auto vertex = [&](std::array<int, 3> p) {
+    const auto [found, is_new] =
+        index.emplace(std::tuple(p[0], p[1], p[2]), static_cast<int>(index.size()) + 1);
+    if (is_new) number(p[0], p[1], p[2]);
+    return std::to_string(found->second);
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {0, n})
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          std::vector<std::string> loop;
+          for (const auto& [a, b] :
+               {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
+            std::array<int, 3> p{};
+            p[static_cast<size_t>(axis)] = side;
+            p[static_cast<size_t>((axis + 1) % 3)] = i + a;
+            p[static_cast<size_t>((axis + 2) % 3)] = j + b;
+            loop.push_back(vertex(p));
+          }
+          if (side == 0) std::reverse(loop.begin(), loop.end());
+          faces += "f " + loop[0] + ' ' + loop[1] + ' ' + loop[2] + "\nf " + loop[0] + ' ' +
+                   loop[2] + ' ' + loop[3] + '\n';
+        }
+  const fs::path file = folder.path() / "cube.obj";
+  save(file, text + faces);
+  const Polyhedron cube = read_mesh(file);
+  CHECK(cube.face_count() == 6);
+  CHECK(cube.vertex_count() == 8);
 }

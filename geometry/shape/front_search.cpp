@@ -1,0 +1,91 @@
+#include "geometry/shape/front_search.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace ballast {
+namespace {
+
+constexpr int leaf_size = 16;
+
+}  // namespace
+
+FrontSearch::FrontSearch(std::span<const Vec3> points) : points_(points), order_(points.size()) {
+  std::iota(order_.begin(), order_.end(), 0);
+  if (!order_.empty()) build(0, static_cast<int>(order_.size()));
+}
+
+void FrontSearch::build(int begin, int end) {
+  const size_t self = nodes_.size();
+  nodes_.push_back(enclosing(begin, end));
+  if (end - begin > leaf_size) {
+    // Halves along the axis in which the points extend farthest.
+    Vec3 low = points_[static_cast<size_t>(order_[static_cast<size_t>(begin)])], high = low;
+    for (int i = begin; i < end; ++i) {
+      const Vec3& p = points_[static_cast<size_t>(order_[static_cast<size_t>(i)])];
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    Eigen::Index axis;
+    (high - low).maxCoeff(&axis);
+    const int middle = begin + (end - begin) / 2;
+    std::nth_element(
+        order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
+          return points_[static_cast<size_t>(a)][axis] < points_[static_cast<size_t>(b)][axis];
+        });
+    build(begin, middle);
+    build(middle, end);
+  }
+  nodes_[self].after = static_cast<int>(nodes_.size());
+}
+
+/// The slab lies across the direction in which the points scatter least.
+FrontSearch::Node FrontSearch::enclosing(int begin, int end) const {
+  Node node{begin, end, 0, Vec3::Zero(), Vec3::UnitX(), 0.0, 0.0, 0.0};
+  const auto point = [&](int i) -> const Vec3& {
+    return points_[static_cast<size_t>(order_[static_cast<size_t>(i)])];
+  };
+  for (int i = begin; i < end; ++i) node.centre += point(i) / static_cast<double>(end - begin);
+  Mat3 scatter = Mat3::Zero();
+  for (int i = begin; i < end; ++i)
+    scatter += (point(i) - node.centre) * (point(i) - node.centre).transpose();
+  node.slab_normal = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvectors().col(0);
+  for (int i = begin; i < end; ++i) {
+    const Vec3 arm = point(i) - node.centre;
+    const double height = node.slab_normal.dot(arm);
+    node.low = std::min(node.low, height);
+    node.high = std::max(node.high, height);
+    node.radius = std::max(node.radius, arm.norm());
+  }
+  return node;
+}
+
+bool FrontSearch::any_in_front(const Vec3& normal, const Vec3& origin, double height) const {
+  for (size_t at = 0; at < nodes_.size();) {
+    const Node& node = nodes_[at];
+    // The highest that a point of the slab and the ball can be: across the slab, and along it.
+    const double across = normal.dot(node.slab_normal);
+    const double along = (normal - across * node.slab_normal).norm();
+    const double centre = normal.dot(node.centre - origin);
+    const double highest =
+        centre + std::max(across * node.low, across * node.high) + along * node.radius;
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    const double rounding = 16.0 * epsilon * ((node.centre - origin).norm() + node.radius);
+    if (highest + rounding <= height) {
+      at = static_cast<size_t>(node.after);
+      continue;
+    }
+    if (node.end - node.begin <= leaf_size)
+      for (int i = node.begin; i < node.end; ++i) {
+        const Vec3& p = points_[static_cast<size_t>(order_[static_cast<size_t>(i)])];
+        if (normal.dot(p - origin) > height) return true;
+      }
+    ++at;
+  }
+  return false;
+}
+
+}  // namespace ballast

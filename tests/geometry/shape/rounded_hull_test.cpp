@@ -1,0 +1,74 @@
+#include "geometry/shape/rounded_hull.hpp"
+
+#include <algorithm>
+
+#include "geometry/shape/convex_hull.hpp"
+#include "geometry/shape/random_direction.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// The points turned anyhow, and each number as single precision has it.
+std::vector<Vec3> rounded(const std::vector<Vec3>& points, Random& random) {
+  const Quat turn = random_rotation(random);
+  std::vector<Vec3> result;
+  for (const Vec3& p : points) result.push_back((turn * p).cast<float>().cast<double>());
+  return result;
+}
+
+/// With a grid of n x n quads on each face.
+std::vector<Vec3> cube_grid(int n) {
+  std::vector<Vec3> points;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j)
+      for (int k = 0; k <= n; ++k)
+        if (i % n == 0 || j % n == 0 || k % n == 0) points.emplace_back(i, j, k);
+  return points;
+}
+
+/// Middles of a cube's edges: squares and triangles, four at each corner.
+std::vector<Vec3> cuboctahedron() {
+  std::vector<Vec3> points;
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-1.0, 1.0})
+      points.insert(points.end(), {Vec3(a, b, 0), Vec3(a, 0, b), Vec3(0, a, b)});
+  return points;
+}
+
+void check_faces(const std::vector<Vec3>& points, int vertices, int faces) {
+  const Polyhedron solid = rounded_hull(points, 1e-6);
+  CHECK(solid.vertex_count() == vertices);
+  CHECK(solid.face_count() == faces);
+  // Each corner is near one of the points.
+  for (const Vec3& v : solid.vertices()) {
+    double nearest = 1e30;
+    for (const Vec3& p : points) nearest = std::min(nearest, (p - v).norm());
+    CHECK(nearest < 1e-5);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("faces that rounding has broken are whole again") {
+  Random random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    const std::vector<Vec3> cube = rounded(cube_grid(1), random);
+    if (trial == 0) CHECK(convex_hull(cube).face_count() > 6);  // what rounding does
+    check_faces(cube, 8, 6);
+    check_faces(rounded(cube_grid(7), random), 8, 6);
+    check_faces(rounded(cuboctahedron(), random), 12, 14);
+  }
+}
+
+TEST_CASE("what was not broken is the hull as it is") {
+  Random random(4);
+  std::vector<Vec3> points;
+  for (int k = 0; k < 100; ++k) points.push_back(random_direction(random));
+  const Polyhedron plain = convex_hull(points), same = rounded_hull(points, 1e-6);
+  CHECK(std::equal(plain.vertices().begin(), plain.vertices().end(), same.vertices().begin(),
+                   same.vertices().end()));
+  CHECK(same.face_count() == plain.face_count());
+  CHECK_THROWS_AS(rounded_hull(std::vector<Vec3>(9, Vec3::Zero()), 1e-6), InvalidPolyhedron);
+}
