@@ -1,7 +1,5 @@
 #include "platform/worker_team.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 
 #include "platform/clock.hpp"
@@ -40,11 +38,7 @@ bool wait_awake(double most, const Over& is_over) {
 
 }  // namespace
 
-int available_cores() {
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int available_cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 WorkerTeam::~WorkerTeam() { stop(); }
 

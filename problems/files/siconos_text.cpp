@@ -188,6 +188,8 @@ void read_sparse(Words& words, TextMatrix& matrix) {
 
 TextMatrix read_matrix(Words& words) {
   const int storage = words.integer("the storage of a matrix");
+  words.require(storage >= 0 && storage <= 2,
+                "storage " + std::to_string(storage) + " is none of 0 dense, 1 blocks, 2 sparse");
   TextMatrix matrix;
   // Every row and column has an entry in a vector that follows.
   matrix.rows = words.backed_count("rows");
@@ -202,9 +204,6 @@ TextMatrix read_matrix(Words& words) {
     case 2:
       read_sparse(words, matrix);
       break;
-    default:
-      words.fail_here("storage " + std::to_string(storage) +
-                      " is none of 0 dense, 1 blocks, 2 sparse");
   }
   return matrix;
 }
