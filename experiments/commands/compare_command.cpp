@@ -30,6 +30,11 @@ struct CompareRequest {
 };
 
 bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
+  if (row.outcome == Outcome::unreadable) {
+    std::cout << printed("%5zu/%zu  %-34.34s unreadable: ", done, count, row.case_name.c_str())
+              << row.note << std::endl;
+    return !InterruptGuard::requested();
+  }
   std::cout << printed("%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done,
                        count, row.case_name.c_str(), row.solver.c_str(), row.tolerance,
                        name_of(row.start), name_of(row.outcome), row.seconds(), row.error,
@@ -42,6 +47,21 @@ bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
 ExitCode interrupted() {
   std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on"
             << std::endl;
+  return ExitCode::failure;
+}
+
+/// All cases could be read: ok. Otherwise one line with the reasons.
+ExitCode verdict_on_cases(const std::vector<CompareRow>& rows, size_t cases) {
+  std::string reasons;
+  size_t count = 0;
+  for (const CompareRow& row : rows) {
+    if (row.outcome != Outcome::unreadable) continue;
+    ++count;
+    reasons += (reasons.empty() ? "" : "; ") + row.note;
+  }
+  if (count == 0) return ExitCode::ok;
+  std::cerr << "ballast: compare: " << count << " of " << cases
+            << " cases could not be read: " << reasons << std::endl;
   return ExitCode::failure;
 }
 
@@ -91,7 +111,7 @@ ExitCode compare(CompareRequest& options) {
             << (options.report ? "  compare.html  figures and tables: open it in a browser\n" : "")
             << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
             << "  manifest.json program, machine, BLAS, options" << std::endl;
-  return ExitCode::ok;
+  return verdict_on_cases(rows, cases.size());
 }
 
 }  // namespace

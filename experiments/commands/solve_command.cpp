@@ -32,6 +32,8 @@ struct SolvedFile {
   int contacts = 0, rows = 0;
   double tolerance = 0.0;  ///< [m/s]
   SolverRun run;
+  /// Why nothing was solved: "unreadable" or "unsupported", and what is wrong. Empty: it was.
+  std::string refused, why;
 };
 
 /// One number of the table: its heading, its JSON name, where it is.
@@ -66,7 +68,11 @@ const Measure measures[] = {
 
 SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner) {
   const FrictionProblem problem = read_problem(file);
-  SolvedFile solved{file, problem.contact_count(), problem.row_count(), options.tolerance, {}};
+  SolvedFile solved;
+  solved.file = file;
+  solved.contacts = problem.contact_count();
+  solved.rows = problem.row_count();
+  solved.tolerance = options.tolerance;
   // a tolerance is relative to the problem's own velocities unless it is in m/s
   if (!options.absolute) {
     problem.validate();
@@ -79,6 +85,26 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
   return solved;
 }
 
+/// A file that cannot be read or taken is a row with its reason: the others go on.
+SolvedFile solved_or_refused(const std::string& file, const SolveOptions& options,
+                             SolverRunner& runner) {
+  const auto refused = [&](const char* how, std::string why) {
+    if (why.find(file) == std::string::npos) why = file + ": " + why;
+    SolvedFile row;
+    row.file = file;
+    row.refused = how;
+    row.why = std::move(why);
+    return row;
+  };
+  try {
+    return solve_file(file, options, runner);
+  } catch (const UnsupportedProblem& error) {
+    return refused("unsupported", error.what());
+  } catch (const std::exception& error) {
+    return refused("unreadable", error.what());
+  }
+}
+
 void print_heading(int width) {
   std::string line = printed("%-*s%9s%8s  %-18s%8s%4s", width, "problem", "contacts", "rows",
                              "stopped", "iter", "ok");
@@ -87,15 +113,26 @@ void print_heading(int width) {
 }
 
 void print_row(const SolvedFile& s, int width) {
+  const std::string name = std::filesystem::path(s.file).filename();
+  if (!s.refused.empty()) {
+    std::cout << printed("%-*s%19s%s: ", width, name.c_str(), "", s.refused.c_str()) << s.why
+              << std::endl;
+    return;
+  }
   std::string line =
-      printed("%-*s%9d%8d  %-18s%8d%4s", width, std::filesystem::path(s.file).filename().c_str(),
-              s.contacts, s.rows, name_of(s.run.solved.reason), s.run.solved.iterations,
-              s.run.success ? "yes" : "no");
+      printed("%-*s%9d%8d  %-18s%8d%4s", width, name.c_str(), s.contacts, s.rows,
+              name_of(s.run.solved.reason), s.run.solved.iterations, s.run.success ? "yes" : "no");
   for (const Measure& m : measures) line += printed("%10.2e", m.value(s));
   std::cout << line << printed("%8d", s.run.error.worst_contact) << std::endl;
 }
 
 nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options) {
+  if (!s.refused.empty())
+    return {{"file", s.file},
+            {"solver", options.solver},
+            {"reason", s.refused},
+            {"success", false},
+            {"message", s.why}};
   nlohmann::ordered_json row{{"file", s.file},
                              {"solver", options.solver},
                              {"contacts", s.contacts},
@@ -119,8 +156,9 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
   for (const SolvedFile& s : solved) {
     if (s.run.success) continue;
     ++count;
-    only_time = only_time && s.run.solved.reason == StopReason::time_limit;
-    add_to_list(failures, s.file + " (" + name_of(s.run.solved.reason) + ")");
+    only_time = only_time && s.refused.empty() && s.run.solved.reason == StopReason::time_limit;
+    add_to_list(failures, s.refused.empty() ? s.file + " (" + name_of(s.run.solved.reason) + ")"
+                                            : s.why + " (" + s.refused + ")");
   }
   if (count == 0) return ExitCode::ok;
   std::cerr << "ballast: " << count << " of " << solved.size()
@@ -140,7 +178,7 @@ ExitCode solve(const SolveOptions& options) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!options.json) print_heading(width);
   for (const std::string& file : options.files) {
-    solved.push_back(solve_file(file, options, runner));
+    solved.push_back(solved_or_refused(file, options, runner));
     if (options.json)
       rows.push_back(as_json(solved.back(), options));
     else

@@ -43,15 +43,28 @@ std::string run_of_captured(const fs::path& file) {
   return folder.filename().string();
 }
 
-CompareCase file_case(const fs::path& file) {
-  if (!is_captured(file))
-    return {file.filename().string(), family_of_file(file.filename().string()),
-            [file] { return load_case(read_problem(file)); }};
+CompareCase stored_case(const fs::path& file) {
+  return {file.filename().string(), family_of_file(file.filename().string()), [file] {
+            if (!fs::exists(file)) throw Error(file.string() + ": no such file");
+            return load_case(read_problem(file));
+          }};
+}
+
+CompareCase captured_case(const fs::path& file) {
   const CapturedProblem captured = read_captured(file);
   const std::string run = run_of_captured(file);
   return {run + "/" + file.stem().string(),
           run + (captured.phase == "none" ? "" : ", " + captured.phase),
           [file] { return load_captured(file); }};
+}
+
+/// What cannot be read says so when it is loaded: it is one row, and the others go on.
+CompareCase file_case(const fs::path& file) {
+  try {
+    if (fs::exists(file) && is_captured(file)) return captured_case(file);
+  } catch (const std::exception&) {
+  }
+  return stored_case(file);
 }
 
 std::vector<fs::path> matches(const std::string& pattern) {
@@ -78,7 +91,8 @@ void add_files(const fs::path& path, std::vector<fs::path>& files) {
 
 void add_file_cases(const std::string& word, std::vector<CompareCase>& cases) {
   std::vector<fs::path> files;
-  if (fs::exists(word)) {
+  const bool is_pattern = word.find_first_of("*?[") != std::string::npos;
+  if (fs::exists(word) || (!is_pattern && is_problem_file(word))) {
     add_files(word, files);
   } else {
     for (const fs::path& match : matches(word)) add_files(match, files);

@@ -36,15 +36,16 @@ struct CompareCase {
   std::string name;  ///< unique in a comparison: a file's name, or the words that make the problem
   std::string family;  ///< cases of one kind: the file's name up to its numbers, the run and phase
                        ///< of a captured one
-  /// Throws ProblemFileError, InvalidProblem.
+  /// Throws what is wrong with it: Error, InvalidProblem, std::bad_alloc.
   std::function<LoadedCase()> load;
 };
 
 /// Each word is one of
 ///   a file (.hdf5, .h5, .dat), a folder (all such files in and below it), a pattern with * ? [ ]
 ///   known:..., stress:... (made_cases.cpp has the settings; ballast compare --help lists them)
-/// Files come sorted; equal names get their place in the list after them: "a.dat (2)". Throws Error
-/// for a case that cannot be had: no such file, a pattern that matches nothing, an unknown setting.
+/// Files come sorted; equal names get their place in the list after them: "a.dat (2)". A file that
+/// is missing or broken is a case, whose load() throws. Throws Error for words that name nothing: a
+/// pattern without matches, a folder without problems, another kind of file, an unknown setting.
 std::vector<CompareCase> compare_cases(const std::vector<std::string>& words);
 
 /// Problems made on the spot: words that begin with known: or stress:.

@@ -176,7 +176,17 @@ page::Text lede(std::span<const CompareRow> rows) {
                                {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
 }
 
+/// Cases that could not be had, and why.
+page::Table unreadable_table(std::span<const CompareRow> unreadable) {
+  page::Table result;
+  result.head = {"case", "why it could not be read"};
+  result.is_number = {false, false};
+  for (const CompareRow& row : unreadable) result.rows.push_back({row.case_name, row.note});
+  return result;
+}
+
 page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
+                        std::span<const CompareRow> unreadable,
                         std::span<const ReferenceTimes> reference) {
   const std::vector<CompareTable> tables = compare_tables(rows);
   const double limit = limit_of(rows);
@@ -206,6 +216,8 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
   page::Page page{.title = "Solvers of frictional contact, compared", .lede = {lede(rows)}};
   if (!reference.empty() && !rows.empty() && rows[0].measure != Measure::fclib)
     page.notices.items.push_back(compare_text("reference.unlike"));
+  if (!unreadable.empty())
+    page.add({"unreadable", "Cases that could not be read", {unreadable_table(unreadable)}});
   page.add(backends);
   page.add(references);
   page.add({"failures", "What must not happen", {failures_table(rows)}});
@@ -220,7 +232,11 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
 void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows,
                         std::span<const ReferenceTimes> reference) {
   const RunData data = read_origin(folder);
-  write_with_origin(compare_page(data, rows, reference), data, folder / "compare.html");
+  std::vector<CompareRow> tried, unreadable;
+  for (const CompareRow& row : rows)
+    (row.outcome == Outcome::unreadable ? unreadable : tried).push_back(row);
+  write_with_origin(compare_page(data, tried, unreadable, reference), data,
+                    folder / "compare.html");
 }
 
 }  // namespace ballast

@@ -26,6 +26,7 @@ enum class Outcome {
   crashed,        ///< the child process died
   out_of_memory,  ///< allocation refused under the memory limit
   unsupported,    ///< the backend says that it cannot take the problem
+  unreadable,     ///< the case itself cannot be had: no backend was tried, `solver` is empty
 };
 
 const char* name_of(Measure measure);

@@ -87,6 +87,7 @@ std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
       groups;
   std::vector<std::string> cases, solvers;
   for (const CompareRow& row : rows) {
+    if (row.outcome == Outcome::unreadable) continue;
     const size_t c = index_of(cases, row.case_name), s = index_of(solvers, row.solver);
     groups[{row.start, -row.tolerance}][{c, s}].push_back(&row);
   }

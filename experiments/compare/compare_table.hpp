@@ -36,8 +36,8 @@ struct CompareTable {
       const;  ///< of all solvers, median over repeats; infinite when none solved it
 };
 
-/// One table for each start and tolerance among the rows; loosest tolerance first. `rows` must
-/// outlive them.
+/// One table for each start and tolerance among the rows; loosest tolerance first. Unreadable cases
+/// are in none. `rows` must outlive them.
 std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows);
 
 /// exp(mean(log(x + shift))) - shift. NaN for no values.

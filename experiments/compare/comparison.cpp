@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <set>
 
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
+#include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/text.hpp"
 
@@ -69,10 +71,22 @@ class Comparison {
 
  private:
   void try_case(const CompareCase& tried, int repeat) {
-    const LoadedCase loaded = tried.load();
+    const size_t planned =
+        options_.tolerances.size() * options_.starts.size() * options_.solvers.size();
+    if (unreadable_.contains(tried.name)) {
+      done_ += planned;
+      return;
+    }
+    LoadedCase loaded;
+    try {
+      loaded = tried.load();
+    } catch (const std::exception& error) {
+      done_ += planned;
+      add_unreadable(tried, error.what());
+      return;
+    }
     const std::vector<Attempt> attempts = attempts_of(options_, loaded);
-    done_ += options_.tolerances.size() * options_.starts.size() * options_.solvers.size() -
-             attempts.size();
+    done_ += planned - attempts.size();
     for (const Attempt& attempt : attempts) {
       if (!goes_on_) return;
       ++done_;
@@ -87,13 +101,39 @@ class Comparison {
     }
   }
 
+  /// One row for the case, whatever was to be tried on it. It has no file: the case may be mended.
+  void add_unreadable(const CompareCase& tried, const std::string& why) {
+    unreadable_.insert(tried.name);
+    CompareRow row;
+    row.case_name = tried.name;
+    row.family = tried.family;
+    row.measure = options_.measure;
+    row.max_seconds = options_.max_seconds;
+    row.outcome = Outcome::unreadable;
+    row.note = why;
+    goes_on_ = progress_(row, false, done_, count_);
+    rows_.push_back(std::move(row));
+  }
+
+  /// The row that is there already; none when there is no file, or a damaged one.
+  static std::optional<CompareRow> stored_row(const fs::path& file) {
+    if (!fs::exists(file)) return std::nullopt;
+    try {
+      return compare_row_of_json(read_whole_file(file), file.string());
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+  }
+
   CompareRow row_of(const CompareCase& tried, const LoadedCase& loaded, const Attempt& attempt,
                     int repeat, bool& was_there) const {
     CompareRow row;
     row.key = key_of(options_, binary_, tried, loaded.facts, attempt, repeat);
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
-    was_there = fs::exists(file);
-    if (was_there) return compare_row_of_json(read_whole_file(file), file.string());
+    if (std::optional<CompareRow> stored = stored_row(file)) {
+      was_there = true;
+      return std::move(*stored);
+    }
     row.case_name = tried.name;
     row.family = tried.family;
     row.solver = attempt.solver->name;
@@ -127,6 +167,7 @@ class Comparison {
                                                        fs::directory_iterator())));
     double load[3];
     if (getloadavg(load, 3) == 3) manifest.summary("load_at_end", load[0]);
+    manifest.summary("unreadable_cases", static_cast<double>(unreadable_.size()));
     long solved = 0, denied = 0;
     for (const CompareRow& row : rows_) {
       solved += row.outcome == Outcome::solved;
@@ -141,7 +182,7 @@ class Comparison {
   const CompareProgress& progress_;
   std::string binary_;
   std::vector<CompareRow> rows_;
-  std::set<std::string> unsolved_;
+  std::set<std::string> unsolved_, unreadable_;
   size_t done_ = 0, count_ = 0;
   bool goes_on_ = true;
 };

@@ -42,7 +42,8 @@ using CompareProgress =
 
 /// Tries everything that has no row yet, and returns the rows in order: repeat, case, tolerance,
 /// start, solver. results.csv and manifest.json are written at the end and when stopped. A case
-/// that cannot be loaded throws ProblemFileError or InvalidProblem.
+/// that cannot be loaded is one row (Outcome::unreadable, with the reason for its note), which is
+/// tried again the next time; so is a row whose file is damaged.
 std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,
                                        const CompareOptions& options,
                                        const CompareProgress& progress);

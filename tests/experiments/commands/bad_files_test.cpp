@@ -124,6 +124,40 @@ TEST_CASE("a stored problem is solved, a broken one is exit code 1") {
                 {"none.dat"});
 }
 
+TEST_CASE("an unreadable problem is a row with its reason, the others go on, the exit code is 1") {
+  const TemporaryFolder folder;
+  const std::string first = folder.write("first.dat", dense_problem("1", "-1", "0.5")).string();
+  const std::string broken = folder.write("broken.dat", "no problem at all").string();
+  const std::string last = folder.write("last.dat", dense_problem("2", "-1", "0.5")).string();
+  const std::string missing = (folder.path() / "missing.hdf5").string();
+  const std::string out = (folder.path() / "out").string();
+  const std::vector<std::vector<std::string>> calls = {
+      {"solve", first, broken, missing, last},
+      {"solve", first, broken, missing, last, "--json"},
+      {"compare", first, broken, missing, last, "--solvers", "pgs", "--output", out}};
+  for (const std::vector<std::string>& call : calls) {
+    const ProgramResult result = ballast_program(call);
+    INFO(result.output);
+    check_failure(result, ExitCode::failure, {broken, missing, "2 of 4"});
+    for (const char* part : {"first.dat", "broken.dat", "missing.hdf5", "last.dat", "unreadable"})
+      CHECK_THAT(result.output, Catch::Contains(part));
+  }
+  CHECK_THAT(bytes_of(out + "/results.csv"),
+             Catch::Contains("unreadable") && Catch::Contains("last.dat"));
+  CHECK_THAT(bytes_of(out + "/compare.html"), Catch::Contains("Cases that could not be read"));
+}
+
+TEST_CASE("a problem that the solver cannot take is a row with its reason") {
+  const TemporaryFolder folder;
+  const std::string stored = folder.write("stored.dat", dense_problem("1", "-1", "0.5")).string();
+  const auto bodies = folder.path() / "bodies.hdf5";
+  write_problem(bodies, make_known_solution({}).problem);
+  const ProgramResult result = ballast_program(
+      {"solve", stored, bodies.string(), "--solver", "sap", "--max-iterations", "9"});
+  CHECK(result.status == static_cast<int>(ExitCode::failure));
+  CHECK_THAT(result.output, Catch::Contains("unsupported: ") && Catch::Contains("bodies.hdf5"));
+}
+
 TEST_CASE("a solver that stops short is exit code 1, by the clock 3") {
   const TemporaryFolder folder;
   KnownSolutionSettings settings;

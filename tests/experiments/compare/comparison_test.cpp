@@ -128,3 +128,52 @@ TEST_CASE("Every case is tried by every solver to every tolerance, and the table
   const std::string manifest = read_whole_file(folder.path() / "manifest.json");
   CHECK(manifest.find("\"solved\": 8") != std::string::npos);
 }
+
+TEST_CASE("A case that cannot be read is one row with its reason, and the others go on") {
+  const TemporaryFolder folder;
+  std::vector<CompareCase> cases = compare_cases({"known:contacts=12,bodies=6,count=2"});
+  const std::string broken = folder.write("broken.dat", "no problem").string();
+  cases.insert(cases.begin() + 1, compare_cases({broken}).front());
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs,psor"));
+  options.tolerances = {1e-2, 1e-4};
+  options.repeats = 2;
+  size_t last = 0;
+  const auto follow = [&](const CompareRow&, bool, size_t done, size_t count) {
+    CHECK(done > last);
+    CHECK(count == 24);
+    last = done;
+    return true;
+  };
+  const std::vector<CompareRow> rows = run_comparison(cases, options, follow);
+  CHECK(last == 24);
+  REQUIRE(rows.size() == 4 + 1 + 4 + 8);  // not again in the second repeat
+  CHECK(rows[4].outcome == Outcome::unreadable);
+  CHECK(rows[4].case_name == "broken.dat");
+  CHECK(rows[4].solver.empty());
+  CHECK_THAT(rows[4].note, Catch::Contains(broken));
+  CHECK(std::count_if(rows.begin(), rows.end(),
+                      [](const CompareRow& row) { return row.outcome == Outcome::solved; }) == 16);
+  CHECK(read_whole_file(folder.path() / "results.csv").find("unreadable") != std::string::npos);
+  // once mended it is tried
+  write_whole_file(broken, "3\n1\n0 3 3\n3 3\n1 0 0 0 1 0 0 0 1\n-1 0 0\n0.5\n");
+  last = 0;
+  const std::vector<CompareRow> mended = run_comparison(cases, options, follow);
+  CHECK(mended.size() == 24);
+  CHECK(std::all_of(mended.begin(), mended.end(),
+                    [](const CompareRow& row) { return row.outcome == Outcome::solved; }));
+}
+
+TEST_CASE("A damaged row is made again") {
+  const TemporaryFolder folder;
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs"));
+  options.tolerances = {1e-4};
+  const auto quiet = [](const CompareRow&, bool, size_t, size_t) { return true; };
+  const std::vector<CompareRow> first = run_comparison(one_case(), options, quiet);
+  REQUIRE(first.size() == 1);
+  const fs::path file = folder.path() / "rows" / (first[0].key + ".json");
+  write_whole_file(file, read_whole_file(file).substr(0, 40));
+  const std::vector<CompareRow> second = run_comparison(one_case(), options, quiet);
+  REQUIRE(second.size() == 1);
+  CHECK(second[0].outcome == Outcome::solved);
+  CHECK(compare_row_of_json(read_whole_file(file), file.string()).key == first[0].key);
+}
