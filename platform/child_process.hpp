@@ -24,6 +24,10 @@ struct ChildResult {
 /// child prints nowhere and lets no exception out. Throws Error when no process can be made.
 ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work);
 
+/// This process was made by run_in_child(): what crashes, hangs or leaks here harms nobody, and
+/// needs no further child.
+bool is_expendable_process();
+
 /// A forked child. It dies with this process (SIGKILL), however that comes about; the destructor
 /// kills it if it still runs, and waits for it.
 class ChildProcess {

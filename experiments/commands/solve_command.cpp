@@ -64,6 +64,7 @@ const Measure measures[] = {
     {"own", "own_residual", &Solved::own_residual},
     {"prepare_s", "prepare_seconds", &SolverRun::prepare_seconds},
     {"solve_s", "solve_seconds", &SolverRun::solve_seconds},
+    {"startup_s", "startup_seconds", &SolverRun::startup_seconds},
 };
 
 SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner) {

@@ -24,6 +24,7 @@ std::vector<BackendSummary> backend_summaries(const CompareTable& table, double 
       if (!cell.row) continue;
       summary.law = cell.row->law;
       summary.solved += cell.solved;
+      summary.unsolved += !cell.solved;
       summary.timeouts += cell.row->outcome == Outcome::timeout;
       summary.crashes +=
           cell.row->outcome == Outcome::crashed || cell.row->outcome == Outcome::out_of_memory;
@@ -62,10 +63,10 @@ std::string compare_summary(std::span<const CompareRow> rows,
     text += heading_of(table) + ", " + std::to_string(table.cases.size()) + " cases\n";
     for (const BackendSummary& s : backend_summaries(table, limit)) {
       text += printed(
-          "  %-16s solved %4d   mean %10.4g ms   over fastest %8.3g   timeouts %d, "
-          "crashes %d, not taken %d%s\n",
-          s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.mean_ratio, s.timeouts, s.crashes,
-          s.unsupported, s.false_successes ? "   CLAIMS DENIED" : "");
+          "  %-16s solved %4d   mean %10.4g ms (hides %d unsolved)   over fastest %8.3g   "
+          "timeouts %d, crashes %d, not taken %d%s\n",
+          s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.unsolved, s.mean_ratio, s.timeouts,
+          s.crashes, s.unsupported, s.false_successes ? "   CLAIMS DENIED" : "");
     }
   }
   for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))

@@ -97,8 +97,9 @@ void add_file_cases(const std::string& word, std::vector<CompareCase>& cases) {
   } else {
     for (const fs::path& match : matches(word)) add_files(match, files);
     if (files.empty())
-      throw Error(word +
-                  ": no such file, folder or pattern; made cases begin with known: or stress:");
+      throw Error(
+          word +
+          ": no such file, folder or pattern; made cases begin with known:, pile: or stress:");
   }
   for (const fs::path& file : files) {
     if (!is_problem_file(file))

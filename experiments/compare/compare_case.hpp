@@ -42,13 +42,14 @@ struct CompareCase {
 
 /// Each word is one of
 ///   a file (.hdf5, .h5, .dat), a folder (all such files in and below it), a pattern with * ? [ ]
-///   known:..., stress:... (made_cases.cpp has the settings; ballast compare --help lists them)
+///   known:..., pile:..., stress:... (made_cases.cpp has the settings; ballast compare --help lists
+///   them)
 /// Files come sorted; equal names get their place in the list after them: "a.dat (2)". A file that
 /// is missing or broken is a case, whose load() throws. Throws Error for words that name nothing: a
 /// pattern without matches, a folder without problems, another kind of file, an unknown setting.
 std::vector<CompareCase> compare_cases(const std::vector<std::string>& words);
 
-/// Problems made on the spot: words that begin with known: or stress:.
+/// Problems made on the spot: words that begin with known:, pile: or stress:.
 bool is_made_case(const std::string& word);
 void add_made_cases(const std::string& word,
                     std::vector<CompareCase>& cases);  ///< throws Error

@@ -5,6 +5,7 @@
 
 #include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/compare_figures.hpp"
+#include "experiments/compare/outcome_tables.hpp"
 #include "experiments/compare/page_origin.hpp"
 #include "experiments/compare/texts.hpp"
 #include "platform/text.hpp"
@@ -39,21 +40,18 @@ page::Text if_any(long count) {
   return count == 0 ? page::Text() : page::exact(static_cast<double>(count));
 }
 
-page::Text time_of(double seconds) {
-  if (!std::isfinite(seconds)) return {"–", page::note};
-  return seconds < 1.0 ? page::quantity(1e3 * seconds, "ms") : page::quantity(seconds, "s");
-}
-
 page::Table backends_table(const CompareTable& table, double limit) {
   page::Table result;
-  result.head = {"backend",  "law",     "solved",    "mean time",     "over fastest",
-                 "timeouts", "crashes", "not taken", "claims denied", "spread"};
-  result.is_number = {false, false, true, true, true, true, true, true, true, true};
+  result.head = {"backend",        "law",           "solved",   "mean time",
+                 "unsolved in it", "over fastest",  "timeouts", "crashes",
+                 "not taken",      "claims denied", "spread"};
+  result.is_number = {false, false, true, true, true, true, true, true, true, true, true};
   for (const BackendSummary& s : backend_summaries(table, limit))
     result.rows.push_back(
         {s.solver, s.law, page::exact(s.solved) + " of " + count_of(table.cases.size()),
-         time_of(s.mean_seconds), page::number(s.mean_ratio), if_any(s.timeouts), if_any(s.crashes),
-         if_any(s.unsupported), page::styled(if_any(s.false_successes), page::bad),
+         time_of(s.mean_seconds), page::styled(if_any(s.unsolved), page::bad),
+         page::number(s.mean_ratio), if_any(s.timeouts), if_any(s.crashes), if_any(s.unsupported),
+         page::styled(if_any(s.false_successes), page::bad),
          s.largest_spread > 0.0 ? page::quantity(100.0 * s.largest_spread, "%", 2) : page::Text()});
   return result;
 }
@@ -94,24 +92,6 @@ page::Table cases_table(const CompareTable& table) {
                                  page::number(row->error, 2), row->worst});
     cells.resize(result.head.size());
     result.rows.push_back(std::move(cells));
-  }
-  return result;
-}
-
-/// Claims that the judge denies, crashes and memory.
-page::Table failures_table(std::span<const CompareRow> rows) {
-  page::Table result;
-  result.head = {"case", "backend", "tolerance", "what happened", "error"};
-  result.is_number = {false, false, true, false, true};
-  for (const CompareRow& row : rows) {
-    const bool died = row.outcome == Outcome::crashed || row.outcome == Outcome::out_of_memory;
-    if (!died && !row.is_false_success() && (row.note.empty() || row.outcome != Outcome::stopped))
-      continue;
-    const std::string what = row.is_false_success() ? "claims success, the judge denies it"
-                                                    : std::string(name_of(row.outcome)) +
-                                                          (row.note.empty() ? "" : ": " + row.note);
-    result.rows.push_back(
-        {row.case_name, row.solver, page::exact(row.tolerance), what, page::number(row.error, 2)});
   }
   return result;
 }
@@ -176,15 +156,6 @@ page::Text lede(std::span<const CompareRow> rows) {
                                {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
 }
 
-/// Cases that could not be had, and why.
-page::Table unreadable_table(std::span<const CompareRow> unreadable) {
-  page::Table result;
-  result.head = {"case", "why it could not be read"};
-  result.is_number = {false, false};
-  for (const CompareRow& row : unreadable) result.rows.push_back({row.case_name, row.note});
-  return result;
-}
-
 page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
                         std::span<const CompareRow> unreadable,
                         std::span<const ReferenceTimes> reference) {
@@ -194,12 +165,16 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
       references{"reference", "Beside the reference"}, profiles{"profiles", "Profiles"},
       families{"families", "Accuracy against cost, by family"},
       costs{"cost", "What cost depends on"}, cases{"cases", "Case by case"},
+      matrix{"matrix", "Every case by every backend"},
       case_figures{"case-figures", "Accuracy against cost, case by case"};
+  matrix.add(compare_text("matrix", {}));
   backends.add(compare_text("explanation", {{"shift", page::quantity(1e3 * summary_shift, "ms", 1)},
                                             {"limit", page::quantity(limit, "s")}}));
   for (const CompareTable& table : tables) {
     backends.add(page::Subheading{heading_of(table)});
     backends.add(backends_table(table, limit));
+    matrix.add(page::Subheading{heading_of(table)});
+    matrix.add(matrix_table(table));
     cases.add(page::Subheading{heading_of(table)});
     cases.add(cases_table(table));
     profiles.add(profile_figures(table));
@@ -221,7 +196,7 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
   page.add(backends);
   page.add(references);
   page.add({"failures", "What must not happen", {failures_table(rows)}});
-  for (const page::Section& section : {profiles, families, costs, cases, case_figures})
+  for (const page::Section& section : {matrix, profiles, families, costs, cases, case_figures})
     page.add(section);
   page.add({"options", "Options", {options_table(data)}});
   return page;

@@ -59,10 +59,10 @@ void for_members(Row& row, F&& f) {
   f("worst_contact", row.worst_contact);
   f("worst", row.worst);
   f("iterations", row.iterations);
-  f("rounds", row.rounds);
   f("runs", row.runs);
   f("prepare_seconds", row.prepare_seconds);
   f("solve_seconds", row.solve_seconds);
+  f("startup_seconds", row.startup_seconds);
   f("first_seconds", row.first_seconds);
   f("peak_memory_MB", row.peak_memory_MB);
 }
@@ -118,12 +118,12 @@ const std::vector<CompareColumn>& compare_columns() {
        [](R r) { return printed("%.6g", r.seconds()); }},
       {"prepare_seconds", "", [](R r) { return printed("%.6g", r.prepare_seconds); }},
       {"solve_seconds", "", [](R r) { return printed("%.6g", r.solve_seconds); }},
+      {"startup_seconds", "making the solver, processes, a foreign library's form: in no other",
+       [](R r) { return printed("%.6g", r.startup_seconds); }},
       {"first_seconds", "of the child's first run",
        [](R r) { return printed("%.6g", r.first_seconds); }},
       {"runs", "solves in the child", [](R r) { return std::to_string(r.runs); }},
       {"iterations", "", [](R r) { return std::to_string(r.iterations); }},
-      {"rounds", "of falling natural-map tolerance (measure fclib)",
-       [](R r) { return std::to_string(r.rounds); }},
       {"natural_map_rms", "[m/s]", [](R r) { return printed("%.6g", r.natural_map_rms); }},
       {"natural_map_max", "[m/s]", [](R r) { return printed("%.6g", r.natural_map_max); }},
       {"fclib", "what Siconos prints", [](R r) { return printed("%.6g", r.fclib); }},
@@ -167,7 +167,7 @@ std::string to_json(const CompareRow& row) {
   json["outcome"] = name_of(row.outcome);
   Json& history = json["history"] = Json::array();
   for (const HistoryRow& h : row.history)
-    history.push_back({h.round, h.iteration, json_of(h.seconds), json_of(h.error)});
+    history.push_back({h.iteration, json_of(h.seconds), json_of(h.error)});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -181,10 +181,9 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file)
     row.outcome = by_name<Outcome>(outcome_names, json.at("outcome").get<std::string>(), "outcome");
     for (const Json& h : json.at("history")) {
       HistoryRow point;
-      take(h.at(0), point.round);
-      take(h.at(1), point.iteration);
-      take(h.at(2), point.seconds);
-      take(h.at(3), point.error);
+      take(h.at(0), point.iteration);
+      take(h.at(1), point.seconds);
+      take(h.at(2), point.error);
       row.history.push_back(point);
     }
     return row;

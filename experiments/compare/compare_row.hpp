@@ -38,8 +38,8 @@ StartKind start_of(const std::string& name);
 
 /// One point of an error-against-time history. prepare() is not in `seconds`.
 struct HistoryRow {
-  int round = 0, iteration = 0;
-  double seconds = 0.0;  ///< of solve(), all rounds
+  int iteration = 0;
+  double seconds = 0.0;  ///< of solve(), start-up apart
   double error =
       0.0;  ///< scaled natural map rms over the case's velocity scale: the backend's own figure
 };
@@ -58,8 +58,7 @@ struct CompareRow {
   Outcome outcome = Outcome::crashed;
   std::string reason;    ///< the backend's StopReason; empty when none was heard
   std::string note;      ///< why it failed
-  bool claimed = false;  ///< the backend (measure fclib: the driver of its rounds) says that the
-                         ///< tolerance is reached
+  bool claimed = false;  ///< the backend says that the tolerance is reached
   bool judged = false;   ///< the judge, in another process, finds the error below the tolerance
   double error = 0.0;    ///< in the row's measure, the judge's
   double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< the judge's [m/s]
@@ -67,9 +66,12 @@ struct CompareRow {
   double cone_violation = 0.0, min_normal_velocity = 0.0, own_residual = 0.0;
   int worst_contact = -1;
   std::string worst;  ///< the same with its name
-  int iterations = 0, rounds = 0;
+  int iterations = 0;
   int runs = 0;  ///< solves in the child, of which the fastest is timed here
   double prepare_seconds = 0.0, solve_seconds = 0.0;
+  /// In none of the others: making the solver, starting processes, bringing the problem into a
+  /// foreign library's form and judging its answers on the way.
+  double startup_seconds = 0.0;
   double first_seconds = 0.0;  ///< prepare and solve of the child's first run: caches cold
   double peak_memory_MB = 0.0;
   std::vector<HistoryRow> history;

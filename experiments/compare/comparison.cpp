@@ -44,7 +44,7 @@ std::string key_of(const CompareOptions& options, const std::string& binary,
       printed("%.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance, options.max_seconds,
               options.max_iterations, options.limits.memory_MB, options.limits.warm_seconds,
               options.limits.most_runs, repeat);
-  return content_key("compare row 1|" + binary + '|' + tried.name + '|' + facts.content + '|' +
+  return content_key("compare row 2|" + binary + '|' + tried.name + '|' + facts.content + '|' +
                      attempt.solver->name + '|' + name_of(options.measure) + '|' +
                      name_of(attempt.start) + '|' + numbers);
 }

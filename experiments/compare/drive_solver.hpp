@@ -9,25 +9,21 @@ namespace ballast {
 
 struct DriveSettings {
   Measure measure = Measure::natural_map;
-  double tolerance = 1e-8;       ///< in the measure
-  double velocity_scale = 1.0;   ///< [m/s]
-  double max_seconds = 60.0;     ///< prepare and all rounds
-  int max_iterations = 1 << 30;  ///< of each round
+  double tolerance = 1e-8;      ///< in the measure
+  double velocity_scale = 1.0;  ///< [m/s]
+  double max_seconds = 60.0;    ///< prepare and solve, start-up apart
+  int max_iterations = 1 << 30;
 };
 
 struct DrivenSolve {
-  SolverRun last;  ///< impulses and error at the end; its times are of the last round alone
-  bool claimed = false;
-  int iterations = 0, rounds = 0;
-  double prepare_seconds = 0.0, solve_seconds = 0.0;  ///< of all rounds
+  SolverRun run;         ///< impulses and error at the end
+  bool claimed = false;  ///< the backend says that the tolerance is reached
   std::vector<HistoryRow> history;
-  double seconds() const { return prepare_seconds + solve_seconds; }
+  double seconds() const { return run.prepare_seconds + run.solve_seconds; }
 };
 
-/// natural_map: one solve. fclib: backends stop on the natural map, so the tolerance on it falls in
-/// rounds, each started from the last one's impulses, until the judge's ContactError::fclib is
-/// small enough; the rounds' times are added, the judge's not. The only place that does this.
-/// Throws UnsupportedProblem, InvalidProblem, std::bad_alloc.
+/// One solve, which stops on the measure that is asked for: every backend looks at it wherever it
+/// evaluates its error (Budget::fclib). Throws UnsupportedProblem, InvalidProblem, std::bad_alloc.
 DrivenSolve drive_solver(Solver& solver, const FrictionProblem& problem, const Impulses& start,
                          const DriveSettings& settings);
 

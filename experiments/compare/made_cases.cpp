@@ -9,6 +9,7 @@
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/pile_problems.hpp"
 #include "problems/algebra/stress_problems.hpp"
 
 namespace ballast {
@@ -87,6 +88,51 @@ void add_known_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   }
 }
 
+/// "pile-c120-d0.4-R1000-f0.2..0.7-a0.8-s3", "-w" behind where only W is stored.
+std::string name_of_pile(const PileSettings& s) {
+  return printed("pile-c%d-d%.2g-R%.2g-f%.2g..%.2g-a%.2g-s%llu%s", s.contacts, s.redundancy,
+                 s.mass_ratio, s.friction_min, s.friction_max, s.active,
+                 static_cast<unsigned long long>(s.seed), s.is_stored ? "-w" : "");
+}
+
+void add_pile(const PileSettings& settings, std::vector<CompareCase>& cases) {
+  const char* size = settings.contacts < 20 ? "small" : settings.contacts < 150 ? "mid" : "large";
+  cases.push_back({name_of_pile(settings), std::string("pile, ") + size,
+                   [settings] { return load_case(make_pile(settings)); }});
+}
+
+/// pile: with every setting given. pile:family: all drawn from seeds one after the other.
+void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
+  PileSettings settings;
+  settings.seed = static_cast<std::uint64_t>(word.take_count("seed", 1, 0));
+  const int count = word.take_count("count", 1, 1);
+  const bool is_family = word.what() == "family";
+  if (is_family) {
+    const int most = word.take_count("contacts", 1000, 2);
+    word.finish();
+    for (int k = 0; k < count; ++k)
+      add_pile(random_pile(settings.seed + static_cast<std::uint64_t>(k), most), cases);
+    return;
+  }
+  if (!word.what().empty()) word.fail(word.what() + ": expected family or name=value");
+  settings.contacts = word.take_count("contacts", settings.contacts, 1);
+  settings.redundancy = word.take("redundancy", settings.redundancy);
+  if (settings.redundancy >= 1.0) word.fail("redundancy: expected a number below 1");
+  settings.mass_ratio = word.take("mass_ratio", settings.mass_ratio, 1.0);
+  settings.friction_min = word.take("friction_min", settings.friction_min);
+  settings.friction_max =
+      word.take("friction_max", std::max(settings.friction_min, settings.friction_max));
+  if (settings.friction_max < settings.friction_min)
+    word.fail("friction_max: expected at least friction_min");
+  settings.active = word.take("active", settings.active);
+  if (settings.active > 1.0) word.fail("active: expected a number from 0 to 1");
+  settings.shear = word.take("shear", settings.shear);
+  settings.mass_unit = word.take("mass_unit", settings.mass_unit, 1e-9);
+  settings.is_stored = word.take("stored", 0.0) > 0.0;
+  word.finish();
+  for (int k = 0; k < count; ++k, ++settings.seed) add_pile(settings, cases);
+}
+
 void add_stress_case(const std::string& name, const std::string& family,
                      const std::function<StressProblem()>& make, std::vector<CompareCase>& cases) {
   cases.push_back(
@@ -146,13 +192,15 @@ bool begins_with(const std::string& text, const char* beginning) {
 }  // namespace
 
 bool is_made_case(const std::string& word) {
-  return begins_with(word, "known:") || begins_with(word, "stress:");
+  return begins_with(word, "known:") || begins_with(word, "pile:") || begins_with(word, "stress:");
 }
 
 void add_made_cases(const std::string& word, std::vector<CompareCase>& cases) {
   MadeWord made(word);
   if (begins_with(word, "known:"))
     add_known_cases(made, cases);
+  else if (begins_with(word, "pile:"))
+    add_piles(made, cases);
   else
     add_stress_cases(made, cases);
 }

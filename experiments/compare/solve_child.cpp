@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "platform/child_process.hpp"
+#include "platform/clock.hpp"
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 
@@ -23,9 +24,9 @@ struct ChildMessage {
   std::string note;
   StopReason reason = StopReason::numerical_failure;
   bool claimed = false;
-  int iterations = 0, rounds = 0, runs = 0;
-  double own_residual = 0.0, prepare_seconds = 0.0, solve_seconds = 0.0, first_seconds = 0.0,
-         peak_memory_MB = 0.0;
+  int iterations = 0, runs = 0;
+  double own_residual = 0.0, prepare_seconds = 0.0, solve_seconds = 0.0, startup_seconds = 0.0,
+         first_seconds = 0.0, peak_memory_MB = 0.0;
   std::vector<HistoryRow> history;
   Impulses impulses;
 
@@ -37,15 +38,14 @@ struct ChildMessage {
     c.number(reason);
     c.number(claimed);
     c.number(iterations);
-    c.number(rounds);
     c.number(runs);
     c.number(own_residual);
     c.number(prepare_seconds);
     c.number(solve_seconds);
+    c.number(startup_seconds);
     c.number(first_seconds);
     c.number(peak_memory_MB);
     c.list(history, [&](auto& point) {
-      c.number(point.round);
       c.number(point.iteration);
       c.number(point.seconds);
       c.number(point.error);
@@ -73,21 +73,20 @@ double peak_memory() {
 }
 
 void take_result(DrivenSolve&& driven, ChildMessage& message) {
-  const std::string& failure = driven.last.failure;
+  const std::string& failure = driven.run.failure;
   const bool no_memory = failure == std::bad_alloc().what();
   message.outcome = no_memory         ? ChildOutcome::out_of_memory
                     : failure.empty() ? ChildOutcome::driven
                                       : ChildOutcome::failed;
   message.note = failure;
-  message.reason = driven.last.solved.reason;
+  message.reason = driven.run.solved.reason;
   message.claimed = driven.claimed;
-  message.iterations = driven.iterations;
-  message.rounds = driven.rounds;
-  message.own_residual = driven.last.solved.own_residual;
-  message.prepare_seconds = driven.prepare_seconds;
-  message.solve_seconds = driven.solve_seconds;
+  message.iterations = driven.run.solved.iterations;
+  message.own_residual = driven.run.solved.own_residual;
+  message.prepare_seconds = driven.run.prepare_seconds;
+  message.solve_seconds = driven.run.solve_seconds;
   message.history = std::move(driven.history);
-  message.impulses = std::move(driven.last.solved.impulses);
+  message.impulses = std::move(driven.run.solved.impulses);
 }
 
 /// The whole of what the child does. A new solver for each run: nothing is carried over but caches.
@@ -96,15 +95,22 @@ void drive_repeatedly(SolverMaker make, const LoadedCase& loaded, const DriveSet
   const Impulses from = start == StartKind::warm ? loaded.warm_start : Impulses();
   double spent = 0.0, fastest = 0.0;
   do {
-    DrivenSolve driven = drive_solver(*make(), loaded.problem, from, drive);
+    const Stopwatch watch;
+    const std::unique_ptr<Solver> solver = make();
+    const double making = watch.seconds();
+    DrivenSolve driven = drive_solver(*solver, loaded.problem, from, drive);
     const double seconds = driven.seconds();
-    if (message.runs == 0) message.first_seconds = seconds;
+    // What is loaded and started once is seen in the first run alone.
+    if (message.runs == 0) {
+      message.first_seconds = seconds;
+      message.startup_seconds = making + driven.run.startup_seconds;
+    }
     if (message.runs == 0 || seconds < fastest) {
       fastest = seconds;
       take_result(std::move(driven), message);
     }
     ++message.runs;
-    spent += seconds;
+    spent += watch.seconds();
   } while (message.claimed && message.runs < limits.most_runs &&
            spent + fastest < limits.warm_seconds);
 }
@@ -192,11 +198,11 @@ void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSetti
   row.reason = message.outcome == ChildOutcome::driven ? name_of(message.reason) : "";
   row.claimed = message.claimed;
   row.iterations = message.iterations;
-  row.rounds = message.rounds;
   row.runs = message.runs;
   row.own_residual = message.own_residual;
   row.prepare_seconds = message.prepare_seconds;
   row.solve_seconds = message.solve_seconds;
+  row.startup_seconds = message.startup_seconds;
   row.first_seconds = message.first_seconds;
   row.peak_memory_MB = message.peak_memory_MB;
   row.history = std::move(message.history);

@@ -133,7 +133,7 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   record.iterations = run.solved.iterations;
   record.error_rms = run.error.natural_map_rms;
   record.error_max = run.error.natural_map_max;
-  record.seconds_solve = run.prepare_seconds + run.solve_seconds;
+  record.seconds_solve = run.prepare_seconds + run.solve_seconds + run.startup_seconds;
   memory.contacts = contacts_;
   assembler_.to_world(impulses_, contacts_, memory.impulses);
   resting_.restore_kept(memory);

@@ -32,7 +32,8 @@ class Admm final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    iteration.evaluated(w_.begin_at(r, u_));
+    const double first = w_.begin_at(r, u_);
+    iteration.evaluated(first, r);
     shift_.reset(w_);
     shift_.follow(w_, u_);
     for (int c = 0; c < w_.contact_count(); ++c) w_.put(y_, c, -shift_.shifted(w_, u_, c));
@@ -40,14 +41,14 @@ class Admm final : public Solver {
     next_look_ = look_after_ = settings_.adapt_every;
     while (iteration.next()) {
       if (!factored_) {
-        iteration.evaluated(std::numeric_limits<double>::quiet_NaN());
+        iteration.evaluated(std::numeric_limits<double>::quiet_NaN(), r);
         break;
       }
       alternate(r);
       w_.velocity(r, u_);
       if (iteration.count() % settings_.shift_every == 0) follow();
       if (iteration.count() >= next_look_) adapt(iteration.count());
-      if (iteration.error_due()) iteration.evaluated(w_.error(r, u_));
+      if (iteration.error_due()) iteration.evaluated(w_.error(r, u_), r);
     }
     return iteration.finish(std::move(r));
   }

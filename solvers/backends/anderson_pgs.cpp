@@ -37,13 +37,13 @@ class AndersonPgs final : public Solver {
     Iteration iteration(budget, {4, 1.1});
     sweep.load(problem, r);
     sweep.store(problem, r);
-    iteration.evaluated(sweep.error());
+    iteration.evaluated(sweep.error(), r);
     begin(sweep);
     while (iteration.next()) {
       sweep.sweep();
       if (iteration.error_due())
         iteration.evaluated(
-            swept_error(sweep, problem, iteration, r, [&] { sweep.load(problem, r); }));
+            swept_error(sweep, problem, iteration, r, [&] { sweep.load(problem, r); }), r);
       sweep.save(image_);
       extrapolate();
       sweep.restore(x_);

@@ -27,7 +27,8 @@ class Apgd final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.02});
-    iteration.evaluated(w_.begin_at(r, u_));
+    const double first = w_.begin_at(r, u_);
+    iteration.evaluated(first, r);
     shift_.reset(w_);
     shift_.follow(w_, u_);
     step_ = first_step_;
@@ -41,7 +42,7 @@ class Apgd final : public Solver {
         if (iteration.count() % settings_.shift_every == 0) shift_.follow(w_, u_);
         step_ *= 1.02;
       }
-      if (iteration.error_due()) iteration.evaluated(w_.error(r, u_));
+      if (iteration.error_due()) iteration.evaluated(w_.error(r, u_), r);
     }
     return iteration.finish(std::move(r));
   }

@@ -64,7 +64,7 @@ class Auto final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Relay relay(budget, std::move(start));
-    sweep_while_it_pays(relay, problem, budget.tolerance);
+    sweep_while_it_pays(relay, problem, budget);
     double before = relay.error();
     int standing_still = 0;
     for (int steps = 40; !relay.over() && standing_still < patience; steps += steps / 2) {
@@ -104,10 +104,11 @@ class Auto final : public Solver {
   /// Doubling rounds of sweeps, until the rate of the last one promises less than Newton costs:
   /// 20-60 factorisations on stored problems of up to 500 contacts, about a hundred on packings of
   /// 5000.
-  void sweep_while_it_pays(Relay& relay, const FrictionProblem& problem, double tolerance) {
+  void sweep_while_it_pays(Relay& relay, const FrictionProblem& problem, const Budget& budget) {
     relay.run(*opening_, problem, 8);
     for (int round = 8; !relay.over(); round *= 2) {
       sweep(*opening_, relay, problem, round);
+      const double tolerance = budget.aim();
       const double needed = tolerance > 0.0 && sweep_rate_ > 0.0
                                 ? std::log(relay.error() / tolerance) / sweep_rate_
                                 : 1e300;

@@ -38,7 +38,7 @@ class GaussSeidel final : public Solver {
     // Stored at once: impulses that move nothing have been dropped.
     sweep.load(problem, r);
     sweep.store(problem, r);
-    iteration.evaluated(sweep.error());
+    iteration.evaluated(sweep.error(), r);
     while (iteration.next()) {
       if (variant_.plain())
         sweep.sweep();
@@ -46,7 +46,7 @@ class GaussSeidel final : public Solver {
         sweep.sweep(variant_, order_.next());
       if (!iteration.error_due()) continue;
       iteration.evaluated(
-          swept_error(sweep, problem, iteration, r, [&] { sweep.load(problem, r); }));
+          swept_error(sweep, problem, iteration, r, [&] { sweep.load(problem, r); }), r);
     }
     return iteration.finish(std::move(r));
   }

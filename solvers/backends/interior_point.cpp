@@ -34,7 +34,7 @@ class InteriorPoint final : public Solver {
       left.tolerance = std::max(budget.tolerance, settings_.polish_from * velocity_scale());
       Solved solved = approach(std::move(r), left);
       const bool near =
-          solved.reason == StopReason::reached_tolerance && solved.own_residual > budget.tolerance;
+          solved.reason == StopReason::reached_tolerance && solved.own_residual > budget.aim();
       rest = near || solved.reason == StopReason::stalled;
       return solved;
     });
@@ -47,7 +47,7 @@ class InteriorPoint final : public Solver {
   Solved approach(Impulses r, const Budget& budget) {
     Iteration iteration(budget, {1, 1.0});
     double best_error = w_.begin_at(r, u_), stall_error = best_error;
-    iteration.evaluated(best_error);
+    iteration.evaluated(best_error, r);
     begin(r);
     Impulses best = r;
     push_inside();
@@ -66,7 +66,7 @@ class InteriorPoint final : public Solver {
           best = r;
         }
       }
-      iteration.evaluated(best_error);
+      iteration.evaluated(best_error, best);
       ++stalled_steps;
       if (best_error <= 0.5 * stall_error) {
         stall_error = best_error;

@@ -113,6 +113,7 @@ class IpoptCone final : public Solver {
                           const IpoptAnswer ipopt = run_ipopt(nlp, inside, settings);
                           if (ipopt.x.size() > 0) answer.x = cones_.from_polar(ipopt.x);
                           answer.iterations = ipopt.iterations;
+                          answer.seconds = ipopt.seconds;
                         });
   }
 

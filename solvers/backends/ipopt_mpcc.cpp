@@ -197,7 +197,7 @@ class IpoptMpcc final : public Solver {
     // The relaxation goes to zero round by round, a tenth at a time.
     nlp.relaxation = 1e-1;
     const double last_relaxation =
-        std::clamp(1e-2 * budget.tolerance / cones_.velocity_unit(), 1e-13, 1e-4);
+        std::clamp(1e-2 * budget.aim() / cones_.velocity_unit(), 1e-13, 1e-4);
     VectorXd x;
     constexpr int patience = 12;
     return solve_in_rounds(problem, cones_.moving(), std::move(start), budget, patience,
@@ -210,6 +210,7 @@ class IpoptMpcc final : public Solver {
                              settings.max_seconds = request.left.max_seconds;
                              const IpoptAnswer ipopt = run_ipopt(nlp, x, settings);
                              answer.iterations = ipopt.iterations;
+                             answer.seconds = ipopt.seconds;
                              nlp.relaxation = std::max(last_relaxation, 0.1 * nlp.relaxation);
                              if (ipopt.x.size() == 0 || !ipopt.x.allFinite()) return;
                              x = ipopt.x;

@@ -8,6 +8,7 @@
 #include <IpTNLP.hpp>
 
 #include "platform/child_process.hpp"
+#include "platform/clock.hpp"
 #include "platform/pack.hpp"
 
 namespace ballast {
@@ -125,7 +126,7 @@ void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings) {
 
 IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start,
                       const IpoptSettings& settings) {
-  const ChildResult child = run_in_child(settings.max_seconds, [&]() -> std::string {
+  const auto work = [&]() -> std::string {
     // Never destroyed: the answer is sent after this function, and Ipopt's destructors may
     // crash.
     Adapter* adapter = new Adapter(program, start);
@@ -134,7 +135,9 @@ IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start,
         new Ipopt::SmartPtr<Ipopt::IpoptApplication>(new Ipopt::IpoptApplication(false));
     set_options(*(*application)->Options(), settings);
     if ((*application)->Initialize("") != Ipopt::Solve_Succeeded) return {};
+    const Stopwatch watch;
     const Ipopt::ApplicationReturnStatus status = (*application)->OptimizeTNLP(*held);
+    const double seconds = watch.seconds();
     const bool limited =
         status == Ipopt::Maximum_Iterations_Exceeded || status == Ipopt::Maximum_CpuTime_Exceeded;
     const Ipopt::SmartPtr<Ipopt::SolveStatistics> statistics = (*application)->Statistics();
@@ -142,14 +145,19 @@ IpoptAnswer run_ipopt(const IpoptProgram& program, const Eigen::VectorXd& start,
     packer.list(adapter->answer());
     packer.number(IsValid(statistics) ? static_cast<int>(statistics->IterationCount()) : 1);
     packer.number(!limited);
+    packer.number(seconds);
     return packer.bytes();
-  });
+  };
+  // A process that is a comparison's child already needs no other.
+  const std::string bytes =
+      is_expendable_process() ? work() : run_in_child(settings.max_seconds, work).answer;
   IpoptAnswer answer;
-  if (child.answer.empty()) return answer;  // no child that came to its end, or no start for Ipopt
-  Unpacker unpacker(child.answer, "ipopt: a child's answer");
+  if (bytes.empty()) return answer;  // no child that came to its end, or no start for Ipopt
+  Unpacker unpacker(bytes, "ipopt: a child's answer");
   unpacker.list(answer.x);
   unpacker.number(answer.iterations);
   unpacker.number(answer.finished);
+  unpacker.number(answer.seconds);
   unpacker.finish();
   return answer;
 }

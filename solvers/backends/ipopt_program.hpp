@@ -48,6 +48,7 @@ struct IpoptSettings {
 struct IpoptAnswer {
   Eigen::VectorXd x;  ///< empty: the child gave no answer
   int iterations = 1;
+  double seconds = 0.0;  ///< of Ipopt itself, in its process
   bool finished = true;  ///< not by a limit
 };
 

@@ -35,13 +35,13 @@ class Jacobi final : public Solver {
     u_.resize(problem.row_count());
     w_.velocity(r, u_);
     double theta = damping_, last_error = w_.error(r, u_);
-    iteration.evaluated(last_error);
+    iteration.evaluated(last_error, r);
     while (iteration.next()) {
       relax(r, theta);
       w_.velocity(r, u_);
       if (!iteration.error_due()) continue;
       const double error = w_.error(r, u_);
-      iteration.evaluated(error);
+      iteration.evaluated(error, r);
       if (error > 2.0 * last_error) theta = std::max(0.5 * theta, 1e-3 * damping_);
       last_error = error;
     }

@@ -34,7 +34,7 @@ class Newton final : public Solver {
     step_.begin(settings_.equation, settings_.rho_factor, std::move(r));
     step_.set_proximal(smallest_weight);
     Best best{step_.impulses(), step_.error()};
-    iteration.evaluated(best.error);
+    iteration.evaluated(best.error, best.r);
     int failures = 0;
     double weight = smallest_weight;
     while (iteration.next()) {
@@ -43,7 +43,7 @@ class Newton final : public Solver {
       failures = step_.newton(failures % 2 ? 0 : settings_.line_search) ? 0 : failures + 1;
       step_.centre();
       best.offer(step_.impulses(), step_.error());
-      iteration.evaluated(best.error);
+      iteration.evaluated(best.error, best.r);
       if (failures >= 8) break;
       // Less of the proximal term where Newton converges, more where it does not.
       if (step_.residual() < 0.5 * before)
@@ -85,7 +85,7 @@ class ProximalNewton final : public Solver {
       r = swept(problem, std::move(r), settings_.start_sweeps, budget.max_seconds, budget);
     step_.begin(settings_.equation, rho_factors[0], std::move(r));
     Best best{step_.impulses(), step_.error()};
-    iteration.evaluated(best.error);
+    iteration.evaluated(best.error, best.r);
     double weight = settings_.first_weight, halved = best.error;
     int failures = 0, halved_at = 0;
     while (failures < 30 &&
@@ -124,7 +124,8 @@ class ProximalNewton final : public Solver {
                  const Budget& budget) {
     const Budget sweeps{.tolerance = budget.tolerance,
                         .max_iterations = count,
-                        .max_seconds = std::max(0.0, seconds)};
+                        .max_seconds = std::max(0.0, seconds),
+                        .fclib = budget.fclib};
     return start_->solve(problem, std::move(r), sweeps).impulses;
   }
 
@@ -142,7 +143,7 @@ class ProximalNewton final : public Solver {
       if (!iteration.next()) return -1;
       const bool descended = step_.newton(8);
       best.offer(step_.impulses(), step_.error());
-      iteration.evaluated(best.error);
+      iteration.evaluated(best.error, best.r);
       if (step_.residual() <= settings_.inner_reduction * begin) return k;
       if (!descended) break;
     }

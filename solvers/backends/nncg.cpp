@@ -3,61 +3,103 @@
 #include <utility>
 
 #include "solvers/gauss_seidel/body_sweep.hpp"
+#include "solvers/gauss_seidel/delassus_sweep.hpp"
 #include "solvers/gauss_seidel/swept_error.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
+/// The sweep over bodies along its search: velocities are linear in the impulses and take the same
+/// combination of their own past, so that nothing is recomputed.
+struct BodySearch {
+  BodySweep sweep;
+  SweepSearch search;
+
+  void start() { sweep.start_search(search); }
+  double advance(SearchStep step) { return sweep.sweep(search, step); }
+};
+
+/// The same over a stored W, whose sweep keeps impulses alone.
+struct MatrixSearch {
+  DelassusSweep sweep;
+  Eigen::VectorXd swept, before, direction;
+
+  void start() {
+    sweep.save(before);
+    direction.setZero(before.size());
+  }
+  double advance(SearchStep step) {
+    sweep.save(swept);
+    // p := beta p + gain (x - before), and x moves along the old p.
+    before = step.gain * (swept - before);
+    swept += step.beta * direction;
+    direction = step.beta * direction + before;
+    before = swept;
+    sweep.restore(swept);
+    sweep.sweep();
+    sweep.save(swept);
+    return (swept - before).squaredNorm();
+  }
+};
+
 // One iteration, with r^ the iterate that the last sweep left and r the one it began from:
 //   d = r^ - r (minus the gradient),  beta = |d|^2 / |d before|^2
 //   beta > 1: the search restarts, p = 0, r := r^
 //   else      r := r^ + beta p,  p := beta p + d
 //   r^ := sweep(r)
-// The body velocities are linear in r, so they take the same combination of their own past: no pass
-// over the contacts' blocks. Only swept iterates, which lie in the cones, are ever judged or
-// returned. The law is not a minimisation, and now and then the search circles: when the error has
-// grown from one evaluation to the next, plain sweeps follow until the one after.
+// Only swept iterates, which lie in the cones, are ever judged or returned. The law is not a
+// minimisation, and now and then the search circles: when the error has grown from one evaluation
+// to the next, plain sweeps follow until the one after.
 class Nncg final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
-    if (!problem.has_dynamics)
-      throw UnsupportedProblem(
-          "nncg: the problem has no dynamics form (M, H): it sweeps over bodies");
-    sweep_.prepare(problem);
+    if (problem.has_dynamics)
+      bodies_.sweep.prepare(problem);
+    else
+      matrix_.sweep.prepare(problem);
   }
 
-  void use_threads(int threads) override { sweep_.use_threads(threads); }
+  void use_threads(int threads) override { bodies_.sweep.use_threads(threads); }
 
-  Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    return problem.has_dynamics ? iterate(bodies_, problem, std::move(start), budget)
+                                : iterate(matrix_, problem, std::move(start), budget);
+  }
+
+ private:
+  template <typename Search>
+  Solved iterate(Search& search, const FrictionProblem& problem, Impulses r, const Budget& budget) {
     Iteration iteration(budget, {8, 1.2, 1.5});
-    load(problem, r);
-    sweep_.store(problem, r);
-    double last_error = sweep_.error();
-    iteration.evaluated(last_error);
+    load(search, problem, r);
+    search.sweep.store(problem, r);
+    double last_error = search.sweep.error();
+    iteration.evaluated(last_error, r);
     bool accelerates = true;
     while (iteration.next()) {
-      square_ = sweep_.sweep(search_, next_step(accelerates));
+      square_ = search.advance(next_step(accelerates));
       if (!iteration.error_due()) continue;
-      const double error = swept_error(sweep_, problem, iteration, r, [&] { load(problem, r); });
-      iteration.evaluated(error);
+      const double error =
+          swept_error(search.sweep, problem, iteration, r, [&] { load(search, problem, r); });
+      iteration.evaluated(error, r);
       // The search rests where the error grew, until the next look.
       accelerates = !accelerates || error < last_error;
-      if (!accelerates) forget();
+      if (!accelerates) forget(search);
       last_error = error;
     }
     return iteration.finish(std::move(r));
   }
 
- private:
-  void load(const FrictionProblem& problem, const Impulses& r) {
-    sweep_.load(problem, r);
-    forget();
+  template <typename Search>
+  void load(Search& search, const FrictionProblem& problem, const Impulses& r) {
+    search.sweep.load(problem, r);
+    forget(search);
   }
 
   /// The next search direction is the plain sweep's.
-  void forget() {
-    sweep_.start_search(search_);
+  template <typename Search>
+  void forget(Search& search) {
+    search.start();
     square_ = last_square_ = 0.0;
   }
 
@@ -71,8 +113,8 @@ class Nncg final : public Solver {
     return {beta, 1.0};
   }
 
-  BodySweep sweep_;
-  SweepSearch search_;
+  BodySearch bodies_;
+  MatrixSearch matrix_;
   double square_ = 0.0, last_square_ = 0.0;  ///< |d|^2 of the last sweep, and of the one before
 };
 

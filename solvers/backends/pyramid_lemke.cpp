@@ -43,7 +43,7 @@ class PyramidLemke final : public Solver {
     Eigen::VectorXd x;
     moving_.gather(problem, r, x);
     moving_.scatter(problem, x, r);
-    iteration.evaluated(judge.judge(problem, r).natural_map_rms);
+    iteration.evaluated(judge.judge(problem, r).natural_map_rms, r);
 
     // Pivot by pivot; only the last basis is an answer.
     lemke_.begin(m_, q_);
@@ -56,7 +56,7 @@ class PyramidLemke final : public Solver {
         moving_.scatter(problem, impulses(z), r);
       }
       if (iteration.error_due() || state != LemkeState::running)
-        iteration.evaluated(judge.judge(problem, r).natural_map_rms);
+        iteration.evaluated(judge.judge(problem, r).natural_map_rms, r);
     }
     Solved solved = iteration.finish(std::move(r));
     if (z.size() > 0) solved.own_residual = residual(z);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "solvers/parts/newton_system.hpp"
 #include "solvers/parts/shifted_delassus.hpp"
 #include "solvers/parts/slip_shift.hpp"
 #include "solvers/seam/iteration.hpp"
@@ -17,12 +18,17 @@ class Sap final : public Solver {
   explicit Sap(const SapSettings& settings) : settings_(settings) {}
 
   void prepare(const FrictionProblem& problem) override {
-    if (!problem.has_dynamics)
-      throw UnsupportedProblem(
-          "sap: the problem has no dynamics form (M, H): the unknowns are the bodies' velocities");
     w_.prepare(problem);
-    system_.prepare(w_);
-    mass_ = sparse_mass(problem.dynamics);
+    is_stored_ = !problem.has_dynamics;
+    if (is_stored_) {
+      require_symmetric(problem.delassus.w);
+      newton_.prepare(w_);
+      linear_.resize(problem.contact_count());
+      no_shift_in_r_.assign(problem.contact_count(), 0.0);
+    } else {
+      system_.prepare(w_);
+      mass_ = sparse_mass(problem.dynamics);
+    }
     hessian_.resize(problem.contact_count());
     for (Eigen::VectorXd* x : {&u_, &du_, &gamma_, &centre_}) x->resize(problem.row_count());
     no_shift_.reset(w_);
@@ -32,23 +38,26 @@ class Sap final : public Solver {
     Iteration iteration(budget, {1, 1.0});
     w_.project(start);
     centre_ = gamma_ = start;
-    body_velocity(problem.dynamics, problem.row_begin, start, v_);
+    if (is_stored_)
+      lambda_ = start;
+    else
+      body_velocity(problem.dynamics, problem.row_begin, start, v_);
     w_.velocity(gamma_, true_u_);
-    iteration.evaluated(w_.error(gamma_, true_u_));
+    iteration.evaluated(w_.error(gamma_, true_u_), gamma_);
     int newtons = 0;  // for the problem at hand
     bool done = false;
     while (!done && iteration.next()) {
       if (newtons == 0) place(problem);
       const double decrement = newton(problem);
       w_.velocity(gamma_, true_u_);
-      iteration.evaluated(std::isfinite(decrement) ? w_.error(gamma_, true_u_) : decrement);
+      iteration.evaluated(std::isfinite(decrement) ? w_.error(gamma_, true_u_) : decrement, gamma_);
       // Far from the end a proximal step need not be exact.
       const double enough = settings_.proximal ? 1e-2 * proximal_energy() : 0.0;
       const bool solved = decrement <= std::max(enough, least_energy_);
       if (!solved && ++newtons < settings_.most_newtons) continue;
       // What is left is the relaxation: Coulomb's law is not reached by going on.
-      done = !settings_.proximal ||
-             no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.tolerance;
+      done =
+          !settings_.proximal || no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.aim();
       centre_ = gamma_;
       newtons = 0;
     }
@@ -66,9 +75,20 @@ class Sap final : public Solver {
     return w_.at(centre_, c) - u / epsilon(c);
   }
 
-  /// u and gamma at v_.
+  /// The energy that is minimised has W for its kinetic part.
+  static void require_symmetric(const SparseRows& w) {
+    const SparseRows transposed = w.transpose();
+    if ((w - transposed).norm() > 1e-9 * w.norm())
+      throw UnsupportedProblem(
+          "sap: the stored W is not symmetric: there is no energy to minimise");
+  }
+
+  /// u and gamma at the bodies' velocities v_; of a stored W, v_ = v_free + M^-1 H^T lambda_.
   void place(const FrictionProblem& problem) {
-    body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
+    if (is_stored_)
+      w_.velocity(lambda_, u_);
+    else
+      body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
     for (int c = 0; c < w_.contact_count(); ++c)
       w_.put(gamma_, c,
              w_.rho()[c] > 0.0 ? project_cone(pressed(c, w_.at(u_, c)), w_.friction(c))
@@ -83,6 +103,7 @@ class Sap final : public Solver {
       if (w_.rho()[c] > 0.0)
         hessian_[c] = project_cone_jacobian(pressed(c, w_.at(u_, c)), w_.friction(c)) / epsilon(c);
     }
+    if (is_stored_) return newton_on_impulses(problem);
     if (!system_.factor(hessian_, hessian_)) return std::numeric_limits<double>::quiet_NaN();
     // The gradient M (v - v_free) - H^T gamma, and the Newton direction.
     contact_to_body_impulse(problem.dynamics, problem.row_begin, gamma_, gradient_);
@@ -95,6 +116,22 @@ class Sap final : public Solver {
     body_to_contact_velocity(problem.dynamics, problem.row_begin, dv_, du_);
     du_ -= problem.dynamics.bias;
     v_ += line_search(away_.dot(dv_), dv_.dot(mass_ * dv_)) * dv_;
+    place(problem);
+    return decrement;
+  }
+
+  /// The same step where only W is known: the gradient is H^T (lambda - gamma), and
+  ///   (I + G W) dlambda = gamma - lambda,   du = W dlambda
+  double newton_on_impulses(const FrictionProblem& problem) {
+    for (int c = 0; c < w_.contact_count(); ++c)
+      linear_[c] = {w_.at(lambda_, c) - w_.at(gamma_, c), Eigen::Matrix3d::Identity(), hessian_[c]};
+    if (!newton_.solve(w_, linear_, no_shift_in_r_, dv_))
+      return std::numeric_limits<double>::quiet_NaN();
+    w_.multiply(dv_, du_);
+    const double decrement = (gamma_ - lambda_).dot(du_);
+    w_.multiply(lambda_, away_);
+    least_energy_ = 1e-26 * std::abs(away_.dot(lambda_));
+    lambda_ += line_search(lambda_.dot(du_), dv_.dot(du_)) * dv_;
     place(problem);
     return decrement;
   }
@@ -156,6 +193,11 @@ class Sap final : public Solver {
   SlipShift no_shift_;
   SparseColumns mass_;
   std::vector<Eigen::Matrix3d> hessian_;
+  bool is_stored_ = false;
+  NewtonSystem newton_;  ///< of a stored W
+  std::vector<ContactLinearisation> linear_;
+  std::vector<double> no_shift_in_r_;
+  Impulses lambda_;
   Eigen::VectorXd v_, dv_, u_, du_, true_u_, gamma_, centre_, gradient_, away_;
   double least_energy_ = 0.0;
 };

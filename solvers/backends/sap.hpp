@@ -9,8 +9,9 @@
 //
 // by Newton with an exact line search. Departures: the regularisation is the same along normal and
 // tangents; around r = 0 it is SAP's, and `proximal` moves r to gamma and solves again, so that no
-// regularisation is left in the end. The law is the relaxation either way: u_N = mu |u_T| where a
-// contact slides.
+// regularisation is left in the end. Where only W is known the velocities are those of impulses
+// lambda, v = v_free + M^-1 H^T lambda, and Newton's unknowns are these: W must then be symmetric.
+// The law is the relaxation either way: u_N = mu |u_T| where a contact slides.
 
 #include <memory>
 

@@ -9,9 +9,14 @@
 
 namespace ballast {
 
-/// Each solve runs in child processes (Siconos cannot be interrupted, and ends the process on some
-/// errors), in rounds: Siconos' tolerance, which is relative and in mixed units, is tightened until
-/// the judge agrees, or nothing comes of it any more. An iteration is one of Siconos' own.
+/// Siconos cannot be interrupted, and ends the process on some errors: each call runs in a child
+/// process, unless this process is itself a child that may be lost (a comparison's). The clock runs
+/// in the library's own driver; processes, W in the library's form and the judge are start-up.
+///
+/// Where the budget asks for Siconos' own measure its tolerance is what was asked. Otherwise, and
+/// where the judge does not agree, its tolerance, which is relative and in mixed units, is
+/// tightened in rounds until the judge does, or nothing comes of it any more. An iteration is one
+/// of Siconos' own.
 enum class SiconosMethod {
   nsgs,   ///< nonsmooth Gauss-Seidel, local Newton with line search and projections
   prox,   ///< proximal point around a nonsmooth Newton

@@ -30,7 +30,8 @@ class Spg final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.02});
-    iteration.evaluated(w_.begin_at(r, u_));
+    const double first = w_.begin_at(r, u_);
+    iteration.evaluated(first, r);
     shift_.reset(w_);
     alpha_ = first_step_;
     while (iteration.next()) {
@@ -39,7 +40,7 @@ class Spg final : public Solver {
       advance(r);
       if (!iteration.error_due()) continue;
       w_.velocity(r, u_);  // without the rounding that the steps have left in it
-      iteration.evaluated(w_.error(r, u_));
+      iteration.evaluated(w_.error(r, u_), r);
     }
     return iteration.finish(std::move(r));
   }

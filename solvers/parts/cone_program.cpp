@@ -121,22 +121,21 @@ Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const 
   operator_.velocity(start, u);
   if (start.squaredNorm() > 0.0) shift_.follow(operator_, u);
   Impulses r;
-  return solve_in_rounds(
-      problem, moving_, std::move(start), budget, patience,
-      [&](const RoundRequest& request, RoundAnswer& answer) {
-        Eigen::VectorXd x = from_rows(request.last);
-        const Eigen::VectorXd term = linear_term(x);
-        project(x);
-        convex({term, x, budget.tolerance / velocity_unit_, request.left}, answer);
-        if (answer.x.size() != row_count() || !answer.x.allFinite()) {
-          answer.x.resize(0);
-          return;
-        }
-        answer.x = to_rows(answer.x);
-        moving_.scatter(problem, answer.x, r);
-        operator_.velocity(r, u);
-        shift_.improve(operator_, u);
-      });
+  return solve_in_rounds(problem, moving_, std::move(start), budget, patience,
+                         [&](const RoundRequest& request, RoundAnswer& answer) {
+                           Eigen::VectorXd x = from_rows(request.last);
+                           const Eigen::VectorXd term = linear_term(x);
+                           project(x);
+                           convex({term, x, budget.aim() / velocity_unit_, request.left}, answer);
+                           if (answer.x.size() != row_count() || !answer.x.allFinite()) {
+                             answer.x.resize(0);
+                             return;
+                           }
+                           answer.x = to_rows(answer.x);
+                           moving_.scatter(problem, answer.x, r);
+                           operator_.velocity(r, u);
+                           shift_.improve(operator_, u);
+                         });
 }
 
 }  // namespace ballast

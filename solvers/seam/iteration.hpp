@@ -20,8 +20,8 @@ struct CheckSchedule {
   double growth_far = growth;
 };
 
-/// Use:  evaluated(error);  while (next()) { one iteration; if (error_due()) evaluated(error); }
-/// finish(std::move(r));
+/// Use:  evaluated(error, r);  while (next()) { one iteration; if (error_due()) evaluated(error,
+/// r); } finish(std::move(r));
 class Iteration {
  public:
   /// Iterations without any digit of the error changing, after which it never will.
@@ -39,8 +39,12 @@ class Iteration {
   /// Small enough to stop. A hair below the tolerance, because the judge sums in another order than
   /// a backend does.
   bool reached(double error) const { return error <= budget_.tolerance * (1.0 - margin); }
-  /// Takes the scaled natural map (rms) of the current iterate, records it, and decides.
-  void evaluated(double error);
+  /// Takes the scaled natural map (rms) of the current iterate `r`, records it, and decides. `r` is
+  /// read where the budget asks for another measure.
+  void evaluated(double error, const Impulses& r);
+  /// So much of the time that has passed was start-up (Solved::startup_seconds): no limit and no
+  /// history counts it.
+  void add_startup(double seconds) { startup_ += seconds; }
 
   int count() const { return count_; }
   double seconds() const;
@@ -60,6 +64,7 @@ class Iteration {
   StopReason reason_ = StopReason::numerical_failure;
   double error_;
   int unchanged_since_ = 0;
+  double startup_ = 0.0;
   std::vector<HistoryPoint> history_;
 };
 

@@ -19,7 +19,7 @@ Relay::Relay(const Budget& budget, Impulses start) : budget_(budget) {
   solved_.reason = StopReason::stalled;
 }
 
-double Relay::seconds() const { return watch_.seconds(); }
+double Relay::seconds() const { return watch_.seconds() - solved_.startup_seconds; }
 
 double Relay::run(const Leg& leg) {
   const double began = seconds();
@@ -31,6 +31,7 @@ double Relay::run(const Leg& leg) {
   book_history(part.history, began);
   solved_.iterations += part.iterations;
   solved_.own_residual = part.own_residual;
+  solved_.startup_seconds += part.startup_seconds;
   if (!(error > error_)) {
     solved_.impulses = std::move(part.impulses);
     error_ = error;

@@ -5,7 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "platform/clock.hpp"
 #include "problems/algebra/contact_error.hpp"
+#include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/iteration.hpp"
 #include "solvers/seam/relay.hpp"
 
@@ -18,16 +20,27 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
   // Standing still is judged by rounds, below.
   Iteration iteration(budget, {}, std::numeric_limits<int>::max());
   Impulses r = std::move(start);
+  // A foreign solver has stopped by its own measure when the judge looks: that time is not its own.
   const auto error_of = [&](const Eigen::VectorXd& x) {
+    const Stopwatch watch;
     moving.scatter(problem, x, r);
-    return judge.judge(problem, r).natural_map_rms;
+    const double error = judge.judge(problem, r).natural_map_rms;
+    iteration.add_startup(watch.seconds());
+    return error;
+  };
+  const auto evaluated = [&](const Eigen::VectorXd& x, double error) {
+    const Stopwatch watch;
+    moving.scatter(problem, x, r);
+    if (budget.fclib) budget.fclib->reached(r, error);
+    iteration.add_startup(watch.seconds());
+    iteration.evaluated(error, r);
   };
 
   Eigen::VectorXd last;
   moving.gather(problem, r, last);
   Eigen::VectorXd best = last;
   double last_error = error_of(last), best_error = last_error, progress_from = last_error;
-  iteration.evaluated(best_error);
+  evaluated(best, best_error);
   int idle = 0;
   bool stalled = false;
   RoundAnswer answer;
@@ -35,8 +48,11 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
     const Budget left = rest_of(budget, iteration.count() - 1, iteration.seconds());
     answer.x.resize(0);
     answer.iterations = 1;
+    answer.seconds = -1.0;
     answer.finished = true;
+    const Stopwatch watch;
     round({last, best, last_error, left}, answer);
+    if (answer.seconds >= 0.0) iteration.add_startup(watch.seconds() - answer.seconds);
     // The round's own iterations are booked; the loop has counted one.
     for (int i = 1; i < std::min(answer.iterations, left.max_iterations); ++i) iteration.next();
     // The judge looks at what came back.
@@ -56,7 +72,7 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
       ++idle;
     }
     iteration.error_due();
-    iteration.evaluated(best_error);
+    evaluated(best, best_error);
     stalled = idle >= patience;
   }
   moving.scatter(problem, best, r);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "platform/clock.hpp"
+#include "solvers/seam/fclib_stop.hpp"
 
 namespace ballast {
 namespace {
@@ -46,8 +47,9 @@ SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& bu
   }
   // Outside the stopwatch, from the impulses alone.
   run.error = judge_.judge(problem, run.solved.impulses);
-  run.success = run.solved.reason == StopReason::reached_tolerance && run.error.finite &&
-                run.error.natural_map_rms <= budget.tolerance;
+  const bool is_small = budget.fclib ? run.error.fclib <= budget.fclib->tolerance()
+                                     : run.error.natural_map_rms <= budget.tolerance;
+  run.success = run.solved.reason == StopReason::reached_tolerance && run.error.finite && is_small;
   return run;
 }
 
@@ -61,7 +63,8 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
     run.prepare_seconds = watch.seconds();
     watch.restart();
     run.solved = solver.solve(problem, std::move(start), budget);
-    run.solve_seconds = watch.seconds();
+    run.startup_seconds = run.solved.startup_seconds;
+    run.solve_seconds = watch.seconds() - run.startup_seconds;
   });
 }
 
@@ -71,7 +74,8 @@ SolverRun SolverRunner::run_again(Solver& solver, const FrictionProblem& problem
   return guarded(problem, budget, [&](SolverRun& run) {
     const Stopwatch watch;
     run.solved = solver.solve(problem, std::move(start), budget);
-    run.solve_seconds = watch.seconds();
+    run.startup_seconds = run.solved.startup_seconds;
+    run.solve_seconds = watch.seconds() - run.startup_seconds;
   });
 }
 

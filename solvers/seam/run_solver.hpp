@@ -12,8 +12,9 @@ struct SolverRun {
   ContactError error;          ///< the judge's, never the backend's
   double prepare_seconds = 0;  ///< wall clock of prepare() and solve() alone
   double solve_seconds = 0;
-  bool success = false;  ///< the backend says reached_tolerance *and* the judge agrees
-  std::string failure;   ///< what() of the exception that a backend threw; empty: none
+  double startup_seconds = 0;  ///< of solve(), and not in solve_seconds: Solved::startup_seconds
+  bool success = false;        ///< the backend says reached_tolerance *and* the judge agrees
+  std::string failure;         ///< what() of the exception that a backend threw; empty: none
 };
 
 /// Keeps the judge's workspace between calls.

@@ -1,5 +1,7 @@
 #include "solvers/seam/solver.hpp"
 
+#include "solvers/seam/fclib_stop.hpp"
+
 namespace ballast {
 
 const char* name_of(StopReason reason) {
@@ -29,5 +31,7 @@ const char* name_of(ContactLaw law) {
   }
   return "unknown";
 }
+
+double Budget::aim() const { return fclib ? fclib->aim() : tolerance; }
 
 }  // namespace ballast

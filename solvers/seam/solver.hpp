@@ -24,6 +24,8 @@ enum class ContactLaw { coulomb, convex_relaxation, pyramid };
 const char* name_of(StopReason reason);
 const char* name_of(ContactLaw law);
 
+class FclibStop;
+
 /// When to stop. The error meant is the judge's scaled natural map, rms over contacts, in m/s
 /// (contact_error.hpp).
 struct Budget {
@@ -32,11 +34,18 @@ struct Budget {
   double max_seconds = 1e30;   ///< wall clock
   bool keep_history =
       false;  ///< record (iteration, seconds, error) at every evaluation of the error
+  /// Not null: solvers stop on this measure as well (fclib_stop.hpp), wherever they evaluate the
+  /// error. One object serves one solve.
+  FclibStop* fclib = nullptr;
+
+  /// The natural map to plan for [m/s]: the tolerance, or where `fclib` expects its own to be
+  /// reached.
+  double aim() const;
 };
 
 struct HistoryPoint {
   int iteration;
-  double seconds;  ///< since solve() began
+  double seconds;  ///< since solve() began, without start-up
   double error;    ///< scaled natural map rms [m/s]
 };
 
@@ -46,6 +55,9 @@ struct Solved {
   StopReason reason = StopReason::numerical_failure;
   int iterations = 0;
   double own_residual = 0.0;
+  /// Wall clock of solve() that is not the method's: processes started for a foreign library,
+  /// problems converted to its form, its answers judged.
+  double startup_seconds = 0.0;
   std::vector<HistoryPoint> history;
 };
 

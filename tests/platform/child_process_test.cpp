@@ -165,3 +165,11 @@ TEST_CASE("pipes are read together until all are closed, or it is too long or to
   CHECK(Pipe::read_until_closed({&b}, 10.0, 100));
   CHECK(b.text == "two more");
 }
+
+TEST_CASE("a child knows that it may be lost") {
+  CHECK_FALSE(is_expendable_process());
+  const ChildResult result =
+      run_in_child(60.0, [] { return std::string(is_expendable_process() ? "yes" : "no"); });
+  CHECK(result.answer == "yes");
+  CHECK_FALSE(is_expendable_process());
+}

@@ -149,13 +149,16 @@ TEST_CASE("an unreadable problem is a row with its reason, the others go on, the
 
 TEST_CASE("a problem that the solver cannot take is a row with its reason") {
   const TemporaryFolder folder;
-  const std::string stored = folder.write("stored.dat", dense_problem("1", "-1", "0.5")).string();
-  const auto bodies = folder.path() / "bodies.hdf5";
-  write_problem(bodies, make_known_solution({}).problem);
-  const ProgramResult result = ballast_program(
-      {"solve", stored, bodies.string(), "--solver", "sap", "--max-iterations", "9"});
+  KnownSolutionSettings large;
+  large.bodies = 100;
+  large.contacts = 400;
+  const auto too_large = folder.path() / "large.hdf5", small = folder.path() / "small.hdf5";
+  write_problem(too_large, make_known_solution(large).problem);
+  write_problem(small, make_known_solution({}).problem);
+  const ProgramResult result =
+      ballast_program({"solve", too_large.string(), small.string(), "--solver", "pyramid_lemke"});
   CHECK(result.status == static_cast<int>(ExitCode::failure));
-  CHECK_THAT(result.output, Catch::Contains("unsupported: ") && Catch::Contains("bodies.hdf5"));
+  CHECK_THAT(result.output, Catch::Contains("unsupported: ") && Catch::Contains("small.hdf5"));
 }
 
 TEST_CASE("a solver that stops short is exit code 1, by the clock 3") {

@@ -28,12 +28,15 @@ TEST_CASE("Who solves most comes first, and what was not solved counts with the 
   CHECK(all[0].mean_seconds == Approx(std::sqrt(2.001 * 8.001) - 0.001));
   CHECK(all[0].mean_ratio == Approx(std::sqrt(2.001 / 1.001)));
   CHECK(all[1].solver == "a");
+  CHECK(all[0].unsolved == 0);
   CHECK(all[1].timeouts == 1);
+  CHECK(all[1].unsolved == 1);  // in the mean with the limit
   CHECK(all[1].mean_seconds == Approx(std::sqrt(1.001 * 60.001) - 0.001));
   CHECK(all[2].solver == "c");
   CHECK(all[2].crashes == 1);
   CHECK(all[2].false_successes == 1);
   CHECK(all[2].solved == 0);
+  CHECK(all[2].unsolved == 2);
 }
 
 TEST_CASE("The spread is over repeats") {

@@ -19,6 +19,7 @@ TEST_CASE("The page of a comparison is well-formed and has what it promises") {
     rows.push_back(hand_made_row(name, "a", 0.1, Outcome::solved));
     rows.push_back(hand_made_row(name, "b", 0.3, Outcome::solved));
     rows.push_back(hand_made_row(name, "c", 60.0, Outcome::timeout));
+    rows.back().reason = "time_limit";
   }
   rows.push_back(hand_made_row("z", "a", 0.2, Outcome::stopped));
   rows.back().claimed = true;
@@ -28,6 +29,11 @@ TEST_CASE("The page of a comparison is well-formed and has what it promises") {
   check_page(page);
   CHECK(page.find("x&amp;&lt;1") != std::string::npos);
   CHECK(page.find("the judge denies it") != std::string::npos);
+  // Every case by every backend: a time, or the reason and the error; and what a mean hides.
+  CHECK(page.find("Every case by every backend") != std::string::npos);
+  CHECK(page.find("time limit") != std::string::npos);
+  CHECK(page.find("denied") != std::string::npos);
+  CHECK(page.find("unsolved in it") != std::string::npos);
   if (!gnuplot_version().empty())
     for (const char* name : {"performance_cold_1e-04", "data_cold_1e-04",
                              "cost_contacts_cold_1e-04", "case_y2_cold", "family_hand_cold"}) {

@@ -72,7 +72,7 @@ TEST_CASE("Cells: medians over repeats, solved only when every repeat is") {
 TEST_CASE("Errors of histories fall, and their means are taken at equal times") {
   CompareRow r = hand_made_row("x", "a", 1.0, Outcome::solved);
   r.prepare_seconds = 0.25;
-  r.history = {{0, 0, 0.0, 1.0}, {0, 1, 1.0, 1e-2}, {0, 2, 2.0, 1e-1}, {0, 3, 3.0, 1e-4}};
+  r.history = {{0, 0.0, 1.0}, {1, 1.0, 1e-2}, {2, 2.0, 1e-1}, {3, 3.0, 1e-4}};
   const StepCurve best = best_so_far(r);
   CHECK(best.x == std::vector<double>{0.25, 1.25, 3.25});
   CHECK(best.y == std::vector<double>{1.0, 1e-2, 1e-4});

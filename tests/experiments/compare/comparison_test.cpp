@@ -134,7 +134,7 @@ TEST_CASE("A case that cannot be read is one row with its reason, and the others
   std::vector<CompareCase> cases = compare_cases({"known:contacts=12,bodies=6,count=2"});
   const std::string broken = folder.write("broken.dat", "no problem").string();
   cases.insert(cases.begin() + 1, compare_cases({broken}).front());
-  CompareOptions options = options_in(folder.path(), parse_solvers("pgs,psor"));
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs,nncg"));
   options.tolerances = {1e-2, 1e-4};
   options.repeats = 2;
   size_t last = 0;

@@ -1,4 +1,4 @@
-// One solve to a tolerance in either measure: what backends are asked for in each round.
+// One solve to a tolerance in either measure: every backend stops on the measure that is asked.
 
 #include "experiments/compare/drive_solver.hpp"
 
@@ -33,14 +33,12 @@ class Noting final : public Solver {
 class Liar final : public Solver {
  public:
   void prepare(const FrictionProblem&) override {}
-  Solved solve(const FrictionProblem&, Impulses start, const Budget& budget) override {
-    asked.push_back(budget.tolerance);
+  Solved solve(const FrictionProblem&, Impulses start, const Budget&) override {
     Solved solved;
     solved.impulses = std::move(start);
     solved.reason = StopReason::reached_tolerance;
     return solved;
   }
-  std::vector<double> asked;
 };
 
 FrictionProblem heavy_problem() {
@@ -67,54 +65,59 @@ TEST_CASE("The natural map needs one round, in units of the velocity scale") {
   CHECK(solver.budgets[0].max_iterations == 100000);
   CHECK(solver.budgets[0].max_seconds <= 60.0);
   CHECK(driven.claimed);
-  CHECK(driven.rounds == 1);
-  CHECK(driven.last.error.natural_map_rms <= 1e-3 * 5.0);
-  CHECK(driven.seconds() == driven.prepare_seconds + driven.solve_seconds);
+  CHECK(driven.run.error.natural_map_rms <= 1e-3 * 5.0);
+  CHECK(driven.seconds() == driven.run.prepare_seconds + driven.run.solve_seconds);
   REQUIRE_FALSE(driven.history.empty());
-  CHECK(driven.history.back().error == Approx(driven.last.error.natural_map_rms / 5.0));
+  CHECK(driven.history.back().error == Approx(driven.run.error.natural_map_rms / 5.0));
 }
 
-TEST_CASE("The measure of Siconos is reached through falling tolerances on the natural map") {
-  const FrictionProblem problem = heavy_problem();
-  for (const char* name : {"pgs", "nncg"}) {
-    INFO(name);
-    Noting solver(name);
+/// Methods whose error falls by little from one look to the next.
+bool is_slow(const std::string& name) {
+  for (const char* slow :
+       {"pgs", "psor", "pgs_symmetric", "nncg", "jacobi", "anderson_pgs", "apgd"})
+    if (name == slow) return true;
+  return false;
+}
+
+TEST_CASE("Every backend stops on the measure of Siconos, and not far below it") {
+  for (const double mass_unit : {1.0, 1e4}) {  // W ~ 1e-4: the two measures lie far apart
+    KnownSolutionSettings known;
+    known.bodies = 10;
+    known.contacts = 20;
+    known.seed = 2;
+    known.mass_ratio = 100.0;
+    known.mass_unit = mass_unit;
+    const FrictionProblem problem = make_known_solution(known).problem;
     DriveSettings settings;
     settings.measure = Measure::fclib;
-    settings.tolerance = 1e-7;
-    const DrivenSolve driven = drive_solver(solver, problem, {}, settings);
-    CHECK(driven.claimed);
-    CHECK(driven.last.error.fclib <= 1e-7);
-    CHECK(driven.rounds > 1);  // 1e-7 is more than one fall of 1e-3
-    CHECK(solver.prepared == 1);
-    REQUIRE(static_cast<int>(solver.budgets.size()) == driven.rounds);
-    for (size_t k = 1; k < solver.budgets.size(); ++k) {
-      CHECK(solver.budgets[k].tolerance <= 0.5 * solver.budgets[k - 1].tolerance);
-      CHECK(solver.budgets[k].max_seconds < solver.budgets[k - 1].max_seconds);
+    settings.tolerance = 1e-4;
+    settings.max_seconds = 20.0;
+    for (const SolverEntry& entry : solver_list()) {
+      if (!entry.make || entry.law != ContactLaw::coulomb) continue;
+      INFO(entry.name << ", masses of " << mass_unit << " kg");
+      Noting solver(entry.name);
+      const DrivenSolve driven = drive_solver(solver, problem, {}, settings);
+      CHECK(solver.prepared == 1);
+      CHECK(solver.budgets.size() == 1);
+      if (driven.claimed) CHECK(driven.run.error.fclib <= 1e-4);
+      if (!is_slow(entry.name)) continue;
+      CHECK(driven.claimed);
+      CHECK(driven.run.error.fclib > 1e-6);
     }
-    for (size_t k = 1; k < driven.history.size(); ++k) {
-      CHECK(driven.history[k].round >= driven.history[k - 1].round);
-      CHECK(driven.history[k].seconds >= driven.history[k - 1].seconds);
-      CHECK(driven.history[k].iteration >= driven.history[k - 1].iteration);
-    }
-    CHECK(driven.history.back().round == driven.rounds - 1);
-    CHECK(driven.history.back().iteration == driven.iterations);
   }
 }
 
-TEST_CASE("A backend that only says so is asked for less and less, and then left") {
+TEST_CASE("A backend that only says so is not believed") {
   Liar solver;
   DriveSettings settings;
   settings.measure = Measure::fclib;
   settings.tolerance = 1e-6;
   const DrivenSolve driven = drive_solver(solver, heavy_problem(), {}, settings);
-  CHECK_FALSE(driven.claimed);
-  CHECK(driven.rounds == 60);
-  for (size_t k = 1; k < solver.asked.size(); ++k)
-    CHECK(solver.asked[k] <= 0.5 * solver.asked[k - 1]);
+  CHECK(driven.claimed);
+  CHECK_FALSE(driven.run.success);
 }
 
-TEST_CASE("A backend that gives up ends the rounds") {
+TEST_CASE("A backend that gives up says why") {
   Noting solver("pgs");
   DriveSettings settings;
   settings.measure = Measure::fclib;
@@ -122,7 +125,6 @@ TEST_CASE("A backend that gives up ends the rounds") {
   settings.max_iterations = 2;
   const DrivenSolve driven = drive_solver(solver, heavy_problem(), {}, settings);
   CHECK_FALSE(driven.claimed);
-  CHECK(driven.rounds == 1);
-  CHECK(driven.iterations == 2);
-  CHECK(driven.last.solved.reason == StopReason::iteration_limit);
+  CHECK(driven.run.solved.iterations == 2);
+  CHECK(driven.run.solved.reason == StopReason::iteration_limit);
 }

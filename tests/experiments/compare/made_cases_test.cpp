@@ -1,6 +1,8 @@
 // Cases that are made on the spot: known:... and stress:...
 
 #include "experiments/compare/compare_case.hpp"
+
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -42,4 +44,23 @@ TEST_CASE("Words that make no case are refused by name") {
         "stress:stack,rows=2", "stress:stack,chain"})
     CHECK_THROWS_WITH(compare_cases({word}), Catch::StartsWith(word + ": "));
   CHECK_FALSE(is_made_case("unknown:bodies=3"));
+}
+
+TEST_CASE("Piles are made as their words say, and a family from its seeds") {
+  const std::vector<CompareCase> piles = compare_cases(
+      {"pile:contacts=40,redundancy=.5,mass_ratio=100,friction_min=.2,active=.6,stored=1,seed=3,"
+       "count=2"});
+  REQUIRE(piles.size() == 2);
+  CHECK(piles[0].name == "pile-c40-d0.5-R1e+02-f0.2..0.3-a0.6-s3-w");
+  CHECK(piles[0].family == "pile, mid");
+  const LoadedCase loaded = piles[0].load();
+  CHECK(loaded.facts.contacts == 40);
+  CHECK(loaded.facts.dofs == 0);  // only W is known
+  CHECK(loaded.facts.rank_deficiency == Approx(0.5).margin(0.1));
+  const std::vector<CompareCase> family = compare_cases({"pile:family,contacts=50,seed=4,count=9"});
+  REQUIRE(family.size() == 9);
+  for (const CompareCase& c : family) CHECK(c.load().facts.contacts <= 50);
+  for (const std::string word : {"pile:redundancy=1", "pile:active=2", "pile:tower",
+                                 "pile:friction_min=.5,friction_max=.4", "pile:family,active=1"})
+    CHECK_THROWS_AS(compare_cases({word}), Error);
 }

@@ -128,3 +128,16 @@ TEST_CASE("A backend that does not stop is stopped") {
   CHECK(row.note.find("killed") != std::string::npos);
   CHECK(row.solve_seconds > 0.2);
 }
+
+namespace {
+struct StartUp {
+  void operator()(const FrictionProblem&, Solved& solved) const { solved.startup_seconds = 5.0; }
+};
+}  // namespace
+
+TEST_CASE("Start-up is a column of its own, and in no other") {
+  const CompareRow row = tried(misbehaving<StartUp>, 1e-6);
+  CHECK(row.startup_seconds >= 5.0);
+  CHECK(row.seconds() < 0.0);
+  CHECK(tried(find_solver("pgs").make, 1e-6).startup_seconds > 0.0);  // making the solver
+}

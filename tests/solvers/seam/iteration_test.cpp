@@ -13,9 +13,9 @@ namespace {
 template <typename Error>
 Solved run(const Budget& budget, const CheckSchedule& schedule, Error error_at) {
   Iteration iteration(budget, schedule);
-  iteration.evaluated(error_at(0));
+  iteration.evaluated(error_at(0), {});
   while (iteration.next())
-    if (iteration.error_due()) iteration.evaluated(error_at(iteration.count()));
+    if (iteration.error_due()) iteration.evaluated(error_at(iteration.count()), {});
   return iteration.finish({});
 }
 

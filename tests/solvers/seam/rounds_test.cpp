@@ -1,9 +1,12 @@
 #include "solvers/seam/rounds.hpp"
 
+#include <chrono>
 #include <limits>
+#include <thread>
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
+#include "solvers/seam/fclib_stop.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -93,4 +96,33 @@ TEST_CASE("nothing is taken from a round that fails") {
     CHECK(solved.iterations == 4);
     CHECK(solved.impulses == Impulses::Zero(trial.known.problem.row_count()));
   }
+}
+
+TEST_CASE("what a round did besides its own work is start-up") {
+  Trial trial;
+  const auto solve = [&](double own_seconds) {
+    return trial.solve({.tolerance = 1e-6, .max_seconds = 1e6}, 3,
+                       [&](const RoundRequest&, RoundAnswer& answer) {
+                         std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                         answer.x = trial.exact;
+                         answer.seconds = own_seconds;
+                       });
+  };
+  CHECK(solve(0.0).startup_seconds >= 0.02);
+  CHECK(solve(-1.0).startup_seconds < solve(0.0).startup_seconds);
+}
+
+TEST_CASE("rounds stop on Siconos' measure where the budget asks for it") {
+  Trial trial;
+  FclibStop stop(trial.known.problem, 1e-3);
+  Budget budget{.tolerance = 0.0};
+  budget.fclib = &stop;
+  const Solved solved =
+      trial.solve(budget, 3, [&](const RoundRequest& request, RoundAnswer& answer) {
+        answer.x = request.last + 0.5 * (trial.exact - request.last);
+      });
+  CHECK(solved.reason == StopReason::reached_tolerance);
+  const double fclib = contact_error(trial.known.problem, solved.impulses).fclib;
+  CHECK(fclib <= 1e-3);
+  CHECK(fclib > 1e-4);
 }

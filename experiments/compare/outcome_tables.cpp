@@ -1,0 +1,93 @@
+#include "experiments/compare/outcome_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace ballast {
+namespace {
+
+/// Why a row is not solved, in a few words.
+std::string reason_of(const CompareRow& row) {
+  if (row.is_false_success()) return "denied";
+  switch (row.outcome) {
+    case Outcome::timeout:
+      return row.reason.empty() ? "killed" : "time limit";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::out_of_memory:
+      return "memory";
+    case Outcome::unsupported:
+      return "not taken";
+    default:
+      break;
+  }
+  std::string reason = row.reason.empty() ? "failed" : row.reason;
+  std::replace(reason.begin(), reason.end(), '_', ' ');
+  return reason;
+}
+
+}  // namespace
+
+page::Text time_of(double seconds) {
+  if (!std::isfinite(seconds)) return {"–", page::note};
+  return seconds < 1.0 ? page::quantity(1e3 * seconds, "ms") : page::quantity(seconds, "s");
+}
+
+page::Table matrix_table(const CompareTable& table) {
+  page::Table result;
+  result.head = {"case"};
+  result.is_number = {false};
+  for (const std::string& solver : table.solvers) {
+    result.head.push_back(page::Text(solver, page::code));
+    result.is_number.push_back(true);
+  }
+  for (size_t c = 0; c < table.cases.size(); ++c) {
+    std::vector<page::Text> line = {table.cases[c]};
+    for (const CompareCell& cell : table.cells[c]) {
+      if (!cell.row) {
+        line.emplace_back();
+      } else if (cell.solved) {
+        line.push_back(time_of(cell.median));
+      } else {
+        page::Text why(reason_of(*cell.row), page::bad);
+        if (std::isfinite(cell.row->error)) why = why + (" " + page::number(cell.row->error, 1));
+        line.push_back(why);
+      }
+    }
+    result.rows.push_back(std::move(line));
+  }
+  return result;
+}
+
+page::Table failures_table(std::span<const CompareRow> rows) {
+  page::Table result;
+  result.head = {"case", "backend", "tolerance", "what happened", "error"};
+  result.is_number = {false, false, true, false, true};
+  // What a backend does not take says why once.
+  std::set<std::string> told;
+  for (const CompareRow& row : rows) {
+    const bool died = row.outcome == Outcome::crashed || row.outcome == Outcome::out_of_memory;
+    const bool is_noted = row.outcome == Outcome::stopped || row.outcome == Outcome::timeout;
+    const bool is_refused =
+        row.outcome == Outcome::unsupported && told.insert(row.solver + row.note).second;
+    if (!died && !row.is_false_success() && !is_refused && (row.note.empty() || !is_noted))
+      continue;
+    const std::string what = row.is_false_success() ? "claims success, the judge denies it"
+                                                    : std::string(name_of(row.outcome)) +
+                                                          (row.note.empty() ? "" : ": " + row.note);
+    result.rows.push_back(
+        {row.case_name, row.solver, page::exact(row.tolerance), what, page::number(row.error, 2)});
+  }
+  return result;
+}
+
+page::Table unreadable_table(std::span<const CompareRow> unreadable) {
+  page::Table result;
+  result.head = {"case", "why it could not be read"};
+  result.is_number = {false, false};
+  for (const CompareRow& row : unreadable) result.rows.push_back({row.case_name, row.note});
+  return result;
+}
+
+}  // namespace ballast

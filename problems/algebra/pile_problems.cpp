@@ -1,0 +1,225 @@
+#include "problems/algebra/pile_problems.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "platform/random.hpp"
+#include "problems/algebra/delassus.hpp"
+
+namespace ballast {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double gravity_step = 9.81e-3;  ///< what falls gains in a step of 1 ms [m/s]
+
+Vector3d in_cube(ProblemRandom& random, double half) {
+  return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
+}
+
+Matrix3d lever_of(const Vector3d& x) {
+  Matrix3d cross;
+  cross << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
+  return cross;
+}
+
+/// Rows n, t1, t2.
+Matrix3d frame_of(const Vector3d& n) {
+  const Vector3d other = std::abs(n[0]) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY();
+  const Vector3d t1 = n.cross(other).normalized();
+  Matrix3d frame;
+  frame << n.transpose(), t1.transpose(), n.cross(t1).transpose();
+  return frame;
+}
+
+/// Bodies that touch: a = -1 is the ground, below b.
+struct Pair {
+  int a, b;
+  double distance;
+};
+
+class Pile {
+ public:
+  explicit Pile(const PileSettings& settings) : settings_(settings), random_(settings.seed) {}
+
+  FrictionProblem make() {
+    problem_.has_dynamics = true;
+    place_bodies();
+    press_together();
+    find_pairs();
+    add_contacts();
+    for (double& entry : problem_.dynamics.mass) entry *= settings_.mass_unit;
+    if (settings_.is_stored) store();
+    return std::move(problem_);
+  }
+
+ private:
+  /// As many as leave the redundancy that is asked for: 6 unknowns a body, 3 rows a contact.
+  int body_count() const {
+    const double bodies = (1.0 - settings_.redundancy) * 0.5 * settings_.contacts;
+    return std::max(1, static_cast<int>(std::lround(bodies)));
+  }
+
+  /// Near the points of a cubic lattice of spacing 1, in layers from below.
+  void place_bodies() {
+    const int bodies = body_count();
+    const int side = static_cast<int>(std::ceil(std::cbrt(bodies)));
+    for (int b = 0; b < bodies; ++b) {
+      const Vector3d lattice(b % side, b / side % side, b / (side * side));
+      centre_.push_back(lattice + in_cube(random_, 0.2));
+      add_body(random_.log_uniform(1.0, settings_.mass_ratio));
+    }
+  }
+
+  /// Of about unit size: inertia about a tenth of mass times square size.
+  void add_body(double mass) {
+    DynamicsForm& dynamics = problem_.dynamics;
+    Eigen::Matrix<double, 6, 6> block = Eigen::Matrix<double, 6, 6>::Zero();
+    for (int i = 0; i < 3; ++i) {
+      block(i, i) = mass;
+      block(i + 3, i + 3) = mass * random_.uniform(0.05, 0.15);
+    }
+    dynamics.dof_begin.push_back(dynamics.dof_begin.back() + 6);
+    dynamics.mass_begin.push_back(dynamics.mass_begin.back() + 36);
+    dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + 36);
+  }
+
+  /// All fall, move towards the middle of the ground, and are stirred.
+  void press_together() {
+    Vector3d middle = Vector3d::Zero();
+    for (const Vector3d& x : centre_) middle += x / static_cast<double>(centre_.size());
+    middle[2] = 0.0;
+    Eigen::VectorXd& v = problem_.dynamics.v_free;
+    v.resize(problem_.dynamics.dof_count());
+    for (size_t b = 0; b < centre_.size(); ++b) {
+      const Vector3d towards = -0.2 * gravity_step * (centre_[b] - middle);
+      const Vector3d stirred = in_cube(random_, settings_.shear * gravity_step);
+      v.segment<3>(6 * static_cast<Eigen::Index>(b)) =
+          towards + stirred - Vector3d(0.0, 0.0, gravity_step);
+      v.segment<3>(6 * static_cast<Eigen::Index>(b) + 3) =
+          in_cube(random_, settings_.shear * gravity_step);
+    }
+  }
+
+  /// The nearest pairs, three for a body: the lowest layer has the ground for a neighbour.
+  void find_pairs() {
+    const int bodies = static_cast<int>(centre_.size());
+    const int side = static_cast<int>(std::ceil(std::cbrt(bodies)));
+    const int layer = side * side;
+    for (int b = 0; b < bodies; ++b) {
+      if (b < layer) pairs_.push_back({-1, b, 0.0});
+      for (int step : {1, side, layer, side + 1, side - 1, layer + 1, layer + side})
+        if (b >= step && step > 0)
+          pairs_.push_back({b - step, b, (centre_[b] - centre_[b - step]).norm()});
+    }
+    std::stable_sort(pairs_.begin(), pairs_.end(),
+                     [](const Pair& x, const Pair& y) { return x.distance < y.distance; });
+    const size_t most = static_cast<size_t>(std::min(settings_.contacts, 3 * bodies));
+    pairs_.resize(std::min(pairs_.size(), std::max<size_t>(1, most)));
+  }
+
+  /// The points are spread evenly over the pairs.
+  void add_contacts() {
+    const int pairs = static_cast<int>(pairs_.size());
+    for (int k = 0; k < pairs; ++k) {
+      const int points = settings_.contacts / pairs + (k < settings_.contacts % pairs ? 1 : 0);
+      const Pair& pair = pairs_[static_cast<size_t>(k)];
+      const Vector3d b = centre_[static_cast<size_t>(pair.b)];
+      const Vector3d a =
+          pair.a < 0 ? Vector3d(b[0], b[1], b[2] - 1.0) : centre_[static_cast<size_t>(pair.a)];
+      // Faces of polyhedra are not square to the line of centres.
+      const Vector3d normal = ((b - a).normalized() + in_cube(random_, 0.2)).normalized();
+      const bool is_closed = random_.uniform() < settings_.active;
+      const double mu = random_.uniform(settings_.friction_min, settings_.friction_max);
+      for (int point = 0; point < points; ++point)
+        add_contact(pair, frame_of(normal), 0.5 * (a + b), mu, is_closed);
+    }
+    problem_.dynamics.bias =
+        Eigen::Map<const Eigen::VectorXd>(bias_.data(), static_cast<Eigen::Index>(bias_.size()));
+  }
+
+  /// A point of the pair's common face, which goes through `middle`.
+  void add_contact(const Pair& pair, const Matrix3d& frame, const Vector3d& middle, double mu,
+                   bool is_closed) {
+    DynamicsForm& dynamics = problem_.dynamics;
+    const Vector3d point = middle + random_.uniform(-0.4, 0.4) * frame.row(1).transpose() +
+                           random_.uniform(-0.4, 0.4) * frame.row(2).transpose();
+    Vector3d free = Vector3d::Zero();  // the contact's velocity without impulses
+    const std::array<int, 2> bodies{pair.a, pair.b};
+    for (int s = 0; s < 2; ++s) {
+      if (bodies[s] < 0) continue;
+      const Vector3d arm = point - centre_[static_cast<size_t>(bodies[s])];
+      Eigen::Matrix<double, 3, 6> side;
+      side << frame, -frame * lever_of(arm);
+      if (s == 0) side = -side;
+      dynamics.h.insert(dynamics.h.end(), side.data(), side.data() + 18);
+      free += side * dynamics.v_free.segment<6>(6 * static_cast<Eigen::Index>(bodies[s]));
+    }
+    dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
+    dynamics.body_a.push_back(pair.a);
+    dynamics.body_b.push_back(pair.b);
+    problem_.row_begin.push_back(problem_.row_begin.back() + 3);
+    problem_.friction.push_back(mu);
+    // An open gap, which is wider than what the step closes. Never below zero: rest stays allowed.
+    const double gap = is_closed ? 0.0 : 2.0 * std::abs(free[0]) + gravity_step;
+    bias_.insert(bias_.end(), {gap, 0.0, 0.0});
+  }
+
+  void store() {
+    problem_.delassus.w = delassus_matrix(problem_);
+    free_contact_velocity(problem_, problem_.delassus.q);
+    problem_.has_delassus = true;
+    problem_.has_dynamics = false;
+    problem_.dynamics = {};
+  }
+
+  PileSettings settings_;
+  ProblemRandom random_;
+  FrictionProblem problem_;
+  std::vector<Vector3d> centre_;
+  std::vector<Pair> pairs_;
+  std::vector<double> bias_;
+};
+
+void require(bool is_right, const char* what) {
+  if (!is_right) throw InvalidProblem(std::string("pile: ") + what);
+}
+
+}  // namespace
+
+FrictionProblem make_pile(const PileSettings& settings) {
+  require(settings.contacts >= 1, "contacts: expected a number >= 1");
+  require(settings.redundancy >= 0.0 && settings.redundancy < 1.0,
+          "redundancy: expected a number from 0 to below 1");
+  require(settings.mass_ratio >= 1.0, "mass_ratio: expected a number >= 1");
+  require(settings.friction_min >= 0.0 && settings.friction_max >= settings.friction_min,
+          "friction: expected 0 <= friction_min <= friction_max");
+  require(settings.active >= 0.0 && settings.active <= 1.0,
+          "active: expected a number from 0 to 1");
+  require(settings.shear >= 0.0, "shear: expected a number >= 0");
+  require(settings.mass_unit > 0.0, "mass_unit: expected a number > 0");
+  return Pile(settings).make();
+}
+
+PileSettings random_pile(std::uint64_t seed, int most_contacts) {
+  ProblemRandom random(seed);
+  PileSettings settings;
+  settings.contacts =
+      static_cast<int>(std::lround(random.log_uniform(2.0, std::max(2, most_contacts))));
+  settings.redundancy = random.uniform(0.0, 0.8);
+  settings.mass_ratio = random.log_uniform(1.0, 1e4);
+  settings.friction_min = random.uniform(0.1, 1.0);
+  settings.friction_max = random.uniform(settings.friction_min, 1.0);
+  settings.active = random.uniform(0.4, 1.0);
+  settings.shear = random.log_uniform(0.05, 5.0);
+  settings.mass_unit = random.log_uniform(1e-2, 1e4);
+  settings.is_stored = random.uniform() < 0.75;
+  settings.seed = seed;
+  return settings;
+}
+
+}  // namespace ballast

@@ -1,0 +1,65 @@
+// Siconos' own measure is asked of it as it stands, and a comparison's child calls it without
+// another process.
+
+#include "solvers/backends/siconos.hpp"
+
+#include "platform/child_process.hpp"
+#include "platform/pack.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "solvers/seam/fclib_stop.hpp"
+#include "solvers/seam/run_solver.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+FrictionProblem small_problem() {
+  KnownSolutionSettings settings;
+  settings.bodies = 12;
+  settings.contacts = 20;
+  settings.seed = 5;
+  return make_known_solution(settings).problem;
+}
+
+SolverRun solved_to(const FrictionProblem& problem, SiconosMethod method, double tolerance) {
+  FclibStop stop(problem, tolerance);
+  Budget budget{.tolerance = 0.0, .max_seconds = 30.0};
+  budget.fclib = &stop;
+  return SolverRunner().run(*make_siconos(method), problem, {}, budget);
+}
+
+}  // namespace
+
+TEST_CASE("Siconos stops on its own measure, where it was asked to") {
+  if (!has_siconos()) return;
+  const FrictionProblem problem = small_problem();
+  const SolverRun loose = solved_to(problem, SiconosMethod::nsgs, 1e-3);
+  const SolverRun tight = solved_to(problem, SiconosMethod::nsgs, 1e-8);
+  CHECK(loose.success);
+  CHECK(tight.success);
+  CHECK(loose.error.fclib <= 1e-3);
+  CHECK(loose.error.fclib > 1e-6);  // not solved further than asked
+  CHECK(loose.solved.iterations < tight.solved.iterations);
+}
+
+TEST_CASE("In a child that may be lost Siconos is called as it is: the same bits") {
+  if (!has_siconos()) return;
+  const FrictionProblem problem = small_problem();
+  for (const SiconosMethod method : {SiconosMethod::nsgs, SiconosMethod::nsn_ac}) {
+    const SolverRun here = solved_to(problem, method, 1e-6);
+    const ChildResult child = run_in_child(60.0, [&] {
+      Packer packer;
+      packer.list(solved_to(problem, method, 1e-6).solved.impulses);
+      return packer.bytes();
+    });
+    REQUIRE(child.end == ChildEnd::complete);
+    Impulses there;
+    Unpacker unpacker(child.answer, "a test's child");
+    unpacker.list(there);
+    unpacker.finish();
+    CHECK(there == here.solved.impulses);
+    CHECK(here.startup_seconds > 0.0);  // W in its form, a process, the judge
+  }
+}
