@@ -34,6 +34,7 @@ struct SolvedFile {
   SolverRun run;
   /// Why nothing was solved: "unreadable" or "unsupported", and what is wrong. Empty: it was.
   std::string refused, why;
+  Finding found;
 };
 
 /// One number of the table: its heading, its JSON name, where it is.
@@ -56,6 +57,9 @@ const Measure measures[] = {
     {"max", "natural_map_max", &ContactError::natural_map_max},
     {"scale", "velocity_scale", &ContactError::velocity_scale},
     {"fclib", "fclib", &ContactError::fclib},
+    {"sink_rms", "approach_rms", &ContactError::approach_rms},
+    {"cone_rms", "cone_rms", &ContactError::cone_rms},
+    {"compl_rms", "complementarity_rms", &ContactError::complementarity_rms},
     {"cone", "cone_violation", &ContactError::cone_violation},
     {"min_uN", "min_normal_velocity", &ContactError::min_normal_velocity},
     {"compl", "complementarity", &ContactError::complementarity},
@@ -83,6 +87,8 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
   const auto solver = make_solver(options.solver);  // a new one for each: nothing is carried over
   solved.run = runner.run(*solver, problem, {},
                           {solved.tolerance, options.max_iterations, options.max_seconds, false});
+  solved.found = finding_on(problem, solved.run.solved.impulses, solved.run.solved.reason,
+                            solved.run.error, solved.tolerance);
   return solved;
 }
 
@@ -107,8 +113,8 @@ SolvedFile solved_or_refused(const std::string& file, const SolveOptions& option
 }
 
 void print_heading(int width) {
-  std::string line = printed("%-*s%9s%8s  %-18s%8s%4s", width, "problem", "contacts", "rows",
-                             "stopped", "iter", "ok");
+  std::string line = printed("%-*s%9s%8s  %-18s%8s%13s", width, "problem", "contacts", "rows",
+                             "stopped", "iter", "verdict");
   for (const Measure& m : measures) line += printed("%10s", m.heading);
   std::cout << line << printed("%8s\n", "worst");
 }
@@ -121,8 +127,8 @@ void print_row(const SolvedFile& s, int width) {
     return;
   }
   std::string line =
-      printed("%-*s%9d%8d  %-18s%8d%4s", width, name.c_str(), s.contacts, s.rows,
-              name_of(s.run.solved.reason), s.run.solved.iterations, s.run.success ? "yes" : "no");
+      printed("%-*s%9d%8d  %-18s%8d%13s", width, name.c_str(), s.contacts, s.rows,
+              name_of(s.run.solved.reason), s.run.solved.iterations, name_of(s.found.verdict));
   for (const Measure& m : measures) line += printed("%10.2e", m.value(s));
   std::cout << line << printed("%8d", s.run.error.worst_contact) << std::endl;
 }
@@ -141,6 +147,8 @@ nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options)
                              {"tolerance", s.tolerance},
                              {"reason", name_of(s.run.solved.reason)},
                              {"success", s.run.success},
+                             {"verdict", name_of(s.found.verdict)},
+                             {"words", s.found.words},
                              {"iterations", s.run.solved.iterations},
                              {"worst_contact", s.run.error.worst_contact},
                              {"finite", s.run.error.finite}};
@@ -158,12 +166,12 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
     if (s.run.success) continue;
     ++count;
     only_time = only_time && s.refused.empty() && s.run.solved.reason == StopReason::time_limit;
-    add_to_list(failures, s.refused.empty() ? s.file + " (" + name_of(s.run.solved.reason) + ")"
+    add_to_list(failures, s.refused.empty() ? s.file + " (" + s.found.words + ")"
                                             : s.why + " (" + s.refused + ")");
   }
   if (count == 0) return ExitCode::ok;
   std::cerr << "ballast: " << count << " of " << solved.size()
-            << " problems did not reach the tolerance: " << failures << '\n';
+            << " problems are not solved: " << failures << '\n';
   return only_time ? ExitCode::time_limit : ExitCode::failure;
 }
 

@@ -22,6 +22,8 @@ ContactError not_finite() {
   ContactError error;
   error.natural_map_rms = error.natural_map_max = error.fclib = infinity;
   error.cone_violation = error.complementarity = error.power = infinity;
+  error.approach_rms = error.cone_rms = error.complementarity_rms = infinity;
+  error.immovable_approach = error.growth = infinity;
   error.min_normal_velocity = -infinity;
   error.momentum_residual = infinity;
   error.finite = false;
@@ -97,7 +99,12 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
     const double mu = problem.friction[c];
     const Eigen::Vector3d rc = segment(r, first, rows), uc = segment(u_, first, rows);
     const double lambda_max = largest_eigenvalue(diagonal_[c]);
+    const Eigen::Vector3d modified = modified_velocity(uc, mu);
+    const double impulse = rc.norm(), approach = std::max(0.0, -uc[0]);
+    const double outside = (rc - project_cone(rc, mu)).norm(), work = std::abs(rc.dot(modified));
+    double rho = 0.0;
     if (lambda_max > 0.0) {
+      rho = 1.0 / lambda_max;
       const double value = scaled_natural_map(rc, uc, mu, lambda_max);
       share.scaled_square += value * value;
       ++share.counted;
@@ -105,14 +112,59 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
         share.worst = value;
         share.worst_contact = c;
       }
+      share.impulse_scale = std::max(share.impulse_scale, rho * segment(q_, first, rows).norm());
+    } else {
+      share.immovable_approach = std::max(share.immovable_approach, approach);
     }
+    // The parts of the law, each as a velocity.
+    const double against = impulse + rho * modified.norm();
+    const double unbalanced = against > 0.0 ? work / against : 0.0;
+    share.approach_square += approach * approach;
+    share.cone_square += (lambda_max * outside) * (lambda_max * outside);
+    share.complementarity_square += unbalanced * unbalanced;
+    // The same in the file's units, and Siconos' measure.
     share.square += natural_map(rc, uc, mu, 1.0).squaredNorm();
-    share.cone_violation = std::max(share.cone_violation, (rc - project_cone(rc, mu)).norm());
+    share.largest_impulse = std::max(share.largest_impulse, impulse);
+    share.cone_violation = std::max(share.cone_violation, outside);
     share.min_normal_velocity = std::min(share.min_normal_velocity, uc[0]);
-    share.complementarity =
-        std::max(share.complementarity, std::abs(rc.dot(modified_velocity(uc, mu))));
+    share.complementarity = std::max(share.complementarity, work);
   }
   return share;
+}
+
+/// The shares together, in their order. `fclib` is not yet divided by its scale.
+ContactError ContactJudge::gather(int contacts) const {
+  ContactError error;
+  double sum = 0.0, unscaled_sum = 0.0, approach = 0.0, cone = 0.0, complementarity = 0.0;
+  double largest_impulse = 0.0, impulse_scale = 0.0;
+  int counted = 0;
+  error.min_normal_velocity = std::numeric_limits<double>::infinity();
+  for (const Share& share : shares_) {
+    sum += share.scaled_square;
+    unscaled_sum += share.square;
+    counted += share.counted;
+    approach += share.approach_square;
+    cone += share.cone_square;
+    complementarity += share.complementarity_square;
+    if (share.worst_contact >= 0 &&
+        (error.worst_contact < 0 || share.worst > error.natural_map_max)) {
+      error.natural_map_max = share.worst;
+      error.worst_contact = share.worst_contact;
+    }
+    error.cone_violation = std::max(error.cone_violation, share.cone_violation);
+    error.min_normal_velocity = std::min(error.min_normal_velocity, share.min_normal_velocity);
+    error.complementarity = std::max(error.complementarity, share.complementarity);
+    error.immovable_approach = std::max(error.immovable_approach, share.immovable_approach);
+    largest_impulse = std::max(largest_impulse, share.largest_impulse);
+    impulse_scale = std::max(impulse_scale, share.impulse_scale);
+  }
+  error.natural_map_rms = counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  error.fclib = std::sqrt(unscaled_sum);
+  error.approach_rms = std::sqrt(approach / contacts);
+  error.cone_rms = std::sqrt(cone / contacts);
+  error.complementarity_rms = std::sqrt(complementarity / contacts);
+  error.growth = impulse_scale > 0.0 ? largest_impulse / impulse_scale : 0.0;
+  return error;
 }
 
 ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses& r) {
@@ -120,11 +172,10 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     throw InvalidProblem("impulses has " + std::to_string(r.size()) +
                          " entries, the contacts have " + std::to_string(problem.row_count()) +
                          " rows");
-  ContactError error;
   const int contacts = problem.contact_count();
   if (problem.has_dynamics) recompute_body_velocities(problem.dynamics, problem.row_begin, r);
   // Workspaces, and for a stored W the whole of u and q.
-  if (contacts == 0) return error;
+  if (contacts == 0) return {};
   if (problem.has_dynamics) {
     diagonal_.resize(contacts);
     q_.resize(problem.row_count());
@@ -144,27 +195,9 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   });
   if (!r.allFinite() || !u_.allFinite()) return not_finite();
 
-  // The shares together, in their order.
-  double sum = 0.0, unscaled_sum = 0.0;
-  int counted = 0;
-  error.min_normal_velocity = std::numeric_limits<double>::infinity();
-  for (const Share& share : shares_) {
-    sum += share.scaled_square;
-    unscaled_sum += share.square;
-    counted += share.counted;
-    if (share.worst_contact >= 0 &&
-        (error.worst_contact < 0 || share.worst > error.natural_map_max)) {
-      error.natural_map_max = share.worst;
-      error.worst_contact = share.worst_contact;
-    }
-    error.cone_violation = std::max(error.cone_violation, share.cone_violation);
-    error.min_normal_velocity = std::min(error.min_normal_velocity, share.min_normal_velocity);
-    error.complementarity = std::max(error.complementarity, share.complementarity);
-  }
-  error.natural_map_rms = counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  ContactError error = gather(contacts);
   // Siconos' measure, the scale of velocities, the power.
   const double scale = std::max({q_.norm(), r.norm(), u_.norm()});
-  error.fclib = std::sqrt(unscaled_sum);
   if (scale > std::numeric_limits<double>::epsilon()) error.fclib /= scale;
   error.velocity_scale = q_.norm() / std::sqrt(static_cast<double>(q_.size()));
   error.power = r.dot(u_);
@@ -172,6 +205,9 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     error.power -= r.dot(problem.dynamics.bias);
     error.momentum_residual = momentum_residual(problem.dynamics, v_, hr_);
   }
+  // Sums of squares that overflow, or a scale that does.
+  if (!std::isfinite(error.natural_map_rms + error.approach_rms + error.cone_rms + scale))
+    return not_finite();
   return error;
 }
 

@@ -21,6 +21,19 @@ struct ContactError {
   /// |u|). Depends on units.
   double fclib = 0.0;
 
+  /// The law's three parts, each as a velocity and rms over all contacts [m/s], those that no
+  /// impulse moves included. Where mu <= sqrt(15) and rounding is small none is above bound_factor
+  /// natural_map_rms; with more friction, or impulses in which u drowns, they see what it does not
+  /// (docs/theory/method.md).
+  double approach_rms = 0.0;         ///< max(0, -u_N): what sinks in
+  double cone_rms = 0.0;             ///< lambda_max(W_cc) |r - P_K(r)|
+  double complementarity_rms = 0.0;  ///< |r . (u + mu|u_T|n)| / (|r| + rho |u + mu|u_T|n|)
+  /// Largest -u_N of a contact with W_cc = 0 [m/s]: above 0 no impulse answers the problem.
+  double immovable_approach = 0.0;
+  /// |r|_max over the largest |q_c| / lambda_max(W_cc): impulses in terms of what one contact alone
+  /// would need. Grows without bound where a solver finds no solution.
+  double growth = 0.0;
+
   double cone_violation = 0.0;       ///< max over contacts of |r - P_K(r)| [N s]
   double min_normal_velocity = 0.0;  ///< min u_N [m/s]; >= 0 when nothing sinks in
   double complementarity = 0.0;      ///< max |r . (u + mu|u_T|n)| [J]
@@ -30,7 +43,17 @@ struct ContactError {
       0.0;  ///< |M (v - v_free) - H^T r|_inf with v recomputed (dynamics form) [N s]
   double velocity_scale =
       0.0;             ///< |q| rms over rows [m/s]: to quote relative errors of stored problems
-  bool finite = true;  ///< false: r or u holds NaN or infinity; all measures are then infinite
+  bool finite = true;  ///< false: r, u or a measure holds NaN or infinity; all are then infinite
+
+  /// The other parts of the law may be this much above the tolerance of the natural map.
+  static constexpr double bound_factor = 4.0;
+  /// The one meaning of "solved": the natural map is within the tolerance [m/s], and each part of
+  /// the law within bound_factor tolerances.
+  bool within(double tolerance) const {
+    const double bound = bound_factor * tolerance;
+    return finite && natural_map_rms <= tolerance && approach_rms <= bound && cone_rms <= bound &&
+           complementarity_rms <= bound;
+  }
 };
 
 /// Judges with its own workspace, so that a run can call it every step without allocating.
@@ -59,6 +82,8 @@ class ContactJudge {
   struct Share {
     double scaled_square = 0.0, square = 0.0;  ///< of the natural map
     int counted = 0;                           ///< contacts in scaled_square
+    double approach_square = 0.0, cone_square = 0.0, complementarity_square = 0.0;
+    double immovable_approach = 0.0, largest_impulse = 0.0, impulse_scale = 0.0;
     double worst = 0.0;
     int worst_contact = -1;
     double cone_violation = 0.0, complementarity = 0.0, min_normal_velocity;
@@ -70,6 +95,7 @@ class ContactJudge {
                                  const Impulses& r);
   void recompute_contacts(const FrictionProblem& problem, int begin, int end);
   Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end) const;
+  ContactError gather(int contacts) const;
 
   WorkerTeam* team_ = nullptr;
   Eigen::VectorXd u_, q_, v_, hr_;

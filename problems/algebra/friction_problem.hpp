@@ -20,6 +20,14 @@ namespace ballast {
 using Impulses = Eigen::VectorXd;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+/// The greatest friction coefficient: an angle of friction of 89.994 degrees, which holds what is
+/// closed as a bond would. With more, u_N is lost in mu |u_T|, of which double precision keeps 16
+/// digits, before a solver's tolerance is reached. "Infinite" friction is this number, said so.
+inline constexpr double largest_friction = 1e4;
+/// Greatest size of any entry, and least of a mass and of W_cc where it is not zero. In between no
+/// square, product or determinant that a solver makes overflows.
+inline constexpr double largest_entry = 1e30, smallest_scale = 1e-30;
+
 /// A problem that no solver may see; what() names the array, the index and the value.
 class InvalidProblem : public std::runtime_error {
  public:
@@ -62,7 +70,7 @@ struct DynamicsForm {
 /// The problem as files often give it: W (rows x rows) and q.
 struct DelassusForm {
   /// Positive semidefinite [1/kg]. Symmetric when it comes from a DynamicsForm; stored problems
-  /// with implicit gyroscopic terms are unsymmetric by up to some per cent, and the law is then
+  /// with implicit gyroscopic terms are unsymmetric by some per cent, some by more, and the law is
   /// asked of u = W r + q with W as it is.
   SparseRows w;
   Eigen::VectorXd q;  ///< [m/s]
@@ -73,7 +81,7 @@ struct DelassusForm {
 struct FrictionProblem {
   /// Contact c has rows row_begin[c] .. row_begin[c+1]: 1 (frictionless) or 3. Size contacts + 1.
   std::vector<int> row_begin{0};
-  std::vector<double> friction;  ///< mu >= 0 per contact; 0 for one-row contacts
+  std::vector<double> friction;  ///< 0 <= mu <= largest_friction; 0 for one-row contacts
 
   bool has_dynamics = false;
   bool has_delassus = false;
@@ -87,8 +95,9 @@ struct FrictionProblem {
   void clear();  ///< no contacts, neither form; storage is kept (see DynamicsForm::clear)
 
   /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range,
-  /// NaN or infinity, mu < 0, a mass block that is not symmetric positive definite, a Delassus
-  /// diagonal block that is not positive semidefinite. O(entries).
+  /// an entry that is not finite or beyond largest_entry, mu < 0 or beyond largest_friction, a mass
+  /// block that is not symmetric positive definite, a Delassus diagonal block whose symmetric part
+  /// is not positive semidefinite or smaller than the rest. O(entries).
   void validate() const;
 };
 

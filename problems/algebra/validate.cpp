@@ -14,11 +14,12 @@
 namespace ballast {
 namespace {
 
-/// Asymmetry of a block, relative to its diagonal. Masses: rounding of rotated inertias. Stored
-/// Delassus operators: implicit gyroscopic terms make some of them truly unsymmetric (FCLIB's
-/// RockPile by 2 %); beyond this something else is wrong.
+/// Asymmetry |x_ij - x_ji| of a block, relative to its diagonal. Masses: rounding of rotated
+/// inertias. Stored Delassus operators: implicit gyroscopic terms make some of them truly
+/// unsymmetric (FCLIB's RockPile by 2 %, others by 16 %), and the law is asked of W as it is; only
+/// a block whose antisymmetric part outweighs its diagonal is taken for something else.
 constexpr double mass_asymmetry = 1e-10;
-constexpr double delassus_asymmetry = 0.1;
+constexpr double delassus_asymmetry = 2.0;
 /// Below zero by this much, relative, a minor of a stored block is taken for rounding: some files
 /// hold six digits.
 constexpr double semidefinite_rounding = 1e-5;
@@ -35,16 +36,21 @@ void require_size(const char* array, long size, long expected, const char* becau
   if (size != expected) fail(array, " has ", size, " entries; ", because, " needs ", expected);
 }
 
-/// NaN and infinity have all exponent bits set. Integer work, so that the compiler vectorises the
-/// reduction.
+/// Numbers >= 0 are ordered as their bits are, infinity and NaN after all others. Integer work, so
+/// that the compiler vectorises the reduction.
 void require_finite(const char* array, const double* x, long size) {
-  constexpr std::uint64_t exponent = 0x7ff0000000000000ull;
+  constexpr std::uint64_t magnitude = 0x7fffffffffffffffull;
+  constexpr std::uint64_t largest = std::bit_cast<std::uint64_t>(largest_entry);
   std::uint64_t bad = 0;
   for (long i = 0; i < size; ++i)
-    bad |= ((std::bit_cast<std::uint64_t>(x[i]) & exponent) + (1ull << 52)) >> 63;
+    bad |= (largest - (std::bit_cast<std::uint64_t>(x[i]) & magnitude)) >> 63;
   if (!bad) return;
-  for (long i = 0; i < size; ++i)
+  for (long i = 0; i < size; ++i) {
     if (!std::isfinite(x[i])) fail(array, "[", i, "] = ", x[i], " is not finite");
+    if (std::abs(x[i]) > largest_entry)
+      fail(array, "[", i, "] = ", x[i], " is beyond ", largest_entry,
+           ", where squares and products overflow");
+  }
 }
 
 void require_begin(const char* array, const std::vector<int>& begin, int count, const char* of) {
@@ -64,6 +70,9 @@ void validate_contacts(const FrictionProblem& problem) {
            " rows; a contact has 1 or 3");
     const double mu = problem.friction[c];
     if (mu < 0.0) fail("friction[", c, "] = ", mu, " is negative");
+    if (mu > largest_friction)
+      fail("friction[", c, "] = ", mu, " is above ", largest_friction,
+           ", which already holds as a bond does: use that");
     if (rows == 1 && mu != 0.0) fail("friction[", c, "] = ", mu, ": a one-row contact has none");
   }
 }
@@ -76,6 +85,10 @@ void validate_mass_block(const DynamicsForm& dynamics, int b) {
   if (!root.factor(block, dofs))
     fail("dynamics.mass[", first, "] = ", block[0], ": the block of body ", b,
          " is not positive definite");
+  for (int j = 0; j < dofs; ++j)
+    if (block[j * dofs + j] < smallest_scale)
+      fail("dynamics.mass[", first + j * dofs + j, "] = ", block[j * dofs + j], " is below ",
+           smallest_scale, ", where its inverse overflows");
   for (int j = 0; j < dofs; ++j)
     for (int i = j + 1; i < dofs; ++i) {
       const double lower = block[j * dofs + i], upper = block[i * dofs + j];
@@ -147,12 +160,16 @@ void validate_diagonal_block(const FrictionProblem& problem, int c) {
   for (int i = 0; i < 3; ++i)
     if (d(i, i) < 0.0)
       fail("delassus.w(", first + i, ", ", first + i, ") = ", d(i, i), " is negative");
+  const double largest = d.diagonal().maxCoeff();
+  if (largest > 0.0 && largest < smallest_scale)
+    fail("delassus.w(", first, ", ", first, ") = ", d(0, 0), ": the block of contact ", c,
+         " is not zero and below ", smallest_scale, ", where its inverse overflows");
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < i; ++j) {
       const double product = d(i, i) * d(j, j);
       if (std::abs(d(i, j) - d(j, i)) > delassus_asymmetry * std::sqrt(product))
         fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), ": the block of contact ",
-             c, " is not symmetric");
+             c, " is further from symmetric than its diagonal is large");
       if (even(i, j) * even(i, j) > product * (1.0 + semidefinite_rounding))
         fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), ": the block of contact ",
              c, " is not positive semidefinite");
@@ -180,6 +197,9 @@ void validate_delassus(const FrictionProblem& problem) {
              "; columns ascend below ", rows);
       if (!std::isfinite(entry.value()))
         fail("delassus.w(", row, ", ", column, ") = ", entry.value(), " is not finite");
+      if (std::abs(entry.value()) > largest_entry)
+        fail("delassus.w(", row, ", ", column, ") = ", entry.value(), " is beyond ", largest_entry,
+             ", where squares and products overflow");
       previous = column;
     }
   }

@@ -4,6 +4,7 @@
 
 #include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
+#include "platform/text.hpp"
 #include "problems/files/fclib_file.hpp"
 #include "problems/files/problem_file_error.hpp"
 
@@ -96,6 +97,24 @@ void restore_contacts(const SideReader& side, const GlobalProblem& global,
   problem.friction = global.mu;
 }
 
+/// The step and gravity, from which tolerances are made: what would make any answer right, or none,
+/// is refused.
+void read_scales(const SideReader& side, CapturedProblem& captured) {
+  constexpr double longest_step = 1e6, fastest = 1e3;  // [s], [m/s]
+  captured.h = side.number("h");
+  captured.g = side.number("g");
+  const auto words = [](double x) { return printed("%.6g", x); };
+  if (!(captured.h > 0.0) || !(captured.h <= longest_step))
+    side.fail(path_of("h") + " = " + words(captured.h) + " s; a step is > 0 and at most " +
+              words(longest_step) + " s long");
+  if (!(captured.g >= 0.0) || !(captured.velocity_scale() <= fastest))
+    side.fail(path_of("g") + " = " + words(captured.g) + " m/s^2: g h must be from 0 to " +
+              words(fastest) + " m/s");
+  if (captured.g > 0.0 && captured.velocity_scale() < smallest_scale)
+    side.fail(path_of("g") + " = " + words(captured.g) + " m/s^2: g h is " +
+              words(captured.velocity_scale()) + " m/s, too small to measure by");
+}
+
 Impulses read_rows(const SideReader& side, const char* name, const FrictionProblem& problem) {
   const std::vector<double> values =
       side.doubles(name, static_cast<std::size_t>(problem.row_count()));
@@ -153,8 +172,7 @@ CapturedProblem read_side_group(const std::filesystem::path& path) {
   // What the run knew about the step.
   captured.start = read_rows(side, "start", captured.problem);
   captured.solution = read_rows(side, "solution", captured.problem);
-  captured.h = side.number("h");
-  captured.g = side.number("g");
+  read_scales(side, captured);
   captured.time = side.number("time");
   captured.wall_x = side.number("wall_x");
   captured.wall_v = side.number("wall_v");

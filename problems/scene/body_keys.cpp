@@ -10,7 +10,7 @@ const SceneKeys<WallText> wall_keys{
     {"normal", vector(&WallText::normal), "any length but 0; points to the side where bodies are",
      Presence::required},
     {"offset", number(&WallText::offset, any_number, "m"), "of the plane normal·x = offset"},
-    {"friction", number(&WallText::friction, not_negative), "μ of contacts with this wall"},
+    {"friction", number(&WallText::friction, friction_range), "μ of contacts with this wall"},
     {"motion", choice(&WallText::motion, {"fixed", "prescribed", "driven"}),
      "prescribed and driven walls have the keys below"},
 };

@@ -25,7 +25,7 @@ const SceneKeys<GravityText> gravity_keys{
 };
 
 const SceneKeys<Scene> contact_keys{
-    {"friction", number(&Scene::friction, not_negative), "Coulomb's μ between bodies"},
+    {"friction", number(&Scene::friction, friction_range), "Coulomb's μ between bodies"},
     {"restitution", number(&Scene::restitution, zero_to_one), "Newton's e"},
 };
 
@@ -135,14 +135,15 @@ const SceneKeys<BoxSpec> box_keys{
      "along x, the driven direction; at least the largest grain's width", Presence::required},
     {"width", number(&BoxSpec::width, positive, "m"), "along y; at least the largest grain's width",
      Presence::required},
-    {"friction_horizontal", number(&BoxSpec::friction_horizontal, not_negative),
+    {"friction_horizontal", number(&BoxSpec::friction_horizontal, friction_range),
      "μ at floor and lid"},
-    {"friction_vertical", number(&BoxSpec::friction_vertical, not_negative), "μ at the side walls"},
+    {"friction_vertical", number(&BoxSpec::friction_vertical, friction_range),
+     "μ at the side walls"},
 };
 
 const SceneKeys<DepositSpec> deposit_keys{
     {"step", number(&DepositSpec::step, positive, "s"), "h until the lid is raised"},
-    {"friction", number(&DepositSpec::friction, not_negative),
+    {"friction", number(&DepositSpec::friction, friction_range),
      "between grains and at floor and lid until the drive begins"},
     {"fill_fraction", number(&DepositSpec::fill_fraction, fill_range, "of the bounding spheres"),
      "in the rain: its height follows"},

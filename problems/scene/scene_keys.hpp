@@ -8,10 +8,15 @@
 #include <variant>
 #include <vector>
 
+#include "problems/algebra/friction_problem.hpp"
 #include "problems/scene/scene.hpp"
 #include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
+
+/// Of every friction coefficient.
+inline constexpr NumberRange friction_range{"a number from 0 to 1e4 (which holds as a bond would)",
+                                            0.0, largest_friction, true, true};
 
 enum class Presence {
   optional,  ///< absent: the member's default

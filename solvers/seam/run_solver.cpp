@@ -1,12 +1,13 @@
 #include "solvers/seam/run_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <new>
 #include <string>
 #include <utility>
 
 #include "platform/clock.hpp"
 #include "solvers/seam/fclib_stop.hpp"
+#include "solvers/seam/relay.hpp"
 
 namespace ballast {
 namespace {
@@ -47,9 +48,54 @@ SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& bu
   }
   // Outside the stopwatch, from the impulses alone.
   run.error = judge_.judge(problem, run.solved.impulses);
-  const bool is_small = budget.fclib ? run.error.fclib <= budget.fclib->tolerance()
-                                     : run.error.natural_map_rms <= budget.tolerance;
-  run.success = run.solved.reason == StopReason::reached_tolerance && run.error.finite && is_small;
+  if (budget.fclib)
+    run.verdict = fclib_verdict_of(run.solved.reason, run.error, budget.fclib->tolerance());
+  else
+    run.verdict = verdict_of(run.solved.reason, run.error, budget.tolerance);
+  run.success = run.verdict == Verdict::solved;
+  return run;
+}
+
+/// Rounds to smaller natural maps while the solver keeps its word and the other parts of the law
+/// are missed. Gives up where the impulses leave every scale: no solver helps then.
+SolverRun SolverRunner::until_within(Solver& solver, const FrictionProblem& problem,
+                                     const Budget& budget, SolverRun run) {
+  constexpr int most_rounds = 6;
+  constexpr double aim = 0.5, largest_fall = 1e-3;  // of the bound; of the natural map in a round
+  if (budget.fclib) return run;                     // its measure alone decides
+  double target = budget.tolerance;
+  for (int round = 0; round < most_rounds && run.verdict == Verdict::denied; ++round) {
+    const ContactError& error = run.error;
+    if (!error.finite || error.natural_map_rms > budget.tolerance) break;
+    // As far below as the worst part is above its bound.
+    const double worst = std::max({error.approach_rms, error.cone_rms, error.complementarity_rms});
+    const double ratio = ContactError::bound_factor * budget.tolerance / worst;
+    target = std::min(target, error.natural_map_rms) * std::max(aim * ratio, largest_fall);
+    Budget left = rest_of(budget, run.solved.iterations, run.solve_seconds);
+    if (left.max_iterations < 1 || !(left.max_seconds > 0.0) || !(target > 0.0)) break;
+    left.tolerance = target;
+    SolverRun next = guarded(problem, budget, [&](SolverRun& again) {
+      const Stopwatch watch;
+      again.solved = solver.solve(problem, run.solved.impulses, left);
+      again.startup_seconds = again.solved.startup_seconds;
+      again.solve_seconds = watch.seconds() - again.startup_seconds;
+    });
+    // The tolerance that was asked for decides. Booked as one solve.
+    if (next.error.within(budget.tolerance)) {
+      next.solved.reason = StopReason::reached_tolerance;
+      next.verdict = Verdict::solved;
+      next.success = true;
+    }
+    for (const HistoryPoint& point : next.solved.history)
+      run.solved.history.push_back({run.solved.iterations + point.iteration,
+                                    run.solve_seconds + point.seconds, point.error});
+    next.solved.history = std::move(run.solved.history);
+    next.solved.iterations += run.solved.iterations;
+    next.solve_seconds += run.solve_seconds;
+    next.prepare_seconds = run.prepare_seconds;
+    next.startup_seconds += run.startup_seconds;
+    run = std::move(next);
+  }
   return run;
 }
 
@@ -57,7 +103,7 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
                             const Budget& budget) {
   problem.validate();
   validate_start(problem, start);
-  return guarded(problem, budget, [&](SolverRun& run) {
+  SolverRun first = guarded(problem, budget, [&](SolverRun& run) {
     Stopwatch watch;
     solver.prepare(problem);
     run.prepare_seconds = watch.seconds();
@@ -66,17 +112,19 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
     run.startup_seconds = run.solved.startup_seconds;
     run.solve_seconds = watch.seconds() - run.startup_seconds;
   });
+  return until_within(solver, problem, budget, std::move(first));
 }
 
 SolverRun SolverRunner::run_again(Solver& solver, const FrictionProblem& problem, Impulses start,
                                   const Budget& budget) {
   validate_start(problem, start);
-  return guarded(problem, budget, [&](SolverRun& run) {
+  SolverRun first = guarded(problem, budget, [&](SolverRun& run) {
     const Stopwatch watch;
     run.solved = solver.solve(problem, std::move(start), budget);
     run.startup_seconds = run.solved.startup_seconds;
     run.solve_seconds = watch.seconds() - run.startup_seconds;
   });
+  return until_within(solver, problem, budget, std::move(first));
 }
 
 }  // namespace ballast

@@ -4,6 +4,7 @@
 
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/seam/solver.hpp"
+#include "solvers/seam/verdict.hpp"
 
 namespace ballast {
 
@@ -13,8 +14,9 @@ struct SolverRun {
   double prepare_seconds = 0;  ///< wall clock of prepare() and solve() alone
   double solve_seconds = 0;
   double startup_seconds = 0;  ///< of solve(), and not in solve_seconds: Solved::startup_seconds
-  bool success = false;        ///< the backend says reached_tolerance *and* the judge agrees
-  std::string failure;         ///< what() of the exception that a backend threw; empty: none
+  Verdict verdict = Verdict::unsolved;
+  bool success = false;  ///< verdict == solved
+  std::string failure;   ///< what() of the exception that a backend threw; empty: none
 };
 
 /// Keeps the judge's workspace between calls.
@@ -27,6 +29,9 @@ class SolverRunner {
   const Eigen::VectorXd& body_velocity() const { return judge_.body_velocity(); }
   const Eigen::VectorXd& body_impulse() const { return judge_.body_impulse(); }
 
+  /// A solver stops on the natural map. Where that is reached and another part of the law is not
+  /// (much friction), it goes on from its answer to a smaller natural map, within the same budget.
+  ///
   /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem. A start of the wrong
   /// size is an InvalidProblem; an empty one means zero. Other exceptions of a backend become
   /// reason = numerical_failure.
@@ -41,6 +46,8 @@ class SolverRunner {
  private:
   template <typename Work>
   SolverRun guarded(const FrictionProblem& problem, const Budget& budget, Work&& work);
+  SolverRun until_within(Solver& solver, const FrictionProblem& problem, const Budget& budget,
+                         SolverRun run);
 
   ContactJudge judge_;
 };

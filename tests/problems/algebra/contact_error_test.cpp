@@ -18,7 +18,8 @@ ContactError dense_error(const FrictionProblem& p, const Impulses& r) {
   const Eigen::MatrixXd w = oracle::dense_delassus(p);
   const Eigen::VectorXd q = oracle::dense_q(p), u = w * r + q;
   ContactError e;
-  double sum = 0.0, fclib = 0.0;
+  double sum = 0.0, fclib = 0.0, approach = 0.0, cone = 0.0, complementarity = 0.0;
+  double needed = 0.0, largest = 0.0;
   int counted = 0;
   e.min_normal_velocity = std::numeric_limits<double>::infinity();
   for (int c = 0; c < p.contact_count(); ++c) {
@@ -31,6 +32,15 @@ ContactError dense_error(const FrictionProblem& p, const Impulses& r) {
     const Eigen::MatrixXd block = w.block(first, first, rows, rows);
     const double lambda =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block).eigenvalues().maxCoeff();
+    const double rho = lambda > 0.0 ? 1.0 / lambda : 0.0;
+    const double outside = (rc - project_cone(rc, p.friction[c])).norm();
+    approach += std::pow(std::min(0.0, uc[0]), 2);
+    cone += std::pow(lambda * outside, 2);
+    if (rc.norm() + rho * hat.norm() > 0.0)
+      complementarity += std::pow(rc.dot(hat) / (rc.norm() + rho * hat.norm()), 2);
+    needed = std::max(needed, rho * q.segment(first, rows).norm());
+    largest = std::max(largest, rc.norm());
+    if (lambda == 0.0) e.immovable_approach = std::max(e.immovable_approach, -uc[0]);
     if (lambda > 0.0) {
       const double value = lambda * (rc - project_cone(rc - hat / lambda, p.friction[c])).norm();
       sum += value * value;
@@ -46,6 +56,10 @@ ContactError dense_error(const FrictionProblem& p, const Impulses& r) {
     e.complementarity = std::max(e.complementarity, std::abs(rc.dot(hat)));
   }
   e.natural_map_rms = std::sqrt(sum / counted);
+  e.approach_rms = std::sqrt(approach / p.contact_count());
+  e.cone_rms = std::sqrt(cone / p.contact_count());
+  e.complementarity_rms = std::sqrt(complementarity / p.contact_count());
+  e.growth = largest / needed;
   e.fclib = std::sqrt(fclib) / std::max({q.norm(), r.norm(), u.norm()});
   e.power = r.dot(u - p.dynamics.bias);
   e.velocity_scale = std::sqrt(q.squaredNorm() / q.size());
@@ -60,6 +74,11 @@ void check_same(const ContactError& a, const ContactError& b) {
   CHECK(a.cone_violation == Approx(b.cone_violation).epsilon(1e-10));
   CHECK(a.min_normal_velocity == Approx(b.min_normal_velocity).epsilon(1e-10));
   CHECK(a.complementarity == Approx(b.complementarity).epsilon(1e-10));
+  CHECK(a.approach_rms == Approx(b.approach_rms).epsilon(1e-9));
+  CHECK(a.cone_rms == Approx(b.cone_rms).epsilon(1e-7));
+  CHECK(a.complementarity_rms == Approx(b.complementarity_rms).epsilon(1e-7));
+  CHECK(a.immovable_approach == Approx(b.immovable_approach).epsilon(1e-12));
+  CHECK(a.growth == Approx(b.growth).epsilon(1e-7));
   CHECK(a.power == Approx(b.power).epsilon(1e-9));
   CHECK(a.velocity_scale == Approx(b.velocity_scale).epsilon(1e-12));
 }
@@ -123,6 +142,10 @@ TEST_CASE("a team judges with the bits of one thread") {
     CHECK(error.cone_violation == alone.cone_violation);
     CHECK(error.min_normal_velocity == alone.min_normal_velocity);
     CHECK(error.complementarity == alone.complementarity);
+    CHECK(error.approach_rms == alone.approach_rms);
+    CHECK(error.cone_rms == alone.cone_rms);
+    CHECK(error.complementarity_rms == alone.complementarity_rms);
+    CHECK(error.growth == alone.growth);
     CHECK(error.power == alone.power);
     CHECK(error.momentum_residual == alone.momentum_residual);
   }
@@ -173,6 +196,27 @@ TEST_CASE("impulses that are not numbers make every measure infinite") {
     CHECK(error.fclib == std::numeric_limits<double>::infinity());
   }
   CHECK_THROWS_AS(contact_error(problem, Impulses::Zero(3)), InvalidProblem);
+}
+
+TEST_CASE("up to mu = sqrt(15) the natural map bounds the other parts of the law") {
+  Random random(33);
+  for (int k = 0; k < 20000; ++k) {
+    FrictionProblem problem = only_delassus(make_known_solution({.seed = 7}).problem);
+    problem.row_begin = {0, 3};
+    problem.friction = {random.uniform(0.0, std::sqrt(15.0))};
+    Eigen::Matrix3d a;
+    for (double& x : a.reshaped()) x = random.uniform(-1, 1);
+    problem.delassus.w = Eigen::MatrixXd(a * a.transpose()).sparseView();
+    problem.delassus.q = Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0.0);
+    Impulses r(3);
+    for (double& x : r) x = random.uniform(-1, 1) * random.log_uniform(1e-3, 1e3);
+    const ContactError error = contact_error(problem, r);
+    const double bound = ContactError::bound_factor * error.natural_map_rms * (1.0 + 1e-6);
+    REQUIRE(error.approach_rms <= bound);
+    REQUIRE(error.cone_rms <= bound);
+    REQUIRE(error.complementarity_rms <= bound);
+    REQUIRE(error.within(error.natural_map_rms * (1.0 + 1e-6)));
+  }
 }
 
 TEST_CASE("the scaled natural map does not depend on the units") {

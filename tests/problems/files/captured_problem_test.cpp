@@ -2,6 +2,8 @@
 
 #include "problems/files/captured_problem.hpp"
 
+#include <cmath>
+
 #include "platform/random.hpp"
 #include "tests/problems/files/problem_file_support.hpp"
 
@@ -151,6 +153,26 @@ TEST_CASE("what does not fit the problem is named") {
   write_captured(file, sample());
   remove(file, "/ballast/phase");
   CHECK(captured_complaint(file) == "/ballast/phase: no such dataset");
+}
+
+TEST_CASE("a step or gravity by which nothing can be measured is refused") {
+  const Folder folder;
+  const fs::path file = folder / "c.hdf5";
+  const auto with = [&](const char* path, double value) {
+    write_captured(file, sample());
+    replace(file, path, std::vector<double>{value});
+    return captured_complaint(file);
+  };
+  const std::string range = " s; a step is > 0 and at most 1e+06 s long";
+  CHECK(with("/ballast/h", std::nan("")) == "/ballast/h = nan" + range);
+  CHECK(with("/ballast/h", -2e-4) == "/ballast/h = -0.0002" + range);
+  CHECK(with("/ballast/h", 0.0) == "/ballast/h = 0" + range);
+  CHECK(with("/ballast/h", 1e300) == "/ballast/h = 1e+300" + range);
+  CHECK(with("/ballast/g", std::nan("")).starts_with("/ballast/g = nan m/s^2: g h must be"));
+  CHECK(with("/ballast/g", 1e300).starts_with("/ballast/g = 1e+300 m/s^2: g h must be"));
+  CHECK(with("/ballast/g", -9.81).starts_with("/ballast/g = -9.81 m/s^2: g h must be"));
+  CHECK(with("/ballast/g", 1e-200).find("too small to measure by") != std::string::npos);
+  CHECK(with("/ballast/g", 0.0).empty());
 }
 
 TEST_CASE("only a problem with bodies can be captured") {

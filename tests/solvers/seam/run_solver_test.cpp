@@ -6,6 +6,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
 #include "tests/catch.hpp"
+#include "tests/problems/algebra/unsolvable.hpp"
 
 using namespace ballast;
 
@@ -47,6 +48,31 @@ TEST_CASE("a claim is believed only when the judge agrees") {
 
   puppet.answer = {known.r, StopReason::stalled, 1, 0.0, {}};
   CHECK_FALSE(runner.run(puppet, known.problem, {}, {}).success);
+}
+
+TEST_CASE("a solver that stops on the natural map goes on until the law holds") {
+  // With mu = 1e4 a natural map below the tolerance leaves the contact sinking in.
+  const FrictionProblem problem = rough_contact(1e4);
+  Puppet puppet;
+  puppet.answer = {Impulses::Zero(3), StopReason::reached_tolerance, 5, 0.0, {}};
+  puppet.on_solve = [&] {
+    if (puppet.solved == 2) puppet.answer.impulses = Eigen::Vector3d(9.81e-3, -1e-3, 0.0);
+  };
+  const SolverRun run = SolverRunner().run(puppet, problem, {}, {.tolerance = 1e-5});
+  CHECK(puppet.solved == 2);
+  CHECK(puppet.start == Impulses::Zero(3));
+  CHECK(run.verdict == Verdict::solved);
+  CHECK(run.solved.iterations == 10);
+  // One that cannot do better is denied, and not asked for ever.
+  puppet.answer.impulses.setZero(3);
+  puppet.on_solve = [] {};
+  puppet.solved = 0;
+  CHECK(SolverRunner().run(puppet, problem, {}, {.tolerance = 1e-5}).verdict == Verdict::denied);
+  CHECK(puppet.solved < 10);
+  // The budget is one budget.
+  puppet.solved = 0;
+  SolverRunner().run(puppet, problem, {}, {.tolerance = 1e-5, .max_iterations = 5});
+  CHECK(puppet.solved == 1);
 }
 
 TEST_CASE("an empty start means zero; a wrong one never reaches the solver") {

@@ -1,0 +1,124 @@
+#include "problems/algebra/no_solution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/delassus.hpp"
+
+namespace ballast {
+namespace {
+
+/// W, q and the scale of impulses of one problem, for many weights.
+class Prover {
+ public:
+  explicit Prover(const FrictionProblem& problem)
+      : problem_(problem), w_(delassus_matrix(problem)) {
+    free_contact_velocity(problem, q_);
+    std::vector<Eigen::Matrix3d> diagonal;
+    delassus_diagonal(problem, diagonal);
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      const double lambda = largest_eigenvalue(diagonal[c]);
+      if (!(lambda > 0.0)) continue;
+      const double size = q_.segment(problem.row_begin[c], problem.contact_rows(c)).norm();
+      impulse_scale_ = std::max(impulse_scale_, size / lambda);
+    }
+  }
+
+  NoSolution proof(const Eigen::VectorXd& weights) const {
+    NoSolution proof;
+    const double sum = weights.sum();
+    if (!(sum > 0.0) || !std::isfinite(sum)) return proof;
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(problem_.row_count());
+    for (int c = 0; c < problem_.contact_count(); ++c) y[normal(c)] = weights[c] / sum;
+    proof.approach = -q_.dot(y);
+    // Sums that cancel to rounding prove nothing.
+    if (!(proof.approach > 1e-10 * q_.cwiseAbs().dot(y))) return {};
+    const double slope = (w_.transpose() * y).norm();
+    const double infinity = std::numeric_limits<double>::infinity();
+    proof.least_impulse = slope > 0.0 ? proof.approach / slope : infinity;
+    proof.least_growth = impulse_scale_ > 0.0 ? proof.least_impulse / impulse_scale_ : infinity;
+    const double largest = weights.maxCoeff(&proof.first_contact);
+    proof.contacts = static_cast<int>((weights.array() > 1e-3 * largest).count());
+    return proof;
+  }
+
+  /// One Gauss-Seidel sweep of the frictionless problem: normal impulses alone.
+  void sweep(Eigen::VectorXd& r) const {
+    for (int c = 0; c < problem_.contact_count(); ++c) {
+      double u = q_[normal(c)], own = 0.0;
+      for (SparseRows::InnerIterator entry(w_, normal(c)); entry; ++entry) {
+        u += entry.value() * r[entry.col()];
+        if (entry.col() == normal(c)) own = entry.value();
+      }
+      if (own > 0.0) r[normal(c)] = std::max(0.0, r[normal(c)] - u / own);
+    }
+  }
+
+  int normal(int c) const { return problem_.row_begin[c]; }
+
+ private:
+  const FrictionProblem& problem_;
+  SparseRows w_;
+  Eigen::VectorXd q_;
+  double impulse_scale_ = 0.0;
+};
+
+}  // namespace
+
+NoSolution proof_by_weights(const FrictionProblem& problem, const Eigen::VectorXd& y) {
+  return Prover(problem).proof(y);
+}
+
+NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps) {
+  const int contacts = problem.contact_count();
+  const Prover prover(problem);
+  NoSolution best;
+  const auto consider = [&](const Eigen::VectorXd& y) {
+    const NoSolution proof = prover.proof(y);
+    if (proof.least_growth > best.least_growth) best = proof;
+  };
+  // Single contacts that no impulse moves.
+  std::vector<Eigen::Matrix3d> diagonal;
+  delassus_diagonal(problem, diagonal);
+  for (int c = 0; c < contacts && !best.proved(); ++c)
+    if (!(largest_eigenvalue(diagonal[c]) > 0.0)) consider(Eigen::VectorXd::Unit(contacts, c));
+  // The impulses' own direction.
+  Eigen::VectorXd y(contacts);
+  for (int c = 0; c < contacts; ++c) {
+    const double normal = r.size() == problem.row_count() ? r[prover.normal(c)] : 0.0;
+    y[c] = std::isfinite(normal) ? std::max(0.0, normal) : 0.0;
+  }
+  consider(y);
+  // Where sweeps diverge, what a sweep adds tends to a direction that W does not see.
+  Eigen::VectorXd swept = Eigen::VectorXd::Zero(problem.row_count()), before;
+  for (int k = 0; k < sweeps && !best.proved(); ++k) {
+    before = swept;
+    prover.sweep(swept);
+    for (int c = 0; c < contacts; ++c)
+      y[c] = std::max(0.0, swept[prover.normal(c)] - before[prover.normal(c)]);
+    consider(y);
+  }
+  return best;
+}
+
+std::string NoSolution::words() const {
+  if (!proved()) return "";
+  std::ostringstream text;
+  text.precision(3);
+  text << "there is no solution: ";
+  if (contacts == 1)
+    text << "contact " << first_contact << " sinks in at " << approach << " m/s";
+  else
+    text << contacts << " contacts (one is " << first_contact << ") sink in at " << approach
+         << " m/s in the mean";
+  if (std::isfinite(least_impulse))
+    text << " whatever impulses below " << least_impulse << " N s do";
+  else
+    text << " whatever the impulses";
+  return text.str();
+}
+
+}  // namespace ballast

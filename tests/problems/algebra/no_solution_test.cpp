@@ -1,0 +1,77 @@
+#include "problems/algebra/no_solution.hpp"
+
+#include <cmath>
+
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/stress_problems.hpp"
+#include "tests/catch.hpp"
+#include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/problems/algebra/unsolvable.hpp"
+
+using namespace ballast;
+
+TEST_CASE("two bodies that nothing can move and that approach have no solution") {
+  const FrictionProblem problem = immovable_contact(-1.0);
+  const NoSolution proof = look_for_no_solution(problem, Impulses::Zero(3));
+  CHECK(proof.proved());
+  CHECK(std::isinf(proof.least_impulse));
+  CHECK(proof.approach == 1.0);
+  CHECK(proof.contacts == 1);
+  CHECK(proof.words() == "there is no solution: contact 0 sinks in at 1 m/s whatever the impulses");
+  CHECK_FALSE(look_for_no_solution(immovable_contact(0.5), Impulses::Zero(3)).proved());
+}
+
+TEST_CASE("a body between two walls that close has no solution; sweeps find the proof") {
+  const NoSolution proof = look_for_no_solution(squeezed_contacts(), Impulses::Zero(6));
+  CHECK(proof.proved());
+  CHECK(proof.contacts == 2);
+  CHECK(proof.approach == Approx(1.0));
+}
+
+TEST_CASE("impulses of a solver that diverges prove it without a sweep") {
+  Impulses r = Impulses::Zero(6);
+  r[0] = 1e12;
+  r[3] = 1e12 + 1.0;
+  CHECK(look_for_no_solution(squeezed_contacts(), r, 0).proved());
+}
+
+TEST_CASE("what weights prove is what dense matrices say") {
+  const FrictionProblem problem = oracle::mixed_problem();
+  const Eigen::MatrixXd w = oracle::dense_delassus(problem);
+  const Eigen::VectorXd q = oracle::dense_q(problem);
+  int proofs = 0;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const NoSolution proof =
+        proof_by_weights(problem, 2.5 * Eigen::VectorXd::Unit(problem.contact_count(), c));
+    const int row = problem.row_begin[c];
+    if (q[row] >= 0.0) {
+      CHECK(proof.least_impulse == 0.0);
+      continue;
+    }
+    ++proofs;
+    CHECK(proof.approach == Approx(-q[row]));
+    if (w.col(row).norm() > 0.0)
+      CHECK(proof.least_impulse == Approx(-q[row] / w.row(row).norm()));
+    else
+      CHECK(std::isinf(proof.least_impulse));
+  }
+  CHECK(proofs > 0);
+}
+
+TEST_CASE("problems with a solution are never proved to have none") {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
+    KnownSolutionSettings settings;
+    settings.seed = seed;
+    const KnownSolution known = make_known_solution(settings);
+    const NoSolution proof = look_for_no_solution(known.problem, known.r);
+    CHECK_FALSE(proof.proved());
+    CHECK(proof.least_impulse <= known.r.norm());
+    CHECK(proof.words().empty());
+  }
+  for (const StressProblem& stress : stress_problems()) {
+    if (!stress.refused.empty()) continue;
+    CAPTURE(stress.name);
+    CHECK_FALSE(
+        look_for_no_solution(stress.problem, Impulses::Zero(stress.problem.row_count())).proved());
+  }
+}
