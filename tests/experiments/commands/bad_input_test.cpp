@@ -96,7 +96,7 @@ TEST_CASE("a bad scene is exit code 1 and names file, line, key and value") {
       {"", {"nothing in it"}},
       {wall + "frction = 0.4\n", {":3:", "wall.0.frction = 0.4", "friction"}},
       {wall + "friction = \"rough\"\n", {":3:", "wall.0.friction = \"rough\"", "not a number"}},
-      {wall + "friction = -0.4\n", {":3:", "wall.0.friction = -0.4", ">= 0"}},
+      {wall + "friction = -0.4\n", {":3:", "wall.0.friction = -0.4", "from 0 to 1e4"}},
       {wall + "friction = nan\n", {":3:", "wall.0.friction = nan"}},
       {wall + "offset = inf\n", {"wall.0.offset = inf", "finite"}},
       {wall + "motion = \"driven\"\nload = { f_max = 1, frequency = 1 }\n",
