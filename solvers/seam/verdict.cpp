@@ -62,8 +62,8 @@ Verdict verdict_of(StopReason reason, const ContactError& error, double toleranc
 
 Verdict fclib_verdict_of(StopReason reason, const ContactError& error, double tolerance) {
   const bool within = error.finite && error.fclib <= tolerance;
-  // Its tolerance is a pure number: a velocity that nothing can lift is none at any scale.
-  return verdict_from(within, reason, error, 0.0);
+  // Its tolerance is a pure number; contacts that sink in are measured in m/s.
+  return verdict_from(within, reason, error, tolerance * error.velocity_scale);
 }
 
 std::string words_of(Verdict verdict, StopReason reason, const ContactError& error,
