@@ -14,6 +14,7 @@
 #include "solvers/backends/ipopt.hpp"
 #include "solvers/backends/jacobi.hpp"
 #include "solvers/backends/newton.hpp"
+#include "solvers/backends/newton_burst.hpp"
 #include "solvers/backends/nlopt.hpp"
 #include "solvers/backends/nncg.hpp"
 #include "solvers/backends/pyramid_lemke.hpp"
@@ -81,6 +82,9 @@ constexpr SolverEntry rows[] = {
      [] { return make_newton({.equation = ContactEquation::fischer_burmeister}); }, suitesparse},
     {"prox_newton", "proximal-point steps, each by semismooth Newton (Acary, Bremond, Huber 2018)",
      ContactLaw::coulomb, [] { return make_proximal_newton(); }, suitesparse},
+    {"newton_burst",
+     "ours: regularised active-set Newton between bursts of nncg, then proximal steps, own LU",
+     ContactLaw::coulomb, [] { return make_newton_burst(); }, suitesparse},
     {"ipopt",
      "convex cone program with s-update by Ipopt's interior point (Waechter, Biegler 2006)",
      ContactLaw::coulomb, [] { return make_ipopt(); }, ipopt},

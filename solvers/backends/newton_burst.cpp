@@ -1,0 +1,212 @@
+#include "solvers/backends/newton_burst.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "solvers/backends/nncg.hpp"
+#include "solvers/parts/regular_newton.hpp"
+#include "solvers/seam/course.hpp"
+
+namespace ballast {
+namespace {
+
+constexpr double smallest_epsilon = 1e-8, largest_epsilon = 0.1;
+
+double raised(double epsilon, double factor) { return std::min(largest_epsilon, factor * epsilon); }
+
+class NewtonBurst final : public Solver {
+ public:
+  explicit NewtonBurst(const NewtonBurstSettings& settings)
+      : settings_(settings), sweeps_(make_nncg()) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    if (!problem.has_dynamics)
+      throw UnsupportedProblem(
+          "newton_burst: the problem has no dynamics form (M, H): it solves in the bodies' "
+          "unknowns");
+    sweeps_->prepare(problem);
+    newton_.prepare(problem);
+  }
+
+  void use_threads(int threads) override { sweeps_->use_threads(threads); }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    problem_ = &problem;
+    NewtonIterate at = newton_.iterate(Impulses::Zero(problem.row_count()));
+    const double end = settings_.endgame * newton_.settle(at);
+    at = newton_.iterate(start);
+    double error = newton_.settle(at);
+    newton_.contacts().to_impulses(at.r, start);
+    Course course(budget, std::move(start), error);
+    if (!course.over()) error = burst(course, at, settings_.start_sweeps);
+    descend(course, at, error, end);
+    // From wherever the proximal steps are stuck, sweeps jump to another place.
+    double halved = course.error();
+    for (int waited = 0; !course.over() && waited < settings_.patience; ++waited) {
+      endgame(course, at, error);
+      if (course.over()) break;
+      at = newton_.iterate(course.best());
+      error = burst(course, at, settings_.jump);
+      if (course.error() > 0.5 * halved) continue;
+      halved = course.error();
+      waited = -1;
+    }
+    return course.finish();
+  }
+
+ private:
+  /// How a proximal step's Newton method ended.
+  struct Inner {
+    bool converged;
+    int steps;
+  };
+
+  void offer(Course& course, const NewtonIterate& at, double error) {
+    newton_.contacts().to_impulses(at.r, impulses_);
+    course.offer(impulses_, error);
+  }
+
+  /// Accelerated sweeps from `at`, at most so many. Returns the error there [m/s].
+  double burst(Course& course, NewtonIterate& at, int sweeps) {
+    Budget budget = course.rest();
+    budget.max_iterations = std::min(budget.max_iterations, sweeps);
+    budget.keep_history = false;
+    newton_.contacts().to_impulses(at.r, impulses_);
+    Solved swept = sweeps_->solve(*problem_, std::move(impulses_), budget);
+    impulses_ = std::move(swept.impulses);
+    at = newton_.iterate(impulses_);
+    const double error = newton_.settle(at);
+    course.spend(swept.iterations);
+    course.offer(impulses_, error);
+    return error;
+  }
+
+  /// Newton steps with a burst after each. A step nearly always raises the error, a hundredfold
+  /// where light contacts changed their status; what counts is where the sweeps after it end. Ends
+  /// below the error `end`, or where three rounds in a row gained nothing.
+  void descend(Course& course, NewtonIterate& at, double& error, double end) {
+    double epsilon = settings_.epsilon;
+    int slow = 0;
+    while (!course.over() && error > end && slow < 3) {
+      const NewtonIterate before = at;
+      newton_.set_centre(at.r, epsilon);
+      newton_.linearise(at);
+      course.spend(1);
+      if (!newton_.step(change_)) {
+        epsilon = raised(epsilon, 4.0);
+        ++slow;
+        continue;
+      }
+      at.r += change_.r;
+      double after = newton_.settle(at);
+      offer(course, at, after);
+      if (course.over()) return;
+      NewtonIterate swept = at;
+      const double swept_error = burst(course, swept, settings_.burst);
+      if (!(after < swept_error)) {
+        after = swept_error;
+        at = std::move(swept);
+      }
+      // Less compliance where a round gained much, more where it lost; back where it lost much.
+      if (after < 0.4 * error) epsilon = std::max(1e-6, 0.5 * epsilon);
+      if (after > error) epsilon = raised(epsilon, 4.0);
+      slow = after > 0.97 * error ? slow + 1 : 0;
+      if (after > 2.0 * error && !course.over()) {
+        at = before;
+        after = burst(course, at, settings_.burst);
+      }
+      error = after;
+    }
+  }
+
+  /// Proximal-point steps by Newton alone: sweeps after a converged step would undo its long waves.
+  /// Ends where steps fail one after the other, or gain little for long.
+  void endgame(Course& course, NewtonIterate& at, double& error) {
+    constexpr int most_failures = 4, most_slow_steps = 15;
+    double epsilon = settings_.epsilon, halved = error;
+    int failures = 0, slow = 0;
+    while (!course.over() && failures < most_failures && slow < most_slow_steps) {
+      const NewtonIterate before = at;
+      const Inner inner = proximal_step(course, at, error, epsilon);
+      const double after = newton_.settle(at);
+      offer(course, at, after);
+      if (inner.converged && after < 1.5 * error) {
+        // The next step may go further, the easier this one was.
+        epsilon *= inner.steps <= 2 ? 0.2 : inner.steps <= 3 ? 0.4 : inner.steps <= 5 ? 0.7 : 1.0;
+        epsilon = std::max(epsilon, smallest_epsilon);
+        failures = 0;
+        error = after;
+      } else if (after < 0.9 * error) {
+        epsilon = raised(epsilon, 2.0);
+        error = after;
+      } else {
+        epsilon = raised(epsilon, 3.0);
+        at = before;
+        ++failures;
+      }
+      ++slow;
+      if (error > 0.5 * halved) continue;
+      halved = error;
+      slow = 0;
+    }
+  }
+
+  /// Newton steps on the law regularised around `at`, until the residual is a third of the error
+  /// there. `at` is left wherever they ended.
+  Inner proximal_step(Course& course, NewtonIterate& at, double error, double epsilon) {
+    constexpr double enough = 0.3;
+    constexpr int most_stalled = 3;
+    const int many = newton_.contacts().contact_count() / 8;
+    newton_.set_centre(at.r, epsilon);
+    double residual = error, least = std::numeric_limits<double>::max();
+    for (int k = 0, stalled = 0;; ++k) {
+      const int changed = newton_.linearise(at);
+      if (k > 0) {
+        if (residual < enough * error) return {true, k};
+        stalled = residual < 0.7 * least ? 0 : stalled + 1;
+        least = std::min(least, residual);
+      }
+      if (k >= settings_.inner_steps || stalled > most_stalled || (k > 1 && changed > many) ||
+          course.over())
+        return {false, k};
+      course.spend(1);
+      if (!newton_.step(change_)) return {false, k};
+      // The first step is taken whole: it always raises the residual. Later ones are shortened.
+      residual = advance(at, residual, k == 0 ? 1 : 4);
+    }
+  }
+
+  /// Along change_: t = 1, 1/2, 1/4, ... until the residual falls by enough, at most so many
+  /// trials; then the best of them. Returns the residual there [m/s].
+  double advance(NewtonIterate& at, double before, int trials) {
+    double t = 1.0, least = std::numeric_limits<double>::max();
+    for (int k = 0; k < trials; ++k, t *= 0.5) {
+      trial_.r = at.r + t * change_.r;
+      trial_.x = at.x + t * change_.x;
+      const double there = newton_.residual(trial_);
+      if (k == 0 || there < least) {
+        least = there;
+        std::swap(best_trial_, trial_);
+      }
+      if (there < (1.0 - 0.3 * t) * before) break;
+    }
+    std::swap(at, best_trial_);
+    return least;
+  }
+
+  NewtonBurstSettings settings_;
+  std::unique_ptr<Solver> sweeps_;
+  RegularNewton newton_;
+  const FrictionProblem* problem_ = nullptr;
+  NewtonIterate change_, trial_, best_trial_;
+  Impulses impulses_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_newton_burst(const NewtonBurstSettings& settings) {
+  return std::make_unique<NewtonBurst>(settings);
+}
+
+}  // namespace ballast

@@ -1,0 +1,30 @@
+#pragma once
+// Newton steps on Coulomb's law of all contacts, regularised, with every contact's status guessed
+// and the linear systems solved exactly; between them bursts of accelerated sweeps, then alone.
+//
+// What each part is for: a Newton step carries impulses across the whole packing, as far as the
+// statuses that it guessed are right; sweeps put statuses right, contact by contact. From an error
+// of about 1e-4 of the start's, proximal-point steps by Newton alone are the faster.
+
+#include <memory>
+
+#include "solvers/seam/solver.hpp"
+
+namespace ballast {
+
+struct NewtonBurstSettings {
+  int start_sweeps = 100;  ///< before the first Newton step
+  int burst = 400;         ///< sweeps after a Newton step, at most
+  int jump = 300;          ///< sweeps where the proximal steps are stuck
+  /// The compliance to begin with, as a part of lambda_max(W_cc).
+  double epsilon = 3e-4;
+  /// Below this part of the error at zero impulse there are no more bursts.
+  double endgame = 1e-4;
+  int inner_steps = 10;  ///< Newton steps after which a proximal step has failed
+  int patience = 20;     ///< jumps without halving the error, after which it gives up (stalled)
+};
+
+/// Iterations count sweeps and factorisations alike. Needs the dynamics form.
+std::unique_ptr<Solver> make_newton_burst(const NewtonBurstSettings& settings = {});
+
+}  // namespace ballast

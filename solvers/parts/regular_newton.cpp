@@ -1,0 +1,90 @@
+#include "solvers/parts/regular_newton.hpp"
+
+#include <cmath>
+
+#include "problems/algebra/contact_error.hpp"
+
+namespace ballast {
+
+void RegularNewton::prepare(const FrictionProblem& problem) {
+  contacts_.prepare(problem);
+  system_.prepare(contacts_);
+  gain_.resize(contacts_.contact_count());
+  source_.resize(3, contacts_.contact_count());
+  status_.resize(contacts_.contact_count());
+}
+
+NewtonIterate RegularNewton::iterate(const Impulses& r) const {
+  NewtonIterate at;
+  contacts_.from_impulses(r, at.r);
+  contacts_.body_velocity(at.r, at.x);
+  return at;
+}
+
+double RegularNewton::settle(NewtonIterate& at) const {
+  contacts_.project(at.r);
+  contacts_.body_velocity(at.r, at.x);
+  return contacts_.error(at.r, at.x);
+}
+
+void RegularNewton::set_centre(const ContactColumns& centre, double epsilon) {
+  centre_ = centre;
+  epsilon_ = epsilon;
+  has_status_ = false;
+}
+
+/// u + epsilon_c (r - centre)
+Eigen::Vector3d RegularNewton::velocity(const NewtonIterate& at, int c) const {
+  const UnitMassContacts::Contact& k = contacts_[c];
+  const double compliance = epsilon_ * k.lambda_max;
+  return contacts_.relative(at.x, c) + k.bias + compliance * (at.r.col(c) - centre_.col(c));
+}
+
+double RegularNewton::residual(const NewtonIterate& at) const {
+  double sum = 0.0;
+  int counted = 0;
+  for (int c = 0; c < contacts_.contact_count(); ++c) {
+    const UnitMassContacts::Contact& k = contacts_[c];
+    if (!(k.lambda_max > 0.0)) continue;
+    const double value =
+        ContactJudge::scaled_natural_map(at.r.col(c), velocity(at, c), k.friction, k.lambda_max);
+    sum += value * value;
+    ++counted;
+  }
+  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+}
+
+int RegularNewton::linearise(const NewtonIterate& at) {
+  int changed = 0;
+  for (int c = 0; c < contacts_.contact_count(); ++c) {
+    const UnitMassContacts::Contact& k = contacts_[c];
+    RegularStep law;
+    if (k.lambda_max > 0.0)
+      law = regular_step({k.friction, k.lambda_max, epsilon_, k.half_line}, at.r.col(c),
+                         velocity(at, c));
+    else  // nothing moves: no impulse
+      law.source = -at.r.col(c);
+    changed += has_status_ && law.status != status_[c];
+    status_[c] = law.status;
+    source_.col(c) = law.source;
+    gain_[c] = law.gain;
+  }
+  has_status_ = true;
+  return changed;
+}
+
+bool RegularNewton::step(NewtonIterate& change) {
+  right_ = Eigen::VectorXd::Zero(contacts_.unknown_count());
+  for (int c = 0; c < contacts_.contact_count(); ++c) contacts_.push(right_, c, source_.col(c));
+  // The bodies' step, and from it the impulses'.
+  if (!system_.factor(gain_)) return false;
+  system_.solve(right_, change.x);
+  if (!change.x.allFinite()) return false;
+  change.r = source_;
+  for (int c = 0; c < contacts_.contact_count(); ++c)
+    if (status_[c] != ContactStatus::open)
+      change.r.col(c).noalias() -= gain_[c] * contacts_.relative(change.x, c);
+  return true;
+}
+
+}  // namespace ballast

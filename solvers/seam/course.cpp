@@ -1,0 +1,59 @@
+#include "solvers/seam/course.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "solvers/seam/iteration.hpp"
+#include "solvers/seam/relay.hpp"
+
+namespace ballast {
+
+Course::Course(const Budget& budget, Impulses start, double error)
+    : budget_(budget), error_(error), best_(std::move(start)) {
+  remember();
+}
+
+void Course::offer(const Impulses& r, double error) {
+  if (error < error_) {
+    error_ = error;
+    best_ = r;
+  }
+  remember();
+}
+
+/// One point per count of iterations, the last one that was true of it.
+void Course::remember() {
+  if (!budget_.keep_history) return;
+  if (!history_.empty() && history_.back().iteration == iterations_) history_.pop_back();
+  history_.push_back({iterations_, watch_.seconds(), error_});
+}
+
+bool Course::reached() const { return error_ <= budget_.tolerance * (1.0 - Iteration::margin); }
+
+bool Course::over() const {
+  return reached() || !std::isfinite(error_) || iterations_ >= budget_.max_iterations ||
+         watch_.seconds() >= budget_.max_seconds;
+}
+
+Budget Course::rest() const { return rest_of(budget_, iterations_, watch_.seconds()); }
+
+Solved Course::finish() {
+  remember();
+  Solved solved;
+  solved.reason = StopReason::stalled;
+  if (!std::isfinite(error_))
+    solved.reason = StopReason::numerical_failure;
+  else if (reached())
+    solved.reason = StopReason::reached_tolerance;
+  else if (iterations_ >= budget_.max_iterations)
+    solved.reason = StopReason::iteration_limit;
+  else if (watch_.seconds() >= budget_.max_seconds)
+    solved.reason = StopReason::time_limit;
+  solved.impulses = std::move(best_);
+  solved.iterations = iterations_;
+  solved.own_residual = error_;
+  solved.history = std::move(history_);
+  return solved;
+}
+
+}  // namespace ballast

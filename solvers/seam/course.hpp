@@ -1,0 +1,46 @@
+#pragma once
+// The course of one solve whose method wanders: it may leave its best iterate for a worse one, and
+// come back. (A Relay always goes on from the best.)
+
+#include <vector>
+
+#include "platform/clock.hpp"
+#include "solvers/seam/solver.hpp"
+
+namespace ballast {
+
+/// Use:  offer() every iterate that was judged, spend() every iteration, until over(); then
+/// finish().
+class Course {
+ public:
+  /// The clock starts here. `start` is the best so far, `error` its error [m/s].
+  Course(const Budget& budget, Impulses start, double error);
+
+  void spend(int iterations) { iterations_ += iterations; }
+  /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best.
+  void offer(const Impulses& r, double error);
+
+  const Impulses& best() const { return best_; }
+  double error() const { return error_; }  ///< of the best [m/s]
+  /// The best is small enough to stop, or nothing is left of the budget.
+  bool over() const;
+  /// What is left.
+  Budget rest() const;
+
+  /// The best iterate with counts and history; `stalled` where neither the tolerance nor a limit
+  /// was reached.
+  Solved finish();
+
+ private:
+  bool reached() const;
+  void remember();
+
+  Budget budget_;
+  Stopwatch watch_;
+  int iterations_ = 0;
+  double error_;
+  Impulses best_;
+  std::vector<HistoryPoint> history_;  ///< of the best error
+};
+
+}  // namespace ballast

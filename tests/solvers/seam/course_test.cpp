@@ -1,0 +1,63 @@
+#include "solvers/seam/course.hpp"
+
+#include <limits>
+
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("a course keeps the best of all iterates, in whatever order they come") {
+  Course course({.tolerance = 1e-3, .max_iterations = 100, .keep_history = true},
+                Impulses::Constant(2, 1.0), 0.5);
+  CHECK_FALSE(course.over());
+  course.spend(10);
+  course.offer(Impulses::Constant(2, 2.0), 0.1);
+  course.spend(20);
+  course.offer(Impulses::Constant(2, 3.0), 0.7);
+  CHECK(course.error() == 0.1);
+  CHECK(course.best() == Impulses::Constant(2, 2.0));
+  CHECK(course.rest().max_iterations == 70);
+  CHECK(course.rest().tolerance == 1e-3);
+  CHECK_FALSE(course.over());
+  const Solved solved = course.finish();
+  CHECK(solved.reason == StopReason::stalled);
+  CHECK(solved.impulses == Impulses::Constant(2, 2.0));
+  CHECK(solved.own_residual == 0.1);
+  CHECK(solved.iterations == 30);
+  // One point per count, the error that of the best.
+  REQUIRE(solved.history.size() == 3);
+  CHECK(solved.history[0].error == 0.5);
+  CHECK(solved.history[1].iteration == 10);
+  CHECK(solved.history[2].iteration == 30);
+  CHECK(solved.history[2].error == 0.1);
+}
+
+TEST_CASE("iterates of one count are one point of the history, and none without the wish") {
+  Course course({.max_iterations = 100, .keep_history = true}, Impulses::Zero(1), 1.0);
+  course.spend(3);
+  course.offer(Impulses::Ones(1), 0.5);
+  course.offer(Impulses::Ones(1), 0.25);
+  const Solved solved = course.finish();
+  REQUIRE(solved.history.size() == 2);
+  CHECK(solved.history[1].error == 0.25);
+  CHECK(Course({}, Impulses::Zero(1), 1.0).finish().history.empty());
+}
+
+TEST_CASE("a course is over at the tolerance, at a limit, or where nothing is finite") {
+  Course reached({.tolerance = 0.1}, Impulses::Zero(1), 0.05);
+  CHECK(reached.over());
+  CHECK(reached.finish().reason == StopReason::reached_tolerance);
+  // Within rounding of the tolerance: the judge might sum to the other side of it.
+  Course nearly({.tolerance = 0.1}, Impulses::Zero(1), 0.1);
+  CHECK_FALSE(nearly.over());
+  Course counted({.tolerance = 0.0, .max_iterations = 5}, Impulses::Zero(1), 0.05);
+  counted.spend(5);
+  CHECK(counted.over());
+  CHECK(counted.finish().reason == StopReason::iteration_limit);
+  Course late({.tolerance = 0.0, .max_seconds = 0.0}, Impulses::Zero(1), 0.05);
+  CHECK(late.over());
+  CHECK(late.finish().reason == StopReason::time_limit);
+  Course broken({}, Impulses::Zero(1), std::numeric_limits<double>::infinity());
+  CHECK(broken.over());
+  CHECK(broken.finish().reason == StopReason::numerical_failure);
+}
