@@ -46,6 +46,7 @@ struct SweepWork {
     sweep.use_threads(threads);
     sweep.prepare(problem);
     sweep.load(problem, start);
+    sweep.start_search();
   }
 };
 
@@ -122,6 +123,12 @@ void add_sweep_kernels(const KernelProblem& problem, int streaming_copies,
   };
   add("sweep, the packing alone", cached, [cached] { cached->sweep.sweep(); });
   add("sweep, streaming copies of it", streaming, [streaming] { streaming->sweep.sweep(); });
+  // What an iteration of nncg does between two looks at the error.
+  const SearchStep step{0.1, 1.0};
+  add("sweep along a search, the packing alone", cached,
+      [cached, step] { cached->sweep.sweep(step); });
+  add("sweep along a search, streaming", streaming,
+      [streaming, step] { streaming->sweep.sweep(step); });
   add("error", cached, [cached] { cached->sweep.error(); });
   add("prepare", cached, [cached] { cached->sweep.prepare(cached->problem); });
   add("load", cached, [cached] { cached->sweep.load(cached->problem, cached->start); });

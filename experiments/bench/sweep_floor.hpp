@@ -1,6 +1,6 @@
 #pragma once
 // The least that a sweep can take: bytes and floating-point operations counted from the layout of
-// its records (solvers/gauss_seidel/sweep_kernels.hpp), against what the machine was measured to
+// its records (solvers/gauss_seidel/group_record.hpp), against what the machine was measured to
 // do.
 
 #include "experiments/bench/measurement.hpp"
@@ -13,8 +13,7 @@ namespace ballast {
 struct SweepCost {
   double record_bytes = 0.0;   ///< read once
   double impulse_bytes = 0.0;  ///< read and written: counted twice
-  double flops = 0.0;  ///< needed, on six-wide rows; without Newton steps of the slip branch
-  double executed_flops = 0.0;  ///< on the eight-wide lanes
+  double flops = 0.0;          ///< without the slip branch
   double streamed_bytes() const { return record_bytes + impulse_bytes; }
 };
 SweepCost friction_cost();  ///< of a contact with friction: three rows

@@ -13,7 +13,9 @@ namespace {
 class GaussSeidel final : public Solver {
  public:
   explicit GaussSeidel(const GaussSeidelSettings& settings)
-      : schedule_{settings.first_check, settings.check_growth}, variant_(settings.variant) {}
+      : schedule_{settings.first_check, settings.check_growth}, variant_(settings.variant) {
+    if (!variant_.plain()) bodies_.use_variants();
+  }
 
   void prepare(const FrictionProblem& problem) override {
     if (problem.has_delassus && !problem.has_dynamics)

@@ -14,10 +14,9 @@ namespace {
 /// combination of their own past, so that nothing is recomputed.
 struct BodySearch {
   BodySweep sweep;
-  SweepSearch search;
 
-  void start() { sweep.start_search(search); }
-  double advance(SearchStep step) { return sweep.sweep(search, step); }
+  void start() { sweep.start_search(); }
+  double advance(SearchStep step) { return sweep.sweep(step); }
 };
 
 /// The same over a stored W, whose sweep keeps impulses alone.

@@ -1,6 +1,7 @@
 #pragma once
 // The inner loops of the Gauss-Seidel sweep over bodies (sweep_record.hpp).
 
+#include "solvers/gauss_seidel/search_step.hpp"
 #include "solvers/gauss_seidel/sweep_record.hpp"
 #include "solvers/gauss_seidel/sweep_variant.hpp"
 
@@ -12,12 +13,6 @@ struct alignas(64) ImpulseSearch {
 };
 struct OneRowSearch {
   double before = 0.0, direction = 0.0;
-};
-
-/// With x the impulse that the last sweep left: p := beta p + gain (x - before), x += beta p (the
-/// old p), before := x.
-struct SearchStep {
-  double beta = 0.0, gain = 0.0;
 };
 
 /// Every record once, in order.

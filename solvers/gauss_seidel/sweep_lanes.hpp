@@ -6,12 +6,7 @@
 // set, hence the same bits (-ffp-contract=off keeps multiplications and additions apart).
 
 #include "platform/for_each_cpu.hpp"
-
-// Vectors are returned by inlined functions only, so GCC's note about their calling convention does
-// not apply.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-#define BALLAST_INLINE inline __attribute__((always_inline))
+#include "solvers/gauss_seidel/lanes.hpp"
 
 namespace ballast {
 

@@ -5,6 +5,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/solvers/gauss_seidel/grain_problem.hpp"
 #include "tests/support/slow_sweep.hpp"
 
 using namespace ballast;
@@ -53,8 +54,7 @@ TEST_CASE(
     sweep->load(problem, start);
   }
   fast.use_threads(2);
-  SweepSearch search;
-  fast.start_search(search);
+  fast.start_search();
   Eigen::VectorXd fast_state, slow_state;
   slow.save(slow_state);
   Eigen::VectorXd weights;
@@ -63,7 +63,7 @@ TEST_CASE(
 
   for (const SearchStep step :
        {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.3, 1.0}, {0.0, 1.0}, {0.9, 1.0}}) {
-    const double fast_square = fast.sweep(search, step),
+    const double fast_square = fast.sweep(step),
                  slow_square = twin.sweep(slow, step, weights.size());
     CHECK(fast_square == Approx(slow_square).epsilon(1e-12));
     fast.save(fast_state);
@@ -134,4 +134,17 @@ TEST_CASE("a saved iterate swept again gives the same; weights are those of W's 
     found += weights[3 * k] * weights[3 * k];
   found += weights.tail(one_row).squaredNorm();
   CHECK(found == Approx(normal_squares));
+}
+
+TEST_CASE("grains are swept in groups, anything else and every variant contact by contact") {
+  BodySweep sweep;
+  sweep.prepare(samples::grain_problem());
+  CHECK(sweep.is_wide());
+  sweep.prepare(oracle::mixed_problem());
+  CHECK_FALSE(sweep.is_wide());
+  sweep.prepare(samples::grain_problem());
+  CHECK(sweep.is_wide());
+  sweep.use_variants();
+  sweep.prepare(samples::grain_problem());
+  CHECK_FALSE(sweep.is_wide());
 }

@@ -1,0 +1,25 @@
+#include "solvers/gauss_seidel/group_kernels.hpp"
+
+namespace ballast {
+
+extern const GroupKernels sse2_group_kernels;
+#if defined(__x86_64__)
+extern const GroupKernels avx2_group_kernels, avx512_group_kernels;
+#endif
+
+const std::vector<const GroupKernels*>& all_group_kernels() {
+  static const std::vector<const GroupKernels*> found = [] {
+    std::vector<const GroupKernels*> kernels;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f")) kernels.push_back(&avx512_group_kernels);
+    if (__builtin_cpu_supports("avx2")) kernels.push_back(&avx2_group_kernels);
+#endif
+    kernels.push_back(&sse2_group_kernels);
+    return kernels;
+  }();
+  return found;
+}
+
+const GroupKernels& group_kernels() { return *all_group_kernels().front(); }
+
+}  // namespace ballast

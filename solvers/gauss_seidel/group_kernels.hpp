@@ -1,0 +1,57 @@
+#pragma once
+// The inner loops of the wide sweep (group_record.hpp), for each instruction set. All give the same
+// bits.
+
+#include <vector>
+
+#include "solvers/gauss_seidel/group_record.hpp"
+#include "solvers/gauss_seidel/search_step.hpp"
+
+namespace ballast {
+
+/// The loops over groups of one kind. All take the groups in order; `count` of them.
+template <typename Group>
+struct GroupLoops {
+  using Number = typename Group::Number;
+  using Impulses = GroupImpulses<Number, Group::rows>;
+  using Search = GroupSearch<Number, Group::rows>;
+  using Body = BodyRow<Number>;
+
+  /// Every contact once.
+  void (*sweep)(const Group* groups, Impulses* impulses, int count, Body* bodies);
+  /// The same; each impulse first moves along its search direction: p := beta p + gain change, y +=
+  /// beta p (the old p). The bodies must have moved before. Returns the sum over contacts of
+  /// |change|^2.
+  double (*search)(const Group* groups, Impulses* impulses, Search* search, SearchStep step,
+                   int count, Body* bodies);
+  /// All impulses push their bodies once.
+  void (*push)(const Group* groups, const Impulses* impulses, int count, Body* bodies);
+};
+
+/// What is done in double alone.
+template <typename Group>
+struct ExactLoops : GroupLoops<Group> {
+  /// From rows and bias as given, and mu in the frames, to the group's coordinates.
+  void (*make_principal)(Group* groups, GroupFrame* frames, int count);
+  /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2].
+  double (*error)(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses,
+                  const GroupFrame* frames, int count, const BodyRow<double>* bodies);
+};
+
+struct GroupKernels {
+  const char* instruction_set;
+  ExactLoops<FrictionGroup<double>> friction;
+  ExactLoops<OneRowGroup<double>> one_row;
+  ExactLoops<WallGroup<double>> wall;
+  /// The bodies named take the step: p := beta p + gain (w - before), w += beta p (the old p),
+  /// before := w.
+  void (*move_bodies)(const int* named, int count, SearchStep step, BodyRow<double>* w,
+                      BodyRow<double>* before, BodyRow<double>* direction);
+};
+
+/// Of the best instruction set that this processor has.
+const GroupKernels& group_kernels();
+/// Of all that it has, the best first.
+const std::vector<const GroupKernels*>& all_group_kernels();
+
+}  // namespace ballast

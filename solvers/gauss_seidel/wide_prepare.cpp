@@ -1,0 +1,240 @@
+// What WideSweep makes of a problem before its first sweep: groups, their records, free velocities.
+
+#include <algorithm>
+#include <cmath>
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/delassus.hpp"
+#include "solvers/gauss_seidel/wide_sweep.hpp"
+
+namespace ballast {
+namespace {
+
+/// Groups with fewer contacts on average cost more than contacts one by one.
+constexpr double least_fill = 0.4;
+
+constexpr int row_bytes = sizeof(BodyRow<double>);
+
+/// diag(m, m, m, 3 x 3), column-major.
+bool is_grain_mass(const double* mass) {
+  if (!(mass[0] == mass[7] && mass[0] == mass[14])) return false;
+  for (int j = 0; j < 3; ++j)
+    for (int i = j + 1; i < 6; ++i)
+      if (mass[j * 6 + i] != 0.0) return false;
+  return true;
+}
+
+/// W_cc along the principal tangents: W_NN = n^2, W_TN = c W_NN, W_TT = S + c W_NN c^T.
+double block_lambda_max(const FrictionGroup<double>& k, const GroupFrame& f, int lane) {
+  const double n = f.normal[lane], t = f.tangent[lane];
+  const Eigen::Vector3d c(n, k.c1[lane] * t, k.c2[lane] * t);
+  Eigen::Matrix3d w = c * c.transpose();
+  w(1, 1) += t * t;
+  w(2, 2) += t * t * k.s2[lane];
+  return largest_eigenvalue(w);
+}
+
+}  // namespace
+
+bool WideSweep::prepare(const FrictionProblem& problem) {
+  if (!sort_bodies(problem.dynamics) || !group_contacts(problem)) return false;
+  factor_masses(problem.dynamics, roots_);
+  const bool made = make_records(problem, friction_, kernels_->friction) &&
+                    make_records(problem, one_row_, kernels_->one_row) &&
+                    make_records(problem, wall_, kernels_->wall);
+  if (made) free_bodies(problem.dynamics);
+  return made;
+}
+
+/// Grains and driven walls, or not.
+bool WideSweep::sort_bodies(const DynamicsForm& dynamics) {
+  const int bodies = dynamics.body_count();
+  is_wall_.resize(bodies);
+  for (int b = 0; b < bodies; ++b) {
+    is_wall_[b] = dynamics.body_dofs(b) == 1;
+    if (is_wall_[b]) continue;
+    if (dynamics.body_dofs(b) != 6 || !is_grain_mass(&dynamics.mass[dynamics.mass_begin[b]]))
+      return false;
+  }
+  return true;
+}
+
+/// In the order of the plan, part by part; each part has a zero velocity of its own for what does
+/// not move, so that threads share no line.
+bool WideSweep::group_contacts(const FrictionProblem& problem) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  for_kinds([](auto& kind) {
+    kind.groups.clear();
+    kind.frames.clear();
+  });
+  // Of each contact, the grains: walls are no conflict, and go by themselves.
+  const auto grains = [&](const std::vector<int>& given, std::vector<int>& kept) {
+    kept.assign(given.begin(), given.end());
+    for (int& body : kept)
+      if (body >= 0 && is_wall_[body]) body = -1;
+  };
+  grains(dynamics.body_a, grain_a_);
+  grains(dynamics.body_b, grain_b_);
+  contacts_ = 0;
+  interiors_.clear();
+  interfaces_.clear();
+  int nowhere = dynamics.body_count();
+  for (const SweepPlan::Part& part : plan_.interiors())
+    if (!group_part(problem, part, nowhere++, interiors_)) return false;
+  for (const SweepPlan::Part& part : plan_.interfaces())
+    if (!group_part(problem, part, nowhere++, interfaces_)) return false;
+  for_kinds([](auto& kind) { kind.impulses.resize(kind.groups.size()); });
+  const size_t groups = friction_.groups.size() + one_row_.groups.size();
+  size_t walls = 0;
+  for (const GroupFrame& f : wall_.frames)
+    walls += group_lanes - std::count(f.contact, f.contact + group_lanes, -1);
+  return contacts_ - walls >= least_fill * group_lanes * groups;
+}
+
+bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part& part, int nowhere,
+                           std::vector<Part>& parts) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  const std::vector<int>& order = plan_.contacts();
+  const auto moves = [&](int c) { return dynamics.body_a[c] >= 0 || dynamics.body_b[c] >= 0; };
+  const auto is_wall = [&](int body) { return body >= 0 && is_wall_[body]; };
+  const auto wall_of = [&](int c) {
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]})
+      if (is_wall(body)) return body;
+    return -1;
+  };
+  Part made;
+  // With friction, and not on a wall with an unknown.
+  chosen_.clear();
+  for (int i = part.begin; i < part.friction_end; ++i) {
+    if (!moves(order[i])) continue;
+    if (wall_of(order[i]) >= 0) return false;
+    chosen_.push_back(order[i]);
+  }
+  made.friction = add_groups(friction_, nowhere);
+  // One row without a wall, then wall after wall.
+  chosen_.clear();
+  walls_.clear();
+  for (int i = part.friction_end; i < part.end; ++i) {
+    if (!moves(order[i])) continue;
+    const int wall = wall_of(order[i]);
+    if (wall >= 0 && is_wall(dynamics.body_a[order[i]]) && is_wall(dynamics.body_b[order[i]]))
+      return false;
+    if (wall < 0)
+      chosen_.push_back(order[i]);
+    else if (std::find(walls_.begin(), walls_.end(), wall) == walls_.end())
+      walls_.push_back(wall);
+  }
+  made.one_row = add_groups(one_row_, nowhere);
+  made.wall.begin = static_cast<int>(wall_.groups.size());
+  for (const int wall : walls_) {
+    chosen_.clear();
+    for (int i = part.friction_end; i < part.end; ++i)
+      if (moves(order[i]) && wall_of(order[i]) == wall) chosen_.push_back(order[i]);
+    const Range added = add_groups(wall_, nowhere);
+    for (int g = added.begin; g < added.begin + added.count; ++g)
+      wall_.groups[g].wall_body = wall * row_bytes;
+    made.wall.count += added.count;
+  }
+  parts.push_back(made);
+  return true;
+}
+
+/// Groups of the contacts in chosen_, empty but for the contacts' numbers.
+template <typename Group>
+WideSweep::Range WideSweep::add_groups(Kind<Group>& kind, int nowhere) {
+  grouping_.begin(static_cast<int>(is_wall_.size()));
+  grouping_.add(chosen_, grain_a_, grain_b_);
+  const Range range{static_cast<int>(kind.groups.size()), grouping_.count()};
+  contacts_ += static_cast<int>(chosen_.size());
+  kind.groups.resize(range.begin + range.count);
+  kind.frames.resize(range.begin + range.count);
+  for (int g = 0; g < range.count; ++g) {
+    Group& k = kind.groups[range.begin + g];
+    GroupFrame& f = kind.frames[range.begin + g];
+    k = {};
+    f = {};
+    std::copy_n(grouping_.lanes(g).begin(), group_lanes, f.contact);
+    for (auto& side : k.body) std::fill_n(side, group_lanes, nowhere * row_bytes);
+    std::fill_n(k.bias[0], group_lanes, 1.0);  // open
+  }
+  return range;
+}
+
+/// Every thread makes its share: records do not depend on each other.
+template <typename Group>
+bool WideSweep::make_records(const FrictionProblem& problem, Kind<Group>& kind,
+                             const ExactLoops<Group>& loops) {
+  std::vector<char> made(team_.size(), 1);
+  team_.run(team_.size(), [&](int member) {
+    const size_t begin = kind.groups.size() * member / team_.size(),
+                 end = kind.groups.size() * (member + 1) / team_.size();
+    for (size_t g = begin; g < end; ++g) {
+      Group& k = kind.groups[g];
+      GroupFrame& f = kind.frames[g];
+      for (int lane = 0; lane < group_lanes; ++lane)
+        if (f.contact[lane] >= 0 && !fill_lane(problem, k, f, lane)) made[member] = 0;
+      loops.make_principal(&k, &f, 1);
+      for (int lane = 0; lane < group_lanes; ++lane) {
+        if (f.contact[lane] < 0) continue;
+        // Nothing moves it along its normal.
+        if (!(f.lambda_max[lane] > 0.0)) made[member] = 0;
+        if constexpr (requires { k.mu; }) f.lambda_max[lane] = block_lambda_max(k, f, lane);
+      }
+    }
+  });
+  return std::find(made.begin(), made.end(), 0) == made.end();
+}
+
+/// Rows and bias as the problem gives them, in the bodies' variables. False: the two sides' linear
+/// parts are not opposite.
+template <typename Group>
+bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& f, int lane) const {
+  constexpr int rows = Group::rows;
+  const DynamicsForm& dynamics = problem.dynamics;
+  const int c = f.contact[lane];
+  const double* block = dynamics.h.data() + dynamics.h_begin[c];
+  const int bodies[2] = {dynamics.body_a[c], dynamics.body_b[c]};
+  bool opposite = true, found = false;
+  for (int s = 0; s < 2; ++s) {
+    const int body = bodies[s];
+    if (body < 0) continue;
+    const MassRoot& root = roots_[body];
+    if constexpr (requires { k.wall; })
+      if (is_wall_[body]) {
+        k.wall[lane] = block[0] * root.inverse[0];
+        block += 1;
+        continue;
+      }
+    k.body[s][lane] = body * row_bytes;
+    k.inverse_mass[s][lane] = root.inverse[0] * root.inverse[0];
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < rows; ++i) {
+        const double entry = s == 0 ? -block[j * rows + i] : block[j * rows + i];
+        opposite = opposite && !(found && entry != k.line[i][j][lane]);
+        k.line[i][j][lane] = entry;
+      }
+    root.scaled_columns<rows>(block, [&k, s, lane](int j, const double* column) {
+      if (j < 3) return;
+      for (int i = 0; i < rows; ++i) k.turn[s][i][j - 3][lane] = column[i];
+    });
+    block += rows * 6;
+    found = true;
+  }
+  for (int i = 0; i < rows; ++i) k.bias[i][lane] = dynamics.bias[problem.row_begin[c] + i];
+  f.mu[lane] = problem.friction[c];
+  return opposite;
+}
+
+void WideSweep::free_bodies(const DynamicsForm& dynamics) {
+  const int bodies = dynamics.body_count();
+  free_.assign(bodies + interiors_.size() + interfaces_.size(), {});
+  for (int b = 0; b < bodies; ++b) {
+    double* w = free_[b].w;
+    const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];
+    std::copy_n(v, dynamics.body_dofs(b), w);
+    roots_[b].multiply_upper(w);
+    if (!is_wall_[b]) std::copy_n(v, 3, w);
+  }
+}
+
+}  // namespace ballast

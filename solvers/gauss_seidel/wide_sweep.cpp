@@ -1,0 +1,186 @@
+#include "solvers/gauss_seidel/wide_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+template <typename Task>
+void WideSweep::for_parts(const Task& task) {
+  team_.run(static_cast<int>(interiors_.size()), [&](int part) { task(interiors_[part]); });
+  team_.run(static_cast<int>(interfaces_.size()), [&](int part) { task(interfaces_[part]); });
+}
+
+void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
+  // To the groups' coordinates.
+  for_kinds([&](auto& kind) {
+    for (size_t g = 0; g < kind.groups.size(); ++g) {
+      kind.impulses[g] = {};
+      const GroupFrame& f = kind.frames[g];
+      auto& y = kind.impulses[g].y;
+      for (int i = 0; i < group_lanes; ++i) {
+        if (f.contact[i] < 0) continue;
+        const double* rc = r.data() + problem.row_begin[f.contact[i]];
+        y[0][i] = f.normal[i] * rc[0];
+        if constexpr (requires { kind.groups[g].mu; }) {
+          const auto& k = kind.groups[g];
+          y[1][i] = f.tangent[i] * (f.cosine[i] * rc[1] + f.sine[i] * rc[2]);
+          y[2][i] = f.tangent[i] * (f.cosine[i] * rc[2] - f.sine[i] * rc[1]);
+          y[0][i] += k.c1[i] * y[1][i] + k.c2[i] * y[2][i];
+        }
+      }
+    }
+  });
+  // The bodies start free, and every impulse pushes them once.
+  bodies_ = free_;
+  for_parts([this](const Part& part) {
+    const auto push = [this](const auto& kind, const auto& loops, Range range) {
+      loops.push(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
+                 bodies_.data());
+    };
+    push(friction_, kernels_->friction, part.friction);
+    push(one_row_, kernels_->one_row, part.one_row);
+    push(wall_, kernels_->wall, part.wall);
+  });
+}
+
+void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
+  // What nothing moves is in no group.
+  r.setZero(problem.row_count());
+  for_kinds([&](const auto& kind) {
+    for (size_t g = 0; g < kind.groups.size(); ++g) {
+      const GroupFrame& f = kind.frames[g];
+      const auto& y = kind.impulses[g].y;
+      for (int i = 0; i < group_lanes; ++i) {
+        if (f.contact[i] < 0) continue;
+        double* rc = r.data() + problem.row_begin[f.contact[i]];
+        rc[0] = f.inverse_normal[i] * y[0][i];
+        if constexpr (requires { kind.groups[g].mu; }) {
+          const auto& k = kind.groups[g];
+          rc[0] = f.inverse_normal[i] * (y[0][i] - k.c1[i] * y[1][i] - k.c2[i] * y[2][i]);
+          const double t1 = f.inverse_tangent[i] * y[1][i], t2 = f.inverse_tangent[i] * y[2][i];
+          rc[1] = f.cosine[i] * t1 - f.sine[i] * t2;
+          rc[2] = f.sine[i] * t1 + f.cosine[i] * t2;
+        }
+      }
+    }
+  });
+}
+
+void WideSweep::sweep() {
+  for_parts([this](const Part& part) {
+    const auto sweep = [this](auto& kind, const auto& loops, Range range) {
+      loops.sweep(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
+                  bodies_.data());
+    };
+    sweep(friction_, kernels_->friction, part.friction);
+    sweep(one_row_, kernels_->one_row, part.one_row);
+    sweep(wall_, kernels_->wall, part.wall);
+  });
+}
+
+void WideSweep::start_search() {
+  for_kinds([](auto& kind) { kind.search.assign(kind.groups.size(), {}); });
+  before_ = bodies_;
+  direction_.assign(bodies_.size(), {});
+}
+
+double WideSweep::sweep(SearchStep step) {
+  const auto sweep_part = [this, step](Part& part) {
+    const auto search = [this, step](auto& kind, const auto& loops, Range range) {
+      return loops.search(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
+                          kind.search.data() + range.begin, step, range.count, bodies_.data());
+    };
+    part.change_square = search(friction_, kernels_->friction, part.friction) +
+                         search(one_row_, kernels_->one_row, part.one_row) +
+                         search(wall_, kernels_->wall, part.wall);
+  };
+  // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
+  team_.run(static_cast<int>(interiors_.size()), [&](int slab) {
+    const std::span<const int> bodies = plan_.bodies(slab);
+    kernels_->move_bodies(bodies.data(), static_cast<int>(bodies.size()), step, bodies_.data(),
+                          before_.data(), direction_.data());
+    sweep_part(interiors_[slab]);
+  });
+  team_.run(static_cast<int>(interfaces_.size()), [&](int k) { sweep_part(interfaces_[k]); });
+  double square = 0.0;
+  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
+    for (const Part& part : *parts) square += part.change_square;
+  return square;
+}
+
+double WideSweep::error() {
+  for_parts([this](Part& part) {
+    const auto error = [this](const auto& kind, const auto& loops, Range range) {
+      return loops.error(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
+                         kind.frames.data() + range.begin, range.count, bodies_.data());
+    };
+    part.error_square = error(friction_, kernels_->friction, part.friction) +
+                        error(one_row_, kernels_->one_row, part.one_row) +
+                        error(wall_, kernels_->wall, part.wall);
+  });
+  // The parts' sums, always in the same order.
+  double sum = 0.0;
+  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
+    for (const Part& part : *parts) sum += part.error_square;
+  return contacts_ > 0 ? std::sqrt(sum / contacts_) : 0.0;
+}
+
+void WideSweep::save(Eigen::VectorXd& state) const {
+  // Impulses kind by kind, then velocities: restore() reads the same order.
+  Eigen::Index size = 0;
+  for_kinds([&](const auto& kind) {
+    for (const auto& k : kind.impulses) size += sizeof k.y / sizeof(double);
+  });
+  state.resize(size + 8 * static_cast<Eigen::Index>(bodies_.size()));
+  double* x = state.data();
+  for_kinds([&](const auto& kind) {
+    for (const auto& k : kind.impulses) x = std::copy_n(k.y[0], sizeof k.y / sizeof(double), x);
+  });
+  for (const BodyRow<double>& body : bodies_) x = std::copy_n(body.w, 8, x);
+}
+
+void WideSweep::restore(const Eigen::VectorXd& state) {
+  const double* x = state.data();
+  for_kinds([&](auto& kind) {
+    for (auto& k : kind.impulses) {
+      std::copy_n(x, sizeof k.y / sizeof(double), k.y[0]);
+      x += sizeof k.y / sizeof(double);
+    }
+  });
+  for (BodyRow<double>& body : bodies_) {
+    std::copy_n(x, 8, body.w);
+    x += 8;
+  }
+}
+
+/// In the groups' coordinates W's diagonal is (1, 1, s2).
+void WideSweep::impulse_weights(Eigen::VectorXd& weights) const {
+  std::vector<double> roots;
+  for_kinds([&](const auto& kind) {
+    for (const auto& k : kind.groups) {
+      roots.insert(roots.end(), std::min(k.rows, 2) * group_lanes, 1.0);
+      if constexpr (requires { k.s2; })
+        for (const double s2 : k.s2) roots.push_back(std::sqrt(s2));
+    }
+  });
+  weights = Eigen::VectorXd::Map(roots.data(), static_cast<Eigen::Index>(roots.size()));
+}
+
+std::vector<int> WideSweep::order() const {
+  std::vector<int> contacts;
+  const auto add = [&contacts](const auto& kind, Range range) {
+    for (int g = range.begin; g < range.begin + range.count; ++g)
+      for (const int c : kind.frames[g].contact)
+        if (c >= 0) contacts.push_back(c);
+  };
+  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
+    for (const Part& part : *parts) {
+      add(friction_, part.friction);
+      add(one_row_, part.one_row);
+      add(wall_, part.wall);
+    }
+  return contacts;
+}
+
+}  // namespace ballast

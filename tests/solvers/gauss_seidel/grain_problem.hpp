@@ -1,0 +1,94 @@
+#pragma once
+// Problems of the kind that a time step gives, for the wide sweep: grains along a line, contacts
+// between near ones, contacts with what does not move on either side, one-row contacts, a driven
+// wall.
+
+#include <Eigen/Dense>
+
+#include "platform/random.hpp"
+#include "problems/algebra/friction_problem.hpp"
+
+namespace ballast::samples {
+
+struct GrainSettings {
+  int grains = 150, contacts = 600;
+  int reach = 12;           ///< contacts join grain k with k + 1 ... k + reach
+  bool has_wall = true;     ///< the last body: one unknown, every tenth contact, one row
+  double mass_ratio = 1.0;  ///< masses log-uniform in [1e-3, 1e-3 mass_ratio] kg
+  std::uint64_t seed = 1;
+};
+
+class GrainProblem {
+ public:
+  explicit GrainProblem(const GrainSettings& settings) : random_(settings.seed) {
+    problem.has_dynamics = true;
+    for (int g = 0; g < settings.grains; ++g)
+      add_body(grain_mass(random_.log_uniform(1e-3, 1e-3 * settings.mass_ratio)));
+    if (settings.has_wall) add_body(Eigen::MatrixXd::Constant(1, 1, 0.5));
+    for (int c = 0; c < settings.contacts; ++c) {
+      int a = random_.below(settings.grains), b = a + 1 + random_.below(settings.reach);
+      if (b >= settings.grains) b = -1;
+      if (random_.below(4) == 0) std::swap(a, b);
+      const bool on_wall = settings.has_wall && c % 10 == 0;
+      if (on_wall) (a >= 0 ? b : a) = settings.grains;
+      add_contact(a, b, on_wall || c % 7 == 0 ? 1 : 3);
+    }
+    DynamicsForm& d = problem.dynamics;
+    d.v_free.resize(d.dof_count());
+    for (double& v : d.v_free) v = random_.uniform(-0.1, 0.1);
+    d.bias.resize(problem.row_count());
+    for (double& b : d.bias) b = random_.uniform(-0.03, 0.01);
+  }
+
+  FrictionProblem problem;
+
+ private:
+  /// diag(m, m, m, J), J a full block for every second grain; 1 cm to the surface.
+  Eigen::MatrixXd grain_mass(double m) {
+    Eigen::Matrix3d root = Eigen::Matrix3d::Identity();
+    if (problem.dynamics.body_count() % 2)
+      for (double& x : root.reshaped()) x += random_.uniform(-0.2, 0.2);
+    Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(6, 6);
+    mass.topLeftCorner<3, 3>().diagonal().setConstant(m);
+    mass.bottomRightCorner<3, 3>() = 4e-5 * m * (root * root.transpose());
+    return mass;
+  }
+
+  void add_body(const Eigen::MatrixXd& mass) {
+    DynamicsForm& d = problem.dynamics;
+    d.mass.insert(d.mass.end(), mass.data(), mass.data() + mass.size());
+    d.dof_begin.push_back(d.dof_begin.back() + static_cast<int>(mass.rows()));
+    d.mass_begin.push_back(static_cast<int>(d.mass.size()));
+  }
+
+  void add_contact(int a, int b, int rows) {
+    DynamicsForm& d = problem.dynamics;
+    Eigen::MatrixXd line(rows, 3);
+    for (double& x : line.reshaped()) x = random_.uniform(-1.0, 1.0);
+    for (int i = 0; i < rows; ++i) line(i, i) += 2.0;
+    for (const int side : {0, 1}) {
+      const int body = side ? b : a;
+      if (body < 0) continue;
+      Eigen::MatrixXd block(rows, d.body_dofs(body));
+      for (double& x : block.reshaped()) x = random_.uniform(-0.01, 0.01);
+      if (block.cols() == 6)
+        block.leftCols(3) = side ? line : (-line).eval();
+      else
+        block.setOnes();
+      d.h.insert(d.h.end(), block.data(), block.data() + block.size());
+    }
+    d.body_a.push_back(a);
+    d.body_b.push_back(b);
+    d.h_begin.push_back(static_cast<int>(d.h.size()));
+    problem.row_begin.push_back(problem.row_begin.back() + rows);
+    problem.friction.push_back(rows == 1 ? 0.0 : random_.uniform(0.1, 0.8));
+  }
+
+  Random random_;
+};
+
+inline FrictionProblem grain_problem(const GrainSettings& settings = {}) {
+  return GrainProblem(settings).problem;
+}
+
+}  // namespace ballast::samples

@@ -1,0 +1,246 @@
+// The sweep in groups against the sweep contact after contact.
+
+#include "solvers/gauss_seidel/wide_sweep.hpp"
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "solvers/gauss_seidel/scalar_sweep.hpp"
+#include "tests/catch.hpp"
+#include "tests/solvers/gauss_seidel/grain_problem.hpp"
+
+using namespace ballast;
+using samples::grain_problem;
+
+namespace {
+
+struct Wide {
+  SweepPlan plan;
+  WorkerTeam team;
+  WideSweep sweep{plan, team};
+  bool fits;
+
+  explicit Wide(const FrictionProblem& problem, const GroupKernels& kernels = group_kernels(),
+                int threads = 1) {
+    team.resize(threads);
+    plan.prepare(problem);
+    sweep.use_kernels(kernels);
+    fits = sweep.prepare(problem);
+  }
+};
+
+struct Scalar {
+  SweepPlan plan;
+  WorkerTeam team;
+  ScalarSweep sweep{plan, team};
+
+  explicit Scalar(const FrictionProblem& problem) {
+    plan.prepare(problem);
+    sweep.prepare(problem);
+  }
+};
+
+Impulses start_of(const FrictionProblem& problem) {
+  return Impulses::Constant(problem.row_count(), 1e-5);
+}
+
+double difference(const Impulses& x, const Impulses& y) { return (x - y).norm() / y.norm(); }
+
+/// Contacts that have grains of their own: one sweep solves each of them. Velocities over three
+/// decades.
+FrictionProblem contacts_apart(std::uint64_t seed) {
+  samples::GrainSettings settings{.grains = 640, .contacts = 320, .has_wall = false, .seed = seed};
+  FrictionProblem problem = grain_problem(settings);
+  Random random(seed);
+  DynamicsForm& d = problem.dynamics;
+  for (int c = 0; c < settings.contacts; ++c) {
+    if (d.body_a[c] >= 0) d.body_a[c] = 2 * c;
+    if (d.body_b[c] >= 0) d.body_b[c] = 2 * c + 1;
+    const double size = random.log_uniform(1e-3, 1.0);
+    for (int k = 12 * c; k < 12 * (c + 1); ++k) d.v_free[k] = size * random.uniform(-1.0, 1.0);
+  }
+  d.bias.setZero();
+  for (double& mu : problem.friction) mu *= 3.0;  // more of them stick
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("wide: a sweep is the scalar one in the same order, to rounding") {
+  for (const double mass_ratio : {1.0, 1e6}) {
+    const FrictionProblem problem = grain_problem({.mass_ratio = mass_ratio, .seed = 3});
+    Wide wide(problem);
+    REQUIRE(wide.fits);
+    Scalar scalar(problem);
+    const std::vector<int> order = wide.sweep.order();
+    CHECK(static_cast<int>(order.size()) == problem.contact_count());
+    Impulses fast = start_of(problem), slow = fast;
+    wide.sweep.load(problem, fast);
+    scalar.sweep.load(problem, slow);
+    for (int k = 1; k <= 30; ++k) {
+      wide.sweep.sweep();
+      scalar.sweep.sweep(SweepVariant{}, order);
+      wide.sweep.store(problem, fast);
+      scalar.sweep.store(problem, slow);
+      REQUIRE(difference(fast, slow) <= (k == 1 ? 1e-15 : 1e-12));
+      const double judged = contact_error(problem, fast).natural_map_rms;
+      REQUIRE(wide.sweep.error() == Approx(judged).epsilon(1e-9).margin(1e-14));
+    }
+  }
+}
+
+TEST_CASE("wide: every status of the law is met, and each contact solved to rounding") {
+  int open = 0, stick = 0, slip = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const FrictionProblem problem = contacts_apart(seed);
+    Wide wide(problem);
+    REQUIRE(wide.fits);
+    Impulses r = Impulses::Zero(problem.row_count());
+    wide.sweep.load(problem, r);
+    wide.sweep.sweep();
+    wide.sweep.store(problem, r);
+    CHECK(contact_error(problem, r).natural_map_max <= 1e-14);  // of velocities up to 1 m/s
+    CHECK(contact_error(problem, r).cone_violation <= 1e-15 * r.norm());
+    Eigen::VectorXd u;
+    contact_velocity(problem, r, u);
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      if (problem.contact_rows(c) != 3) continue;
+      const Eigen::Vector3d rc = r.segment<3>(problem.row_begin[c]),
+                            uc = u.segment<3>(problem.row_begin[c]);
+      (rc[0] == 0.0 ? open : uc.tail<2>().norm() < 1e-12 ? stick : slip) += 1;
+    }
+  }
+  CHECK(open > 100);
+  CHECK(stick > 100);
+  CHECK(slip > 100);
+}
+
+TEST_CASE("wide: the same bits on every instruction set, with any number of threads") {
+  // Three slabs, so that threads have interiors and interfaces.
+  const FrictionProblem problem = grain_problem({.grains = 1600, .contacts = 6000, .seed = 5});
+  Impulses expected;
+  double expected_error = 0.0, expected_square = 0.0;
+  for (const GroupKernels* kernels : all_group_kernels())
+    for (const int threads : {1, 2, 3}) {
+      Wide wide(problem, *kernels, threads);
+      REQUIRE(wide.fits);
+      REQUIRE(wide.plan.interiors().size() >= 2);
+      Impulses r = start_of(problem);
+      wide.sweep.load(problem, r);
+      wide.sweep.start_search();
+      double square = 0.0;
+      for (const SearchStep step : {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.4, 1.0}})
+        square += wide.sweep.sweep(step);
+      for (int k = 0; k < 20; ++k) wide.sweep.sweep();
+      wide.sweep.store(problem, r);
+      const double error = wide.sweep.error();
+      if (expected.size() == 0) {
+        expected = r;
+        expected_error = error;
+        expected_square = square;
+      }
+      INFO(kernels->instruction_set << ", threads " << threads);
+      CHECK(r == expected);
+      CHECK(error == expected_error);
+      CHECK(square == expected_square);
+    }
+  CHECK(all_group_kernels().back()->instruction_set == std::string("sse2"));
+}
+
+TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step, then sweeps") {
+  const FrictionProblem problem = grain_problem({.seed = 8});
+  Wide fast(problem), slow(problem);
+  for (Wide* wide : {&fast, &slow}) wide->sweep.load(problem, start_of(problem));
+  fast.sweep.start_search();
+  Eigen::VectorXd x, fast_state, weights;
+  slow.sweep.impulse_weights(weights);
+  slow.sweep.save(x);
+  Eigen::VectorXd before = x, direction = Eigen::VectorXd::Zero(x.size());
+  for (const SearchStep step :
+       {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.3, 1.0}, {0.0, 1.0}, {0.9, 1.0}}) {
+    const double square = fast.sweep.sweep(step);
+    // The twin: the formula on impulses and velocities as one vector.
+    slow.sweep.save(x);
+    const Eigen::VectorXd along = step.beta * direction;
+    direction = along + step.gain * (x - before);
+    before = x + along;
+    slow.sweep.restore(before);
+    slow.sweep.sweep();
+    slow.sweep.save(x);
+    CHECK(square == Approx((x - before).head(weights.size()).squaredNorm()).epsilon(1e-12));
+    fast.sweep.save(fast_state);
+    CHECK((fast_state - x).norm() <= 1e-14 * x.norm());
+  }
+  CHECK(x.head(weights.size()).norm() > 0.0);
+}
+
+TEST_CASE("wide: impulses that are loaded come back; what nothing moves is dropped") {
+  FrictionProblem problem = grain_problem({.seed = 2});
+  // A contact of nothing with nothing at the end.
+  problem.dynamics.body_a.push_back(-1);
+  problem.dynamics.body_b.push_back(-1);
+  problem.dynamics.h_begin.push_back(problem.dynamics.h_begin.back());
+  problem.row_begin.push_back(problem.row_begin.back() + 3);
+  problem.friction.push_back(0.5);
+  problem.dynamics.bias.conservativeResize(problem.row_count());
+  problem.dynamics.bias.tail<3>().setConstant(0.1);
+  Wide wide(problem);
+  REQUIRE(wide.fits);
+  Impulses r = Impulses::LinSpaced(problem.row_count(), 1e-6, 1e-4), back;
+  wide.sweep.load(problem, r);
+  wide.sweep.store(problem, back);
+  CHECK(back.tail<3>() == Eigen::Vector3d::Zero());
+  r.tail<3>().setZero();
+  CHECK(difference(back, r) <= 1e-15);
+  CHECK(wide.sweep.error() == Approx(contact_error(problem, r).natural_map_rms).epsilon(1e-12));
+}
+
+TEST_CASE("wide: weights are those of W's diagonal in the groups' coordinates") {
+  const FrictionProblem problem = grain_problem({.seed = 4});
+  Wide wide(problem);
+  wide.sweep.load(problem, Impulses::Zero(problem.row_count()));
+  Eigen::VectorXd state, moved, weights;
+  wide.sweep.impulse_weights(weights);
+  wide.sweep.save(state);
+  CHECK(weights.size() < state.size());
+  CHECK(weights.minCoeff() >= 1.0);
+  CHECK(weights.maxCoeff() > 1.0);
+}
+
+TEST_CASE("wide: says of other problems that it cannot take them") {
+  const auto fits = [](const FrictionProblem& problem) { return Wide(problem).fits; };
+  const FrictionProblem good = grain_problem({});
+  CHECK(fits(good));
+  FrictionProblem other = good;
+  other.dynamics.mass[1] = other.dynamics.mass[6] = 1e-7;  // linear unknowns coupled
+  CHECK_FALSE(fits(other));
+  other = good;
+  other.dynamics.mass[0] *= 1.0 + 1e-15;
+  CHECK_FALSE(fits(other));
+  other = good;
+  for (int c = 0; c < other.contact_count(); ++c) {  // one side's linear part not opposite
+    const DynamicsForm& d = other.dynamics;
+    if (d.body_a[c] < 0 || d.body_b[c] < 0 || d.body_dofs(d.body_b[c]) != 6) continue;
+    other.dynamics.h[d.h_begin[c]] += 1e-9;
+    break;
+  }
+  CHECK_FALSE(fits(other));
+  CHECK_FALSE(fits(make_known_solution({}).problem));
+  // Two walls in contact: both would want to pass through the lanes.
+  other = good;
+  other.dynamics.mass.push_back(0.5);
+  other.dynamics.dof_begin.push_back(other.dynamics.dof_count() + 1);
+  other.dynamics.mass_begin.push_back(static_cast<int>(other.dynamics.mass.size()));
+  other.dynamics.body_a.push_back(other.dynamics.body_count() - 2);
+  other.dynamics.body_b.push_back(other.dynamics.body_count() - 1);
+  other.dynamics.h.insert(other.dynamics.h.end(), {-1.0, 1.0});
+  other.dynamics.h_begin.push_back(static_cast<int>(other.dynamics.h.size()));
+  other.row_begin.push_back(other.row_begin.back() + 1);
+  other.friction.push_back(0.0);
+  other.dynamics.v_free.conservativeResize(other.dynamics.dof_count());
+  other.dynamics.v_free.tail<1>().setZero();
+  other.dynamics.bias.conservativeResize(other.row_count());
+  other.dynamics.bias.tail<1>().setZero();
+  CHECK_FALSE(fits(other));
+  // All contacts on one grain: groups of one.
+  CHECK_FALSE(fits(grain_problem({.grains = 2, .contacts = 100, .has_wall = false})));
+}
