@@ -29,6 +29,13 @@ std::string error_of(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("control characters of a varied key stay out of the message") {
+  // \r within quotes is a key's letter
+  const std::string message = error_of(
+      "scene = \"incline\"\n[[grid]]\nname = \"nu\"\nvary.\"contact.\\riction\" = [0.1]\n");
+  CHECK_THAT(message, Catch::Contains("contact.?iction"));
+}
+
 TEST_CASE("a plan lists its runs and multiplies its grids") {
   const TemporaryFolder folder;
   const Plan plan = read_plan(folder.write("two.toml", R"(

@@ -231,3 +231,14 @@ TEST_CASE("mutilated scenes are read or refused in one line, and nothing else ha
   }
   CHECK(refused > 300);
 }
+
+TEST_CASE("control characters of a broken file stay out of the message") {
+  const TemporaryFolder folder;
+  for (const char* text :
+       {"a = in\n", "a = 1\x7f\n", "\"b\tc\" = 1\n", "[scene]\nname = \"a\\u0007\\n\"\n"}) {
+    const std::string message = error_of(folder, text);
+    INFO(message);
+    CHECK(std::none_of(message.begin(), message.end(),
+                       [](unsigned char c) { return c < 32 || c == 127; }));
+  }
+}
