@@ -78,6 +78,13 @@ Json json_of(const Value& value) {
 void take(const Json& json, double& value) {
   value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
+/// JSON's own conversion takes any number for a whole one, also what no int can hold.
+void take(const Json& json, int& value) {
+  const double number = json.get<double>();
+  if (number != std::floor(number) || std::abs(number) > std::numeric_limits<int>::max())
+    throw std::invalid_argument(json.dump() + " is no whole number that fits");
+  value = static_cast<int>(number);
+}
 template <typename Value>
 void take(const Json& json, Value& value) {
   value = json.get<Value>();

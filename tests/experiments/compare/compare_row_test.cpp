@@ -47,6 +47,17 @@ TEST_CASE("Names of measures, starts and outcomes are read back, others are refu
                     Catch::Contains("exploded"));
 }
 
+TEST_CASE("A count that no int can hold is refused") {
+  const std::string json = to_json(CompareRow{}), count = "\"repeat\":0";
+  const size_t at = json.find(count);
+  REQUIRE(at != std::string::npos);
+  for (const char* wrong : {"1e300", "-9223372036854775809", "2147483648", "0.5", "null", "[]"})
+    CHECK_THROWS_WITH(compare_row_of_json(std::string(json).replace(
+                                              at, count.size(), std::string("\"repeat\":") + wrong),
+                                          "row.json"),
+                      Catch::StartsWith("row.json: is no row"));
+}
+
 TEST_CASE("A claim that the judge denies is a false success") {
   CompareRow row;
   row.claimed = true;
