@@ -46,33 +46,35 @@ bool is_plain(std::string_view text, std::string_view also) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
     return is_letter_or_digit(c) || also.find(c) != also.npos;
   });
-  size_t edit_distance(std::string_view a, std::string_view b) {
-    // One row of the table of distances between prefixes of a and of b.
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (size_t i = 0; i < a.size(); ++i) {
-      size_t diagonal = row[0]++;
-      for (size_t j = 0; j < b.size(); ++j) {
-        const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
-      }
+}
+
+size_t edit_distance(std::string_view a, std::string_view b) {
+  // One row of the table of distances between prefixes of a and of b.
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0]++;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
     }
-    return row.back();
   }
+  return row.back();
+}
 
-  std::optional<double> parsed_number(std::string_view text) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-    return parsed<double>(text);
-  }
+std::optional<double> parsed_number(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return parsed<double>(text);
+}
 
-  std::string duration_text(double seconds) {
-    if (!(seconds < 1e6)) return "?";
-    const long s = std::lround(seconds);
-    if (s < 60) return printed("%ld s", s);
-    if (s < 3600) return printed("%ld min %02ld s", s / 60, s % 60);
-    return printed("%ld h %02ld min", s / 3600, s / 60 % 60);
-  }
+std::string duration_text(double seconds) {
+  if (!(seconds < 1e6)) return "?";
+  const long s = std::lround(seconds);
+  if (s < 60) return printed("%ld s", s);
+  if (s < 3600) return printed("%ld min %02ld s", s / 60, s % 60);
+  return printed("%ld h %02ld min", s / 3600, s / 60 % 60);
+}
 
 }  // namespace ballast

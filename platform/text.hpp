@@ -44,32 +44,34 @@ std::optional<Number> parsed(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
-  /// The one of `words` that `word` was probably meant to be: at most two letters, or a third of
-  /// them, are missing, too many or others. Empty where none is that near. `Words`: of texts.
-  template <typename Words>
-  std::string nearest_word(std::string_view word, const Words& words) {
-    std::string nearest;
-    size_t least = word.size() / 3 > 2 ? word.size() / 3 + 1 : 3;
-    for (const std::string_view candidate : words)
-      if (const size_t distance = edit_distance(word, candidate); distance < least) {
-        least = distance;
-        nearest = candidate;
-      }
-    return nearest;
-  }
+}
 
-  /// ", did you mean "incline"?" for the nearest of `words`; empty where none is near.
-  template <typename Words>
-  std::string did_you_mean(std::string_view word, const Words& words) {
-    const std::string nearest = nearest_word(word, words);
-    return nearest.empty() ? nearest : ", did you mean \"" + nearest + "\"?";
-  }
+/// The one of `words` that `word` was probably meant to be: at most two letters, or a third of
+/// them, are missing, too many or others. Empty where none is that near. `Words`: of texts.
+template <typename Words>
+std::string nearest_word(std::string_view word, const Words& words) {
+  std::string nearest;
+  size_t least = word.size() / 3 > 2 ? word.size() / 3 + 1 : 3;
+  for (const std::string_view candidate : words)
+    if (const size_t distance = edit_distance(word, candidate); distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  return nearest;
+}
 
-  /// The number that all of `text` is, blanks around it apart; nothing when it is none. "nan" and
-  /// "inf" are numbers.
-  std::optional<double> parsed_number(std::string_view text);
+/// ", did you mean "incline"?" for the nearest of `words`; empty where none is near.
+template <typename Words>
+std::string did_you_mean(std::string_view word, const Words& words) {
+  const std::string nearest = nearest_word(word, words);
+  return nearest.empty() ? nearest : ", did you mean \"" + nearest + "\"?";
+}
 
-  /// "59 s", "3 min 05 s", "2 h 10 min"; "?" when it is not known.
-  std::string duration_text(double seconds);
+/// The number that all of `text` is, blanks around it apart; nothing when it is none. "nan" and
+/// "inf" are numbers.
+std::optional<double> parsed_number(std::string_view text);
+
+/// "59 s", "3 min 05 s", "2 h 10 min"; "?" when it is not known.
+std::string duration_text(double seconds);
 
 }  // namespace ballast

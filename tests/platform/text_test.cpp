@@ -75,22 +75,24 @@ TEST_CASE("what is parsed is all of a text, without blanks") {
     CAPTURE(text);
     CHECK_FALSE(parsed<long>(text));
   }
-  TEST_CASE("the distance of two words is what has to be typed again") {
-    CHECK(edit_distance("", "") == 0);
-    CHECK(edit_distance("run", "run") == 0);
-    CHECK(edit_distance("rnu", "run") == 2);
-    CHECK(edit_distance("kitten", "sitting") == 3);
-    CHECK(edit_distance("", "abc") == 3);
-    CHECK(edit_distance("abc", "") == 3);
-  }
+}
 
-  TEST_CASE("a slip of the finger is recognised, another word is not") {
-    const std::vector<std::string> words{"run", "solve", "compare", "vibrated_box_small"};
-    CHECK(nearest_word("rnu", words) == "run");
-    CHECK(nearest_word("compere", words) == "compare");
-    CHECK(nearest_word("vibratedboxsmal", words) == "vibrated_box_small");
-    CHECK(nearest_word("frobnicate", words).empty());
-    CHECK(nearest_word("x", std::vector<std::string>{}).empty());
-    CHECK(did_you_mean("slove", words) == ", did you mean \"solve\"?");
-    CHECK(did_you_mean("frobnicate", words).empty());
-  }
+TEST_CASE("the distance of two words is what has to be typed again") {
+  CHECK(edit_distance("", "") == 0);
+  CHECK(edit_distance("run", "run") == 0);
+  CHECK(edit_distance("rnu", "run") == 2);
+  CHECK(edit_distance("kitten", "sitting") == 3);
+  CHECK(edit_distance("", "abc") == 3);
+  CHECK(edit_distance("abc", "") == 3);
+}
+
+TEST_CASE("a slip of the finger is recognised, another word is not") {
+  const std::vector<std::string> words{"run", "solve", "compare", "vibrated_box_small"};
+  CHECK(nearest_word("rnu", words) == "run");
+  CHECK(nearest_word("compere", words) == "compare");
+  CHECK(nearest_word("vibratedboxsmal", words) == "vibrated_box_small");
+  CHECK(nearest_word("frobnicate", words).empty());
+  CHECK(nearest_word("x", std::vector<std::string>{}).empty());
+  CHECK(did_you_mean("slove", words) == ", did you mean \"solve\"?");
+  CHECK(did_you_mean("frobnicate", words).empty());
+}
