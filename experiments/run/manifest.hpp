@@ -44,7 +44,6 @@ class Manifest {
   void summary(const std::string& name, double value);
   void summary(const std::string& name, const std::string& value);
 
-  std::string scene() const;
   std::string key() const;
   /// Of the program that began the run; "-dirty" when it was not quite that.
   std::string commit() const;

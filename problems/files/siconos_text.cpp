@@ -1,7 +1,6 @@
 #include "problems/files/siconos_text.hpp"
 
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 #include "problems/files/problem_file_error.hpp"
 
 namespace ballast {

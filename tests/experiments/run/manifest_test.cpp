@@ -48,7 +48,8 @@ TEST_CASE("a manifest says what a run was made by and from, and is read back") {
 
   Manifest read = Manifest::read(file);
   CHECK(read.text() == manifest.text());
-  CHECK((read.scene() == "vibrated_box" && read.key() == "0123456789abcdef"));
+  CHECK(read.key() == "0123456789abcdef");
+  CHECK_THAT(read.text(), Catch::Contains("\"scene\": \"vibrated_box\""));
   CHECK(read.summary_number("ms_per_step") == 40.5);
   CHECK(std::isnan(read.summary_number("packing")));
   CHECK(std::isnan(read.summary_number("no such name")));
