@@ -29,7 +29,6 @@ Command report_command() {
   return {"report",
           "Draws the page of a run from its record, again or while it goes on",
           {{"run", folders.get(), "Folders of runs", required}},
-          "Examples:\n  ballast report results/vibrated_box",
           [folders] { return draw_pages(*folders); }};
 }
 
