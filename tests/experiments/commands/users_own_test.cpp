@@ -27,7 +27,7 @@ ProgramResult in_folder(const fs::path& folder, const std::string& words,
 
 }  // namespace
 
-TEST_CASE("--overwrite leaves a folder alone that no run of ours made") {
+TEST_CASE("a run with --overwrite leaves a folder alone that no run of ours made") {
   const TemporaryFolder folder;
   const fs::path theirs = folder.path() / "theirs";
   fs::create_directories(theirs / "figures");

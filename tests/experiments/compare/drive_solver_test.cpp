@@ -96,7 +96,12 @@ TEST_CASE("Every backend stops on the measure of Siconos, and not far below it")
       if (!entry.make || entry.law != ContactLaw::coulomb) continue;
       INFO(entry.name << ", masses of " << mass_unit << " kg");
       Noting solver(entry.name);
-      const DrivenSolve driven = drive_solver(solver, problem, {}, settings);
+      DrivenSolve driven;
+      try {
+        driven = drive_solver(solver, problem, {}, settings);
+      } catch (const UnsupportedProblem&) {
+        continue;  // NLopt's dense Jacobian takes fewer contacts
+      }
       CHECK(solver.prepared == 1);
       CHECK(solver.budgets.size() == 1);
       if (driven.claimed) CHECK(driven.run.error.fclib <= 1e-4);

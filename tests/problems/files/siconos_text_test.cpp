@@ -120,7 +120,7 @@ TEST_CASE("each broken text is refused, with its line") {
   CHECK(complaint_of_text("5\n1\n") == "line 1: dimension 5: only 3 is supported");
   CHECK(complaint_of_text("3\n-1\n") == "line 2: the number of contacts = -1 is negative");
   CHECK(complaint_of_text("3\nmany\n") == "line 2: the number of contacts: 'many' is not a number");
-  CHECK(complaint_of_text("3\n1\n7\n3 3\n").rfind("line 4: storage 7 is none of", 0) == 0);
+  CHECK(complaint_of_text("3\n1\n7\n3 3\n").rfind("line 3: storage 7 is none of", 0) == 0);
   CHECK(complaint_of_text("3\n1\n0\n3 3\n3 4\n")
             .rfind("line 5: the matrix states two different sizes", 0) == 0);
   CHECK(complaint_of_text("3\n1\n0\n3 3\n3 3\n2 0 0 nan 3 0 0 0 4\n1 1 1\n")

@@ -143,13 +143,14 @@ TEST_CASE("a backend that refuses, fails or returns nothing says so through the 
   CHECK(nothing.solved.impulses.isZero(0.0));
   CHECK_FALSE(nothing.success);
 
-  FrictionProblem stored;  // W and q alone: nncg sweeps over bodies
+  FrictionProblem stored;  // W and q alone: newton_burst factorises over bodies
   stored.has_delassus = true;
   stored.row_begin.push_back(1);
   stored.friction.push_back(0.0);
   stored.delassus.w.resize(1, 1);
   stored.delassus.w.insert(0, 0) = 1.0;
   stored.delassus.q.setOnes(1);
-  CHECK_THROWS_AS(SolverRunner().run(*by_islands("nncg"), stored, {}, {}), UnsupportedProblem);
+  CHECK_THROWS_AS(SolverRunner().run(*by_islands("newton_burst"), stored, {}, {}),
+                  UnsupportedProblem);
   CHECK(SolverRunner().run(*by_islands("pgs"), stored, {}, {}).success);
 }
