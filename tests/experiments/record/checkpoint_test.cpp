@@ -233,6 +233,5 @@ TEST_CASE("a checkpoint that cannot be written leaves the old one") {
   const fs::path nowhere = folder.path() / "no" / "checkpoint.bin";
   CHECK_THAT(run_error([&] { write_checkpoint(nowhere, {}); }),
              Contains(nowhere.string()) && Contains("No such file"));
-  CHECK_THAT(run_error([&] { write_checkpoint(folder.path(), {}); }),
-             Contains("Is a directory"));
+  CHECK_THAT(run_error([&] { write_checkpoint(folder.path(), {}); }), Contains("Is a directory"));
 }
