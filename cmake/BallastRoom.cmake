@@ -48,22 +48,20 @@ foreach(level O1 O3)
     <span> <sstream> <string> <variant> <vector>)
 endforeach()
 
-# ballast_texts(NAME FOLDER): builds FOLDER/texts/*.md into the room ballast_NAME. The room's header
-# FOLDER/texts.hpp declares, in namespace ballast,
-#   page::Text NAME_text(const std::string& name, const page::Values& values = {});
-function(ballast_texts name folder)
-  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/texts/*.md)
+# ballast_texts(NAME): builds the texts/*.md of all rooms beside this CMakeLists.txt into the room
+# ballast_NAME, which defines page::words by them.
+function(ballast_texts name)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/texts/*.md)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
-  file(RELATIVE_PATH header ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/texts.hpp)
-  set(source ${CMAKE_CURRENT_BINARY_DIR}/${folder}_texts.cpp)
-  set(code "#include \"${header}\"\n\nballast::page::Text ballast::${name}_text(\n")
-  string(APPEND code "    const std::string& name, const page::Values& values) {\n")
-  string(APPEND code "  static const page::Prose prose{\n")
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/words.cpp)
+  set(code "#include \"experiments/page/prose.hpp\"\n\n")
+  string(APPEND code "const ballast::page::Prose& ballast::page::prose() {\n")
+  string(APPEND code "  static const Prose all{\n")
   foreach(file IN LISTS files)
     file(READ ${file} words)
     string(APPEND code "R\"prose(${words})prose\",\n")
   endforeach()
-  string(APPEND code "  };\n  return prose(name, values);\n}\n")
+  string(APPEND code "  };\n  return all;\n}\n")
   set(before "")
   if(EXISTS ${source})
     file(READ ${source} before)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/measure/curve_fit.hpp"
+#include "experiments/page/markdown.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
@@ -105,30 +106,32 @@ BenchResult read_bench_result(const std::filesystem::path& file) {
 
 std::string bench_ratio_table(const BenchResult& a, const BenchResult& b) {
   const auto origin = [](const BenchResult& r) {
-    return r.commit.substr(0, 12) + " (" + r.cpu + ")";
+    return r.commit.substr(0, 12) + " (" + r.cpu + "), " + r.kind;
   };
-  std::string table = "A: " + origin(a) + ", " + a.kind + "  \nB: " + origin(b) + ", " + b.kind +
-                      "\n\n| measurement | unit | A | B | B/A |\n|---|---|---:|---:|---:|\n",
-              alone;
   const auto find = [](const BenchResult& r, const Measurement& m) {
     return std::find_if(r.measurements.begin(), r.measurements.end(),
                         [&](const Measurement& other) {
                           return other.full_name() == m.full_name() && other.unit == m.unit;
                         });
   };
+  page::Table table{.head = {"measurement", "unit", "A", "B", "B/A"},
+                    .is_number = {false, false, true, true, true}};
+  page::List alone;
   for (const Measurement& m : a.measurements) {
     const auto other = find(b, m);
     if (other == b.measurements.end()) {
-      alone += "only in A: " + m.full_name() + "  \n";
+      alone.items.push_back("only in A: " + m.full_name());
       continue;
     }
     const std::string ratio = m.median == 0.0 ? "" : in_digits(other->median / m.median);
-    table += "| " + m.full_name() + " | " + m.unit + " | " + in_digits(m.median) + " | " +
-             in_digits(other->median) + " | " + ratio + " |\n";
+    table.rows.push_back(
+        {m.full_name(), m.unit, in_digits(m.median), in_digits(other->median), ratio});
   }
   for (const Measurement& m : b.measurements)
-    if (find(a, m) == a.measurements.end()) alone += "only in B: " + m.full_name() + "  \n";
-  return table + (alone.empty() ? "" : "\n" + alone);
+    if (find(a, m) == a.measurements.end()) alone.items.push_back("only in B: " + m.full_name());
+  const page::List origins{{"A: " + origin(a), "B: " + origin(b)}};
+  return markdown_of(page::Block(origins)) + markdown_of(page::Block(table)) +
+         markdown_of(page::Block(alone));
 }
 
 std::string measurement_table(const std::vector<Measurement>& measurements) {

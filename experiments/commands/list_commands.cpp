@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/command.hpp"
+#include "experiments/commands/scene_keys_page.hpp"
 #include "experiments/run/build_info.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
-#include "problems/scene/scene_keys_page.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {

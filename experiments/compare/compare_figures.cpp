@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/compare/texts.hpp"
+#include "experiments/page/page.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -24,9 +24,10 @@ double decade_above(double value) { return std::pow(10.0, std::ceil(std::log10(v
 double decade_below(double value) { return std::pow(10.0, std::floor(std::log10(value) + 1e-9)); }
 
 page::Text table_words(const CompareTable& table) {
-  return compare_text("table", {{"tolerance", page::exact(table.tolerance)},
-                                {"start", name_of(table.start)},
-                                {"cases", page::exact(static_cast<double>(table.cases.size()))}});
+  return page::words("compare.table",
+                     {{"tolerance", page::exact(table.tolerance)},
+                      {"start", name_of(table.start)},
+                      {"cases", page::exact(static_cast<double>(table.cases.size()))}});
 }
 
 page::Picture profile(const CompareTable& table, const std::string& name, const std::string& title,
@@ -47,7 +48,7 @@ page::Picture profile(const CompareTable& table, const std::string& name, const 
   figure.title = title;
   figure.height = height_for(curves.size());
   figure.panels = {panel};
-  return {figure, {compare_text(name + ".caption", {{"table", table_words(table)}})}};
+  return {figure, {page::words(name + ".caption", {{"table", table_words(table)}})}};
 }
 
 /// One quantity of the cases that cost is drawn against.
@@ -164,8 +165,8 @@ std::vector<page::Picture> cost_figures(const CompareTable& table) {
     figure.height = height_for(panel.curves.size());
     figure.panels = {panel};
     figures.push_back({figure,
-                       {compare_text(std::string("cost.") + axis.name + ".caption",
-                                     {{"table", table_words(table)}})}});
+                       {page::words(std::string("cost.") + axis.name + ".caption",
+                                    {{"table", table_words(table)}})}});
   }
   return figures;
 }

@@ -7,7 +7,7 @@
 #include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/outcome_tables.hpp"
 #include "experiments/compare/page_origin.hpp"
-#include "experiments/compare/texts.hpp"
+#include "experiments/page/page.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -138,8 +138,8 @@ page::Table reference_lines(const ReferenceComparison& comparison) {
 void add_reference(const ReferenceComparison& comparison, double limit, page::Section& section) {
   section.add(page::Subheading{"Tolerance " + page::exact(comparison.tolerance)});
   section.add(ratios_table(comparison, limit));
-  section.add(compare_text("reference.ratios", {{"problems", count_of(comparison.lines.size())},
-                                                {"limit", page::quantity(limit, "s")}}));
+  section.add(page::words("reference.ratios", {{"problems", count_of(comparison.lines.size())},
+                                               {"limit", page::quantity(limit, "s")}}));
   if (!comparison.missing.empty())
     section.add(page::Text("Not solved by us:", page::bad) +
                 (" " + joined(comparison.missing) + "."));
@@ -150,10 +150,11 @@ void add_reference(const ReferenceComparison& comparison, double limit, page::Se
 
 page::Text lede(std::span<const CompareRow> rows) {
   const auto count = [&](const auto& name) { return count_of(names_in(rows, name).size()); };
-  return compare_text("lede", {{"solvers", count([](const CompareRow& r) { return r.solver; })},
-                               {"problems", count([](const CompareRow& r) { return r.case_name; })},
-                               {"solves", count_of(rows.size())},
-                               {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
+  return page::words("compare.lede",
+                     {{"solvers", count([](const CompareRow& r) { return r.solver; })},
+                      {"problems", count([](const CompareRow& r) { return r.case_name; })},
+                      {"solves", count_of(rows.size())},
+                      {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
 }
 
 page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
@@ -167,9 +168,10 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
       costs{"cost", "What cost depends on"}, cases{"cases", "Case by case"},
       matrix{"matrix", "Every case by every backend"},
       case_figures{"case-figures", "Accuracy against cost, case by case"};
-  matrix.add(compare_text("matrix", {}));
-  backends.add(compare_text("explanation", {{"shift", page::quantity(1e3 * summary_shift, "ms", 1)},
-                                            {"limit", page::quantity(limit, "s")}}));
+  matrix.add(page::words("matrix"));
+  backends.add(
+      page::words("compare.explanation", {{"shift", page::quantity(1e3 * summary_shift, "ms", 1)},
+                                          {"limit", page::quantity(limit, "s")}}));
   for (const CompareTable& table : tables) {
     backends.add(page::Subheading{heading_of(table)});
     backends.add(backends_table(table, limit));
@@ -190,7 +192,7 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
   }
   page::Page page{.title = "Solvers of frictional contact, compared", .lede = {lede(rows)}};
   if (!reference.empty() && !rows.empty() && rows[0].measure != Measure::fclib)
-    page.notices.items.push_back(compare_text("reference.unlike"));
+    page.notices.items.push_back(page::words("reference.unlike"));
   if (!unreadable.empty())
     page.add({"unreadable", "Cases that could not be read", {unreadable_table(unreadable)}});
   page.add(backends);

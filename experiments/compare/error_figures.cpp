@@ -5,7 +5,7 @@
 #include <set>
 
 #include "experiments/compare/compare_figures.hpp"
-#include "experiments/compare/texts.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 namespace {
@@ -122,11 +122,11 @@ page::Picture work_precision_figure(std::span<const CompareRow> rows, const std:
   if (mine.empty()) return {};
   const CaseFacts& facts = mine[0]->facts;
   const page::Text caption =
-      compare_text("case.caption", {{"case", case_name},
-                                    {"start", name_of(start)},
-                                    {"contacts", page::exact(facts.contacts)},
-                                    {"rank_deficiency", page::number(facts.rank_deficiency, 2)},
-                                    {"mass_ratio", page::number(facts.mass_ratio, 2)}});
+      page::words("case.caption", {{"case", case_name},
+                                   {"start", name_of(start)},
+                                   {"contacts", page::exact(facts.contacts)},
+                                   {"rank_deficiency", page::number(facts.rank_deficiency, 2)},
+                                   {"mass_ratio", page::number(facts.mass_ratio, 2)}});
   return {figure_of("case_" + figure_name(case_name) + "_" + name_of(start),
                     "Error against time: " + case_name, std::move(panel)),
           {caption}};
@@ -167,9 +167,9 @@ page::Picture family_figure(std::span<const CompareRow> rows, const std::string&
   }
   mark_tolerances(mine, panel);
   const page::Text caption =
-      compare_text("family.caption", {{"family", family},
-                                      {"cases", page::exact(static_cast<double>(cases.size()))},
-                                      {"start", name_of(start)}});
+      page::words("family.caption", {{"family", family},
+                                     {"cases", page::exact(static_cast<double>(cases.size()))},
+                                     {"start", name_of(start)}});
   return {figure_of("family_" + figure_name(family) + "_" + name_of(start),
                     "Error against time: family " + family, std::move(panel)),
           {caption}};

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "experiments/compare/compare_figures.hpp"
-#include "experiments/compare/texts.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 namespace {
@@ -67,7 +67,7 @@ page::Picture lines_figure(const LiveComparison& comparison, const LiveFigure& w
   figure.title = what.title;
   figure.height = height_for(2 * panel.curves.size());
   if (!panel.curves.empty()) figure.panels = {std::move(panel)};
-  return {figure, {compare_text(std::string(what.name) + ".caption", values)}};
+  return {figure, {page::words(std::string(what.name) + ".caption", values)}};
 }
 
 page::Picture column_figure(const LiveComparison& comparison, const LiveFigure& what,

@@ -4,7 +4,7 @@
 #include "experiments/compare/live_figures.hpp"
 #include "experiments/compare/live_row.hpp"
 #include "experiments/compare/page_origin.hpp"
-#include "experiments/compare/texts.hpp"
+#include "experiments/page/page.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 
@@ -58,7 +58,7 @@ void write_live_page(const std::filesystem::path& folder, const LiveComparison& 
   page.add(
       {"table",
        "Side by side",
-       {compare_text("live.table", {{"scale", page::quantity(comparison.velocity_scale, "m/s")}}),
+       {page::words("live.table", {{"scale", page::quantity(comparison.velocity_scale, "m/s")}}),
         rows_table(rows, comparison)}});
   page::Section figures{"figures", "Figures"};
   figures.add(live_figures(comparison));

@@ -33,4 +33,9 @@ Table facts_table() {
   return table;
 }
 
+Table words_table(const std::string& name, const Values& values) {
+  const std::vector<Text> lines = parts_of(words(name, values), "\n");
+  return {.caption = lines.front(), .head = parts_of(lines.back(), "||")};
+}
+
 }  // namespace ballast::page

@@ -6,7 +6,7 @@
 //   page::Table table{.head = {"phase", page::marked("error / *gh*")}, .is_number = {false, true}};
 //   table.rows.push_back({"detection", page::number(error)});
 //   page.add({"numbers", "The run in numbers", {page::marked("Mean over *all* steps."), table}});
-//   page::Picture wall{plot, {run_page_text("wall.caption", {{"x", page::quantity(x, "mm")}})}};
+//   page::Picture wall{plot, {page::words("wall.caption", {{"x", page::quantity(x, "mm")}})}};
 //   page.add({"wall", "The wall", {wall}});
 //   page::draw_pictures(page, folder, {.command = "ballast report RUN"});
 //   write_whole_file(folder / "report.html", page::html_of(page));
@@ -18,6 +18,7 @@
 
 #include "experiments/page/number.hpp"
 #include "experiments/page/plot.hpp"
+#include "experiments/page/prose.hpp"
 #include "experiments/page/text.hpp"
 
 namespace ballast::page {
@@ -99,5 +100,9 @@ struct Page {
 
 /// A table of facts, empty: rows are {what, value}.
 Table facts_table();
+
+/// A table without rows yet. Its words are two lines: the caption, and the cells of the head with
+/// "||" between them.
+Table words_table(const std::string& name, const Values& values = {});
 
 }  // namespace ballast::page

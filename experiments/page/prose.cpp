@@ -8,21 +8,21 @@ namespace ballast::page {
 Prose::Prose(std::initializer_list<std::string_view> files) {
   for (const std::string_view file : files) {
     std::istringstream lines{std::string(file)};
-    std::string* paragraph = nullptr;
+    std::string* entry = nullptr;
     bool is_after_gap = false;
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("# ")) {
-        const auto [place, is_new] = paragraphs_.try_emplace(line.substr(2));
+        const auto [place, is_new] = entries_.try_emplace(line.substr(2));
         if (!is_new) throw std::logic_error("page texts: \"" + place->first + "\" stands twice");
-        paragraph = &place->second;
+        entry = &place->second;
         is_after_gap = false;
       } else if (line.empty()) {
         is_after_gap = true;
-      } else if (!paragraph) {
+      } else if (!entry) {
         throw std::logic_error("page texts: no headline before \"" + line + "\"");
       } else {
-        if (!paragraph->empty()) *paragraph += is_after_gap ? '\n' : ' ';
-        *paragraph += line;
+        if (!entry->empty()) *entry += is_after_gap ? '\n' : ' ';
+        *entry += line;
         is_after_gap = false;
       }
     }
@@ -30,10 +30,9 @@ Prose::Prose(std::initializer_list<std::string_view> files) {
 }
 
 Text Prose::operator()(const std::string& name, const Values& values) const {
-  const auto paragraph = paragraphs_.find(name);
-  if (paragraph == paragraphs_.end())
-    throw std::logic_error("page texts: there is no \"" + name + "\"");
-  return marked(paragraph->second, values);
+  const auto entry = entries_.find(name);
+  if (entry == entries_.end()) throw std::logic_error("page texts: there is no \"" + name + "\"");
+  return marked(entry->second, values);
 }
 
 }  // namespace ballast::page

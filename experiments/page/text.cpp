@@ -152,6 +152,21 @@ Text styled(Text text, Styles styles) {
   return text;
 }
 
+std::vector<Text> parts_of(const Text& text, std::string_view mark) {
+  std::vector<Text> parts(1);
+  for (const Span& span : text.spans) {
+    std::string_view rest = span.text;
+    for (size_t at; (at = rest.find(mark)) != rest.npos; parts.emplace_back()) {
+      const size_t end = at == 0 ? at : rest.find_last_not_of(' ', at - 1) + 1;
+      parts.back() += {std::string(rest.substr(0, end)), span.styles, span.link};
+      rest.remove_prefix(at + mark.size());
+      rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+    }
+    parts.back() += {std::string(rest), span.styles, span.link};
+  }
+  return parts;
+}
+
 Text marked(std::string_view notation, const Values& values) {
   return Notation(notation, values).read();
 }

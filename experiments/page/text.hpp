@@ -44,6 +44,10 @@ struct Text {
 /// The same words with `styles` added to every run.
 Text styled(Text text, Styles styles);
 
+/// The parts between the marks, which no run of the text may share with the next; blanks around a
+/// mark are no part's.
+std::vector<Text> parts_of(const Text& text, std::string_view mark);
+
 /// What stands for {name} in a notation.
 using Values = std::map<std::string, Text>;
 

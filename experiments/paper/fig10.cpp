@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -58,10 +58,10 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
   figure.plot.height = 440;
   figure.plot.panels = {panel};
   figure.paper = std::string(axis.relation) + " (" + axis.place + ").";
-  figure.found = paper_text("fig10.found", {{"exponent", words_of(fit)},
-                                            {"misfit", misfit_words(fit, curve)},
-                                            {"frequency", page::number(varied_frequency)},
-                                            {"end", page::number(varied_duration)}});
+  figure.found = page::words("fig10.found", {{"exponent", words_of(fit)},
+                                             {"misfit", misfit_words(fit, curve)},
+                                             {"frequency", page::number(varied_frequency)},
+                                             {"end", page::number(varied_duration)}});
   section.figures.push_back(figure);
   section.rows.push_back({axis.place, axis.relation,
                           words_of(fit) + ", " + misfit_words(fit, curve),
@@ -72,7 +72,7 @@ void add_figure(PaperData& data, const Abscissa& axis, const std::string& name,
 
 PaperSection fig10_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("fig10.intro"), paper_text("misfit")};
+  section.text = {page::words("fig10.intro"), page::words("misfit")};
   add_figure(data,
              {Varied::force, "values of f_max", "{/:Italic f}_{max} / {/:Italic m g}",
               "Δx_max ~ f_max^−1", "Fig. 10", -1.0},

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -126,7 +126,7 @@ std::vector<AgreementRow> rows_of(const VariedCurve& pooled, const Proportion& l
 
 PaperSection fig11_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("fig11.intro")};
+  section.text = {page::words("fig11.intro")};
   const char* names[] = {"frequencies", "values of f_max", "values of g", "values of m_w"};
   std::vector<VariedCurve> all;
   VariedCurve pooled;
@@ -158,14 +158,14 @@ PaperSection fig11_section(PaperData& data) {
   figure.plot.title = "Maximum displacement against the right side of Equation 3";
   figure.plot.height = 820;
   figure.plot.panels = {eq3_panel(all, line, true), eq3_panel(all, line, false)};
-  figure.paper = paper_text("fig11.paper");
-  figure.found = paper_text("fig11.found", {{"C", page::number(line.factor)},
-                                            {"interval", page::interval(line.low, line.high)},
-                                            {"spread", page::number(line.spread)},
-                                            {"exponent", words_of(power)},
-                                            {"misfit", misfit_words(power, pooled)},
-                                            {"meaning", paper_text("misfit")},
-                                            {"grain", page::number(by_grain)}});
+  figure.paper = page::words("fig11.paper");
+  figure.found = page::words("fig11.found", {{"C", page::number(line.factor)},
+                                             {"interval", page::interval(line.low, line.high)},
+                                             {"spread", page::number(line.spread)},
+                                             {"exponent", words_of(power)},
+                                             {"misfit", misfit_words(power, pooled)},
+                                             {"meaning", page::words("misfit")},
+                                             {"grain", page::number(by_grain)}});
   section.figures = {figure};
   section.tables = {table};
   section.rows = rows_of(pooled, line, power, by_grain);

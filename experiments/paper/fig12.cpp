@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 #include "experiments/run_page/figures.hpp"
 #include "experiments/step/step_record.hpp"
 
@@ -43,11 +43,12 @@ PaperSection fig12_section(PaperData& data) {
   figure.plot.title = "Change of the solid fraction against time at 5 Hz";
   figure.plot.height = 460;
   figure.plot.panels = {panel};
-  figure.paper = paper_text("fig12.paper");
-  figure.found = paper_text("fig12.found", {{"before", page::with_error(before.mean, before.error)},
-                                            {"at", page::with_error(at.mean, at.error)},
-                                            {"gain", page::with_error(step.mean, step.error)},
-                                            {"share", page::with_error(share.mean, share.error)}});
+  figure.paper = page::words("fig12.paper");
+  figure.found =
+      page::words("fig12.found", {{"before", page::with_error(before.mean, before.error)},
+                                  {"at", page::with_error(at.mean, at.error)},
+                                  {"gain", page::with_error(step.mean, step.error)},
+                                  {"share", page::with_error(share.mean, share.error)}});
   section.figures = {figure};
   const double jump = at.mean - before.mean;
   section.rows = {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -48,7 +48,7 @@ void drop_unknown(VariedCurve& curve) {
 
 PaperSection fig13_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("fig13.intro")};
+  section.text = {page::words("fig13.intro")};
   const std::vector<VariedValue> values = data.values(Varied::frequency);
   note_missing(data, Varied::frequency, "frequencies", section);
   VariedCurve whole = curve_of_values(values, &Observation::rate),
@@ -64,9 +64,9 @@ PaperSection fig13_section(PaperData& data) {
   figure.plot.height = 760;
   figure.plot.panels = {rate_panel(whole, fit, "rate, paper’s window  (1/s)"),
                         rate_panel(common, common_fit, "rate, 0.4–1 s  (1/s)")};
-  figure.paper = paper_text("fig13.paper");
+  figure.paper = page::words("fig13.paper");
   figure.found =
-      paper_text("fig13.found", {{"own", words_of(fit)}, {"common", words_of(common_fit)}});
+      page::words("fig13.found", {{"own", words_of(fit)}, {"common", words_of(common_fit)}});
   section.figures = {figure};
   page::Table table{"Compaction rate, means over samples ± standard error",
                     {"ν (Hz)", "samples", "rate, paper’s window (1/s)", "rate, 0.4–1 s (1/s)",

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/motion.hpp"
-#include "experiments/paper/texts.hpp"
 #include "experiments/run_page/figures.hpp"
 
 namespace ballast {
@@ -48,12 +48,12 @@ PaperSection fig3_section(PaperData& data) {
         mean_over(runs, [](const RunSummary& s) { return s.contraction.time90; });
     const SampleMean rise = mean_over(runs, [](const RunSummary& s) { return 1e3 * s.rise.mean; });
     const SampleMean net = mean_over(runs, [](const RunSummary& s) { return -1e3 * s.net.mean; });
-    figure.paper = paper_text("fig3.paper");
-    figure.found = paper_text("fig3.found", {{"samples", std::to_string(size.samples)},
-                                             {"size", page::with_error(size.mean, size.error)},
-                                             {"time", page::with_error(time.mean, time.error)},
-                                             {"rise", page::with_error(rise.mean, rise.error)},
-                                             {"net", page::with_error(net.mean, net.error)}});
+    figure.paper = page::words("fig3.paper");
+    figure.found = page::words("fig3.found", {{"samples", std::to_string(size.samples)},
+                                              {"size", page::with_error(size.mean, size.error)},
+                                              {"time", page::with_error(time.mean, time.error)},
+                                              {"rise", page::with_error(rise.mean, rise.error)},
+                                              {"net", page::with_error(net.mean, net.error)}});
     section.figures = {figure};
     section.rows.push_back({"Fig. 3", "first contraction over within ~0.2 s",
                             "90 % of it by " + page::with_error(time.mean, time.error) + " s",

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/motion.hpp"
-#include "experiments/paper/texts.hpp"
 #include "experiments/run_page/figures.hpp"
 
 namespace ballast {
@@ -40,7 +40,7 @@ Agreement judge_fit(const SampleMean& r2) {
 
 PaperSection fig4_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("fig4.intro")};
+  section.text = {page::words("fig4.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   if (runs.empty() || runs.front().summary.wall.loop_first >= runs.front().summary.wall.loop_last)
     return section;
@@ -55,13 +55,13 @@ PaperSection fig4_section(PaperData& data) {
       mean_over(runs, [](const RunSummary& s) { return 1e3 * s.speed_in.mean; });
   PaperFigure figure;
   figure.plot = figure_4(runs.front().data, runs.front().summary).plot;
-  figure.paper = paper_text("fig4.paper");
-  figure.found = paper_text("fig4.found", {{"active", page::number(active.mean)},
-                                           {"passive", page::number(passive.mean)},
-                                           {"jam", page::number(jam.mean, 2)},
-                                           {"smooth", page::number(smooth.mean, 2)},
-                                           {"creep", page::number(creep.mean, 2)},
-                                           {"share", page::number(creep.mean / speed.mean, 2)}});
+  figure.paper = page::words("fig4.paper");
+  figure.found = page::words("fig4.found", {{"active", page::number(active.mean)},
+                                            {"passive", page::number(passive.mean)},
+                                            {"jam", page::number(jam.mean, 2)},
+                                            {"smooth", page::number(smooth.mean, 2)},
+                                            {"creep", page::number(creep.mean, 2)},
+                                            {"share", page::number(creep.mean / speed.mean, 2)}});
   section.figures = {figure};
   section.tables = {branch_table(runs)};
   section.rows = {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/motion.hpp"
-#include "experiments/paper/texts.hpp"
 #include "experiments/paper/wall_model.hpp"
 #include "experiments/run_page/figures.hpp"
 
@@ -127,7 +127,7 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
 
 PaperSection fig5_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("fig5.intro")};
+  section.text = {page::words("fig5.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   page::Table table{
       "Model beside simulation (means over periods), sample by sample",
@@ -150,16 +150,16 @@ PaperSection fig5_section(PaperData& data) {
     if (!section.figures.empty() || model.last.time.empty()) continue;
     PaperFigure figure;
     figure.plot = draw(runs[k], model.last);
-    figure.paper = paper_text("fig5.paper");
+    figure.paper = page::words("fig5.paper");
     section.figures.push_back(figure);
   }
   const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds),
                    jam = sample_mean(from_jam);
   if (rise.samples == 0 || section.figures.empty()) return section;
-  section.figures.front().found = paper_text("fig5.found", {{"sample", table.rows.front().front()},
-                                                            {"rise", page::percent(rise.mean)},
-                                                            {"speed", page::percent(speed.mean)},
-                                                            {"jam", page::percent(jam.mean)}});
+  section.figures.front().found = page::words("fig5.found", {{"sample", table.rows.front().front()},
+                                                             {"rise", page::percent(rise.mean)},
+                                                             {"speed", page::percent(speed.mean)},
+                                                             {"jam", page::percent(jam.mean)}});
   section.tables = {table};
   section.rows = {
       {"Fig. 5", "model’s Δx_max close to the simulation’s, transients excluded (asked for: 15 %)",

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/stored_states.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -83,7 +83,7 @@ Field draw(const StoredState& state) {
 
 PaperSection fig6_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("fig6.intro")};
+  section.text = {page::words("fig6.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   std::vector<double> passive, active, relative;
   double fastest = 0.0;
@@ -112,12 +112,12 @@ PaperSection fig6_section(PaperData& data) {
   }
   PaperFigure figure;
   figure.plot = field.figure;
-  figure.paper = paper_text("fig6.paper");
-  figure.found = paper_text("fig6.found", {{"wall", page::number(1e3 * fastest)},
-                                           {"arrow", page::number(1e3 * field.speed)},
-                                           {"passive", page::with_error(seen.mean, seen.error)},
-                                           {"share", page::number(share.mean, 2)},
-                                           {"active", page::with_error(back.mean, back.error)}});
+  figure.paper = page::words("fig6.paper");
+  figure.found = page::words("fig6.found", {{"wall", page::number(1e3 * fastest)},
+                                            {"arrow", page::number(1e3 * field.speed)},
+                                            {"passive", page::with_error(seen.mean, seen.error)},
+                                            {"share", page::number(share.mean, 2)},
+                                            {"active", page::with_error(back.mean, back.error)}});
   section.figures = {figure};
   const bool is_sure = seen.samples > 1 && std::abs(seen.mean) > 2.0 * seen.error;
   const std::string sense = seen.mean > 0.0 ? "clockwise" : "counter-clockwise";

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/stored_states.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -98,10 +98,10 @@ PaperFigure chains_figure(const std::array<Panel, 2>& panels, double aspect,
   figure.plot.width = 760;
   figure.plot.height = static_cast<int>(2.0 * (78.0 + 640.0 * aspect));
   figure.plot.panels = {panels[0], panels[1]};
-  figure.paper = paper_text("fig7.paper");
+  figure.paper = page::words("fig7.paper");
   figure.found =
-      paper_text("fig7.found", {{"passive", page::with_error(mean[0].mean, mean[0].error)},
-                                {"active", page::with_error(mean[2].mean, mean[2].error)}});
+      page::words("fig7.found", {{"passive", page::with_error(mean[0].mean, mean[0].error)},
+                                 {"active", page::with_error(mean[2].mean, mean[2].error)}});
   return figure;
 }
 
@@ -109,7 +109,7 @@ PaperFigure chains_figure(const std::array<Panel, 2>& panels, double aspect,
 
 PaperSection fig7_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("fig7.intro")};
+  section.text = {page::words("fig7.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   std::array<std::vector<double>, 3> angles, ratios;
   std::array<Panel, 2> panels;  // passive, active

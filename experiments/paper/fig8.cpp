@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -110,11 +110,11 @@ PaperSection fig8_section(PaperData& data) {
       portrait(raw, "{/:Italic x} − {/:Italic x}_{jam}  (mm)", "{/:Italic v}  (mm/s)", 1e3, 1e3),
       portrait(collapsed, "({/:Italic x} − {/:Italic x}_{jam}) {/:Italic ν}^2  (mm/s^2)",
                "{/:Italic v ν}  (mm/s^2)", 1e3, 1e3)};
-  figure.paper = paper_text("fig8.paper");
-  figure.found = paper_text("fig8.found", {{"slow", std::to_string(raw[0].first.periods)},
-                                           {"fast", std::to_string(raw[1].first.periods)},
-                                           {"raw", page::number(before)},
-                                           {"scaled", page::number(after)}});
+  figure.paper = page::words("fig8.paper");
+  figure.found = page::words("fig8.found", {{"slow", std::to_string(raw[0].first.periods)},
+                                            {"fast", std::to_string(raw[1].first.periods)},
+                                            {"raw", page::number(before)},
+                                            {"scaled", page::number(after)}});
   section.figures = {figure};
   section.rows = {{"Fig. 8", "orbits at 5 and 10 Hz collapse",
                    "distance raw " + page::number(before) + ", scaled " + page::number(after) +

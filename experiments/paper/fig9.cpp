@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -75,16 +75,16 @@ PaperSection fig9_section(PaperData& data) {
   figure.plot.height = 760;
   figure.plot.panels = {scaling_panel(rise, rise_fit, -2.0, "Δ{/:Italic x}_{max}  (mm)"),
                         scaling_panel(speed, speed_fit, -1.0, "{/:Italic v}_{max}  (mm/s)")};
-  figure.paper = paper_text("fig9.paper");
-  figure.found = paper_text("fig9.found", {{"rise", words_of(rise_fit)},
-                                           {"rise_misfit", misfit_words(rise_fit, rise)},
-                                           {"speed", words_of(speed_fit)},
-                                           {"speed_misfit", misfit_words(speed_fit, speed)},
-                                           {"misfit", paper_text("misfit")},
-                                           {"rise_low", words_of(fit_part(rise, 0.0, 10.0))},
-                                           {"rise_high", words_of(fit_part(rise, 10.0, 1e9))},
-                                           {"speed_low", words_of(fit_part(speed, 0.0, 10.0))},
-                                           {"speed_high", words_of(fit_part(speed, 10.0, 1e9))}});
+  figure.paper = page::words("fig9.paper");
+  figure.found = page::words("fig9.found", {{"rise", words_of(rise_fit)},
+                                            {"rise_misfit", misfit_words(rise_fit, rise)},
+                                            {"speed", words_of(speed_fit)},
+                                            {"speed_misfit", misfit_words(speed_fit, speed)},
+                                            {"misfit", page::words("misfit")},
+                                            {"rise_low", words_of(fit_part(rise, 0.0, 10.0))},
+                                            {"rise_high", words_of(fit_part(rise, 10.0, 1e9))},
+                                            {"speed_low", words_of(fit_part(speed, 0.0, 10.0))},
+                                            {"speed_high", words_of(fit_part(speed, 10.0, 1e9))}});
   section.figures = {figure};
   section.tables = {values_table(values)};
   section.rows = {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -216,7 +216,7 @@ std::vector<Variant> variants_of(PaperData& data) {
 
 PaperSection investigation_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("investigation.intro")};
+  section.text = {page::words("investigation.intro")};
   for (const Cause& cause : causes) note_missing(data, cause.varied, cause.missing, section);
   note_missing(data, Varied::time_step_fast, "steps at 60 Hz", section);
   const std::vector<Variant> variants = variants_of(data);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -93,7 +93,7 @@ PaperFigure figure_of(const std::vector<VariedValue>& values, const std::vector<
     figure.plot.panels.push_back(panel);
   }
   figure.paper = "The paper could not ask this: one code, one tolerance.";
-  figure.found = paper_text("looseness.found");
+  figure.found = page::words("looseness.found");
   return figure;
 }
 
@@ -118,7 +118,7 @@ page::Text loosest_good(std::vector<VariedValue> values, double spread) {
 
 PaperSection looseness_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("looseness.intro")};
+  section.text = {page::words("looseness.intro")};
   for (const auto& [varied, what] :
        {std::pair{Varied::iterations, "numbers of iterations at 10 Hz"},
         std::pair{Varied::iterations_fast, "numbers of iterations at 60 Hz"},

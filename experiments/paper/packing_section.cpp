@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/stored_states.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -89,7 +89,7 @@ page::Table phases_table(const PhaseValues& values) {
 
 PaperSection packing_section(PaperData& data) {
   PaperSection section;
-  section.text = {paper_text("packing.intro")};
+  section.text = {page::words("packing.intro")};
   const std::vector<MotionRun> runs = read_motion(data, section);
   PhaseValues values;
   std::array<Histogram, force_phases.size()> histograms;
@@ -134,8 +134,8 @@ PaperSection packing_section(PaperData& data) {
   figure.plot.name = "forces";
   figure.plot.title = "Distribution of normal forces by phase";
   figure.plot.panels = {panel};
-  figure.paper = paper_text("forces.paper");
-  figure.found = paper_text("forces.found", {{"tails", tails}});
+  figure.paper = page::words("forces.paper");
+  figure.found = page::words("forces.found", {{"tails", tails}});
   section.figures = {figure};
   return section;
 }

@@ -1,7 +1,7 @@
 // The page of a reproduction, from its sections.
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/paper_report.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -45,7 +45,7 @@ page::Page paper_page(const std::vector<PaperSection>& sections,
                       const std::vector<page::Text>& origin) {
   page::Page page;
   page.title = title;
-  page.lede = {paper_text("lede")};
+  page.lede = {page::words("paper.lede")};
   page.add({"origin", "What was run", {page::List{origin}}});
   page.add({"agreement", "Paper, Ballast, agreement", {agreement_table(sections)}});
   for (const PaperSection& section : sections) page.add(page_section(section));

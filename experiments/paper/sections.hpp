@@ -52,7 +52,7 @@ SampleMean prefactor_of(const VariedValue& value);
 /// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995)".
 page::Text words_of(const PowerFit& fit);
 /// "χ²/dof 3.2" of a curve's points about the fit, with their errors; "χ²/dof –" when these are not
-/// known. What a reader has to know about it: paper_text("misfit").
+/// known. What a reader has to know about it: page::words("misfit").
 page::Text misfit_words(const PowerFit& fit, const VariedCurve& curve);
 /// agrees: the interval holds `expected`, or the exponent is within `tolerance` of it; partly:
 /// within three times that.

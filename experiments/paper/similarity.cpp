@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/paper/investigation.hpp"
 #include "experiments/paper/sections.hpp"
-#include "experiments/paper/texts.hpp"
 
 namespace ballast {
 namespace {
@@ -112,9 +112,9 @@ void add_by_frequency(const std::vector<VariedValue>& values, const std::vector<
           curve.x, curve.y, curve.error, plain_text(variant.name) + ", sample 1", inks[ink++]));
     }
   }
-  figure.paper = paper_text("exponents_frequency.paper");
-  figure.found = paper_text("exponents_frequency.found",
-                            {{"errors", error_meaning(values)}, {"trends", both_trends(values)}});
+  figure.paper = page::words("exponents_frequency.paper");
+  figure.found = page::words("exponents_frequency.found",
+                             {{"errors", error_meaning(values)}, {"trends", both_trends(values)}});
   section.figures.push_back(figure);
   section.tables.push_back(local_table(
       values,
@@ -134,11 +134,11 @@ void add_by_force(const std::vector<VariedValue>& values, PaperSection& section)
     panel.y_label = quantity.axis;
     draw_local(quantity, values, quantity.in_force, panel);
   }
-  figure.paper = paper_text("exponents_force.paper");
+  figure.paper = page::words("exponents_force.paper");
   figure.found =
-      paper_text("exponents_force.found", {{"frequency", page::number(varied_frequency, 1)},
-                                           {"errors", error_meaning(values)},
-                                           {"trends", both_trends(values)}});
+      page::words("exponents_force.found", {{"frequency", page::number(varied_frequency, 1)},
+                                            {"errors", error_meaning(values)},
+                                            {"trends", both_trends(values)}});
   section.figures.push_back(figure);
   section.tables.push_back(local_table(
       values,
@@ -208,7 +208,7 @@ void add_half_scale(PaperData& data, const std::vector<VariedValue>& frequencies
   }
   if (table.rows.empty()) return;
   section.tables.push_back(table);
-  section.text.push_back(paper_text("similarity.half_scale", {{"found", words}}));
+  section.text.push_back(page::words("similarity.half_scale", {{"found", words}}));
 }
 
 std::vector<VariedValue> between(const std::vector<VariedValue>& values, double low, double high) {

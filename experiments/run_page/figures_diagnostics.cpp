@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/run_page/figures.hpp"
-#include "experiments/run_page/texts.hpp"
 #include "experiments/step/step_record.hpp"
 
 namespace ballast {
@@ -48,12 +48,12 @@ page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   figure.name = "error";
   figure.title = "Error of the contact law per step";
   figure.panels = {panel};
-  page::Text caption = run_page_text("error");
-  caption += is_relative ? run_page_text("error.relative",
-                                         {{"scale", page::quantity(scale, "m/s")},
-                                          {"mean", page::number(summary.error_mean_relative)},
-                                          {"max", page::number(summary.error_max_relative)}})
-                         : run_page_text("error.absolute");
+  page::Text caption = page::words("run.error");
+  caption += is_relative ? page::words("run.error.relative",
+                                       {{"scale", page::quantity(scale, "m/s")},
+                                        {"mean", page::number(summary.error_mean_relative)},
+                                        {"max", page::number(summary.error_max_relative)}})
+                         : page::words("run.error.absolute");
   return {figure, {caption}};
 }
 
@@ -76,10 +76,10 @@ page::Picture penetration_figure(const RunData& data, const RunSummary& summary)
   figure.title = "Overlap of contacts per step";
   figure.panels = {panel};
   return {figure,
-          {run_page_text("penetration",
-                         {{"deepest", page::quantity(1e6 * summary.penetration_max, "µm")},
-                          {"time", page::quantity(summary.penetration_max_time, "s")},
-                          {"mean", page::quantity(1e6 * summary.penetration_mean, "µm")}})}};
+          {page::words("run.penetration",
+                       {{"deepest", page::quantity(1e6 * summary.penetration_max, "µm")},
+                        {"time", page::quantity(summary.penetration_max_time, "s")},
+                        {"mean", page::quantity(1e6 * summary.penetration_mean, "µm")}})}};
 }
 
 page::Picture effort_figure(const RunData& data, const RunSummary& summary) {
@@ -96,10 +96,10 @@ page::Picture effort_figure(const RunData& data, const RunSummary& summary) {
   figure.height = 540;
   figure.panels = {above, below};
   return {figure,
-          {run_page_text("effort", {{"mean", page::number(summary.iterations.mean)},
-                                    {"most", page::exact(summary.iterations.max)},
-                                    {"given", page::number(summary.contacts.mean, 4)},
-                                    {"active", page::number(summary.active_contacts.mean, 4)}})}};
+          {page::words("run.effort", {{"mean", page::number(summary.iterations.mean)},
+                                      {"most", page::exact(summary.iterations.max)},
+                                      {"given", page::number(summary.contacts.mean, 4)},
+                                      {"active", page::number(summary.active_contacts.mean, 4)}})}};
 }
 
 /// Stretches of the run over which the cost is averaged.
@@ -148,8 +148,8 @@ page::Picture cost_figure(const RunData& data, const RunSummary& summary) {
   const double stretch =
       summary.duration / static_cast<double>(std::min(cost_stretches, data.steps.size()));
   return {figure,
-          {run_page_text("cost", {{"stretch", page::quantity(1e3 * stretch, "ms")},
-                                  {"step", page::quantity(summary.ms_per_step, "ms")}})}};
+          {page::words("run.cost", {{"stretch", page::quantity(1e3 * stretch, "ms")},
+                                    {"step", page::quantity(summary.ms_per_step, "ms")}})}};
 }
 
 page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
@@ -187,8 +187,8 @@ page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
   if (!above.curves.empty()) figure.panels.push_back(above);
   figure.panels.push_back(below);
   return {figure,
-          {run_page_text("energy", {{"residual", page::quantity(summary.energy.residual, "J")},
-                                    {"relative", page::number(summary.energy.relative)}})}};
+          {page::words("run.energy", {{"residual", page::quantity(summary.energy.residual, "J")},
+                                      {"relative", page::number(summary.energy.relative)}})}};
 }
 
 }  // namespace

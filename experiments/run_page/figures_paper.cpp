@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/page/page.hpp"
 #include "experiments/run_page/figures.hpp"
-#include "experiments/run_page/texts.hpp"
 #include "experiments/step/step_record.hpp"
 
 namespace ballast {
@@ -58,13 +58,14 @@ Curve fit_curve(const RunSummary& summary, double factor) {
 double largest(const std::vector<double>& values) { return statistics(values).max; }
 
 page::Text fit_caption(const LoopFits& loop) {
-  return run_page_text("fig04.fits", {{"amplitude", page::quantity(loop.active.amplitude, "N")},
-                                      {"length", page::quantity(1e3 / loop.active.rate, "mm")},
-                                      {"active", page::number(loop.active.r2)},
-                                      {"line", page::number(loop.active_line.r2)},
-                                      {"offset", page::quantity(loop.passive.offset, "N")},
-                                      {"slope", page::quantity(-1e-3 * loop.passive.slope, "N/mm")},
-                                      {"passive", page::number(loop.passive.r2)}});
+  return page::words("run.fig04.fits",
+                     {{"amplitude", page::quantity(loop.active.amplitude, "N")},
+                      {"length", page::quantity(1e3 / loop.active.rate, "mm")},
+                      {"active", page::number(loop.active.r2)},
+                      {"line", page::number(loop.active_line.r2)},
+                      {"offset", page::quantity(loop.passive.offset, "N")},
+                      {"slope", page::quantity(-1e-3 * loop.passive.slope, "N/mm")},
+                      {"passive", page::number(loop.passive.r2)}});
 }
 
 }  // namespace
@@ -88,15 +89,15 @@ page::Picture figure_3(const RunData& data, const RunSummary& summary) {
   figure.title = "Displacement of the driven wall and driving force against time";
   figure.height = 560;
   figure.panels = {above, below};
-  if (!*summary.facts.has_packing) return {figure, {run_page_text("fig03.wall_alone")}};
-  page::Text caption = run_page_text("fig03.paper");
+  if (!*summary.facts.has_packing) return {figure, {page::words("run.fig03.wall_alone")}};
+  page::Text caption = page::words("run.fig03.paper");
   if (std::isfinite(summary.contraction.size))
-    caption += run_page_text("fig03.contraction",
-                             {{"size", page::quantity(1e3 * summary.contraction.size, "mm")},
-                              {"time", page::quantity(summary.contraction.time90, "s")},
-                              {"rise", page::quantity(1e3 * summary.rise.mean, "mm")},
-                              {"net", page::quantity(-1e3 * summary.net.mean, "mm")}});
-  return {figure, {caption + run_page_text("fig03.look")}};
+    caption += page::words("run.fig03.contraction",
+                           {{"size", page::quantity(1e3 * summary.contraction.size, "mm")},
+                            {"time", page::quantity(summary.contraction.time90, "s")},
+                            {"rise", page::quantity(1e3 * summary.rise.mean, "mm")},
+                            {"net", page::quantity(-1e3 * summary.net.mean, "mm")}});
+  return {figure, {caption + page::words("run.fig03.look")}};
 }
 
 page::Picture figure_4(const RunData& data, const RunSummary& summary) {
@@ -133,14 +134,14 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   figure.title = "Force of the grains on the driven wall against its displacement";
   figure.height = 580;
   figure.panels = {panel};
-  page::Text caption = run_page_text(
-      "fig04.paper",
+  page::Text caption = page::words(
+      "run.fig04.paper",
       {{"periods", page::exact(static_cast<double>(cycles.loop_last - cycles.loop_first))},
        {"smoothing", page::exact_quantity(1e3 * cycles.smoothing, "ms")}});
   if (std::isfinite(summary.loop.active.r2) && std::isfinite(summary.loop.passive.r2))
     caption += fit_caption(summary.loop);
   if (std::abs(summary.net.mean) > 0.05 * summary.rise.mean)
-    caption += run_page_text("fig04.side_by_side");
+    caption += page::words("run.fig04.side_by_side");
   return {figure, {caption}};
 }
 
@@ -175,12 +176,12 @@ page::Picture figure_12(const RunData& data, const RunSummary& summary) {
   figure.height = 440;
   figure.panels = {panel};
   page::Text caption =
-      run_page_text("fig12.paper", {{"initial", page::number(compaction.initial, 4)},
-                                    {"reference", page::number(compaction.reference, 4)}});
+      page::words("run.fig12.paper", {{"initial", page::number(compaction.initial, 4)},
+                                      {"reference", page::number(compaction.reference, 4)}});
   if (has_gain)
-    caption += run_page_text("fig12.trend", {{"slope", page::number(compaction.gain)},
-                                             {"gain", page::number(compaction.relative_gain)}});
-  return {figure, {caption + run_page_text("fig12.look")}};
+    caption += page::words("run.fig12.trend", {{"slope", page::number(compaction.gain)},
+                                               {"gain", page::number(compaction.relative_gain)}});
+  return {figure, {caption + page::words("run.fig12.look")}};
 }
 
 page::Picture jammed_figure(const RunData& data, const RunSummary& summary) {
@@ -220,14 +221,14 @@ page::Picture jammed_figure(const RunData& data, const RunSummary& summary) {
   figure.title = "Imbalance of forces and velocity of the wall, jammed state marked";
   figure.height = 560;
   figure.panels = {above, below};
-  page::Text caption = run_page_text("jammed.paper");
+  page::Text caption = page::words("run.jammed.paper");
   const JammedState& jammed = summary.jammed;
   if (jammed.samples > 0)
-    caption +=
-        run_page_text("jammed.found", {{"mean", page::number(jammed.force_mean)},
-                                       {"p95", page::number(jammed.force_p95)},
-                                       {"speed", page::quantity(1e3 * jammed.speed_mean, "mm/s")}});
-  return {figure, {caption + run_page_text("jammed.look")}};
+    caption += page::words("run.jammed.found",
+                           {{"mean", page::number(jammed.force_mean)},
+                            {"p95", page::number(jammed.force_p95)},
+                            {"speed", page::quantity(1e3 * jammed.speed_mean, "mm/s")}});
+  return {figure, {caption + page::words("run.jammed.look")}};
 }
 
 std::vector<page::Picture> paper_figures(const RunData& data, const RunSummary& summary) {

@@ -6,10 +6,10 @@
 #include "experiments/measure/run_summary.hpp"
 #include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"
+#include "experiments/page/page.hpp"
 #include "experiments/run_page/figures.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "experiments/run_page/report_tables.hpp"
-#include "experiments/run_page/texts.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
 
@@ -36,7 +36,7 @@ std::vector<page::Text> lede_of(const RunData& data, const RunSummary& summary) 
 
 void note_what_cannot_be_said(const RunSummary& summary, RunData& data) {
   const auto note = [&](const char* name) {
-    data.notices.push_back(page::plain_words(run_page_text(name)));
+    data.notices.push_back(page::plain_words(page::words(std::string("run.") + name)));
   };
   if (!std::isfinite(summary.facts.velocity_scale)) note("no_gravity");
   if (*summary.facts.has_packing && summary.wall.periods.empty()) note("no_period");

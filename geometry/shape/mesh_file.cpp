@@ -29,7 +29,7 @@ Format format_of(const std::filesystem::path& file) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (suffix == ".obj") return Format::obj;
   if (suffix == ".stl") return Format::stl;
-  Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read and written");
+  Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read");
 }
 
 std::string content_of(const std::filesystem::path& file) {
@@ -110,17 +110,6 @@ Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale) {
                           : convex_hull(mesh.vertices);
   } catch (const InvalidPolyhedron& error) {
     Place{file}.fail(error.what());
-  }
-}
-
-void write_mesh(const std::filesystem::path& file, const Polyhedron& polyhedron) {
-  const Format format = format_of(file);
-  const std::string text =
-      format == Format::obj ? raw_mesh::obj_text(polyhedron) : raw_mesh::stl_text(polyhedron);
-  try {
-    write_whole_file(file, text);
-  } catch (const Error& error) {
-    throw MeshFileError(error.what());
   }
 }
 

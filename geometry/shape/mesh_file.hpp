@@ -1,5 +1,5 @@
 #pragma once
-// OBJ and STL (text and binary) in and out, so that a user's own digitised grains run.
+// OBJ and STL (text and binary), so that a user's own digitised grains run.
 
 #include <filesystem>
 
@@ -19,9 +19,5 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale = 1.0);
 /// As read_mesh, but takes the convex hull of the vertices instead of insisting on convexity: for
 /// scanned grains.
 Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale = 1.0);
-
-/// Writes .obj (polygons) or .stl (text, triangles) beside the target, then renames; the numbers
-/// read back as the same bits. Throws MeshFileError; the target is then as it was.
-void write_mesh(const std::filesystem::path& file, const Polyhedron& polyhedron);
 
 }  // namespace ballast

@@ -68,19 +68,4 @@ RawMesh read_obj(const std::filesystem::path& file, std::string_view text) {
   return mesh;
 }
 
-std::string obj_text(const Polyhedron& polyhedron) {
-  std::string text = "# convex polyhedron, faces counter-clockwise from outside, metres\n";
-  for (const Vec3& p : polyhedron.vertices()) {
-    text += "v";
-    for (const double x : p) append_number(text += ' ', x);
-    text += '\n';
-  }
-  for (int f = 0; f < polyhedron.face_count(); ++f) {
-    text += "f";
-    for (const int v : polyhedron.face(f)) text.append(1, ' ').append(std::to_string(v + 1));
-    text += '\n';
-  }
-  return text;
-}
-
 }  // namespace ballast::raw_mesh

@@ -1,7 +1,6 @@
 #pragma once
 // Wavefront OBJ: the statements v and f; texture, normals, groups and materials are passed over.
 
-#include "geometry/shape/polyhedron.hpp"
 #include "geometry/shape/raw_mesh.hpp"
 
 namespace ballast::raw_mesh {
@@ -9,8 +8,5 @@ namespace ballast::raw_mesh {
 /// `file`: for messages only. Throws MeshFileError on unknown statements, bad numbers and faces
 /// that name a vertex that is not there.
 RawMesh read_obj(const std::filesystem::path& file, std::string_view text);
-
-/// The same file as text; the numbers read back as the same bits.
-std::string obj_text(const Polyhedron& polyhedron);
 
 }  // namespace ballast::raw_mesh

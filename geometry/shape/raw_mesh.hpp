@@ -77,10 +77,4 @@ inline double parse_coordinate(std::string_view word, const Place& place) {
   return value;
 }
 
-/// Appends the shortest decimal number that reads back as the same double.
-inline void append_number(std::string& text, double value) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
 }  // namespace ballast::raw_mesh

@@ -170,23 +170,4 @@ RawMesh read_stl(const std::filesystem::path& file, std::string_view content) {
   return mesh;
 }
 
-std::string stl_text(const Polyhedron& polyhedron) {
-  std::string text = "solid ballast\n";
-  const auto append = [&](const char* keyword, const Vec3& p) {
-    text += keyword;
-    for (const double x : p) append_number(text += ' ', x);
-    text += '\n';
-  };
-  for (int f = 0; f < polyhedron.face_count(); ++f) {
-    const std::span<const int> loop = polyhedron.face(f);
-    for (size_t k = 2; k < loop.size(); ++k) {
-      append("facet normal", polyhedron.normal(f));
-      text += "outer loop\n";
-      for (const int v : {loop[0], loop[k - 1], loop[k]}) append("vertex", polyhedron.vertex(v));
-      text += "endloop\nendfacet\n";
-    }
-  }
-  return text + "endsolid ballast\n";
-}
-
 }  // namespace ballast::raw_mesh

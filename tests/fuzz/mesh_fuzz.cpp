@@ -3,12 +3,14 @@
 
 #include "geometry/shape/mesh_file.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
+#include "tests/support/mesh_writer.hpp"
 
 using namespace ballast;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const char* suffix = data[0] == 'o' ? ".obj" : ".stl";
+include "geometry/shape/mesh_file.hpp"
+ = data[0] == 'o' ? ".obj" : ".stl";
   const auto file =
       fuzz::input_folder().write(std::string("mesh") + suffix, fuzz::text_of(data + 1, size - 1));
   fuzz::refused_or(file, [&] {

@@ -52,11 +52,13 @@ std::vector<std::string> prose(const std::string& text) {
   return found;
 }
 
-/// Targets of the links to files of this project: `[words](target)`, without `#part`.
+/// Targets of the links to files of this project: `[words](target)` or `[words](<target>)`, without
+/// `#part`.
 std::vector<std::string> links(const std::string& text) {
   std::vector<std::string> found;
   for (size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
-    const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+    std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+    if (target.starts_with('<')) target = target.substr(1, target.size() - 2);
     if (target.starts_with("http") || target.starts_with("#")) continue;
     found.push_back(target.substr(0, target.find('#')));
   }

@@ -5,6 +5,7 @@
 #include "geometry/shape/mesh_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/box/small_box.hpp"
+#include "tests/support/mesh_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;

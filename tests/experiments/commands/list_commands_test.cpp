@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/commands/scene_keys_page.hpp"
 #include "problems/scene/scene_file.hpp"
-#include "problems/scene/scene_keys_page.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/support/program.hpp"
 

@@ -61,5 +61,17 @@ TEST_CASE("what is no UTF-8 and what controls a terminal is replaced") {
     CHECK_THAT(clean_utf8(std::string(broken) + "<"), Contains(mark + "<") && !Contains(broken));
 }
 
+TEST_CASE("a text is cut at its marks, styles kept, blanks beside them dropped") {
+  const std::vector<Text> parts = parts_of(marked("a || *b* c ||  || |v|, d||e"), "||");
+  REQUIRE(parts.size() == 5);
+  CHECK(parts[0] == Text("a"));
+  CHECK(parts[1] == marked("*b* c"));
+  CHECK(parts[2].empty());
+  CHECK(parts[3] == Text("|v|, d"));  // a single bar is no mark
+  CHECK(parts[4] == Text("e"));
+  CHECK(parts_of("|| a", "||").front().empty());
+  CHECK(parts_of(Text(), "||") == std::vector<Text>(1));
+}
+
 }  // namespace
 }  // namespace ballast::page

@@ -3,6 +3,7 @@
 #include "geometry/shape/mesh_file.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/mesh_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;

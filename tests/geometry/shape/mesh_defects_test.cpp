@@ -6,6 +6,7 @@
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/shape/mesh_test_files.hpp"
+#include "tests/support/mesh_writer.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;

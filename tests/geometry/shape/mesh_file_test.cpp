@@ -15,6 +15,7 @@
 #include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/shape/mesh_test_files.hpp"
+#include "tests/support/mesh_writer.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
@@ -171,34 +172,6 @@ TEST_CASE("scanned grains: the hull of whatever the vertices are") {
   save(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
   const std::string said = complaint([&] { read_mesh_hull(file); });
   CHECK(said == file.string() + ": no convex hull: all points lie in one plane");
-}
-
-TEST_CASE("writing that fails names the file and the reason, and leaves the old file") {
-  const TemporaryFolder folder;
-  const Polyhedron box = make_box({1, 2, 3});
-  const auto said_of = [&](const fs::path& file) {
-    return complaint([&] { write_mesh(file, box); });
-  };
-
-  const fs::path nowhere = folder.path() / "no" / "box.obj";
-  CHECK(said_of(nowhere) == nowhere.string() + ": cannot write: No such file or directory");
-  CHECK(said_of(folder.path() / "box.ply").find("unknown suffix '.ply'") != std::string::npos);
-  CHECK_FALSE(fs::exists(folder.path() / "box.ply"));
-
-  const fs::path folder_there = folder.path() / "taken.obj";
-  fs::create_directory(folder_there);
-  CHECK(said_of(folder_there).find("cannot write: ") != std::string::npos);
-  CHECK_FALSE(fs::exists(folder_there.string() + ".tmp"));
-
-  // a full disk: the file beside the target leads to /dev/full
-  const fs::path file = folder.path() / "box.stl";
-  save(file, "old");
-  fs::create_symlink("/dev/full", file.string() + ".tmp");
-  CHECK(said_of(file) == file.string() + ": cannot write: No space left on device");
-  CHECK(load(file) == "old");
-  CHECK_FALSE(fs::exists(fs::symlink_status(file.string() + ".tmp")));
-  CHECK(said_of(file) == "");
-  CHECK(read_mesh(file).face_count() == 6);
 }
 
 TEST_CASE("a turned box in binary STL, which is single precision, has six faces") {

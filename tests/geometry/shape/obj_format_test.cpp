@@ -2,6 +2,7 @@
 
 #include "geometry/shape/grain_shapes.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/mesh_writer.hpp"
 
 using namespace ballast;
 using raw_mesh::RawMesh;
@@ -14,7 +15,7 @@ RawMesh read_obj_text(std::string_view text) { return raw_mesh::read_obj("a.obj"
 
 TEST_CASE("OBJ: what was written is read, bit for bit and in order") {
   const Polyhedron grain = make_grain({}, 0.02, 5).shape;
-  const RawMesh mesh = read_obj_text(raw_mesh::obj_text(grain));
+  const RawMesh mesh = read_obj_text(obj_text(grain));
   REQUIRE(mesh.vertices.size() == grain.vertices().size());
   REQUIRE(static_cast<int>(mesh.faces.size()) == grain.face_count());
   for (int v = 0; v < grain.vertex_count(); ++v) CHECK(mesh.vertices[v] == grain.vertex(v));

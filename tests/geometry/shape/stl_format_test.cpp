@@ -5,6 +5,7 @@
 #include "geometry/shape/grain_shapes.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/shape/mesh_test_files.hpp"
+#include "tests/support/mesh_writer.hpp"
 
 using namespace ballast;
 using raw_mesh::RawMesh;
@@ -23,8 +24,7 @@ std::string facet(const std::string& p, const std::string& q, const std::string&
 
 TEST_CASE("STL: text and binary hold the same triangles of welded corners") {
   const Polyhedron grain = make_grain({}, 0.02, 5).shape;  // all faces are triangles
-  const RawMesh text = read_stl_text(raw_mesh::stl_text(grain)),
-                binary = read_stl_text(binary_stl(grain));
+  const RawMesh text = read_stl_text(stl_text(grain)), binary = read_stl_text(binary_stl(grain));
   for (const RawMesh* mesh : {&text, &binary}) {
     REQUIRE(static_cast<int>(mesh->vertices.size()) == grain.vertex_count());
     REQUIRE(static_cast<int>(mesh->faces.size()) == grain.face_count());

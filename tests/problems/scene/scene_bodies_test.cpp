@@ -8,6 +8,7 @@
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/scene/scene_texts.hpp"
+#include "tests/support/mesh_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;

@@ -4,6 +4,7 @@
 #include "platform/content_key.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/mesh_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;

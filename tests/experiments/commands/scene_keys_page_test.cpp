@@ -1,6 +1,6 @@
 // docs/manual/scenes.md is written from the tables by which scenes are read.
 
-#include "problems/scene/scene_keys_page.hpp"
+#include "experiments/commands/scene_keys_page.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -20,16 +20,16 @@ TEST_CASE("docs/manual/scenes.md ends with the tables of keys: ballast scenes --
 TEST_CASE("the tables say unit, default, what is expected and meaning") {
   const std::string page = scene_keys_markdown();
   for (const char* row : {
-           "| `scene.step` | s | 2e-4 | a number > 0 | step h; at most the duration |\n",
-           "| `gravity.direction` |  | [0, 0, -1] | three finite numbers | any length",
-           "| `solver.name` |  | \"nncg\" | a text | as listed",
-           "| `solver.max_seconds` | s | 1e30 | a number > 0 | wall clock",
+           "| `scene.step` | s | `2e-4` | a number > 0 | step h; at most the duration |\n",
+           "| `gravity.direction` |  | `[0, 0, -1]` | three finite numbers | any length",
+           "| `solver.name` |  | `\"nncg\"` | a text | as listed",
+           "| `solver.max_seconds` | s | `1e30` | a number > 0 | wall clock",
            "| `grains.count` |  | required | a whole number from 1 to 1000000 | ",
-           "| `grains.density` | kg/m³ | 2700 | a number > 0 | ",
-           "| `grains.size` |  | \"radius\" | one of \"radius\", \"diameter\" | ",
-           "| `correction.enabled` |  | true | true or false | ",
+           "| `grains.density` | kg/m³ | `2700` | a number > 0 | ",
+           "| `grains.size` |  | `\"radius\"` | one of \"radius\", \"diameter\" | ",
+           "| `correction.enabled` |  | `true` | true or false | ",
            "| `load.f_max` | N | required | a number >= 0 | ",
-           "| `locked` |  | [] | a list of texts | ",
+           "| `locked` |  | `[]` | a list of texts | ",
        })
     CHECK_THAT(page, Catch::Contains(row));
 }

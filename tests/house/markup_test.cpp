@@ -1,0 +1,113 @@
+// No markup outside experiments/page: pages say what, and one room knows HTML and Markdown.
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <regex>
+
+#include "tests/catch.hpp"
+#include "tests/house/source_tree.hpp"
+
+using namespace ballast::house;
+
+namespace {
+
+constexpr const char* home = "experiments/page/";
+
+/// What stands between quotation marks in C++, with the line it begins in. Escapes stay as written.
+struct Literal {
+  std::string text;
+  size_t line = 1;
+};
+
+std::vector<Literal> literals_of(const std::string& source) {
+  std::vector<Literal> found;
+  size_t line = 1;
+  const auto starts = [&](size_t at, const char* what) {
+    return source.compare(at, std::strlen(what), what) == 0;
+  };
+  for (size_t at = 0; at < source.size();) {
+    // what begins here, and where it ends
+    const size_t begin = at;
+    size_t end = at + 1;
+    if (starts(at, "//")) {
+      end = source.find('\n', at);
+    } else if (starts(at, "/*")) {
+      end = source.find("*/", at + 2) + 2;
+    } else if (starts(at, "R\"")) {
+      const size_t open = source.find('(', at);
+      const std::string close = ')' + source.substr(at + 2, open - at - 2) + '"';
+      end = source.find(close, open);
+      found.push_back({source.substr(open + 1, end - open - 1), line});
+      end += close.size();
+    } else if (source[at] == '"' || source[at] == '\'') {
+      // an apostrophe after a digit only parts its digits
+      const bool is_separator =
+          source[at] == '\'' && at > 0 && std::isalnum(static_cast<unsigned char>(source[at - 1]));
+      while (!is_separator && end < source.size() && source[end] != source[at])
+        end += source[end] == '\\' ? 2 : 1;
+      if (source[at] == '"') found.push_back({source.substr(at + 1, end - at - 1), line});
+      if (!is_separator) ++end;
+    }
+    at = std::min(end, source.size());
+    line += static_cast<size_t>(std::count(source.begin() + static_cast<long>(begin),
+                                           source.begin() + static_cast<long>(at), '\n'));
+  }
+  return found;
+}
+
+/// The markup in a literal; empty when there is none. XML of other programs (ParaView's) is none:
+/// its elements have capital letters.
+std::string markup_in(const std::string& text) {
+  static const std::regex html(
+      "</?(a|b|i|p|u|br|hr|em|li|td|th|tr|ul|ol|h[1-6]|dl|dt|dd|div|img|nav|pre|sub|sup|svg|css|"
+      "body|code|head|html|main|span|link|meta|rect|path|small|table|tbody|thead|style|title|"
+      "figure|footer|header|script|section|details|summary|strong|figcaption)([ />\\\\]|$)|"
+      "<!DOCTYPE|&(amp|lt|gt|quot|nbsp|#\\d+);");
+  static const std::regex markdown(R"re(\|:?---|---:?\||(^|\\n)\| |(^|\\n)##+ |```|!\[)re");
+  for (const std::regex* pattern : {&html, &markdown})
+    if (std::smatch found; std::regex_search(text, found, *pattern)) return found.str();
+  return {};
+}
+
+std::vector<std::string> markup_breaches(const std::string& path, const std::string& source) {
+  std::vector<std::string> found;
+  if (path.starts_with(home)) return found;
+  for (const Literal& literal : literals_of(source))
+    if (const std::string markup = markup_in(literal.text); !markup.empty())
+      found.push_back(path + ":" + std::to_string(literal.line) + ": \"" + markup +
+                      "\" is for experiments/page to write");
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("HTML and Markdown are written by experiments/page alone") {
+  for (const SourceFile& file : all_sources(false))
+    for (const std::string& breach : markup_breaches(file.path, file.text)) FAIL_CHECK(breach);
+}
+
+TEST_CASE("markup in a literal is seen, with its line") {
+  for (const char* code :
+       {R"(f("<td>");)", R"(f("x</b> y");)", R"(f("<figure id=\"x\">");)", R"(f("|---|---|");)",
+        R"(f("a |---:|");)", R"(f("| a | b |");)", R"(f("\n## A\n");)", R"(f("a &lt; b");)",
+        R"(f("<br>");)", R"--(f(R"x(<html>)x");)--", R"--(f("![a](b.svg)");)--", R"(f("```");)"}) {
+    INFO(code);
+    CHECK(markup_breaches("experiments/run/a.cpp", code).size() == 1);
+    CHECK(markup_breaches("experiments/page/a.cpp", code).empty());
+  }
+  const std::vector<std::string> found = markup_breaches("a.cpp", "int a = 1'000;\n\n\"<p>\"\n");
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], Catch::StartsWith("a.cpp:3: \"<p>\""));
+}
+
+TEST_CASE("what only looks like markup is let through") {
+  for (const char* code :
+       {"// \"<td>\"", "/* \"|---|\"\n */", R"(f("<output>/capture", "<kind>.json");)",
+        R"(f("<Points>\n", "<?xml version=\"1.0\"?>");)", R"(#include <map>)", R"(a < b || c > d;)",
+        R"(f("|f_g - f| / f", "a || b");)", R"(f('"', '<');)",
+        R"(f("# a comment of a script");)"}) {
+    INFO(code);
+    CHECK(markup_breaches("experiments/run/a.cpp", code).empty());
+  }
+}
