@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "experiments/commands/command.hpp"
-#include "experiments/paper/make_campaign.hpp"
+#include "experiments/paper/campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "experiments/paper/sections.hpp"
 #include "experiments/plans/plan_runner.hpp"

@@ -41,8 +41,8 @@ struct Table {
 
 /// A plot and what is said about it.
 struct Picture {
-  Figure plot;
-  std::vector<Text> caption;  ///< one line each
+  Figure plot = {};
+  std::vector<Text> caption = {};  ///< one line each
   Text files = {};       ///< links to its files, for pages that don't hold the picture themselves
   std::string svg = {};  ///< filled by draw_pictures
 };
@@ -89,7 +89,7 @@ struct Section {
 };
 
 struct Page {
-  std::string title;
+  std::string title = {};
   std::vector<Text> lede = {};  ///< lines under the title
   Notices notices = {};         ///< stand before everything else
   std::vector<Section> sections = {};

@@ -25,39 +25,39 @@ enum class Mark {
 };
 
 struct Curve {
-  std::vector<double> x, y;
-  std::string title;  ///< empty: not in the key
+  std::vector<double> x = {}, y = {};
+  std::string title = {};  ///< empty: not in the key
   Ink ink = Ink::blue;
   Mark mark = Mark::line;
   double width = 1.6;  ///< of the line, or size of the points
   bool dashed = false;
   double opacity = 1.0;
-  std::vector<double> y_error;  ///< points: half length of the bars
-  std::vector<double> y_low;    ///< area: lower bound
+  std::vector<double> y_error = {};  ///< points: half length of the bars
+  std::vector<double> y_low = {};    ///< area: lower bound
 };
 
 /// A dashed line across the panel with a label at its end: a target, a reference.
 struct ReferenceLine {
   double value = 0.0;
-  std::string label;
+  std::string label = {};
   bool vertical = false;
   Ink ink = Ink::grey;
 };
 
 struct Panel {
-  std::string x_label, y_label;
+  std::string x_label = {}, y_label = {};
   bool log_x = false, log_y = false;
-  std::optional<double> y_min, y_max, x_min, x_max;
-  std::vector<Curve> curves;
-  std::vector<ReferenceLine> lines;
+  std::optional<double> y_min = {}, y_max = {}, x_min = {}, x_max = {};
+  std::vector<Curve> curves = {};
+  std::vector<ReferenceLine> lines = {};
 };
 
 struct Figure {
-  std::string name;   ///< stem of its files: letters, digits, _ and -
-  std::string title;  ///< for screen readers and the SVG's <title>; plain text
+  std::string name = {};   ///< stem of its files: letters, digits, _ and -
+  std::string title = {};  ///< for screen readers and the SVG's <title>; plain text
   int width = 900, height = 420;
-  std::vector<Panel> panels;  ///< one above the other, x axes aligned; only the last shows its x
-                              ///< label if all share it
+  std::vector<Panel> panels = {};  ///< one above the other, x axes aligned; only the last shows its
+                                   ///< x label if all share it
 };
 
 /// Escapes what enhanced text would interpret; control characters become spaces.

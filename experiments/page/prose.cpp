@@ -32,7 +32,11 @@ Prose::Prose(std::initializer_list<std::string_view> files) {
 Text Prose::operator()(const std::string& name, const Values& values) const {
   const auto entry = entries_.find(name);
   if (entry == entries_.end()) throw std::logic_error("page texts: there is no \"" + name + "\"");
-  return marked(entry->second, values);
+  // the texts of one figure share their values: what this one does not name is not for it
+  Values named;
+  for (const auto& [value, words] : values)
+    if (entry->second.find('{' + value + '}') != std::string::npos) named.emplace(value, words);
+  return marked(entry->second, named);
 }
 
 }  // namespace ballast::page

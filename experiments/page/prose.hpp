@@ -22,8 +22,8 @@ class Prose {
   /// break. Throws std::logic_error when a name occurs twice, or words stand before a headline.
   explicit Prose(std::initializer_list<std::string_view> files);
 
-  /// The entry with its values filled in. Throws std::logic_error when there is none of that name,
-  /// and as marked() does.
+  /// The entry with its values filled in; values that it does not name are left out. Throws
+  /// std::logic_error when there is no entry of that name, and as marked() does.
   Text operator()(const std::string& name, const Values& values = {}) const;
 
  private:

@@ -152,6 +152,11 @@ Text styled(Text text, Styles styles) {
   return text;
 }
 
+void add_to_list(Text& list, const Text& part, const char* between) {
+  if (!list.empty()) list += between;
+  list += part;
+}
+
 std::vector<Text> parts_of(const Text& text, std::string_view mark) {
   std::vector<Text> parts(1);
   for (const Span& span : text.spans) {

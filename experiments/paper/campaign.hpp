@@ -69,6 +69,10 @@ struct Campaign {
   double seconds() const;  ///< estimate, core-seconds, packings included
 };
 
+/// Which runs reproduce the paper. Throws SceneFileError when the scene is none, or no vibrated
+/// box.
+Campaign make_campaign(const CampaignSettings& settings);
+
 /// f_max, g, m_w, solver and the rest are varied at this frequency: many periods in a short run
 /// [Hz].
 inline constexpr double varied_frequency = 10.0;

@@ -40,6 +40,19 @@ double estimate(const RunSettings& s, long steps) {
 
 }  // namespace
 
+long Campaign::steps() const {
+  long sum = 0;
+  for (const CampaignRun& run : runs) sum += run.steps;
+  return sum;
+}
+
+double Campaign::seconds() const {
+  constexpr double packing = 85.0;  // of one core, 1200 grains
+  double sum = packing * packings;
+  for (const CampaignRun& run : runs) sum += run.seconds;
+  return sum;
+}
+
 std::string campaign_number(double value) { return printed("%g", value); }
 
 double duration_at(double frequency) { return std::max(1.0, 3.0 / frequency); }

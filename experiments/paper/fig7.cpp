@@ -3,161 +3,129 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/page/page.hpp"
-#include "experiments/paper/stored_states.hpp"
+#include "experiments/paper/motion.hpp"
 
 namespace ballast {
 namespace {
 
-constexpr double half_section_of_contacts =
-    0.08;                   // contacts this near the middle plane are drawn [m]
-constexpr int classes = 8;  // of thickness
+/// Contacts this near the middle plane are drawn [m].
+constexpr double half_section_of_contacts = 0.08;
+constexpr size_t classes = 8;    // of thickness
+constexpr double margin = 0.02;  // around the box [m]
 
 /// Segments between the centres of touching grains (to the contact at walls), thicker for larger
 /// normal forces.
-Panel chains(const StoredState& state, const char* title) {
-  const MotionState& motion = state.at.state;
-  const auto wall = [&](BoxWall which) { return wall_place(state.system, motion, which); };
-  const double middle = 0.5 * (wall(wall_y_min).y() + wall(wall_y_max).y());
-  const std::vector<PairForce> pairs =
-      pair_forces(state.at.memory.contacts, state.at.memory.impulses, state.step);
+Panel chains(const StoredState& state, const std::string& title) {
+  const std::vector<PairForce> pairs = state.pairs();
   double mean = 0.0;
   for (const PairForce& pair : pairs)
     mean += pair.normal_force() / static_cast<double>(pairs.size());
-  std::array<Curve, classes> curves;
   const auto centre = [&](int body, const PairForce& pair) -> Vec3 {
-    return body < state.system.grain_count ? motion.pose[static_cast<size_t>(body)].position
+    return body < state.system.grain_count ? state.at.state.pose[static_cast<size_t>(body)].position
                                            : pair.position;
   };
+  // one curve for each thickness: gnuplot draws a curve in one width
+  std::array<Curve, classes> curves;
   for (const PairForce& pair : pairs) {
-    if (std::abs(pair.position.y() - middle) > half_section_of_contacts) continue;
-    const Vec3 a = centre(pair.body_a, pair), b = centre(pair.body_b, pair);
-    const double relative =
-        pair.normal_force() / mean;  // up to 4 means the thickness grows with the force
-    const auto k = static_cast<size_t>(std::min(classes - 1.0, std::floor(2.0 * relative)));
-    for (const Vec3& end : {a, b}) {
-      curves[k].x.push_back(end.x());
-      curves[k].y.push_back(end.z());
+    if (std::abs(pair.position.y() - state.middle()) > half_section_of_contacts) continue;
+    const double relative = pair.normal_force() / mean;  // the thickness grows up to 4 means
+    Curve& curve = curves[static_cast<size_t>(std::min(classes - 1.0, std::floor(2.0 * relative)))];
+    for (const Vec3& end : {centre(pair.body_a, pair), centre(pair.body_b, pair)}) {
+      curve.x.push_back(end.x());
+      curve.y.push_back(end.z());
     }
-    curves[k].x.push_back(not_known);
-    curves[k].y.push_back(not_known);
+    curve.x.push_back(not_known);
+    curve.y.push_back(not_known);
   }
-  Panel panel;
-  panel.x_label = std::string("{/:Italic x}  (m)   ") + title;
-  panel.y_label = "{/:Italic z}  (m)";
-  for (int k = 0; k < classes; ++k) {
-    if (curves[static_cast<size_t>(k)].x.empty()) continue;
-    curves[static_cast<size_t>(k)].ink = Ink::black;
-    curves[static_cast<size_t>(k)].width = 0.3 + 0.75 * k;
-    panel.curves.push_back(curves[static_cast<size_t>(k)]);
+  Panel panel{.x_label = "{/:Italic x}  (m)   " + title,
+              .y_label = "{/:Italic z}  (m)",
+              .y_min = -margin,
+              .y_max = state.wall(wall_lid).z() + margin,
+              .x_min = state.wall(wall_x_min).x() - margin,
+              .x_max = state.wall(wall_x_max).x() + margin};
+  for (size_t k = 0; k < classes; ++k) {
+    curves[k].ink = Ink::black;
+    curves[k].width = 0.3 + 0.75 * static_cast<double>(k);
+    if (!curves[k].x.empty()) panel.curves.push_back(curves[k]);
   }
-  panel.x_min = wall(wall_x_min).x() - 0.02, panel.x_max = wall(wall_x_max).x() + 0.02;
-  panel.y_min = -0.02, panel.y_max = wall(wall_lid).z() + 0.02;
   return panel;
 }
 
-/// Mean stress of one run's states in each phase.
+/// The phases in the order of the table, with the mean stress of a run's states in each.
+constexpr std::pair<WallPhase, const char*> phases[] = {
+    {WallPhase::passive, "passive"}, {WallPhase::jammed, "jammed"}, {WallPhase::active, "active"}};
+constexpr size_t passive = 0, jammed = 1, active = 2;
+
 struct PhaseStress {
-  std::array<Mat3, 4> sum = {Mat3::Zero(), Mat3::Zero(), Mat3::Zero(), Mat3::Zero()};
-  std::array<int, 4> count{};
+  Mat3 sum = Mat3::Zero();
+  bool is_known = false;
 
   void add(const StoredState& state) {
-    const std::vector<PairForce> pairs =
-        pair_forces(state.at.memory.contacts, state.at.memory.impulses, state.step);
-    const size_t phase = static_cast<size_t>(state.phase);
-    sum[phase] += stress_tensor(state.system, state.at.state, pairs,
-                                box_volume(state.system, state.at.state));
-    ++count[phase];
+    sum += stress_tensor(state.system, state.at.state, state.pairs(),
+                         box_volume(state.system, state.at.state));
+    is_known = true;
   }
-  double inclination(WallPhase phase) const {
-    const size_t k = static_cast<size_t>(phase);
-    return count[k] ? major_inclination(sum[k]) : not_known;
-  }
-  double ratio(WallPhase phase) const {  // sigma_xx / sigma_zz
-    const size_t k = static_cast<size_t>(phase);
-    return count[k] ? sum[k](0, 0) / sum[k](2, 2) : not_known;
-  }
+  double inclination() const { return is_known ? major_inclination(sum) : not_known; }
+  double ratio() const { return is_known ? sum(0, 0) / sum(2, 2) : not_known; }
 };
 
-constexpr std::pair<WallPhase, const char*> stress_phases[] = {
-    {WallPhase::passive, "passive"}, {WallPhase::jammed, "jammed"}, {WallPhase::active, "active"}};
-
 /// Within 20 degrees of the direction that the paper names: agrees; within 45: partly.
-Agreement judge_direction(const SampleMean& angle, bool is_horizontal) {
-  if (angle.samples == 0) return Agreement::reported;
-  const double off = is_horizontal ? angle.mean : 90.0 - angle.mean;
-  return off < 20.0 ? Agreement::agrees : off < 45.0 ? Agreement::partly : Agreement::differs;
-}
-
-/// Force chains in a section, passive above active. `aspect`: height over width of a panel.
-PaperFigure chains_figure(const std::array<Panel, 2>& panels, double aspect,
-                          const std::array<SampleMean, 3>& mean) {
-  PaperFigure figure;
-  figure.plot.name = "fig07";
-  figure.plot.title = "Normal forces in a section while the wall moves in and out";
-  figure.plot.width = 760;
-  figure.plot.height = static_cast<int>(2.0 * (78.0 + 640.0 * aspect));
-  figure.plot.panels = {panels[0], panels[1]};
-  figure.paper = page::words("fig7.paper");
-  figure.found =
-      page::words("fig7.found", {{"passive", page::with_error(mean[0].mean, mean[0].error)},
-                                 {"active", page::with_error(mean[2].mean, mean[2].error)}});
-  return figure;
+Agreement judge_direction(const SampleMean& angle, double expected) {
+  const double off = std::abs(angle.mean - expected);
+  return angle.samples == 0 ? Agreement::reported : graded(off < 20.0, off < 45.0);
 }
 
 }  // namespace
 
 PaperSection fig7_section(PaperData& data) {
-  PaperSection section;
-  section.text = {page::words("fig7.intro")};
+  PaperSection section{.text = {page::words("fig7.intro")}};
   const std::vector<MotionRun> runs = read_motion(data, section);
-  std::array<std::vector<double>, 3> angles, ratios;
-  std::array<Panel, 2> panels;  // passive, active
-  std::array<double, 2> fastest{};
-  double aspect = 1.0;
+  std::array<std::vector<double>, 3> angles, ratios;  // by phase, one of each run
+  std::array<Panel, 3> panels;                        // of the first run's fastest states
+  std::array<double, 3> fastest{};
+  double aspect = 1.0;  // height over width of a panel
   int states = 0;
   for (const MotionRun& run : runs) {
-    PhaseStress stress;
+    std::array<PhaseStress, 3> stress;
     states += for_each_state(run, [&](const StoredState& state) {
-      stress.add(state);
-      if (&run != &runs.front() ||
-          (state.phase != WallPhase::passive && state.phase != WallPhase::active))
-        return;
-      const size_t k = state.phase == WallPhase::active;
-      if (std::abs(state.wall_speed) <= fastest[k]) return;
-      fastest[k] = std::abs(state.wall_speed);
-      panels[k] = chains(state, k ? "active: the wall moves out" : "passive: the wall moves in");
-      aspect = (*panels[k].y_max - *panels[k].y_min) / (*panels[k].x_max - *panels[k].x_min);
+      for (size_t k = 0; k < 3; ++k) {
+        if (state.phase != phases[k].first) continue;
+        stress[k].add(state);
+        // of the first sample the states with the fastest wall are drawn
+        const double speed = std::abs(state.wall_speed);
+        if (k == jammed || &run != &runs.front() || speed <= fastest[k]) continue;
+        fastest[k] = speed;
+        panels[k] = chains(
+            state, k == active ? "active: the wall moves out" : "passive: the wall moves in");
+        aspect = (*panels[k].y_max - *panels[k].y_min) / (*panels[k].x_max - *panels[k].x_min);
+      }
     });
     for (size_t k = 0; k < 3; ++k) {
-      angles[k].push_back(stress.inclination(stress_phases[k].first));
-      ratios[k].push_back(stress.ratio(stress_phases[k].first));
+      angles[k].push_back(stress[k].inclination());
+      ratios[k].push_back(stress[k].ratio());
     }
-  }
-  page::Table table{"Principal direction by phase, means over samples ± standard error",
-                    {"phase", "angle to the horizontal (°)", "σ_xx/σ_zz"},
-                    {}};
-  std::array<SampleMean, 3> mean;
-  for (size_t k = 0; k < 3; ++k) {
-    mean[k] = sample_mean(angles[k]);
-    const SampleMean ratio = sample_mean(ratios[k]);
-    table.rows.push_back({stress_phases[k].second, page::with_error(mean[k].mean, mean[k].error),
-                          page::with_error(ratio.mean, ratio.error)});
   }
   if (states == 0) {
     section.notes.push_back("PARTIAL: no stored states.");
     return section;
   }
-  section.tables = {table};
-  if (!panels[0].curves.empty() && !panels[1].curves.empty()) {
-    section.figures = {chains_figure(panels, aspect, mean)};
+  page::Table table = page::words_table("fig7.table");
+  std::array<SampleMean, 3> mean;
+  for (size_t k = 0; k < 3; ++k) {
+    mean[k] = sample_mean(angles[k]);
+    table.rows.push_back({phases[k].second, words_of(mean[k]), words_of(sample_mean(ratios[k]))});
   }
-  section.rows = {{"Fig. 7a", "major stress horizontal in the passive state",
-                   page::with_error(mean[0].mean, mean[0].error) + "° to the horizontal",
-                   judge_direction(mean[0], true)},
-                  {"Fig. 7b", "major stress vertical in the active state",
-                   page::with_error(mean[2].mean, mean[2].error) + "° to the horizontal",
-                   judge_direction(mean[2], false)}};
+  section.tables = {table};
+  const page::Values words{{"passive", words_of(mean[passive])},
+                           {"active", words_of(mean[active])}};
+  if (!panels[passive].curves.empty() && !panels[active].curves.empty())
+    section.draw("fig7",
+                 {.width = 760,
+                  .height = static_cast<int>(2.0 * (78.0 + 640.0 * aspect)),
+                  .panels = {panels[passive], panels[active]}},
+                 words);
+  section.claim("fig7.passive", words, judge_direction(mean[passive], 0.0));
+  section.claim("fig7.active", words, judge_direction(mean[active], 90.0));
   return section;
 }
 

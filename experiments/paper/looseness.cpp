@@ -4,112 +4,91 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/page/page.hpp"
-#include "experiments/paper/sections.hpp"
+#include "experiments/paper/run_groups.hpp"
 
 namespace ballast {
 namespace {
 
+/// One way in which the solver was loosened, on sample 1: a table and a curve.
+struct Loosening {
+  Varied varied;
+  const char *name, *title;  ///< of the table's words, and in the legend
+  Ink ink;
+};
+constexpr Loosening loosenings[] = {
+    {Varied::iterations, "slow", "nncg, 10 Hz", Ink::blue},
+    {Varied::iterations_fast, "fast", "nncg, 60 Hz", Ink::vermilion},
+    {Varied::backend, "backends", "other backends, 10 Hz", Ink::green}};
+
+double error_of(const VariedValue& value) { return value.samples.front().error_mean; }
+
+double milliseconds(const VariedValue& value) {
+  return 1e3 * value.samples.front().seconds_per_step;
+}
+
+bool is_tighter(const VariedValue& a, const VariedValue& b) { return error_of(a) < error_of(b); }
+
+/// A quantity of the only sample.
+double seen(const VariedValue& value, double Observation::*quantity) {
+  return value.samples.front().*quantity;
+}
+
 /// Spread between samples: standard deviation over the base runs' seeds; relative to their mean.
-double relative_spread(const std::vector<VariedValue>& base, double Observation::*quantity) {
-  for (const VariedValue& value : base) {
-    if (value.value != base_force) continue;
-    const SampleMean mean = value.mean(quantity);
-    return mean.error * std::sqrt(static_cast<double>(mean.samples)) / std::abs(mean.mean);
-  }
-  return not_known;
+double relative_spread(const RunGroup& base) {
+  const SampleMean mean = base.mean_at(base_force, &Observation::rise);
+  return deviation_of(mean) / std::abs(mean.mean);
 }
 
-/// The run that the others are compared with: the smallest error.
-const VariedValue* tightest(const std::vector<VariedValue>& values) {
-  const auto least = std::min_element(
-      values.begin(), values.end(), [](const VariedValue& a, const VariedValue& b) {
-        return a.samples.front().error_mean < b.samples.front().error_mean;
-      });
-  return least == values.end() ? nullptr : &*least;
-}
-
-page::Text change(double value, double reference) {
-  return reference == 0.0 ? "–" : page::percent(value / reference - 1.0);
-}
-
-page::Table table_of(const std::vector<VariedValue>& values, const std::string& caption) {
-  page::Table table{caption, {"solver", "error (g·h)", "ms a step (median)"}, {}};
-  for (const ObservableColumn& column : observable_columns())
-    table.head.push_back(std::string(column.name) + " (" + column.unit + ")");
-  const VariedValue* reference = tightest(values);
+page::Table table_of(const Loosening& what, const std::vector<VariedValue>& values,
+                     const VariedValue& tightest) {
+  page::Table table = observable_table(std::string("looseness.") + what.name);
   for (const VariedValue& value : values) {
-    const Observation& seen = value.samples.front();
     table.rows.push_back(
-        {value.label, page::number(seen.error_mean, 2), page::number(1e3 * seen.seconds_per_step)});
+        {value.label, page::number(error_of(value), 2), page::number(milliseconds(value))});
     for (const ObservableColumn& column : observable_columns()) {
-      page::Text cell = page::number(column.factor * seen.*column.value);
-      if (&value != reference)
-        cell += " (" + change(seen.*column.value, reference->samples.front().*column.value) + ")";
+      const double now = seen(value, column.value), best = seen(tightest, column.value);
+      page::Text cell = page::number(column.factor * now);
+      if (&value != &tightest)
+        cell += " (" + (best == 0.0 ? page::Text("–") : page::percent(now / best - 1.0)) + ")";
       table.rows.back().push_back(cell);
     }
   }
   return table;
 }
 
-/// Relative deviation of an observable from the tightest run's.
-Curve deviation_curve(const std::vector<VariedValue>& values, double Observation::*quantity,
-                      const char* title, Ink ink, bool against_time) {
-  const VariedValue* reference = tightest(values);
-  std::vector<double> x, y;
+/// Deviation of Delta x_max from the tightest run's, against the error or the time of a step.
+Curve deviation_curve(const Loosening& what, const std::vector<VariedValue>& values,
+                      const VariedValue& tightest, bool against_time) {
+  VariedCurve points;
   for (const VariedValue& value : values) {
-    if (&value == reference) continue;
-    const Observation& seen = value.samples.front();
-    x.push_back(against_time ? 1e3 * seen.seconds_per_step : seen.error_mean);
-    y.push_back(
-        std::max(1e-4, std::abs(seen.*quantity / (reference->samples.front().*quantity) - 1.0)));
+    if (&value == &tightest) continue;
+    const double ratio = seen(value, &Observation::rise) / seen(tightest, &Observation::rise);
+    points.x.push_back(against_time ? milliseconds(value) : error_of(value));
+    points.y.push_back(std::max(1e-4, std::abs(ratio - 1.0)));
+    points.error.push_back(0.0);
   }
-  return points_of(x, y, std::vector<double>(x.size(), 0.0), title, ink);
+  return points_of(points, what.title, what.ink);
 }
 
-PaperFigure figure_of(const std::vector<VariedValue>& values, const std::vector<VariedValue>& fast,
-                      const std::vector<VariedValue>& backends, double spread) {
-  PaperFigure figure;
-  figure.plot.name = "looseness";
-  figure.plot.title = "Deviation of the displacement against error and time of a step";
-  figure.plot.height = 800;
-  for (const bool against_time : {false, true}) {
-    Panel panel;
-    panel.x_label =
-        against_time ? "wall clock of a step, median  (ms)" : "rms error over  {/:Italic g h}";
-    panel.y_label = "|deviation of Δ{/:Italic x}_{max}|";
-    panel.log_x = panel.log_y = true;
-    if (values.size() > 1)
-      panel.curves.push_back(
-          deviation_curve(values, &Observation::rise, "nncg, 10 Hz", Ink::blue, against_time));
-    if (fast.size() > 1)
-      panel.curves.push_back(
-          deviation_curve(fast, &Observation::rise, "nncg, 60 Hz", Ink::vermilion, against_time));
-    if (backends.size() > 1)
-      panel.curves.push_back(deviation_curve(backends, &Observation::rise, "other backends, 10 Hz",
-                                             Ink::green, against_time));
-    if (std::isfinite(spread) && spread > 0.0)
-      panel.lines = {{spread, "spread between samples", false, Ink::grey}};
-    figure.plot.panels.push_back(panel);
-  }
-  figure.paper = "The paper could not ask this: one code, one tolerance.";
-  figure.found = page::words("looseness.found");
-  return figure;
+Panel deviation_panel(const char* x_label, double spread) {
+  Panel panel{.x_label = x_label,
+              .y_label = "|deviation of Δ{/:Italic x}_{max}|",
+              .log_x = true,
+              .log_y = true};
+  if (std::isfinite(spread) && spread > 0.0)
+    panel.lines = {{spread, "spread between samples", false, Ink::grey}};
+  return panel;
 }
 
 /// Loosest run whose Delta x_max lies within the samples' spread of the tightest one's, and so do
 /// all tighter ones.
 page::Text loosest_good(std::vector<VariedValue> values, double spread) {
-  std::sort(values.begin(), values.end(), [](const VariedValue& a, const VariedValue& b) {
-    return a.samples.front().error_mean < b.samples.front().error_mean;
-  });
+  std::sort(values.begin(), values.end(), is_tighter);
   page::Text good;
   for (const VariedValue& value : values) {
-    const double miss =
-        std::abs(value.samples.front().rise / values.front().samples.front().rise - 1.0);
-    if (!(miss <= spread)) break;
-    good = value.label + " iterations, error " + page::number(value.samples.front().error_mean, 2) +
-           " g·h";
+    const double best = seen(values.front(), &Observation::rise);
+    if (!(std::abs(seen(value, &Observation::rise) / best - 1.0) <= spread)) break;
+    good = value.label + " iterations, error " + page::number(error_of(value), 2) + " g·h";
   }
   return good;
 }
@@ -117,33 +96,25 @@ page::Text loosest_good(std::vector<VariedValue> values, double spread) {
 }  // namespace
 
 PaperSection looseness_section(PaperData& data) {
-  PaperSection section;
-  section.text = {page::words("looseness.intro")};
-  for (const auto& [varied, what] :
-       {std::pair{Varied::iterations, "numbers of iterations at 10 Hz"},
-        std::pair{Varied::iterations_fast, "numbers of iterations at 60 Hz"},
-        std::pair{Varied::backend, "backends"}})
-    note_missing(data, varied, what, section);
-  const std::vector<VariedValue> values = data.values(Varied::iterations),
-                                 fast = data.values(Varied::iterations_fast);
-  std::vector<VariedValue> backends = data.values(Varied::backend);
-  const double spread = relative_spread(data.values(Varied::force), &Observation::rise);
-  if (values.size() > 1)
-    section.tables.push_back(table_of(values, "nncg at 10 Hz, by iterations a step"));
-  if (fast.size() > 1)
-    section.tables.push_back(table_of(fast, "nncg at 60 Hz, by iterations a step"));
-  if (backends.size() > 1)
-    section.tables.push_back(
-        table_of(backends, "Backends at 10 Hz, the same number of iterations"));
-  if (values.size() < 2 && fast.size() < 2 && backends.size() < 2) return section;
-  section.figures = {figure_of(values, fast, backends, spread)};
-  if (values.size() > 2 && std::isfinite(spread)) {
-    const page::Text good = loosest_good(values, spread);
-    section.rows = {{"beyond", "–",
-                     "Δx_max at 10 Hz within the spread between samples (" +
-                         page::number(100.0 * spread, 2) + " %) down to: " + good,
-                     Agreement::reported}};
+  PaperSection section{.text = {page::words("looseness.intro")}};
+  const double spread = relative_spread({"base", data.values(Varied::force)});
+  Figure figure{.height = 800,
+                .panels = {deviation_panel("rms error over  {/:Italic g h}", spread),
+                           deviation_panel("wall clock of a step, median  (ms)", spread)}};
+  for (const Loosening& what : loosenings) {
+    const std::vector<VariedValue> values = read_values(data, what.varied, section);
+    if (values.size() < 2) continue;
+    // the others are compared with the run of the smallest error
+    const VariedValue& tightest = *std::min_element(values.begin(), values.end(), is_tighter);
+    section.tables.push_back(table_of(what, values, tightest));
+    for (const bool against_time : {false, true})
+      figure.panels[against_time].curves.push_back(
+          deviation_curve(what, values, tightest, against_time));
+    if (what.varied == Varied::iterations && values.size() > 2 && std::isfinite(spread))
+      section.claim("looseness.claim", {{"spread", page::number(100.0 * spread, 2)},
+                                        {"good", loosest_good(values, spread)}});
   }
+  if (!section.tables.empty()) section.draw("looseness", figure);
   return section;
 }
 

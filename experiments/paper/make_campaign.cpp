@@ -1,4 +1,4 @@
-#include "experiments/paper/make_campaign.hpp"
+// Which runs reproduce the paper.
 
 #include "experiments/paper/campaign_builder.hpp"
 
@@ -11,7 +11,7 @@ RunSettings base_run() {
   s.duration = duration_at(varied_frequency);
   return s;
 }
-constexpr TimeWindow varied_window{0.3, varied_duration};
+constexpr TimeWindow varied_window{0.3, varied_duration}, fast_window{0.3, fast_duration};
 
 RunSettings at_frequency(double frequency) {
   RunSettings s;
@@ -32,35 +32,52 @@ void add_frequencies(CampaignBuilder& build) {
                 at_frequency(frequency), build.seeds());
 }
 
-void add_force(CampaignBuilder& build) {
-  build.point(Varied::force, base_force, campaign_number(base_force), base_run(), build.seeds(),
-              varied_window);
-  for (const double force : {1.5, 8.0, 2.0, 5.0}) {
-    RunSettings s;
-    s.force = force;
-    build.point(Varied::force, force, campaign_number(force), s, build.seeds(), varied_window);
-  }
-}
+/// One setting is varied about the base run, which is the first of the values.
+struct Variation {
+  Varied varied;
+  double RunSettings::*setting;
+  std::vector<double> values;
+  const char* unit = "";              ///< of the labels
+  double in_unit = 1.0;               ///< the setting's unit in that
+  bool has_all_seeds = true;          ///< else sample 1 alone
+  double duration = varied_duration;  ///< of all runs but the base [s]
+};
 
-void add_gravity(CampaignBuilder& build) {
-  build.point(Varied::gravity, base_gravity, campaign_number(base_gravity) + " m/s²", base_run(),
-              build.seeds(), varied_window);
-  for (const double gravity : {0.25 * base_gravity, 1.5 * base_gravity, 0.5 * base_gravity}) {
-    RunSettings s;
-    s.gravity = gravity;
-    s.force = base_force * base_gravity / gravity;  // f_max in newtons stays: Eq. 3 then says g^2
-    build.point(Varied::gravity, gravity, campaign_number(gravity) + " m/s²", s, build.seeds(),
-                varied_window);
-  }
-}
+const Variation by_force{Varied::force, &RunSettings::force, {base_force, 1.5, 8.0, 2.0, 5.0}};
+const Variation by_gravity{
+    Varied::gravity,
+    &RunSettings::gravity,
+    {base_gravity, 0.25 * base_gravity, 1.5 * base_gravity, 0.5 * base_gravity},
+    " m/s²"};
+const Variation by_wall_mass{
+    Varied::wall_mass, &RunSettings::wall_mass, {base_wall_mass, 2.0, 0.1, 1.0}};
+const Variation by_step{Varied::time_step,
+                        &RunSettings::step,
+                        {base_step, 1e-3, 5e-4, 1e-4, fine_step},
+                        " s",
+                        1.0,
+                        false};
+const Variation by_friction{Varied::friction,
+                            &RunSettings::friction,
+                            {base_friction, 0.2, 0.8},
+                            "",
+                            1.0,
+                            false,
+                            duration_at(varied_frequency)};
+const Variation by_lid{
+    Varied::lid, &RunSettings::lid_raise, {base_lid_raise, 0.001, 0.005, 0.02}, " mm", 1e3, false};
 
-void add_wall_mass(CampaignBuilder& build) {
-  build.point(Varied::wall_mass, base_wall_mass, campaign_number(base_wall_mass), base_run(),
-              build.seeds(), varied_window);
-  for (const double mass : {2.0, 0.1, 1.0}) {
-    RunSettings s;
-    s.wall_mass = mass;
-    build.point(Varied::wall_mass, mass, campaign_number(mass), s, build.seeds(), varied_window);
+void add_variation(CampaignBuilder& build, const Variation& what) {
+  for (const double value : what.values) {
+    RunSettings s = base_run();
+    if (value != what.values.front()) {
+      s.*what.setting = value;
+      s.duration = what.duration;
+      // f_max in newtons stays under another gravity: Eq. 3 then says g^2
+      if (what.varied == Varied::gravity) s.force = base_force * base_gravity / value;
+    }
+    build.point(what.varied, value, campaign_number(what.in_unit * value) + what.unit, s,
+                what.has_all_seeds ? build.seeds() : 1, varied_window);
   }
 }
 
@@ -70,10 +87,9 @@ void add_slowest(CampaignBuilder& build) {
 
 void add_looseness(CampaignBuilder& build) {
   const int base = build.campaign.settings.iterations;
-  const TimeWindow fast{0.3, fast_duration};
   build.point(Varied::iterations, base, std::to_string(base), base_run(), 1, varied_window);
   build.point(Varied::iterations_fast, base, std::to_string(base), at_frequency(fast_frequency), 1,
-              fast);
+              fast_window);
   for (const int iterations : {20, 200, 500, 50}) {
     if (iterations == base) continue;
     RunSettings s;
@@ -81,7 +97,7 @@ void add_looseness(CampaignBuilder& build) {
     build.point(Varied::iterations, iterations, std::to_string(iterations), s, 1, varied_window);
     s.frequency = fast_frequency;
     s.duration = fast_duration;
-    build.point(Varied::iterations_fast, iterations, std::to_string(iterations), s, 1, fast);
+    build.point(Varied::iterations_fast, iterations, std::to_string(iterations), s, 1, fast_window);
   }
 }
 
@@ -96,24 +112,12 @@ void add_backends(CampaignBuilder& build) {
 }
 
 void add_sensitivity(CampaignBuilder& build) {
-  build.point(Varied::time_step, base_step, campaign_number(base_step) + " s", base_run(), 1,
-              varied_window);
-  for (const double step : {1e-3, 5e-4, 1e-4, fine_step}) {
-    RunSettings s;
-    s.step = step;
-    build.point(Varied::time_step, step, campaign_number(step) + " s", s, 1, varied_window);
-  }
-  build.point(Varied::size, 0, "radius", base_run(), 2, varied_window);
+  add_variation(build, by_step);
   RunSettings diameter;
   diameter.size = "diameter";
+  build.point(Varied::size, 0, "radius", base_run(), 2, varied_window);
   build.point(Varied::size, half_scale_case, "diameter", diameter, 2, varied_window);
-  build.point(Varied::friction, base_friction, campaign_number(base_friction), base_run(), 1,
-              varied_window);
-  for (const double friction : {0.2, 0.8}) {
-    RunSettings s = base_run();
-    s.friction = friction;
-    build.point(Varied::friction, friction, campaign_number(friction), s, 1, varied_window);
-  }
+  add_variation(build, by_friction);
 }
 
 void add_variant(CampaignBuilder& build, Varied varied, RunSettings s) {
@@ -141,43 +145,41 @@ void add_investigation(CampaignBuilder& build) {
   strong.force = 8.0;
   add_variant(build, Varied::rough_frequency, rough);
   add_variant(build, Varied::strong_frequency, strong);
-  const TimeWindow fast{0.3, fast_duration};
   build.point(Varied::time_step_fast, base_step, campaign_number(base_step) + " s",
-              at_frequency(fast_frequency), 1, fast);
+              at_frequency(fast_frequency), 1, fast_window);
   RunSettings fine;
   fine.step = fine_step;
   fine.frequency = fast_frequency;
   fine.duration = fast_duration;
-  build.point(Varied::time_step_fast, fine.step, campaign_number(fine.step) + " s", fine, 1, fast);
+  build.point(Varied::time_step_fast, fine.step, campaign_number(fine.step) + " s", fine, 1,
+              fast_window);
   RunSettings similar;
   similar.size = "diameter";
   similar.lid_raise = 0.5 * base_lid_raise;
   build.point(Varied::size, similar_case, "diameter, gap 5 mm", similar, 2, varied_window);
-  build.point(Varied::lid, base_lid_raise, "10 mm", base_run(), 1, varied_window);
-  for (const double gap : {0.001, 0.005, 0.02}) {
-    RunSettings s;
-    s.lid_raise = gap;
-    build.point(Varied::lid, gap, campaign_number(1e3 * gap) + " mm", s, 1, varied_window);
-  }
+  add_variation(build, by_lid);
 }
 
 }  // namespace
 
 Campaign make_campaign(const CampaignSettings& settings) {
   CampaignBuilder build(settings);
-  const auto stage = [&](const char* name, void (*add)(CampaignBuilder&)) {
-    build.stage = name;
-    add(build);
-  };
-  stage("frequency", add_frequencies);
-  stage("force", add_force);
-  stage("gravity-mass", add_gravity);
-  stage("gravity-mass", add_wall_mass);
-  stage("looseness", add_looseness);
-  stage("slowest", add_slowest);
-  stage("sensitivity", add_backends);
-  stage("sensitivity", add_sensitivity);
-  stage("investigation", add_investigation);
+  build.stage = "frequency";
+  add_frequencies(build);
+  build.stage = "force";
+  add_variation(build, by_force);
+  build.stage = "gravity-mass";
+  add_variation(build, by_gravity);
+  add_variation(build, by_wall_mass);
+  build.stage = "looseness";
+  add_looseness(build);
+  build.stage = "slowest";
+  add_slowest(build);
+  build.stage = "sensitivity";
+  add_backends(build);
+  add_sensitivity(build);
+  build.stage = "investigation";
+  add_investigation(build);
   return build.campaign;
 }
 

@@ -5,6 +5,27 @@
 
 namespace ballast {
 
+const char* plural_of(Varied varied) {
+  // in the order of Varied
+  constexpr const char* words[] = {"frequencies",
+                                   "values of f_max",
+                                   "values of g",
+                                   "values of m_w",
+                                   "numbers of iterations at 10 Hz",
+                                   "numbers of iterations at 60 Hz",
+                                   "backends",
+                                   "steps",
+                                   "size conventions",
+                                   "gaps under the lid",
+                                   "frictions",
+                                   "deposits",
+                                   "frequencies, looser deposit",
+                                   "frequencies, friction 0.8",
+                                   "frequencies, f_max = 8 m g",
+                                   "steps at 60 Hz"};
+  return words[static_cast<size_t>(varied)];
+}
+
 SampleMean VariedValue::mean(double Observation::*quantity) const {
   std::vector<double> values;
   for (const Observation& sample : samples) values.push_back(sample.*quantity);
@@ -78,7 +99,7 @@ std::vector<VariedValue> PaperData::values(Varied which) {
   return list;
 }
 
-std::string PaperData::missing(Varied which, const char* what) const {
+std::string PaperData::missing(Varied which) const {
   // values of which at least one sample is finished, and all runs
   std::set<double> planned, there;
   int runs = 0, done = 0;
@@ -92,7 +113,8 @@ std::string PaperData::missing(Varied which, const char* what) const {
   }
   if (done == runs) return {};
   return "PARTIAL: " + std::to_string(there.size()) + " of " + std::to_string(planned.size()) +
-         ' ' + what + ", " + std::to_string(done) + " of " + std::to_string(runs) + " runs.";
+         ' ' + plural_of(which) + ", " + std::to_string(done) + " of " + std::to_string(runs) +
+         " runs.";
 }
 
 double grain_count(const RunData& data) {

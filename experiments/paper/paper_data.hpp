@@ -33,7 +33,7 @@ class PaperData {
   /// Values in growing order; those without a finished run are left out.
   std::vector<VariedValue> values(Varied which);
   /// "3 of 10 frequencies; 5 of 30 runs": empty when everything planned is there.
-  std::string missing(Varied which, const char* what) const;
+  std::string missing(Varied which) const;
 
   bool has(size_t run) const;
   std::filesystem::path folder(size_t run) const;
@@ -53,6 +53,9 @@ class PaperData {
   std::vector<bool> finished_;
   std::map<std::pair<size_t, double>, Observation> seen_;  // by run and window
 };
+
+/// Many values of what is varied, as a note calls them: "frequencies".
+const char* plural_of(Varied varied);
 
 /// The grains of a run, from its manifest's summary.
 double grain_count(const RunData& data);

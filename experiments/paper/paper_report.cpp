@@ -1,6 +1,5 @@
 #include "experiments/paper/paper_report.hpp"
 
-#include <cmath>
 #include <map>
 
 #include "experiments/page/drawing.hpp"
@@ -13,12 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_in(const nlohmann::ordered_json& manifest, const char* part, const char* name) {
-  const auto found = manifest.find(part);
-  if (found == manifest.end() || !found->is_object() || !found->contains(name) ||
-      !(*found)[name].is_string())
-    return "unknown";
-  return (*found)[name].get<std::string>();
+using Json = nlohmann::ordered_json;
+
+std::string text_in(const Json& manifest, const char* where) {
+  const Json::json_pointer at(where);
+  const bool is_there = manifest.contains(at) && manifest[at].is_string();
+  return is_there ? manifest[at].get<std::string>() : "unknown";
 }
 
 std::string listed(const std::map<std::string, int>& counts) {
@@ -31,47 +30,68 @@ std::string listed(const std::map<std::string, int>& counts) {
 }  // namespace
 
 std::vector<page::Text> origin_of(const PaperData& data) {
+  const Campaign& campaign = data.campaign();
   std::map<std::string, int> commits, machines;
   double steps = 0.0, seconds = 0.0;
-  for (size_t k = 0; k < data.campaign().runs.size(); ++k) {
+  for (size_t k = 0; k < campaign.runs.size(); ++k) {
     if (!data.has(k)) continue;
-    const std::string text = read_whole_file(data.folder(k) / "manifest.json");
-    const auto manifest = nlohmann::ordered_json::parse(text, nullptr, false);
+    const Json manifest =
+        Json::parse(read_whole_file(data.folder(k) / "manifest.json"), nullptr, false);
     if (!manifest.is_object()) continue;
-    ++commits[text_in(manifest, "ballast", "commit")];
-    ++machines[text_in(manifest, "machine", "cpu")];
-    steps += static_cast<double>(data.campaign().runs[k].steps);
-    if (const auto summary = manifest.find("summary"); summary != manifest.end() &&
-                                                       summary->contains("ms_per_step") &&
-                                                       (*summary)["ms_per_step"].is_number())
-      seconds += 1e-3 * (*summary)["ms_per_step"].get<double>() *
-                 static_cast<double>(data.campaign().runs[k].steps);
+    ++commits[text_in(manifest, "/ballast/commit")];
+    ++machines[text_in(manifest, "/machine/cpu")];
+    const double run_steps = static_cast<double>(campaign.runs[k].steps);
+    steps += run_steps;
+    const Json::json_pointer time("/summary/ms_per_step");
+    if (manifest.contains(time) && manifest[time].is_number())
+      seconds += 1e-3 * manifest[time].get<double>() * run_steps;
   }
-  const CampaignSettings& settings = data.campaign().settings;
-  std::vector<page::Text> origin = {
-      std::to_string(data.finished()) + " of " + std::to_string(data.campaign().runs.size()) +
-          " runs are finished: " + page::number(steps, 4) + " driven steps, about " +
-          page::number(seconds, 3) + " core-seconds without the packings.",
-      "Commits: " + listed(commits) + ".", "Machines: " + listed(machines) + ".",
-      "Scene " + settings.scene + ", " + std::to_string(settings.iterations) +
-          " solver iterations a step unless said, seeds 1 to " + std::to_string(settings.seeds) +
-          "."};
-  return origin;
+  const page::Text origin =
+      page::words("paper.origin", {{"finished", std::to_string(data.finished())},
+                                   {"runs", std::to_string(campaign.runs.size())},
+                                   {"steps", page::number(steps, 4)},
+                                   {"seconds", page::number(seconds, 3)},
+                                   {"commits", listed(commits)},
+                                   {"machines", listed(machines)},
+                                   {"scene", campaign.settings.scene},
+                                   {"iterations", std::to_string(campaign.settings.iterations)},
+                                   {"seeds", std::to_string(campaign.settings.seeds)}});
+  return parts_of(origin, "||");
+}
+
+page::Page paper_page(const std::vector<PaperSection>& sections,
+                      const std::vector<page::Text>& origin) {
+  page::Page page{.title = "The paper, figure by figure", .lede = {page::words("paper.lede")}};
+  page::Table agreement{.head = {"figure", "paper", "Ballast", "agreement"}};
+  for (const PaperSection& section : sections)
+    for (const AgreementRow& row : section.rows)
+      agreement.rows.push_back({row.place, row.paper, row.ballast, word_of(row.agreement)});
+  page.add({"origin", "What was run", {page::List{origin}}});
+  page.add({"agreement", "Paper, Ballast, agreement", {agreement}});
+  for (const PaperSection& section : sections) {
+    page::Section part{section.id, section.heading, {page::Notices{{}, section.notes}}};
+    for (const page::Text& paragraph : section.text) part.add(paragraph);
+    part.add(section.figures);
+    for (page::Table table : section.tables) {
+      table.caption += ":";
+      part.add(table);
+    }
+    page.add(part);
+  }
+  return page;
 }
 
 void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
                         const fs::path& folder) {
   create_folder(folder / "data");
   for (const PaperSection& section : sections)
-    for (const PaperFigure& figure : section.figures)
+    for (const page::Picture& figure : section.figures)
       write_whole_file(folder / "data" / (figure.plot.name + ".csv"), figure_csv(figure.plot));
   page::Page page = paper_page(sections, origin_of(data));
   // the data stand beside as CSV, and README.md shows the files themselves
   page::draw_pictures(page, folder, {.with_script = false, .on_white = true});
   write_whole_file(folder / "paper.html", html_of(page));
-  page.lede.push_back(
-      page::marked("`ballast paper report` writes this page; it also is "
-                   "[one HTML page](paper.html) that opens offline."));
+  page.lede.push_back(page::words("paper.made_by"));
   write_whole_file(folder / "README.md", markdown_of(page));
 }
 

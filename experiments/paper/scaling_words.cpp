@@ -1,14 +1,16 @@
 // What the sections on scaling share.
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/paper/sections.hpp"
 
 namespace ballast {
 
-void note_missing(const PaperData& data, Varied varied, const char* what, PaperSection& section) {
-  if (const std::string missing = data.missing(varied, what); !missing.empty())
+std::vector<VariedValue> read_values(PaperData& data, Varied varied, PaperSection& section) {
+  if (const std::string missing = data.missing(varied); !missing.empty())
     section.notes.push_back(missing);
+  return data.values(varied);
 }
 
 VariedCurve curve_of_values(const std::vector<VariedValue>& values, double Observation::*quantity,
@@ -29,6 +31,12 @@ SampleMean prefactor_of(const VariedValue& value) {
   return sample_mean(factors);
 }
 
+page::Text words_of(const SampleMean& mean, double factor) {
+  return page::with_error(factor * mean.mean, factor * mean.error);
+}
+
+page::Text samples_of(const VariedValue& value) { return std::to_string(value.samples.size()); }
+
 page::Text words_of(const PowerFit& fit) {
   if (!std::isfinite(fit.exponent)) return "–";
   page::Text text = page::number(fit.exponent);
@@ -47,8 +55,22 @@ Agreement judge_exponent(const PowerFit& fit, double expected, double tolerance)
   const double miss = std::abs(fit.exponent - expected);
   // an interval so wide that it would hold anything proves nothing
   const bool is_sharp = fit.half_width < 0.5 * std::abs(expected);
-  if (miss <= tolerance || (fit.covers(expected) && is_sharp)) return Agreement::agrees;
-  return miss <= 3.0 * tolerance || fit.covers(expected) ? Agreement::partly : Agreement::differs;
+  return graded(miss <= tolerance || (fit.covers(expected) && is_sharp),
+                miss <= 3.0 * tolerance || fit.covers(expected));
+}
+
+std::vector<Curve> power_law_curves(const VariedCurve& points, const PowerFit& fit, double expected,
+                                    double middle) {
+  std::vector<Curve> curves{points_of(points, mean_title, Ink::blue)};
+  if (!std::isfinite(fit.exponent)) return curves;
+  const auto [low, high] = std::minmax_element(points.x.begin(), points.x.end());
+  const Drawn range{*low, *high, true};
+  curves.push_back(curve_of([&](double x) { return fit.at(x); }, range,
+                            "fit, exponent " + plot_label(page::number(fit.exponent)), Ink::black));
+  curves.push_back(curve_of(
+      [&](double x) { return fit.at(middle) * std::pow(x / middle, expected); }, range,
+      "the paper’s exponent " + plot_label(page::number(expected, 1)), Ink::vermilion, false));
+  return curves;
 }
 
 }  // namespace ballast

@@ -19,42 +19,50 @@ void add_value(CsvWriter& csv, const std::vector<double>& values, size_t k) {
 }  // namespace
 
 const char* word_of(Agreement agreement) {
-  switch (agreement) {
-    case Agreement::agrees:
-      return "agrees";
-    case Agreement::partly:
-      return "partly";
-    case Agreement::differs:
-      return "DIFFERS";
-    case Agreement::reported:
-      return "reported";
-  }
-  return "?";
+  constexpr const char* words[] = {"agrees", "partly", "DIFFERS", "reported"};
+  return words[static_cast<size_t>(agreement)];
+}
+
+Agreement graded(bool agrees, bool agrees_partly) {
+  return agrees ? Agreement::agrees : agrees_partly ? Agreement::partly : Agreement::differs;
+}
+
+void PaperSection::draw(const std::string& name, Figure plot, const page::Values& values) {
+  // "fig9" is kept as fig09, so that files sort by number
+  const bool has_one_digit = name.starts_with("fig") && name.size() == 4;
+  const std::string file = has_one_digit ? "fig0" + name.substr(3) : name;
+  if (plot.name.empty()) plot.name = file;
+  if (plot.title.empty()) plot.title = plain_words(page::words(name + ".title"));
+  figures.push_back({std::move(plot),
+                     {page::marked("**Paper:** ") + page::words(name + ".paper"),
+                      page::marked("**Ballast:** ") + page::words(name + ".found", values)},
+                     page::Text("PDF", 0, "figures/" + file + ".pdf") + ", " +
+                         page::Text("data", 0, "data/" + file + ".csv")});
+}
+
+void PaperSection::claim(const std::string& name, const page::Values& values, Agreement agreement) {
+  const std::vector<page::Text> cells = parts_of(page::words(name, values), "||");
+  rows.push_back({cells.at(0), cells.at(1), cells.at(2), agreement});
 }
 
 Panel frequency_panel(const std::string& y_label) {
-  Panel panel;
-  panel.x_label = "{/:Italic ν}  (Hz)";
-  panel.y_label = y_label;
-  panel.log_x = true;
-  panel.x_min = 0.85;
-  panel.x_max = 70.0;
-  return panel;
+  return {.x_label = "{/:Italic ν}  (Hz)",
+          .y_label = y_label,
+          .log_x = true,
+          .x_min = 0.85,
+          .x_max = 70.0};
 }
 
-Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error,
-                const std::string& title, Ink ink) {
-  for (double& bar : error)
+Curve points_of(VariedCurve points, const std::string& title, Ink ink) {
+  for (double& bar : points.error)
     if (!std::isfinite(bar)) bar = 0.0;  // one sample: no bar
-  Curve curve;
-  curve.x = std::move(x);
-  curve.y = std::move(y);
-  curve.y_error = std::move(error);
-  curve.title = title;
-  curve.ink = ink;
-  curve.mark = Mark::points;
-  curve.width = 2.4;
-  return curve;
+  return {.x = std::move(points.x),
+          .y = std::move(points.y),
+          .title = title,
+          .ink = ink,
+          .mark = Mark::points,
+          .width = 2.4,
+          .y_error = std::move(points.error)};
 }
 
 std::string figure_csv(const Figure& figure) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a part of the report is made of.
+// What a part of the report is made of. Its words stand in texts/*.md under its name.
 
 #include <string>
 #include <vector>
@@ -10,41 +10,54 @@ namespace ballast {
 
 enum class Agreement { agrees, partly, differs, reported };
 const char* word_of(Agreement agreement);
+/// agrees, or partly where only that holds, or differs.
+Agreement graded(bool agrees, bool agrees_partly = false);
 
 /// One row of the table paper | Ballast | agreement.
 struct AgreementRow {
-  std::string place;   ///< "Fig. 9"
-  std::string paper;   ///< what the paper says
+  page::Text place;    ///< "Fig. 9"
+  page::Text paper;    ///< what the paper says
   page::Text ballast;  ///< what was measured, with its interval
   Agreement agreement = Agreement::reported;
 };
 
-struct PaperFigure {
-  Figure plot;
-  page::Text paper;  ///< what the paper says about it
-  page::Text found;  ///< what is drawn, and what was found
+struct PaperSection {
+  std::string id = {};  ///< "fig9"
+  page::Text heading = {};
+  std::vector<page::Text> notes = {};  ///< what is missing, loudly
+  std::vector<page::Text> text = {};   ///< paragraphs
+  std::vector<page::Picture> figures = {};
+  std::vector<page::Table> tables = {};
+  std::vector<AgreementRow> rows = {};
+
+  /// A figure with its captions: words(name.paper) and words(name.found). Unless `plot` has them,
+  /// its title is words(name.title), and its files are called `name`, with two digits for "fig9".
+  void draw(const std::string& name, Figure plot, const page::Values& values = {});
+  /// A row of the table of agreement. words(name) is "place || what the paper says || what was
+  /// measured".
+  void claim(const std::string& name, const page::Values& values,
+             Agreement agreement = Agreement::reported);
 };
 
-struct PaperSection {
-  std::string id;  ///< "fig9"
-  std::string heading;
-  std::vector<page::Text> notes;  ///< what is missing, loudly
-  std::vector<page::Text> text;   ///< paragraphs
-  std::vector<PaperFigure> figures;
-  std::vector<page::Table> tables;
-  std::vector<AgreementRow> rows;
+/// Points of a figure with their standard errors.
+struct VariedCurve {
+  std::vector<double> x, y, error;
 };
 
 /// A panel over the paper's frequencies, 1 to 60 Hz: the same axis in every figure.
 Panel frequency_panel(const std::string& y_label);
 
 /// Points with bars.
-Curve points_of(std::vector<double> x, std::vector<double> y, std::vector<double> error,
-                const std::string& title, Ink ink);
+Curve points_of(VariedCurve points, const std::string& title, Ink ink);
+
 /// A function drawn between two x, evenly in log x where `is_log`.
+struct Drawn {
+  double low, high;
+  bool is_log;
+};
 template <class Function>
-Curve curve_of(const Function& function, double low, double high, bool is_log,
-               const std::string& title, Ink ink, bool dashed = true);
+Curve curve_of(const Function& function, const Drawn& range, const std::string& title, Ink ink,
+               bool dashed = true);
 
 /// The figure's data: panel, curve, x, y, y_error, y_low as CSV.
 std::string figure_csv(const Figure& figure);
@@ -56,16 +69,14 @@ std::string figure_csv(const Figure& figure);
 namespace ballast {
 
 template <class Function>
-Curve curve_of(const Function& function, double low, double high, bool is_log,
-               const std::string& title, Ink ink, bool dashed) {
-  Curve curve;
-  curve.title = title;
-  curve.ink = ink;
-  curve.dashed = dashed;
+Curve curve_of(const Function& function, const Drawn& range, const std::string& title, Ink ink,
+               bool dashed) {
+  Curve curve{.title = title, .ink = ink, .dashed = dashed};
   constexpr int parts = 200;
   for (int k = 0; k <= parts; ++k) {
     const double s = static_cast<double>(k) / parts;
-    curve.x.push_back(is_log ? low * std::pow(high / low, s) : low + s * (high - low));
+    curve.x.push_back(range.is_log ? range.low * std::pow(range.high / range.low, s)
+                                   : range.low + s * (range.high - range.low));
     curve.y.push_back(function(curve.x.back()));
   }
   return curve;

@@ -1,6 +1,6 @@
 #pragma once
-// The report's sections, one file each: what is run (campaign.hpp), what is measured
-// (observables.hpp, grain_fields.hpp), fitted and drawn.
+// The report's sections: what is run (campaign.hpp), what is measured (observables.hpp,
+// grain_fields.hpp), fitted and drawn.
 
 #include <span>
 #include <string>
@@ -11,12 +11,11 @@
 
 namespace ballast {
 
-/// One section of the report: the target of `ballast paper` that makes it, what it is called, and
-/// which of the campaign's runs it draws.
+/// One section of the report: the target of `ballast paper` that makes it, and which of the
+/// campaign's runs it draws. Its heading is words(name.heading).
 struct ReportSection {
-  const char* name;  ///< "fig9"
-  const char* heading;
-  PaperSection (*make)(PaperData& data);                      ///< without name and heading
+  const char* name;                                           ///< "fig9"
+  PaperSection (*make)(PaperData&);                           ///< without name and heading
   bool needs_motion;                                          ///< the 5 Hz runs with stored states
   std::vector<Varied> needs;                                  ///< points of these
   bool (*needs_point)(const CampaignPoint& point) = nullptr;  ///< of them only where true
@@ -35,27 +34,35 @@ std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target)
 /// The sections of a target. Throws std::invalid_argument when there is none.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 
-/// Says in the section what the campaign has planned of it and not finished: "3 of 10 frequencies".
-void note_missing(const PaperData& data, Varied varied, const char* what, PaperSection& section);
+/// The finished values of what is varied. Says in the section what the campaign has planned of them
+/// and not finished: "PARTIAL: 3 of 10 frequencies, 6 of 30 runs."
+std::vector<VariedValue> read_values(PaperData& data, Varied varied, PaperSection& section);
 
-/// The values of what is varied as the axes of a figure: x by `abscissa` of each sample's mean, y
-/// the mean of `quantity` with its standard error.
-struct VariedCurve {
-  std::vector<double> x, y, error;
-};
+/// The values of what is varied as the axes of a figure: y the mean of `quantity` with its standard
+/// error.
 VariedCurve curve_of_values(const std::vector<VariedValue>& values, double Observation::*quantity,
                             double factor = 1.0);
 
 /// C of Eq. 3, sample by sample.
 SampleMean prefactor_of(const VariedValue& value);
 
+/// "1.23 ± 0.04"
+page::Text words_of(const SampleMean& mean, double factor = 1.0);
+/// "3": samples that are finished.
+page::Text samples_of(const VariedValue& value);
 /// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995)".
 page::Text words_of(const PowerFit& fit);
 /// "χ²/dof 3.2" of a curve's points about the fit, with their errors; "χ²/dof –" when these are not
-/// known. What a reader has to know about it: page::words("misfit").
+/// known. What a reader has to know about it: words("misfit").
 page::Text misfit_words(const PowerFit& fit, const VariedCurve& curve);
 /// agrees: the interval holds `expected`, or the exponent is within `tolerance` of it; partly:
 /// within three times that.
 Agreement judge_exponent(const PowerFit& fit, double expected, double tolerance = 0.1);
+
+/// What the legend says of points that are means over seeds.
+inline constexpr const char* mean_title = "mean over samples ± standard error";
+/// Measured points, the fitted power law, and the paper's exponent through the fit at x = `middle`.
+std::vector<Curve> power_law_curves(const VariedCurve& points, const PowerFit& fit, double expected,
+                                    double middle);
 
 }  // namespace ballast

@@ -3,28 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/page/page.hpp"
 #include "experiments/run_page/figures.hpp"
-#include "experiments/step/step_record.hpp"
 
 namespace ballast {
 namespace {
-
-Panel time_panel(const RunData& data, const std::string& y_label, bool log_y) {
-  Panel panel;
-  panel.x_label = time_axis;
-  panel.y_label = y_label;
-  panel.log_y = log_y;
-  panel.x_min = 0.0;
-  panel.x_max = data.steps.back().time;
-  return panel;
-}
-
-Curve column_line(const RunData& data, double StepRecord::*value, double factor, const char* title,
-                  Ink ink, double width) {
-  return line_of(record_column(data.steps, &StepRecord::time),
-                 record_column(data.steps, value, factor), title, ink, width);
-}
 
 bool is_zero(const RunData& data, double StepRecord::*value) {
   return std::all_of(data.steps.begin(), data.steps.end(), [&](const StepRecord& s) {
@@ -35,26 +17,21 @@ bool is_zero(const RunData& data, double StepRecord::*value) {
 page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
   const bool is_relative = std::isfinite(scale);
+  const double factor = is_relative ? 1.0 / scale : 1.0;
   Panel panel =
       time_panel(data, is_relative ? "error\u00a0/\u00a0{/:Italic gh}" : "error  (m/s)", true);
-  const double factor = is_relative ? 1.0 / scale : 1.0;
   panel.curves = {
       column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
       column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
   if (is_relative)
     panel.lines = {{target::error_mean, "10^{−3}: bound on the mean", false, Ink::grey},
                    {target::error_max, "10^{−2}: bound on every step", false, Ink::grey}};
-  Figure figure;
-  figure.name = "error";
-  figure.title = "Error of the contact law per step";
-  figure.panels = {panel};
   page::Text caption = page::words("run.error");
-  caption += is_relative ? page::words("run.error.relative",
-                                       {{"scale", page::quantity(scale, "m/s")},
-                                        {"mean", page::number(summary.error_mean_relative)},
-                                        {"max", page::number(summary.error_max_relative)}})
-                         : page::words("run.error.absolute");
-  return {figure, {caption}};
+  caption += page::words(is_relative ? "run.error.relative" : "run.error.absolute",
+                         {{"scale", page::quantity(scale, "m/s")},
+                          {"mean", page::number(summary.error_mean_relative)},
+                          {"max", page::number(summary.error_max_relative)}});
+  return run_picture("error", 420, {panel}, caption);
 }
 
 page::Picture penetration_figure(const RunData& data, const RunSummary& summary) {
@@ -65,51 +42,40 @@ page::Picture penetration_figure(const RunData& data, const RunSummary& summary)
                   Ink::blue, 1.4)};
   panel.lines = {{1e6 * target::penetration_max, "250 µm: bound on the deepest", false, Ink::grey},
                  {1e6 * target::penetration_mean, "5 µm: bound on the mean", false, Ink::grey}};
-  std::vector<double> means;
-  for (double value : panel.curves[1].y)
-    if (value > 0.0) means.push_back(value);
-  const double least = quantile(means, 0.02);
-  if (std::isfinite(least))
+  // the axis ends at the decade below nearly all means
+  std::vector<double> means = panel.curves[1].y;
+  std::erase_if(means, [](double value) { return !(value > 0.0); });
+  if (const double least = quantile(means, 0.02); std::isfinite(least))
     panel.y_min = std::pow(10.0, std::floor(std::log10(std::min(least, 1.0))));
-  Figure figure;
-  figure.name = "penetration";
-  figure.title = "Overlap of contacts per step";
-  figure.panels = {panel};
-  return {figure,
-          {page::words("run.penetration",
-                       {{"deepest", page::quantity(1e6 * summary.penetration_max, "µm")},
-                        {"time", page::quantity(summary.penetration_max_time, "s")},
-                        {"mean", page::quantity(1e6 * summary.penetration_mean, "µm")}})}};
+  return run_picture("penetration", 420, {panel},
+                     page::words("run.penetration",
+                                 {{"deepest", page::quantity(1e6 * summary.penetration_max, "µm")},
+                                  {"time", page::quantity(summary.penetration_max_time, "s")},
+                                  {"mean", page::quantity(1e6 * summary.penetration_mean, "µm")}}));
 }
 
 page::Picture effort_figure(const RunData& data, const RunSummary& summary) {
-  Panel above = time_panel(data, "iterations", false),
-        below = time_panel(data, "contact points", false);
+  Panel above = time_panel(data, "iterations"), below = time_panel(data, "contact points");
   above.curves = {column_line(data, &StepRecord::iterations, 1.0, "", Ink::blue, 1.0)};
   below.curves = {
       column_line(data, &StepRecord::contacts, 1.0, "given to the solver", Ink::grey, 1.3),
       column_line(data, &StepRecord::active_contacts, 1.0, "with an impulse", Ink::green, 1.3)};
   above.y_min = below.y_min = 0.0;
-  Figure figure;
-  figure.name = "effort";
-  figure.title = "Solver iterations and contact points per step";
-  figure.height = 540;
-  figure.panels = {above, below};
-  return {figure,
-          {page::words("run.effort", {{"mean", page::number(summary.iterations.mean)},
-                                      {"most", page::exact(summary.iterations.max)},
-                                      {"given", page::number(summary.contacts.mean, 4)},
-                                      {"active", page::number(summary.active_contacts.mean, 4)}})}};
+  return run_picture(
+      "effort", 540, {above, below},
+      page::words("run.effort", {{"mean", page::number(summary.iterations.mean)},
+                                 {"most", page::exact(summary.iterations.max)},
+                                 {"given", page::number(summary.contacts.mean, 4)},
+                                 {"active", page::number(summary.active_contacts.mean, 4)}}));
 }
 
 /// Stretches of the run over which the cost is averaged.
 constexpr size_t cost_stretches = 250;
 
-/// Sums of the phases, one above the other, averaged over `bins` stretches of the run.
-std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, size_t bins) {
+/// Sums of the phases, one above the other, averaged over stretches of the run.
+std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary) {
   constexpr Ink inks[] = {Ink::orange, Ink::green, Ink::blue, Ink::purple, Ink::sky, Ink::light};
-  const size_t count = data.steps.size();
-  bins = std::min(bins, count);
+  const size_t count = data.steps.size(), bins = std::min(cost_stretches, count);
   std::vector<double> time(bins), low(bins, 0.0);
   for (size_t b = 0; b < bins; ++b)
     time[b] = data.steps[(b * count / bins + (b + 1) * count / bins) / 2].time;
@@ -118,12 +84,11 @@ std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, 
   std::vector<Curve> curves;
   for (size_t p = 0; p < summary.cost.size(); ++p) {
     if (!(summary.cost[p].ms_per_step > 0.0)) continue;
-    Curve curve;
-    curve.title = summary.cost[p].name;
-    curve.ink = inks[p % std::size(inks)];
-    curve.mark = Mark::area;
-    curve.x = time;
-    curve.y_low = low;
+    Curve curve{.x = time,
+                .title = summary.cost[p].name,
+                .ink = inks[p % std::size(inks)],
+                .mark = Mark::area,
+                .y_low = low};
     for (size_t b = 0; b < bins; ++b) {
       std::vector<double> values;
       for (size_t k = b * count / bins; k < (b + 1) * count / bins; ++k)
@@ -137,77 +102,55 @@ std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary, 
 }
 
 page::Picture cost_figure(const RunData& data, const RunSummary& summary) {
-  Panel panel = time_panel(data, "wall clock  (ms per step)", false);
-  panel.curves = stacked_cost(data, summary, cost_stretches);
+  Panel panel = time_panel(data, "wall clock  (ms per step)");
+  panel.curves = stacked_cost(data, summary);
   panel.y_min = 0.0;
-  Figure figure;
-  figure.name = "cost";
-  figure.title = "Wall clock per step by phase";
-  figure.height = 460;
-  figure.panels = {panel};
   const double stretch =
       summary.duration / static_cast<double>(std::min(cost_stretches, data.steps.size()));
-  return {figure,
-          {page::words("run.cost", {{"stretch", page::quantity(1e3 * stretch, "ms")},
-                                    {"step", page::quantity(summary.ms_per_step, "ms")}})}};
+  return run_picture(
+      "cost", 460, {panel},
+      page::words("run.cost", {{"stretch", page::quantity(1e3 * stretch, "ms")},
+                               {"step", page::quantity(summary.ms_per_step, "ms")}}));
 }
 
-page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
-  const size_t count = data.steps.size();
-  const auto time = record_column(data.steps, &StepRecord::time);
-  const auto cumulative = [&](double StepRecord::*value) {
-    auto sums = record_column(data.steps, value);
-    for (size_t k = 1; k < count; ++k) sums[k] += sums[k - 1];
-    return sums;
-  };
-  Panel above = time_panel(data, "cumulative energy  (J)", false),
-        below = time_panel(data, "energy  (J)", true);
-  const auto add = [&](double StepRecord::*value, const char* title, Ink ink) {
-    if (!is_zero(data, value))
-      above.curves.push_back(line_of(time, cumulative(value), title, ink, 1.8));
-  };
-  add(&StepRecord::work_load, "work of the load", Ink::blue);
-  add(&StepRecord::work_gravity, "of gravity", Ink::green);
-  add(&StepRecord::work_prescribed, "of walls and forces", Ink::orange);
-  add(&StepRecord::dissipated, "dissipated", Ink::vermilion);
-  std::vector<double> residual(count, 0.0);
-  for (size_t k = 1; k < count; ++k) {
-    const StepRecord& step = data.steps[k];
-    residual[k] = residual[k - 1] + step.kinetic_energy - data.steps[k - 1].kinetic_energy -
+/// Change of kinetic energy − works + dissipation since the first step, without its sign.
+std::vector<double> balance_residual(const std::vector<StepRecord>& steps) {
+  std::vector<double> residual(steps.size(), 0.0);
+  for (size_t k = 1; k < steps.size(); ++k) {
+    const StepRecord& step = steps[k];
+    residual[k] = residual[k - 1] + step.kinetic_energy - steps[k - 1].kinetic_energy -
                   step.work_load - step.work_gravity - step.work_prescribed + step.dissipated;
   }
   for (double& value : residual) value = std::abs(value);
+  return residual;
+}
+
+page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
+  const auto time = record_column(data.steps, &StepRecord::time);
+  Panel above = time_panel(data, "cumulative energy  (J)"),
+        below = time_panel(data, "energy  (J)", true);
+  const auto add_sum = [&](double StepRecord::*value, const char* title, Ink ink) {
+    if (is_zero(data, value)) return;
+    auto sums = record_column(data.steps, value);
+    for (size_t k = 1; k < sums.size(); ++k) sums[k] += sums[k - 1];
+    above.curves.push_back(line_of(time, sums, title, ink, 1.8));
+  };
+  add_sum(&StepRecord::work_load, "work of the load", Ink::blue);
+  add_sum(&StepRecord::work_gravity, "of gravity", Ink::green);
+  add_sum(&StepRecord::work_prescribed, "of walls and forces", Ink::orange);
+  add_sum(&StepRecord::dissipated, "dissipated", Ink::vermilion);
   below.curves = {
       column_line(data, &StepRecord::kinetic_energy, 1.0, "kinetic energy", Ink::black, 1.4),
-      line_of(time, residual, "|residual of the balance|", Ink::purple, 1.4)};
-  Figure figure;
-  figure.name = "energy";
-  figure.title = "Energy balance";
-  figure.height = 580;
-  if (!above.curves.empty()) figure.panels.push_back(above);
-  figure.panels.push_back(below);
-  return {figure,
-          {page::words("run.energy", {{"residual", page::quantity(summary.energy.residual, "J")},
-                                      {"relative", page::number(summary.energy.relative)}})}};
+      line_of(time, balance_residual(data.steps), "|residual of the balance|", Ink::purple, 1.4)};
+  std::vector<Panel> panels{below};
+  if (!above.curves.empty()) panels.insert(panels.begin(), above);
+  return run_picture(
+      "energy", 580, panels,
+      page::words("run.energy", {{"residual", page::quantity(summary.energy.residual, "J")},
+                                 {"relative", page::number(summary.energy.relative)}}));
 }
 
 }  // namespace
-
-Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink,
-              double width) {
-  Curve curve;
-  thin_out(x, y, 3000);
-  curve.x = std::move(x);
-  curve.y = std::move(y);
-  curve.title = title;
-  curve.ink = ink;
-  curve.width = width;
-  return curve;
-}
-
-ForceUnit force_unit(double f_max) {
-  return f_max >= 1000.0 ? ForceUnit{"kN", 1e-3} : ForceUnit{"N", 1.0};
-}
 
 std::vector<page::Picture> diagnostic_figures(const RunData& data, const RunSummary& summary) {
   std::vector<page::Picture> figures;

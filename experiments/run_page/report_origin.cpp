@@ -1,5 +1,7 @@
 #include "experiments/run_page/report_origin.hpp"
 
+#include <algorithm>
+
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
@@ -25,19 +27,22 @@ std::string readable(const nlohmann::ordered_json& value) {
   return text;
 }
 
-page::Text summary_row_value(const nlohmann::ordered_json& value, const char* unit) {
-  if (value.is_number_integer()) return value.dump();
-  if (value.is_number()) return page::exact_quantity(value.get<double>(), unit, 6);
-  if (value.is_null()) return page::number(not_known);
-  return readable(value);
+using Json = nlohmann::ordered_json;
+
+/// What the manifest says at "/group/name", as words; empty when it says nothing.
+std::string text_at(const RunData& data, const char* where) {
+  const Json::json_pointer at(where);
+  if (!data.manifest.contains(at) || data.manifest[at].is_null()) return {};
+  return readable(data.manifest[at]);
 }
 
-std::string text_at(const nlohmann::ordered_json& json, const char* group, const char* name) {
-  const auto part = json.find(group);
-  if (part == json.end() || !part->is_object()) return {};
-  const auto value = part->find(name);
-  if (value == part->end() || value->is_null()) return {};
-  return readable(*value);
+/// The texts in a list of the manifest; empty when there is no such list.
+std::vector<std::string> list_at(const RunData& data, const char* name) {
+  std::vector<std::string> list;
+  const auto found = data.manifest.find(name);
+  if (found != data.manifest.end() && found->is_array())
+    for (const Json& entry : *found) list.push_back(readable(entry));
+  return list;
 }
 
 void add_scene(const Scene& scene, page::Table& table) {
@@ -80,66 +85,64 @@ void add_scene(const Scene& scene, page::Table& table) {
       page::exact(scene.box.friction_horizontal) + ", " + page::exact(scene.box.friction_vertical));
 }
 
+/// A number or text that the run noted, its unit taken from the end of its name.
+void add_noted(std::string name, const Json& value, page::Table& table) {
+  const char* unit = "";
+  for (const NamedUnit& known : named_units) {
+    if (!name.ends_with(known.suffix) || name == known.suffix) continue;
+    name.resize(name.size() - std::string_view(known.suffix).size());
+    unit = known.unit;
+    break;
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  page::Text words = value.is_null()           ? page::number(not_known)
+                     : value.is_number_float() ? page::exact_quantity(value, unit, 6)
+                                               : page::Text(readable(value));
+  table.rows.push_back({name, std::move(words)});
+}
+
 }  // namespace
 
 page::Table parameters_table(const RunData& data) {
   page::Table table = page::facts_table();
   if (data.scene) add_scene(*data.scene, table);
-  const auto overrides = data.manifest.find("overrides");
-  if (overrides != data.manifest.end() && overrides->is_array() && !overrides->empty()) {
-    std::string list;
-    for (const auto& entry : *overrides)
-      list += (list.empty() ? "" : "\n") +
-              (entry.is_string() ? entry.get<std::string>() : entry.dump());
+  std::string list;
+  for (const std::string& set : list_at(data, "overrides"))
+    list += (list.empty() ? "" : "\n") + set;
+  if (!list.empty())
     table.rows.push_back({"settings other than the scene’s (--set)", page::Text(list, page::code)});
-  }
   const auto summary = data.manifest.find("summary");
   if (summary != data.manifest.end() && summary->is_object())
-    for (const auto& [name, value] : summary->items()) {
-      std::string label = name;
-      const char* unit = "";
-      for (const NamedUnit& known : named_units) {
-        const std::string suffix = known.suffix;
-        if (label.size() <= suffix.size() ||
-            label.compare(label.size() - suffix.size(), suffix.size(), suffix) != 0)
-          continue;
-        label.resize(label.size() - suffix.size());
-        unit = known.unit;
-        break;
-      }
-      for (char& c : label)
-        if (c == '_') c = ' ';
-      table.rows.push_back({label, summary_row_value(value, unit)});
-    }
+    for (const auto& [name, value] : summary->items()) add_noted(name, value, table);
   return table;
 }
 
 page::Table provenance_table(const RunData& data) {
+  constexpr std::pair<const char*, const char*> facts[] = {
+      {"ballast", "/ballast/version"},
+      {"commit", "/ballast/commit"},
+      {"compiler", "/ballast/compiler"},
+      {"build", "/ballast/build_type"},
+      {"flags", "/ballast/flags"},
+      {"libraries", "/ballast/libraries"},
+      {"processor", "/machine/cpu"},
+      {"cores", "/machine/cores"},
+      {"memory (GB)", "/machine/memory_GB"},
+      {"load average at the start (1, 5, 15 min)", "/machine/load_average"},
+      {"environment", "/machine/environment"},
+      {"started", "/started"},
+      {"key", "/key"}};
   page::Table table = page::facts_table();
-  const auto row = [&](const char* what, const std::string& value) {
-    if (!value.empty()) table.rows.push_back({what, value});
-  };
-  const auto& manifest = data.manifest;
-  row("ballast", text_at(manifest, "ballast", "version"));
-  std::string commit = text_at(manifest, "ballast", "commit");
-  if (!commit.empty() && text_at(manifest, "ballast", "modified") == "true")
-    commit += ", with changes that are not committed";
-  row("commit", commit);
-  row("compiler", text_at(manifest, "ballast", "compiler"));
-  row("build", text_at(manifest, "ballast", "build_type"));
-  row("flags", text_at(manifest, "ballast", "flags"));
-  row("libraries", text_at(manifest, "ballast", "libraries"));
-  row("processor", text_at(manifest, "machine", "cpu"));
-  row("cores", text_at(manifest, "machine", "cores"));
-  row("memory (GB)", text_at(manifest, "machine", "memory_GB"));
-  row("load average at the start (1, 5, 15 min)", text_at(manifest, "machine", "load_average"));
-  row("environment", text_at(manifest, "machine", "environment"));
-  for (const char* name : {"started", "key"})
-    if (const auto value = manifest.find(name); value != manifest.end() && value->is_string())
-      row(name, value->get<std::string>());
-  if (const auto resumed = manifest.find("resumed");
-      resumed != manifest.end() && resumed->is_array())
-    for (const auto& entry : *resumed) row("resumed", readable(entry));
+  for (const auto& [what, where] : facts) {
+    std::string value = text_at(data, where);
+    if (value.empty()) continue;
+    const bool is_commit = std::string_view(what) == "commit";
+    if (is_commit && text_at(data, "/ballast/modified") == "true")
+      value += ", with changes that are not committed";
+    table.rows.push_back({what, value});
+  }
+  for (const std::string& resumed : list_at(data, "resumed"))
+    table.rows.push_back({"resumed", resumed});
   return table;
 }
 
@@ -164,18 +167,16 @@ std::string made_by(const RunData& data) {
   const auto add = [&](const std::string& before, const std::string& part) {
     if (!part.empty()) add_to_list(text, before + part);
   };
-  add("ballast ", text_at(data.manifest, "ballast", "version"));
-  add("commit ", text_at(data.manifest, "ballast", "commit").substr(0, 12));
-  add("", text_at(data.manifest, "machine", "cpu"));
-  if (const auto started = data.manifest.find("started");
-      started != data.manifest.end() && started->is_string())
-    add("started ", started->get<std::string>());
+  add("ballast ", text_at(data, "/ballast/version"));
+  add("commit ", text_at(data, "/ballast/commit").substr(0, 12));
+  add("", text_at(data, "/machine/cpu"));
+  add("started ", text_at(data, "/started"));
   return text;
 }
 
 std::string reproduce_commands(const RunData& data) {
   std::string text;
-  const std::string commit = text_at(data.manifest, "ballast", "commit");
+  const std::string commit = text_at(data, "/ballast/commit");
   if (!commit.empty() && commit != "unknown")
     text += "# the program of commit " + commit + " made it\n";
   if (data.scene_text.empty()) return text;

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "experiments/page/number.hpp"
+#include "experiments/page/page.hpp"
 #include "tests/catch.hpp"
 
 namespace ballast::page {
@@ -16,6 +16,17 @@ TEST_CASE("named paragraphs of text files, lines joined, values filled in") {
   CHECK(texts("first") == marked("One line, and *another*.\nBroken."));
   CHECK(texts("second", {{"x", number(1.5)}}) == Text("1.50 mm"));
   CHECK(texts("third") == Text("a"));
+  CHECK(texts("third", {{"x", "of another text"}}) == Text("a"));
+}
+
+TEST_CASE("a table's words are its caption and the cells of its head") {
+  // an entry that the program has
+  const Table table = words_table("fig3.table");
+  CHECK_THAT(plain_words(table.caption), Contains("First contraction"));
+  REQUIRE(table.head.size() == 4);
+  CHECK(plain_words(table.head[2]) == "size (mm)");
+  CHECK(table.rows.empty());
+  CHECK_THROWS_WITH(words("fig2.table"), Contains("fig2.table"));
 }
 
 TEST_CASE("faults of text files are said by name") {

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/paper/investigation.hpp"
-#include "experiments/paper/make_campaign.hpp"
-#include "experiments/paper/sections.hpp"
+#include "experiments/paper/campaign.hpp"
+#include "experiments/paper/run_groups.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -41,49 +40,25 @@ Campaign written_campaign(const std::filesystem::path& results) {
   return campaign;
 }
 
-const Variant& variant_of(const std::vector<Variant>& variants, const std::string& name) {
-  for (const Variant& variant : variants)
-    if (variant.name == name) return variant;
-  FAIL("no variant is called " + name);
-  return variants.front();
-}
-
-VariedValue value_of(double value, std::vector<int> seeds, const std::vector<double>& rises) {
-  VariedValue result;
-  result.value = value;
-  result.seeds = std::move(seeds);
-  for (const double rise : rises) {
-    result.samples.emplace_back();
-    result.samples.back().rise = rise;
-  }
-  return result;
+const RunGroup& cause_of(const std::vector<RunGroup>& causes, const std::string& name) {
+  for (const RunGroup& cause : causes)
+    if (cause.name == name) return cause;
+  FAIL("no cause is called " + name);
+  return causes.front();
 }
 
 }  // namespace
-
-TEST_CASE("exponents between two values compare every sample with itself") {
-  // ten times the displacement in the second sample: no error of the exponent
-  const VariedValue a = value_of(5.0, {1, 2, 3}, {4.0, 40.0, 7.0}),
-                    b = value_of(10.0, {1, 2}, {1.0, 10.0});
-  const SampleMean exponent = exponent_between(a, b, &Observation::rise);
-  CHECK(exponent.samples == 2);
-  CHECK(exponent.mean == Approx(-2.0));
-  CHECK(exponent.error == Approx(0.0).margin(1e-12));
-  const SampleMean between = interpolated(a, b, 7.0, &Observation::rise);
-  CHECK(between.mean == Approx(0.5 * (4.0 + 40.0) * 25.0 / 49.0));
-  CHECK(std::isnan(exponent_between(a, value_of(10.0, {4}, {1.0}), &Observation::rise).mean));
-}
 
 TEST_CASE(
     "the investigation finds exponents, the cause that mends them, and what similarity demands") {
   const TemporaryFolder folder;
   PaperData data(written_campaign(folder.path()), folder.path());
-  const std::vector<Variant> variants = variants_of(data);
+  const std::vector<RunGroup> causes = causes_of(data);
   const auto exponent = [&](const char* name, double Observation::*quantity) {
-    const Variant& variant = variant_of(variants, name);
-    REQUIRE(variant.at(10.0));
-    REQUIRE(variant.at(60.0));
-    return exponent_between(*variant.at(10.0), *variant.at(60.0), quantity).mean;
+    const RunGroup& cause = cause_of(causes, name);
+    REQUIRE(cause.at(10.0));
+    REQUIRE(cause.at(60.0));
+    return exponent_between(*cause.at(10.0), *cause.at(60.0), quantity).mean;
   };
   CHECK(exponent("nothing (mean over samples)", &Observation::rise) ==
         Approx(-2.0 + excess).margin(0.01));
@@ -91,7 +66,7 @@ TEST_CASE(
         Approx(-1.0 + excess).margin(0.01));
   CHECK(exponent("friction 0.8", &Observation::rise) == Approx(-2.0).margin(0.01));
   CHECK(exponent("20 iterations a step", &Observation::rise) == Approx(-2.0 + excess).margin(0.01));
-  CHECK(variant_of(variants, "friction 0.8").reference == 1);
+  CHECK(cause_of(causes, "friction 0.8").reference == 1);
 
   const std::vector<VariedValue> frequencies = data.values(Varied::frequency),
                                  sizes = data.values(Varied::size);

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "experiments/paper/make_campaign.hpp"
+#include "experiments/paper/campaign.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 

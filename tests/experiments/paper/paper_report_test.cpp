@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "experiments/paper/make_campaign.hpp"
+#include "experiments/paper/campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
@@ -27,7 +27,7 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
     sections.push_back(make_sections(data, target).front());
   for (const PaperSection& section : sections) CHECK(section.notes.empty());
   for (const char* claim : {"Δx_max ~ ν^−2", "v_max ~ ν^−1", "Δx_max ~ f_max^−1", "Δx_max ~ g^2",
-                            "Δx_max ~ m/(m + m_w)", "one line through all sweeps",
+                            "Δx_max ~ m/(m + m_w)", "one line through all series",
                             "maximum at ν_c ~ 10 Hz", "Δρ_max/ρ₀ ~ 0.0025"})
     CHECK(row_of(sections, claim).agreement == Agreement::agrees);
   CHECK_THAT(plain_words(row_of(sections, "Δx_max ~ ν^−2").ballast), Catch::StartsWith("−2.0"));

@@ -10,7 +10,7 @@ TEST_CASE("a figure's data are its panels and curves, row by row") {
   figure.panels.resize(1);
   figure.panels[0].x_label = "t, s";
   figure.panels[0].y_label = "x";
-  figure.panels[0].curves = {points_of({1.0, 2.0}, {3.0, 4.5}, {0.5, not_known}, "", Ink::blue)};
+  figure.panels[0].curves = {points_of({{1.0, 2.0}, {3.0, 4.5}, {0.5, not_known}}, "", Ink::blue)};
   CHECK(figure_csv(figure) ==
         "panel,y_label,curve,x_label,x,y,y_error,y_low\n1,x,1,\"t, s\",1,3,0.5,\n"
         "1,x,1,\"t, s\",2,4.5,0,\n");
@@ -30,10 +30,42 @@ TEST_CASE("what is not known is an empty cell, and an area has its lower bound")
 }
 
 TEST_CASE("a function is drawn from end to end, evenly on its axis") {
-  const Curve line = curve_of([](double x) { return 2.0 * x; }, 1.0, 100.0, true, "", Ink::blue);
+  const Curve line = curve_of([](double x) { return 2.0 * x; }, {1.0, 100.0, true}, "", Ink::blue);
   REQUIRE(line.x.size() == 201);
   CHECK(line.x.front() == 1.0);
   CHECK(line.x[100] == Approx(10.0));
   CHECK(line.y.back() == Approx(200.0));
-  CHECK(curve_of([](double x) { return x; }, 0.0, 1.0, false, "", Ink::blue).x[50] == 0.25);
+  CHECK(curve_of([](double x) { return x; }, {0.0, 1.0, false}, "", Ink::blue).x[50] == 0.25);
+}
+
+TEST_CASE("a figure has its words, and files that sort by number") {
+  PaperSection section;
+  section.draw("fig8", {.panels = {Panel{}}},
+               {{"slow", "3"}, {"fast", "7"}, {"raw", "0.5"}, {"scaled", "0.1"}, {"more", "x"}});
+  REQUIRE(section.figures.size() == 1);
+  const page::Picture& picture = section.figures[0];
+  CHECK(picture.plot.name == "fig08");
+  CHECK_THAT(picture.plot.title, Catch::Contains("Phase portraits"));
+  REQUIRE(picture.caption.size() == 2);
+  CHECK_THAT(plain_words(picture.caption[0]), Catch::StartsWith("Paper: Displacements"));
+  CHECK_THAT(plain_words(picture.caption[1]), Catch::Contains("0.5 raw and 0.1 scaled"));
+  CHECK(picture.files.spans.at(0).link == "figures/fig08.pdf");
+  section.draw("fig10_mass", {.name = "mine", .title = "Mine"},
+               {{"exponent", "1"}, {"misfit", "2"}, {"frequency", "10"}, {"end", "0.7"}});
+  CHECK(section.figures[1].plot.name == "mine");
+  CHECK(section.figures[1].plot.title == "Mine");
+}
+
+TEST_CASE(
+    "a claim is a row: where, what the paper says, what was measured, and whether it agrees") {
+  PaperSection section;
+  section.claim("fig8.collapse", {{"raw", "0.5"}, {"scaled", "0.1"}}, graded(false, true));
+  REQUIRE(section.rows.size() == 1);
+  CHECK(section.rows[0].place == page::Text("Fig. 8"));
+  CHECK(section.rows[0].paper == page::Text("orbits at 5 and 10 Hz collapse"));
+  CHECK_THAT(plain_words(section.rows[0].ballast), Catch::StartsWith("distance raw 0.5, scaled"));
+  CHECK(section.rows[0].agreement == Agreement::partly);
+  CHECK(graded(true) == Agreement::agrees);
+  CHECK(graded(false) == Agreement::differs);
+  CHECK(std::string(word_of(Agreement::differs)) == "DIFFERS");
 }

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "experiments/paper/make_campaign.hpp"
+#include "experiments/paper/campaign.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -35,7 +35,7 @@ TEST_CASE("every run of the campaign is needed by a section, and every section b
     INFO(section.name);
     CHECK(names.insert(section.name).second);
     CHECK(section.make != nullptr);
-    CHECK(std::string(section.heading).size() > 10);
+    CHECK_FALSE(page::words(section.name + std::string(".heading")).empty());
     CHECK((section.needs_motion || !section.needs.empty()));
     drawn.insert(section.needs.begin(), section.needs.end());
   }

@@ -61,16 +61,5 @@ TEST_CASE("the residual of a balanced record stays at rounding") {
   for (const double residual : below.curves.at(1).y) CHECK(residual < 1e-12);
 }
 
-TEST_CASE("lines are thinned, forces have a readable unit") {
-  std::vector<double> x(10000), y(10000, 1.0);
-  for (size_t k = 0; k < x.size(); ++k) x[k] = static_cast<double>(k);
-  y[1234] = 9.0;
-  const Curve curve = line_of(x, y, "a", Ink::blue);
-  CHECK(curve.x.size() <= 3000);
-  CHECK(*std::max_element(curve.y.begin(), curve.y.end()) == 9.0);
-  CHECK(std::string(force_unit(999.0).name) == "N");
-  CHECK(force_unit(1000.0).factor == 1e-3);
-}
-
 }  // namespace
 }  // namespace ballast

@@ -15,13 +15,9 @@ PaperSection sample_section() {
   section.heading = "Figure 9 <again>";
   section.notes = {"PARTIAL: 1 of 2"};
   section.text = {page::marked("About *x*.")};
-  PaperFigure figure;
-  figure.plot.name = "fig09";
-  figure.plot.title = "A title";
-  figure.plot.panels = {Panel{}};
-  figure.paper = "falls";
-  figure.found = "falls | too";
-  section.figures = {figure};
+  section.figures = {{.plot = {.name = "fig09", .title = "A title", .panels = {Panel{}}},
+                      .caption = {"what the paper says", "falls | too"},
+                      .files = page::Text("PDF", 0, "figures/fig09.pdf")}};
   section.tables = {{"Means", {"ν", "a|b"}, {{"1", page::with_error(1.5, 0.25)}}}};
   section.rows = {{"Fig. 9", "x ~ ν^−2", page::number(-2.0), Agreement::agrees},
                   {"Fig. 9", "y", "no", Agreement::differs}};
@@ -37,14 +33,14 @@ TEST_CASE("both pages say the same words") {
     CHECK_THAT(html, Contains(words));
     CHECK_THAT(markdown, Contains(words));
   }
-  CHECK_THAT(html, Contains("Figure 9 &lt;again&gt;") &&
-                       Contains("<b>Paper:</b> falls<br><b>Ballast:</b> falls | too"));
+  CHECK_THAT(html,
+             Contains("Figure 9 &lt;again&gt;") && Contains("what the paper says<br>falls | too"));
   CHECK_THAT(markdown,
              Contains("| Fig. 9 | y | no | DIFFERS |") && Contains("**PARTIAL: 1 of 2**"));
-  const std::string head = "| ν | a\\|b |", found = "**Ballast:** falls \\| too";
+  const std::string head = "| ν | a\\|b |", found = "falls \\| too";
   CHECK_THAT(markdown, Contains(head) && Contains(found));
-  CHECK_THAT(markdown, Contains("![A title](figures/fig09.svg)") &&
-                           Contains("[PDF](<figures/fig09.pdf>), [data](<data/fig09.csv>)"));
+  CHECK_THAT(markdown,
+             Contains("![A title](figures/fig09.svg)") && Contains("[PDF](<figures/fig09.pdf>)"));
 }
 
 TEST_CASE("what was found stands before the sections, row by row") {
