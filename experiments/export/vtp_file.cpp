@@ -72,18 +72,17 @@ void open_piece(AtomicFile& file, double time, size_t points, size_t vertices, s
       points, vertices, polygons);
 }
 
-/// Polygons or single points by their vertices: `offsets` says where each one ends.
-void write_cells(AtomicFile& file, const char* element,
+/// Everything after the data: the vertices, and polygons or single points by their vertices, of
+/// which `offsets` says where each one ends.
+void close_piece(AtomicFile& file, const std::vector<float>& points, const char* element,
                  const std::vector<std::int32_t>& connectivity,
                  const std::vector<std::int32_t>& offsets) {
-  file.print("<%s>\n", element);
+  file.write("<Points>\n");
+  write_array(file, "Points", points, 3);
+  file.print("</Points>\n<%s>\n", element);
   write_array(file, "connectivity", connectivity);
   write_array(file, "offsets", offsets);
-  file.print("</%s>\n", element);
-}
-
-void close_piece(AtomicFile& file) {
-  file.write("</Piece>\n</PolyData>\n</VTKFile>\n");
+  file.print("</%s>\n</Piece>\n</PolyData>\n</VTKFile>\n", element);
   file.commit();
 }
 
@@ -114,11 +113,8 @@ void write_grains_vtp(const std::filesystem::path& path, const MechanicalSystem&
   write_array(file, "mass", mass);
   write_array(file, "speed", speed);
   write_array(file, "velocity", velocity, 3);
-  file.write("</CellData>\n<Points>\n");
-  write_array(file, "Points", points, 3);
-  file.write("</Points>\n");
-  write_cells(file, "Polys", connectivity, offsets);
-  close_piece(file);
+  file.write("</CellData>\n");
+  close_piece(file, points, "Polys", connectivity, offsets);
 }
 
 void write_contacts_vtp(const std::filesystem::path& path, double time,
@@ -140,11 +136,8 @@ void write_contacts_vtp(const std::filesystem::path& path, double time,
   write_array(file, "gap", gap);
   write_array(file, "normal_force", normal_force, 3);
   write_array(file, "force", force, 3);
-  file.write("</PointData>\n<Points>\n");
-  write_array(file, "Points", points, 3);
-  file.write("</Points>\n");
-  write_cells(file, "Verts", connectivity, offsets);
-  close_piece(file);
+  file.write("</PointData>\n");
+  close_piece(file, points, "Verts", connectivity, offsets);
 }
 
 double read_vtp_time(const std::filesystem::path& path) {

@@ -26,6 +26,7 @@ double gain_of(std::span<const StepRecord> steps, const WallPeriod& period) {
 double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
                        double reference, const TimeWindow& window) {
   if (steps.empty()) return not_known;
+  // from the first begin of a period in the window to the last end of one
   const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
   const double a = std::ceil((window.begin - slack) * frequency) / frequency,
                b = std::floor((end + slack) * frequency) / frequency;

@@ -47,6 +47,7 @@ double determination(double residual_squares, double total) {
 template <class Function>
 double golden_section(const Function& f, double a, double b) {
   const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  // two inner points; of each shorter interval one of them is known already
   double c = b - ratio * (b - a), d = a + ratio * (b - a);
   double fc = f(c), fd = f(d);
   for (int k = 0; k < 80 && b - a > 1e-12; ++k) {
@@ -83,7 +84,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
     xx += (samples.x[k] - mean_x) * (samples.x[k] - mean_x);
     xy += (samples.x[k] - mean_x) * (samples.y[k] - mean_y);
   }
-  if (!(xx > 0.0)) return fit;
+  if (!(xx > 0.0)) return fit;  // all x alike: no slope
   fit.slope = xy / xx;
   fit.offset = mean_y - fit.slope * mean_x;
   double residual = 0.0;
@@ -92,6 +93,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
     residual += miss * miss;
   }
   fit.r2 = determination(residual, total_squares(samples.y));
+  // two parameters take two degrees of freedom
   if (fit.samples > 2) fit.slope_error = std::sqrt(residual / (fit.samples - 2) / xx);
   return fit;
 }
@@ -125,6 +127,7 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
   }
   const double rate = golden_section([&](double r) { return projected(r).residual; },
                                      scan_step * (best - 1), scan_step * (best + 1));
+  // back from pure numbers to the units of x
   const Projection found = projected(rate);
   fit.rate = rate / range;
   fit.amplitude = found.amplitude * std::exp(-fit.rate * origin);

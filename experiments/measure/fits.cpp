@@ -61,6 +61,7 @@ PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
   std::vector<double> log_x, log_y;
   for (const double value : x) log_x.push_back(logarithm(value));
   for (const double value : y) log_y.push_back(logarithm(value));
+  // a power law is a line of the logarithms, and its exponent the slope
   const LineFit line = fit_line(log_x, log_y);
   PowerFit fit;
   fit.samples = line.samples;
@@ -95,6 +96,7 @@ Proportion fit_proportion(std::span<const double> x, std::span<const double> y) 
   Proportion fit;
   fit.samples = static_cast<int>(logs.size());
   if (logs.empty()) return fit;
+  // the mean of logarithms is the geometric mean; its interval is a factor
   const Spread spread = spread_of(logs);
   const double half =
       student_t95(fit.samples - 1) * spread.deviation / std::sqrt(static_cast<double>(fit.samples));
@@ -121,6 +123,7 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   const auto projected = [&](double critical) {
     return project(x, y, [&](double at) { return peaked_shape(at, critical); });
   };
+  // evenly in log nu_c, between the least and the largest frequency
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
   const double low = *least, ratio = *most / *least;
   constexpr int parts = 4000;  // 0.1 % of nu_c over two decades: finer than any interval it gives
@@ -135,6 +138,7 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   }
   fit.critical = critical(best);
   fit.gain = projected(fit.critical).amplitude;
+  // R^2 against the mean alone
   double total = 0.0;
   const double mean = spread_of(y).mean;
   for (const double value : y) total += (value - mean) * (value - mean);

@@ -47,7 +47,6 @@ Observation observe(std::span<const StepRecord> steps, const RunFacts& facts, do
   seen.periods = static_cast<int>(summary.wall.periods.size());
   seen.rise = summary.rise.mean;
   seen.speed_in = summary.speed_in.mean;
-  seen.jam_position = summary.jam_position.mean;
   seen.net = -summary.net.mean;
   seen.gain = summary.compaction.gain;
   seen.dissipated = summary.dissipated.mean;

@@ -36,6 +36,7 @@ double sum_of(std::span<const StepRecord> steps, double StepRecord::*value) {
 
 void summarise_cost(std::span<const StepRecord> steps, RunSummary& summary) {
   for (const StepColumn& phase : step_phases()) summary.cost.push_back({phase.phase, phase.value});
+  // phases that the record lacks are left out of the sum
   double total = 0.0;
   bool is_known = false;
   for (PhaseCost& phase : summary.cost) {
@@ -98,12 +99,14 @@ EnergyBalance energy_balance(std::span<const StepRecord> steps) {
 }
 
 FirstContraction first_contraction(std::span<const StepRecord> steps, double frequency) {
+  // within the first period the wall is pressed in once; 0.3 s for fast loads
   const double end = std::max(1.0 / frequency, 0.3);
   FirstContraction contraction;
   std::vector<double> x;
   for (const StepRecord& step : steps)
     if (step.time <= end) x.push_back(step.wall_x);
   contraction.size = -statistics(x).min;
+  // the first time that it is nearly there
   for (const StepRecord& step : steps)
     if (-step.wall_x >= 0.9 * contraction.size) {
       contraction.time90 = step.time;
@@ -140,7 +143,6 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
   summary.net = over_periods(periods, &WallPeriod::net);
   summary.speed_in = over_periods(periods, &WallPeriod::speed_in);
   summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
-  summary.jam_position = over_periods(periods, &WallPeriod::x_after);
   summary.dissipated = dissipated_in(steps, periods);
   summary.prefactor = summary.rise.mean / eq3_displacement(facts);
 }

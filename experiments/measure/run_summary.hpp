@@ -131,7 +131,6 @@ struct RunSummary {
   FirstContraction contraction;
   // over the periods that count
   Statistics rise, net, speed_in, speed_out;  ///< as in WallPeriod
-  Statistics jam_position;                    ///< [m]
   Statistics dissipated;                      ///< [J]
   double prefactor = not_known;               ///< C of Eq. 3, m the mass of all grains
 

@@ -43,6 +43,7 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
   period.last = first_after(steps, end, h);
   if (period.first == period.last) return period;
   find_stroke(steps, period);
+  // the sample before the period is its begin: the first one is already a step on
   const size_t start = period.first > 0 ? period.first - 1 : period.first;
   period.net = steps[period.last - 1].wall_x - steps[start].wall_x;
   std::vector<double> v, solid;
@@ -61,6 +62,7 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
 /// period's mean, from sample `first` on; false when there is none.
 bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit,
                  size_t least, size_t first, WallCycles& cycles) {
+  // jammed is slow while the load is high; a turning point is slow while it is low
   double mean = 0.0;
   for (size_t k = period.first; k < period.last; ++k)
     mean += steps[k].load / static_cast<double>(period.last - period.first);

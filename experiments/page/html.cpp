@@ -1,6 +1,7 @@
 #include "experiments/page/html.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "experiments/page/page_style.hpp"
 
@@ -88,7 +89,6 @@ struct HtmlBlocks {
     return "<details><summary>" + html_of(folded.heading) + "</summary>\n<pre>" +
            escaped_html(folded.text) + "</pre></details>\n";
   }
-  std::string operator()(const Embedded& part) const { return part.html; }
 };
 
 std::string header_of(const Page& page) {
@@ -109,26 +109,16 @@ std::string section_of(const Section& section) {
 }  // namespace
 
 std::string escaped_html(std::string_view text) {
+  static const std::map<char, const char*> entities = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
   std::string html;
-  for (const char c : clean_utf8(text)) switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      case '\'':
-        html += "&#39;";
-        break;
-      default:
-        html += c;
-    }
+  for (const char c : clean_utf8(text)) {
+    const auto entity = entities.find(c);
+    if (entity == entities.end())
+      html += c;
+    else
+      html += entity->second;
+  }
   return html;
 }
 

@@ -128,9 +128,6 @@ struct MarkdownBlocks {
     return "<details><summary>" + markdown_of(folded.heading) + "</summary>\n\n" +
            fenced(folded.text) + "</details>\n\n";
   }
-  std::string operator()(const Embedded& part) const {
-    return part.instead.empty() ? std::string() : (*this)(part.instead);
-  }
 };
 
 }  // namespace

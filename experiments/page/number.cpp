@@ -68,6 +68,7 @@ Text with_error(double value, double error) {
   if (!std::isfinite(value) || !std::isfinite(error) || error == 0.0) return number(value);
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(error))));
   if (exponent < -6 || exponent > 5) return number(value) + " ± " + number(error, 2);
+  // as many places as give the error two digits
   const int places = std::max(0, 1 - exponent);
   return with_minus_sign(printed("%.*f", places, value)) + " ± " + printed("%.*f", places, error);
 }

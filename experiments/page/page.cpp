@@ -14,7 +14,6 @@ struct Emptiness {
   bool operator()(const Notices& notices) const { return notices.items.empty(); }
   bool operator()(const Listing& listing) const { return listing.text.empty(); }
   bool operator()(const Folded& folded) const { return folded.text.empty(); }
-  bool operator()(const Embedded& part) const { return part.html.empty(); }
 };
 
 }  // namespace

@@ -64,16 +64,8 @@ struct Folded {
   std::string text;
 };
 
-/// HTML of its own kind that a page carries as it is (a replay, a viewer). Nothing from outside may
-/// get in unescaped: who makes it answers for that. A Markdown page says `instead`.
-struct Embedded {
-  std::string html;
-  Text instead;
-};
-
 /// A paragraph is Text.
-using Block =
-    std::variant<Text, Subheading, List, Table, Picture, Notices, Listing, Folded, Embedded>;
+using Block = std::variant<Text, Subheading, List, Table, Picture, Notices, Listing, Folded>;
 
 /// Says nothing: a table without rows, text without words. Writers leave it out.
 bool is_empty(const Block& block);

@@ -8,4 +8,7 @@ namespace ballast::page {
 /// to the page's palette.
 std::string style_sheet();
 
+/// style.css, built into the program: light, dark and print.
+std::string light_and_dark();
+
 }  // namespace ballast::page

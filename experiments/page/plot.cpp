@@ -35,19 +35,28 @@ std::string why(const ProgramResult& child, double seconds) {
   return "gnuplot failed (" + std::to_string(child.status) + "): " + last_line(child.errors);
 }
 
-/// Writes the script and returns what gnuplot made of it.
-std::string run_gnuplot(const Figure& figure, PlotFormat format, const fs::path& commands,
-                        double seconds) {
+/// Writes the script into `commands` and what gnuplot makes of it into `target`, and returns that.
+/// `last`: without it the picture is incomplete.
+std::string render(const Figure& figure, PlotFormat format, const fs::path& target,
+                   const fs::path& commands, const char* last, double seconds) {
+  const std::string name = "figure " + figure.name + ": ";
+  std::error_code ignored;
+  fs::remove(target, ignored);
   std::string script;
   try {
     script = gnuplot_script(figure, format);
   } catch (const std::invalid_argument& error) {
-    throw Error("figure " + figure.name + ": " + error.what());
+    throw Error(name + error.what());
   }
-  create_folder(commands.parent_path());
+  create_folder(fs::absolute(target).parent_path());
   write_whole_file(commands, script);
-  ProgramResult child = run_program("gnuplot", {"-d", commands.string()}, seconds);
-  if (!child.succeeded()) throw Error("figure " + figure.name + ": " + why(child, seconds));
+  // absolute: a name beginning with "-" or "<" would mean something to gnuplot
+  ProgramResult child = run_program("gnuplot", {"-d", fs::absolute(commands).string()}, seconds);
+  if (!child.succeeded()) throw Error(name + why(child, seconds));
+  if (child.output.find(last) == std::string::npos)
+    throw Error(name + "gnuplot's " + (format == PlotFormat::pdf ? "PDF" : "SVG") +
+                " is incomplete");
+  write_whole_file(target, child.output);
   return std::move(child.output);
 }
 
@@ -59,28 +68,15 @@ std::string gnuplot_version() {
 }
 
 void render_pdf(const Figure& figure, const fs::path& folder, double seconds) {
-  const fs::path pdf = folder / (figure.name + ".pdf"),
-                 commands = fs::absolute(folder / (figure.name + ".pdf.gnuplot"));
+  const fs::path pdf = folder / (figure.name + ".pdf"), commands = pdf.string() + ".gnuplot";
+  render(figure, PlotFormat::pdf, pdf, commands, "%%EOF", seconds);
   std::error_code ignored;
-  fs::remove(pdf, ignored);
-  const std::string output = run_gnuplot(figure, PlotFormat::pdf, commands, seconds);
   fs::remove(commands, ignored);
-  if (output.find("%%EOF") == std::string::npos)
-    throw Error("figure " + figure.name + ": gnuplot's PDF is incomplete");
-  write_whole_file(pdf, output);
 }
 
 std::string render_svg(const Figure& figure, const fs::path& folder, double seconds) {
-  const fs::path svg = folder / (figure.name + ".svg");
-  std::error_code ignored;
-  fs::remove(svg, ignored);
-  // absolute: a name beginning with "-" or "<" would mean something to gnuplot
-  const fs::path commands = fs::absolute(folder / (figure.name + ".gnuplot"));
-  std::string output = run_gnuplot(figure, PlotFormat::svg, commands, seconds);
-  if (output.find("</svg>") == std::string::npos)
-    throw Error("figure " + figure.name + ": gnuplot's SVG is incomplete");
-  write_whole_file(svg, output);
-  return output;
+  return render(figure, PlotFormat::svg, folder / (figure.name + ".svg"),
+                folder / (figure.name + ".gnuplot"), "</svg>", seconds);
 }
 
 void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit) {

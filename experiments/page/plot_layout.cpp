@@ -18,6 +18,7 @@ KeySize key_size(const Figure& figure, const Panel& panel) {
                                        [](unsigned char c) { return (c & 0xc0) != 0x80; });
     widest = std::max(widest, sample + letter * static_cast<double>(letters));
   }
+  // as many columns as fit beside each other
   if (entries == 0) return {};
   KeySize size;
   size.columns = std::clamp(static_cast<int>((figure.width - left_margin - right_margin) / widest),
@@ -90,11 +91,13 @@ std::vector<PanelPlace> panel_places(const Figure& figure) {
   constexpr double above = 12.0, below_last = 66.0;
   const double below = is_shared ? 12.0 : below_last;
   const size_t count = figure.panels.size();
+  // what keys, numbers and labels leave is shared evenly among the boxes
   double keys = 0.0;
   for (const Panel& panel : figure.panels) keys += key_row * key_size(figure, panel).rows;
   const double box = (figure.height - keys - static_cast<double>(count) * above - below_last -
                       static_cast<double>(count - 1) * below) /
                      static_cast<double>(count);
+  // from the top of the figure down
   std::vector<PanelPlace> places;
   double y = figure.height;
   for (size_t p = 0; p < count; ++p) {

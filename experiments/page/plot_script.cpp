@@ -110,6 +110,7 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
                   place.top / figure.height, place.bottom / figure.height);
   text += "set xrange [" + script_number(x.low) + ':' + script_number(x.high) + "]\nset yrange [" +
           script_number(y.low) + ':' + script_number(y.high) + "]\n";
+  // axes: logarithmic ones are numbered by powers of ten
   if (panel.log_x) text += "set logscale x\nset format x '10^{%L}'\n";
   if (panel.log_y) text += "set logscale y\nset format y '10^{%L}'\n";
   text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n"
@@ -131,29 +132,10 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
 }  // namespace
 
 const char* rgb_of(Ink ink) {
-  switch (ink) {
-    case Ink::black:
-      return "#1a1a1a";
-    case Ink::blue:
-      return "#0072b2";
-    case Ink::vermilion:
-      return "#d55e00";
-    case Ink::green:
-      return "#009e73";
-    case Ink::orange:
-      return "#e69f00";
-    case Ink::sky:
-      return "#56b4e9";
-    case Ink::purple:
-      return "#cc79a7";
-    case Ink::yellow:
-      return "#f0e442";
-    case Ink::grey:
-      return "#767676";
-    case Ink::light:
-      return "#b8b8b8";
-  }
-  return "#000000";
+  // in the order of Ink
+  constexpr const char* colours[] = {"#1a1a1a", "#0072b2", "#d55e00", "#009e73", "#e69f00",
+                                     "#56b4e9", "#cc79a7", "#f0e442", "#767676", "#b8b8b8"};
+  return colours[static_cast<size_t>(ink)];
 }
 
 std::string plain_text(const std::string& text) {

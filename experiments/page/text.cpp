@@ -100,6 +100,7 @@ class Notation {
 /// cut).
 size_t utf8_length(std::string_view text) {
   const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[k]); };
+  // the first byte says how many follow
   const unsigned char first = byte(0);
   if (first < 0x80) return 1;
   const size_t length = first >= 0xf0 && first < 0xf5 ? 4
@@ -109,6 +110,7 @@ size_t utf8_length(std::string_view text) {
   if (length == 0 || first >= 0xf5 || text.size() < length) return 0;
   for (size_t k = 1; k < length; ++k)
     if ((byte(k) & 0xc0) != 0x80) return 0;
+  // longer than need be, a half of a UTF-16 pair, or beyond U+10FFFF
   if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0)) return 0;
   if ((first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) >= 0x90)) return 0;
   return length;

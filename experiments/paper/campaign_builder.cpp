@@ -65,6 +65,7 @@ CampaignBuilder::CampaignBuilder(const CampaignSettings& settings)
 }
 
 size_t CampaignBuilder::run(RunSettings s) {
+  // equal names are equal runs: one run may serve many figures
   if (s.iterations == 0) s.iterations = campaign.settings.iterations;
   const std::string name = name_of(s, campaign.settings.iterations);
   for (size_t k = 0; k < campaign.runs.size(); ++k)
@@ -75,6 +76,7 @@ size_t CampaignBuilder::run(RunSettings s) {
   run.seconds = estimate(s, run.steps);
   run.stage = stage;
   campaign.runs.push_back(run);
+  // what the deposit depends on, and nothing else of the run
   packings_.insert(s.size + (s.pressed ? " pressed " : " placed ") +
                    campaign_number(s.deposit_friction) + ' ' + campaign_number(s.lid_raise) + ' ' +
                    std::to_string(s.seed));
@@ -95,6 +97,7 @@ std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) con
   const auto add = [&](const char* key, const std::string& value) {
     set.push_back(std::string(key) + '=' + value);
   };
+  // what every run says, whether it is the base's or not
   add("grains.seed", std::to_string(s.seed));
   add("drive.frequency", campaign_number(s.frequency));
   add("scene.duration", campaign_number(s.duration));
@@ -113,6 +116,7 @@ std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) con
     add("box.width", campaign_number(0.5 * scene_.box.width));
     add("control_volume.margin_x", campaign_number(0.5 * scene_.control_volume.margin_x));
   }
+  // what only some runs say, so that the others keep the keys they had before these were varied
   if (s.lid_raise != base_lid_raise) add("drive.lid_raise", campaign_number(s.lid_raise));
   if (!s.pressed) add("deposit.lid_pressure_weight", "0");
   if (s.deposit_friction != base_friction)

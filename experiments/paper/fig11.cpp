@@ -51,9 +51,11 @@ Panel eq3_panel(const std::vector<VariedCurve>& parts, const VariedCurve& all, d
               .y_label = "Δ{/:Italic x}_{max}  (mm)",
               .log_x = is_log,
               .log_y = is_log};
+  // the points of each series in its colour
   for (size_t b = 0; b < parts.size(); ++b)
     if (!parts[b].x.empty())
       panel.curves.push_back(points_of(parts[b], branches[b].title, branches[b].ink));
+  // our line and the paper's, over the range of all points
   const auto [low, high] = std::minmax_element(all.x.begin(), all.x.end());
   const auto line = [&, range = Drawn{is_log ? *low : 0.0, *high, is_log}](
                         double prefactor, const std::string& title, Ink ink) {
@@ -113,6 +115,7 @@ PaperSection fig11_section(PaperData& data) {
                           page::interval(line.low, line.high), page::number(line.spread),
                           words_of(power), misfit_words(power, points)});
   }
+  // all series as one: a law without a free exponent, and one with
   const VariedCurve all = together(parts);
   if (all.x.empty()) return section;
   const Proportion line = fit_proportion(all.x, all.y);

@@ -27,6 +27,7 @@ bool can_be_modelled(const RunSummary& s) {
 /// Where a period's wall leaves the unjamming transient: the fits begin at this part of the rise
 /// too.
 std::optional<ModelStart> after_unjamming(const MotionRun& run, const WallPeriod& period) {
+  // the last sample before the peak that is not above it yet
   const double begin = WallSettings{}.fit_from * period.rise;
   for (size_t k = period.peak; k-- > period.first;) {
     const double x = run.data.steps[k].wall_x - period.x_before;
@@ -100,7 +101,7 @@ PaperSection fig5_section(PaperData& data) {
   Figure drawn;
   for (size_t k = 0; k < runs.size(); ++k) {
     const RunSummary& s = runs[k].summary;
-    if (!can_be_modelled(s)) continue;
+    if (!can_be_modelled(s)) continue;  // a run too short for the fits
     const Modelled model = modelled(runs[k]);
     rises.push_back(model.rise / s.rise.mean - 1.0);
     from_jam.push_back(model.rise_from_jam / s.rise.mean - 1.0);

@@ -21,6 +21,7 @@ void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
   };
   const double length = std::hypot(dx, dz);
   if (!(length > 0.0)) return;
+  // barbs at 2.6 rad (150 degrees) to the shaft
   const double barb = 0.3 * length, c = std::cos(2.6), s = std::sin(2.6);
   add(x, z);
   add(x + dx, z + dz);

@@ -17,6 +17,7 @@ constexpr double margin = 0.02;  // around the box [m]
 /// normal forces.
 Panel chains(const StoredState& state, const std::string& title) {
   const std::vector<PairForce> pairs = state.pairs();
+  // the unit of thickness is the state's mean normal force
   double mean = 0.0;
   for (const PairForce& pair : pairs)
     mean += pair.normal_force() / static_cast<double>(pairs.size());
@@ -109,6 +110,7 @@ PaperSection fig7_section(PaperData& data) {
     section.notes.push_back("PARTIAL: no stored states.");
     return section;
   }
+  // angles and ratios are means over samples: one number of each run
   page::Table table = page::words_table("fig7.table");
   std::array<SampleMean, 3> mean;
   for (size_t k = 0; k < 3; ++k) {

@@ -25,6 +25,7 @@ Orbit mean_orbit(const RunData& data) {
   orbit.periods = static_cast<int>(cycles.periods.size());
   for (const WallPeriod& period : cycles.periods)
     for (size_t k = 0; k < orbit_phases; ++k) {
+      // the same phase of the load in every period, whatever its number of steps
       const size_t sample = period.first + k * (period.last - period.first) / orbit_phases;
       orbit.x[k] += (data.steps[sample].wall_x - period.x_before) / orbit.periods;
       orbit.v[k] += cycles.velocity[sample] / orbit.periods;
@@ -60,6 +61,7 @@ Panel portrait(const std::vector<Orbit>& orbits, const std::string& x_label,
   Panel panel{.x_label = x_label, .y_label = v_label};
   for (size_t k = 0; k < 2; ++k) {
     Orbit shown = scaled(orbits[k], 1e3, 1e3);
+    // back to where it began
     shown.x.push_back(shown.x.front());
     shown.v.push_back(shown.v.front());
     panel.curves.push_back({.x = shown.x,

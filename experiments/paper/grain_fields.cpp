@@ -27,6 +27,7 @@ std::vector<int> contact_counts(const MechanicalSystem& system, std::span<const 
   return counts;
 }
 
+/// Coordination with all grains, and without those that carry nothing.
 void count_contacts(const MechanicalSystem& system, std::span<const PairForce> pairs,
                     PackingStatistics& result) {
   const auto total = [](const std::vector<int>& counts) {
@@ -38,6 +39,7 @@ void count_contacts(const MechanicalSystem& system, std::span<const PairForce> p
   std::vector<bool> out(grains, false);
   std::vector<int> counts = contact_counts(system, pairs, out);
   result.coordination = total(counts) / static_cast<double>(grains);
+  // Rattlers are peeled off: a grain that loses its neighbours may become one in the next round.
   size_t removed = 0;
   for (bool found = true; found;) {
     found = false;
@@ -54,6 +56,8 @@ void count_contacts(const MechanicalSystem& system, std::span<const PairForce> p
   result.rattlers = static_cast<double>(removed) / static_cast<double>(grains);
 }
 
+/// Means over contacts between grains of n n, f_n n n and f n, the latter two over the mean f_n:
+/// the tensors F, X and Y of the header.
 struct Fabric {
   Mat3 contact = Mat3::Zero(), normal = Mat3::Zero(), full = Mat3::Zero();
   double contacts = 0.0, force = 0.0;
@@ -77,6 +81,7 @@ Fabric fabric_of(const MechanicalSystem& system, std::span<const PairForce> pair
 
 void find_anisotropy(const MechanicalSystem& system, const MotionState& state,
                      std::span<const PairForce> pairs, PackingStatistics& result) {
+  // e1 and e3: along which the stress is largest and smallest
   const Principal stress =
       principal_of(stress_tensor(system, state, pairs, box_volume(system, state)));
   const Vec3 e1 = stress.direction.col(0), e3 = stress.direction.col(2);
@@ -84,6 +89,7 @@ void find_anisotropy(const MechanicalSystem& system, const MotionState& state,
     return 2.5 * (e1.dot(tensor * e1) - e3.dot(tensor * e3));
   };
   const Fabric fabric = fabric_of(system, pairs);
+  // each tensor holds the anisotropies of those before it, which are taken off
   result.fabric = contrast(fabric.contact);
   result.normal = contrast(fabric.normal) - result.fabric;
   result.tangential = contrast(fabric.full) - contrast(fabric.normal);
@@ -100,6 +106,7 @@ std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
   std::vector<PairForce> pairs;
   for (size_t k = 0; k < contacts.size();) {
     const ContactPoint& first = contacts[k];
+    // the points of one pair stand together: contacts are sorted by (a, b)
     PairForce pair{first.body_a, first.body_b, first.normal, Vec3::Zero(), Vec3::Zero()};
     double weight = 0.0;
     for (; k < contacts.size() && contacts[k].body_a == first.body_a &&
@@ -111,7 +118,7 @@ std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
       pair.position += normal * contacts[k].position;
       weight += normal;
     }
-    if (!(weight > 0.0)) continue;
+    if (!(weight > 0.0)) continue;  // no compression: no contact of the field
     pair.position /= weight;
     pairs.push_back(pair);
   }
@@ -121,6 +128,7 @@ std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
 Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state,
                    std::span<const PairForce> pairs, double volume) {
   Mat3 sum = Mat3::Zero();
+  // a wall has no centre: its branch vector ends at the contact
   const auto place = [&](int body, const Vec3& contact) -> Vec3 {
     return body < system.grain_count ? state.pose[static_cast<size_t>(body)].position : contact;
   };
@@ -131,7 +139,8 @@ Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state,
 }
 
 Principal principal_of(const Mat3& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(symmetric);  // smallest first
+  // Eigen sorts from the smallest on, the paper from the largest
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(symmetric);
   Principal result;
   for (int k = 0; k < 3; ++k) {
     result.value[k] = solver.eigenvalues()[2 - k];
@@ -141,12 +150,14 @@ Principal principal_of(const Mat3& symmetric) {
 }
 
 double major_inclination(const Mat3& tensor) {
+  // Mohr's circle: the direction of the larger principal value within the plane
   const double angle = 0.5 * std::atan2(tensor(0, 2) + tensor(2, 0),
                                         tensor(0, 0) - tensor(2, 2));  // in (-90, 90] degrees
   return std::abs(angle) * 180.0 / std::numbers::pi;
 }
 
 Mat3 velocity_gradient(const MechanicalSystem& system, const MotionState& state) {
+  // places and velocities about the grains' centre of mass and its velocity
   Vec3 centre = Vec3::Zero(), drift = Vec3::Zero();
   double mass = 0.0;
   for (size_t k = 0; k < static_cast<size_t>(system.grain_count); ++k) {
@@ -156,6 +167,7 @@ Mat3 velocity_gradient(const MechanicalSystem& system, const MotionState& state)
   }
   centre /= mass;
   drift /= mass;
+  // the normal equations of the weighted least squares: L = (sum m v x^T) (sum m x x^T)^-1
   Mat3 moment = Mat3::Zero(), spread = Mat3::Zero();
   for (size_t k = 0; k < static_cast<size_t>(system.grain_count); ++k) {
     const Vec3 x = state.pose[k].position - centre, v = state.velocity[k] - drift;
@@ -184,12 +196,14 @@ PackingStatistics packing_statistics(const MechanicalSystem& system, const Motio
   PackingStatistics result;
   const std::vector<PairForce> pairs = pair_forces(contacts, impulses, h);
   count_contacts(system, pairs, result);
+  // points of contact between grains that carry force
   double between = 0.0, points = 0.0, sliding = 0.0, force = 0.0, weak = 0.0;
   for (size_t k = 0; k < contacts.size(); ++k) {
     const bool grains =
         contacts[k].body_a < system.grain_count && contacts[k].body_b < system.grain_count;
     if (grains && impulses[k].dot(contacts[k].normal) > 0.0) points += 1.0;
   }
+  // pairs of grains: their forces, and which of them slide
   for (const PairForce& pair : pairs) {
     if (!is_between_grains(system, pair)) continue;
     between += 1.0;

@@ -81,6 +81,7 @@ const Observation* PaperData::observation(const CampaignPoint& point) {
 }
 
 std::vector<VariedValue> PaperData::values(Varied which) {
+  // points come in the order of importance; a map sorts them by value
   std::map<double, VariedValue> values;
   for (const CampaignPoint& point : campaign_.points) {
     if (point.varied != which) continue;

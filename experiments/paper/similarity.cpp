@@ -119,6 +119,7 @@ page::Text compare_half_scale(const VariedValue& half,
   for (size_t q = 0; q < quantities.size(); ++q) {
     const Quantity& quantity = quantities[q];
     const SampleMean seen = half.mean(quantity.value);
+    // lengths halve, so that a quantity of dimension length^p scales by (1/2)^p
     const double factor = std::pow(0.5, quantity.in_scale), predicted = factor * full[q].mean;
     const double difference = seen.mean - predicted,
                  error = std::hypot(seen.error, factor * full[q].error);
@@ -140,6 +141,7 @@ void add_half_scale(PaperData& data, const RunGroup& frequencies, PaperSection& 
   const VariedValue *below = frequencies.at(7.0), *above = frequencies.at(varied_frequency);
   if (!below || !above) return;
   const double same = varied_frequency * std::sqrt(0.5);
+  // no run has that frequency: each sample is interpolated between 7 and 10 Hz
   std::array<SampleMean, quantities.size()> full;
   for (size_t q = 0; q < quantities.size(); ++q)
     full[q] = interpolated(*below, *above, same, quantities[q].value);
@@ -174,6 +176,7 @@ void add_gravity(PaperData& data, std::vector<VariedValue> frequencies,
   if (!std::isfinite(alpha.half_width) || !std::isfinite(beta.half_width) ||
       !std::isfinite(gravity.half_width))
     return;
+  // errors of independent fits add up in squares
   const double predicted = -0.5 * alpha.exponent - beta.exponent,
                half = std::hypot(0.5 * alpha.half_width, beta.half_width);
   const page::Text found = page::words(

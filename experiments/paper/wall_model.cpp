@@ -45,6 +45,7 @@ ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& s
   ModelPhase phase = ModelPhase::jammed_before;
   Moving wall;
   int first = 0;
+  // taken up in the middle of the rise, or jammed at the period's begin
   if (start) {
     phase = ModelPhase::out;
     wall = {start->x, start->v};
@@ -52,6 +53,7 @@ ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& s
   }
   for (int k = first; k <= parts; ++k) {
     const double t = k * dt, load = model.load.at(t);
+    // at rest the load decides whether it leaves, and which way
     const bool rests = phase != ModelPhase::out && phase != ModelPhase::in;
     if (rests) phase = released(model, phase, wall.x, load);
     const bool moves = phase == ModelPhase::out || phase == ModelPhase::in;
@@ -62,6 +64,8 @@ ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& s
     motion.rise = std::max(motion.rise, wall.x);
     motion.speed_in = std::max(motion.speed_in, -wall.v);
     if (!moves) continue;
+    // one step on; where the velocity changes its sign the wall stops, and where it comes back to
+    // its jamming position it stays
     wall = advanced(model, phase, wall, t, dt);
     if (phase == ModelPhase::out && wall.v <= 0.0) phase = ModelPhase::turning, wall.v = 0.0;
     if (phase == ModelPhase::in && wall.v >= 0.0) phase = ModelPhase::turning, wall.v = 0.0;

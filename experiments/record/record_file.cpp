@@ -40,6 +40,7 @@ void add(Hdf5Writer& file, const std::string& name, const std::vector<double>& v
 }
 
 void add_steps(Hdf5Writer& file, RowReader& rows) {
+  // rows become columns: a reader mostly wants one quantity over all steps
   const auto columns = step_columns();
   std::vector<std::vector<double>> values(columns.size());
   rows.rewind();
@@ -60,6 +61,7 @@ void add_poses(Hdf5Writer& file, RowReader& rows, size_t bodies) {
     datasets.push_back(file.add_slices(name, {frames, bodies, block.parts}));
     describe(file, name, block.unit, block.description);
   }
+  // frame by frame, so that never more than one is in memory
   std::vector<double> times;
   std::vector<std::int64_t> steps;
   rows.rewind();
@@ -79,6 +81,7 @@ void add_poses(Hdf5Writer& file, RowReader& rows, size_t bodies) {
 }
 
 void add_bodies(Hdf5Writer& file, const MechanicalSystem& system) {
+  // bodies that share a shape name the same one
   std::map<const Polyhedron*, std::int32_t> shape_index;
   for (size_t k = 0; k < system.shapes.size(); ++k)
     shape_index.emplace(system.shapes[k].get(), static_cast<std::int32_t>(k));
@@ -115,6 +118,7 @@ void add_shapes(Hdf5Writer& file, const MechanicalSystem& system) {
     for (const Vec3& vertex : shape.vertices())
       vertices.insert(vertices.end(), vertex.begin(), vertex.end());
     for (int f = 0; f < shape.face_count(); ++f) {
+      // a polygon is a fan of triangles
       const auto loop = shape.face(f);
       for (size_t i = 2; i < loop.size(); ++i)
         triangles.insert(triangles.end(), {loop[0], loop[i - 1], loop[i]});

@@ -76,6 +76,7 @@ constexpr size_t cost_stretches = 250;
 std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary) {
   constexpr Ink inks[] = {Ink::orange, Ink::green, Ink::blue, Ink::purple, Ink::sky, Ink::light};
   const size_t count = data.steps.size(), bins = std::min(cost_stretches, count);
+  // each stretch is drawn at its middle, the outer two at the ends of the axis
   std::vector<double> time(bins), low(bins, 0.0);
   for (size_t b = 0; b < bins; ++b)
     time[b] = data.steps[(b * count / bins + (b + 1) * count / bins) / 2].time;
@@ -89,6 +90,7 @@ std::vector<Curve> stacked_cost(const RunData& data, const RunSummary& summary) 
                 .ink = inks[p % std::size(inks)],
                 .mark = Mark::area,
                 .y_low = low};
+    // `low` becomes the top of this phase, and so the ground of the next
     for (size_t b = 0; b < bins; ++b) {
       std::vector<double> values;
       for (size_t k = b * count / bins; k < (b + 1) * count / bins; ++k)

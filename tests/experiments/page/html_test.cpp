@@ -54,7 +54,6 @@ TEST_CASE("a small page as HTML, to the letter") {
 </pre>
 <details><summary>All of it</summary>
 <pre>x = 1</pre></details>
-<div id="replay"></div>
 </section>
 <footer>The end.</footer>
 </main>

@@ -58,8 +58,6 @@ x = 1
 
 </details>
 
-The replay is in the HTML page.
-
 The end.
 )");
 }

@@ -28,10 +28,10 @@ inline Page small_page() {
   page.notices = {"To be known", {"no scene.toml"}};
   page.add({"numbers", marked("In *numbers*"), {Subheading{"h"}, "A paragraph.", table, facts}});
   page.add({"nothing", "Nothing", {Table{}, Text(), List{}, Subheading{"alone"}}});
-  page.add({"rest",
-            "The rest",
-            {picture, List{{"one", "two"}}, Listing{"a <b>\n```\n"}, Folded{"All of it", "x = 1"},
-             Embedded{"<div id=\"replay\"></div>\n", "The replay is in the HTML page."}}});
+  page.add(
+      {"rest",
+       "The rest",
+       {picture, List{{"one", "two"}}, Listing{"a <b>\n```\n"}, Folded{"All of it", "x = 1"}}});
   page.end = "The end.";
   return page;
 }
