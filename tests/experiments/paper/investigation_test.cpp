@@ -85,7 +85,8 @@ TEST_CASE(
   CHECK(sections[0].figures.size() == 2);
   std::string effects;
   for (const AgreementRow& row : sections[0].rows)
-    if (row.paper == "exponents of ν, 10–60 Hz") effects += plain_words(row.ballast) + '\n';
+    if (plain_words(row.paper) == "exponents of ν, 10–60 Hz")
+      effects += plain_words(row.ballast) + '\n';
   CHECK_THAT(effects, Catch::Contains("friction 0.8: Δx_max −2.00 against −1.80") &&
                           Catch::Contains("20 iterations a step: Δx_max −1.80 against −1.80"));
   CHECK_THAT(plain_words(row_of(sections, "exponent of g = −α/2 − β (similarity)").ballast),

@@ -26,12 +26,12 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
   for (const char* target : {"fig9", "fig10", "fig11", "fig13"})
     sections.push_back(make_sections(data, target).front());
   for (const PaperSection& section : sections) CHECK(section.notes.empty());
-  for (const char* claim : {"Δx_max ~ ν^−2", "v_max ~ ν^−1", "Δx_max ~ f_max^−1", "Δx_max ~ g^2",
-                            "Δx_max ~ m/(m + m_w)", "one line through all series",
-                            "maximum at ν_c ~ 10 Hz", "Δρ_max/ρ₀ ~ 0.0025"})
+  for (const char* claim :
+       {"Δx_max ~ ν⁻²", "v_max ~ ν⁻¹", "Δx_max ~ f_max⁻¹", "Δx_max ~ g²", "Δx_max ~ m/(m + m_w)",
+        "one line through all series", "maximum at ν_c ~ 10 Hz", "Δρ_max/ρ₀ ~ 0.0025"})
     CHECK(row_of(sections, claim).agreement == Agreement::agrees);
-  CHECK_THAT(plain_words(row_of(sections, "Δx_max ~ ν^−2").ballast), Catch::StartsWith("−2.0"));
-  CHECK_THAT(plain_words(row_of(sections, "Δx_max ~ g^2").ballast), Catch::StartsWith("2.0"));
+  CHECK_THAT(plain_words(row_of(sections, "Δx_max ~ ν⁻²").ballast), Catch::StartsWith("−2.0"));
+  CHECK_THAT(plain_words(row_of(sections, "Δx_max ~ g²").ballast), Catch::StartsWith("2.0"));
   CHECK_THAT(plain_words(row_of(sections, "C ~ 0.01").ballast),
              Catch::StartsWith("C = 0.0") && Catch::Contains("m all grains"));
   const auto values = data.values(Varied::frequency);

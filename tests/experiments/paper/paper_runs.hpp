@@ -81,12 +81,12 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
   manifest.write(folder / "manifest.json");
 }
 
-/// The first row of this claim.
+/// The first row of this claim, in plain words.
 inline const AgreementRow& row_of(const std::vector<PaperSection>& sections,
                                   const std::string& paper) {
   for (const PaperSection& section : sections)
     for (const AgreementRow& row : section.rows)
-      if (row.paper == paper) return row;
+      if (plain_words(row.paper) == paper) return row;
   FAIL("no row says " + paper);
   return sections.front().rows.front();
 }
