@@ -9,8 +9,7 @@ using namespace ballast;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-include "geometry/shape/mesh_file.hpp"
- = data[0] == 'o' ? ".obj" : ".stl";
+  const char* suffix = data[0] == 'o' ? ".obj" : ".stl";
   const auto file =
       fuzz::input_folder().write(std::string("mesh") + suffix, fuzz::text_of(data + 1, size - 1));
   fuzz::refused_or(file, [&] {
