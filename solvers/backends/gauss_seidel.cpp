@@ -37,6 +37,7 @@ class GaussSeidel final : public Solver {
   Solved iterate(Sweep& sweep, const FrictionProblem& problem, Impulses r, const Budget& budget) {
     Iteration iteration(budget, schedule_);
     order_.begin(variant_, variant_.plain() ? 0 : problem.contact_count());
+    allow_single(sweep, budget);
     // Stored at once: impulses that move nothing have been dropped.
     sweep.load(problem, r);
     sweep.store(problem, r);

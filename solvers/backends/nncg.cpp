@@ -70,6 +70,7 @@ class Nncg final : public Solver {
   template <typename Search>
   Solved iterate(Search& search, const FrictionProblem& problem, Impulses r, const Budget& budget) {
     Iteration iteration(budget, {8, 1.2, 1.5});
+    allow_single(search.sweep, budget);
     load(search, problem, r);
     search.sweep.store(problem, r);
     double last_error = search.sweep.error();

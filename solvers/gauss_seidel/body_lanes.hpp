@@ -1,6 +1,7 @@
 #pragma once
-// The bodies of several contacts, from rows to lanes and back: sixteen bytes at a time, as they
-// will be loaded again (larger pieces would wait for the stores to reach the cache).
+// The bodies of several contacts, from rows to lanes and back, in the pieces in which they will be
+// loaded again: sixteen bytes, or what the instruction set has for whole rows. (A load larger than
+// the store before it waits until that has reached the cache.)
 
 #include "solvers/gauss_seidel/lanes.hpp"
 
@@ -9,7 +10,9 @@ namespace ballast {
 /// Six numbers of the rows at `at[0]`, `at[1]`, ...: component k of all in c[k].
 template <typename V>
 BALLAST_INLINE void gather_bodies(const void* base, const int* at, V* c) {
-  if constexpr (sizeof(typename V::Number) == 8) {
+  if constexpr (requires { gather_rows(base, at, c); }) {
+    gather_rows(base, at, c);
+  } else if constexpr (sizeof(typename V::Number) == 8) {
     for (int pair = 0; pair < 3; ++pair) {
       const void* part = at_offset(base, 16 * pair);
       const V even = collect<2, V>(part, at), odd = collect<2, V>(part, at + 1);
@@ -35,7 +38,9 @@ BALLAST_INLINE void gather_bodies(const void* base, const int* at, V* c) {
 
 template <typename V>
 BALLAST_INLINE void scatter_bodies(void* base, const int* at, const V* c) {
-  if constexpr (sizeof(typename V::Number) == 8) {
+  if constexpr (requires { scatter_rows(base, at, c); }) {
+    scatter_rows(base, at, c);
+  } else if constexpr (sizeof(typename V::Number) == 8) {
     for (int pair = 0; pair < 3; ++pair) {
       void* part = at_offset(base, 16 * pair);
       scatter<2>(part, at, interleave_low(c[2 * pair], c[2 * pair + 1]));

@@ -25,6 +25,9 @@ class BodySweep {
   /// Records, masses, 1/rho: everything that does not depend on the impulses. `problem` has the
   /// dynamics form.
   void prepare(const FrictionProblem& problem);
+  /// See WideSweep; nothing where contacts are swept one by one.
+  void allow_single(bool allowed) { wide_.allow_single(allowed); }
+  bool finish_in_double() { return is_wide_ && wide_.finish_in_double(); }
   bool is_wide() const { return is_wide_; }
   /// Takes the impulses and the body velocities that they give.
   void load(const FrictionProblem& problem, const Impulses& r);

@@ -119,7 +119,7 @@ BALLAST_INLINE void make_principal_loop(Group* groups, GroupFrame* frames, int c
 /// problems/algebra/friction_cone.hpp).
 template <typename V>
 BALLAST_INLINE V natural_map_square(const FrictionGroup<double>& k, const GroupFrame& f, int lane,
-                                    const V* r, V* moved) {
+                                    const V* r, const V* moved) {
   const V zero = V::all(0.0), c1 = V::load(k.c1 + lane), c2 = V::load(k.c2 + lane),
           t = V::load(f.tangent + lane), over_t = V::load(f.inverse_tangent + lane),
           mu = V::load(f.mu + lane), lambda = V::load(f.lambda_max + lane);
@@ -146,36 +146,51 @@ BALLAST_INLINE V natural_map_square(const FrictionGroup<double>& k, const GroupF
 
 /// One row: n |y' - max(0, y' - u')|.
 template <typename V, typename Group>
-BALLAST_INLINE V natural_map_square(const Group& k, const GroupFrame& f, int lane, const V* r,
-                                    V* moved) {
-  if constexpr (requires { k.wall; }) moved[0] = moved[0] + V::load(k.wall + lane) * moved[1];
+BALLAST_INLINE V natural_map_square(const Group&, const GroupFrame& f, int lane, const V* r,
+                                    const V* moved) {
   const V candidate = r[0] - moved[0];
   const V e = (r[0] - select(less(candidate, V::all(0.0)), V::all(0.0), candidate)) *
               V::load(f.normal + lane);
   return select(less(V::all(0.0), V::load(f.lambda_max + lane)), e * e, V::all(0.0));
 }
 
-template <typename V, typename Group, typename Impulses>
+/// The contacts' velocities, a wall's part included.
+template <typename V, typename Group>
+BALLAST_INLINE void contact_velocities(const Group& k, int lane, const BodyRow<double>* bodies,
+                                       V* moved) {
+  V a[6], b[6];
+  gather_bodies(bodies, k.body[0] + lane, a);
+  gather_bodies(bodies, k.body[1] + lane, b);
+  for (int i = 0; i < Group::rows; ++i) moved[i] = velocity(k, i, lane, a, b);
+  if constexpr (requires { k.wall; })
+    moved[0] =
+        moved[0] + V::load(k.wall + lane) * V::all(*reinterpret_cast<const double*>(at_offset(
+                                                static_cast<const void*>(bodies), k.wall_body)));
+}
+
+template <typename V, typename Group, typename Impulses, typename Single>
 BALLAST_INLINE double error_loop(const Group* groups, const Impulses* impulses,
-                                 const GroupFrame* frames, int count,
-                                 const BodyRow<double>* bodies) {
+                                 const GroupFrame* frames, int count, const BodyRow<double>* bodies,
+                                 Single* single) {
   constexpr int rows = Group::rows;
   LaneSums<V> sums;
-  for (int g = 0; g < count; ++g)
+  for (int g = 0; g < count; ++g) {
+    const Group& k = groups[g];
+    alignas(64) double all_moved[rows][group_lanes];
     for (int lane = 0; lane < group_lanes; lane += V::width) {
-      const Group& k = groups[g];
-      V a[6], b[6], r[rows], moved[3];
-      gather_bodies(bodies, k.body[0] + lane, a);
-      gather_bodies(bodies, k.body[1] + lane, b);
+      V r[rows], moved[rows];
+      contact_velocities(k, lane, bodies, moved);
       for (int i = 0; i < rows; ++i) {
         r[i] = V::load(impulses[g].y[i] + lane);
-        moved[i] = velocity(k, i, lane, a, b);
+        moved[i].store(all_moved[i] + lane);
       }
-      if constexpr (requires { k.wall; })
-        moved[1] = V::all(*reinterpret_cast<const double*>(
-            at_offset(static_cast<const void*>(bodies), k.wall_body)));
       sums.add(lane, natural_map_square(k, frames[g], lane, r, moved));
     }
+    if (!single) continue;
+    for (int i = 0; i < rows; ++i)
+      for (int lane = 0; lane < group_lanes; ++lane)
+        single[g].bias[i][lane] = static_cast<float>(all_moved[i][lane]);
+  }
   return sums.total();
 }
 

@@ -31,22 +31,42 @@ struct GroupLoops {
 /// What is done in double alone.
 template <typename Group>
 struct ExactLoops : GroupLoops<Group> {
+  /// The same kind of group with numbers of 32 bits.
+  using Single = typename Group::template Of<float>;
+
   /// From rows and bias as given, and mu in the frames, to the group's coordinates.
   void (*make_principal)(Group* groups, GroupFrame* frames, int count);
-  /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2].
+  /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2]. The contacts'
+  /// velocities become the biases of `single`, where that is not null.
   double (*error)(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses,
-                  const GroupFrame* frames, int count, const BodyRow<double>* bodies);
+                  const GroupFrame* frames, int count, const BodyRow<double>* bodies,
+                  Single* single);
+};
+
+/// The bodies named take the step: p := beta p + gain (w - before), w += beta p (the old p), before
+/// := w.
+template <typename Number>
+using MoveBodies = void (*)(const int* named, int count, SearchStep step, BodyRow<Number>* w,
+                            BodyRow<Number>* before, BodyRow<Number>* direction);
+
+/// All loops of one kind of numbers.
+struct ExactKernels {
+  ExactLoops<FrictionGroup<double>> friction;
+  ExactLoops<OneRowGroup<double>> one_row;
+  ExactLoops<WallGroup<double>> wall;
+  MoveBodies<double> move_bodies;
+};
+struct SingleKernels {
+  GroupLoops<FrictionGroup<float>> friction;
+  GroupLoops<OneRowGroup<float>> one_row;
+  GroupLoops<WallGroup<float>> wall;
+  MoveBodies<float> move_bodies;
 };
 
 struct GroupKernels {
   const char* instruction_set;
-  ExactLoops<FrictionGroup<double>> friction;
-  ExactLoops<OneRowGroup<double>> one_row;
-  ExactLoops<WallGroup<double>> wall;
-  /// The bodies named take the step: p := beta p + gain (w - before), w += beta p (the old p),
-  /// before := w.
-  void (*move_bodies)(const int* named, int count, SearchStep step, BodyRow<double>* w,
-                      BodyRow<double>* before, BodyRow<double>* direction);
+  ExactKernels exact;
+  SingleKernels single;
 };
 
 /// Of the best instruction set that this processor has.

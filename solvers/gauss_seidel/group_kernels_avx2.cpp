@@ -6,6 +6,6 @@
 namespace ballast {
 
 extern const GroupKernels avx2_group_kernels;
-const GroupKernels avx2_group_kernels = kernels_of<Lanes4d, 4>("avx2");
+const GroupKernels avx2_group_kernels = kernels_of<Lanes4d, 4, Lanes8s, 2>("avx2");
 
 }  // namespace ballast

@@ -6,6 +6,6 @@
 namespace ballast {
 
 extern const GroupKernels avx512_group_kernels;
-const GroupKernels avx512_group_kernels = kernels_of<Lanes8d, 2>("avx512");
+const GroupKernels avx512_group_kernels = kernels_of<Lanes8d, 2, Lanes16s, 1>("avx512");
 
 }  // namespace ballast

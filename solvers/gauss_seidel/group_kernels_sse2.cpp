@@ -6,6 +6,6 @@
 namespace ballast {
 
 extern const GroupKernels sse2_group_kernels;
-const GroupKernels sse2_group_kernels = kernels_of<Lanes2d, 2>("sse2");
+const GroupKernels sse2_group_kernels = kernels_of<Lanes2d, 2, Lanes4s, 2>("sse2");
 
 }  // namespace ballast

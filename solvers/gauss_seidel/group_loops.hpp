@@ -236,22 +236,23 @@ BALLAST_INLINE void push_loop(const Group* groups, const Impulses* impulses, int
     }
 }
 
-/// Eight numbers a body.
-template <typename V>
+/// Plain loops of eight numbers: each compiler flag makes its own registers of them. V tells the
+/// instruction sets' functions apart.
+template <typename V, typename Number>
 BALLAST_INLINE void move_bodies_loop(const int* named, int count, SearchStep step,
-                                     BodyRow<typename V::Number>* w,
-                                     BodyRow<typename V::Number>* before,
-                                     BodyRow<typename V::Number>* direction) {
-  const V beta = V::all(step.beta), gain = V::all(step.gain);
-  for (int n = 0; n < count; ++n)
-    for (int i = 0; i < 8; i += V::width) {
-      const int b = named[n];
-      const V x = V::load(w[b].w + i), along = beta * V::load(direction[b].w + i);
-      (along + gain * (x - V::load(before[b].w + i))).store(direction[b].w + i);
-      const V moved = x + along;
-      moved.store(w[b].w + i);
-      moved.store(before[b].w + i);
+                                     BodyRow<Number>* w, BodyRow<Number>* before,
+                                     BodyRow<Number>* direction) {
+  const Number beta = static_cast<Number>(step.beta), gain = static_cast<Number>(step.gain);
+  for (int n = 0; n < count; ++n) {
+    const int b = named[n];
+    Number* __restrict x = w[b].w, * __restrict p = direction[b].w, * __restrict last = before[b].w;
+    for (int i = 0; i < 8; ++i) {
+      const Number along = beta * p[i], moved = x[i] + along;
+      p[i] = along + gain * (x[i] - last[i]);
+      x[i] = moved;
+      last[i] = moved;
     }
+  }
 }
 
 }  // namespace ballast

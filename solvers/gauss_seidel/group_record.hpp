@@ -36,17 +36,24 @@ struct alignas(64) RowGroup {
 
 template <typename Number>
 struct FrictionGroup : RowGroup<Number, 3> {
+  template <typename Other>
+  using Of = FrictionGroup<Other>;
   Number s2[group_lanes], inverse_s2[group_lanes], c1[group_lanes], c2[group_lanes],
       mu[group_lanes], inverse_mu[group_lanes];
 };
 
 template <typename Number>
-struct OneRowGroup : RowGroup<Number, 1> {};
+struct OneRowGroup : RowGroup<Number, 1> {
+  template <typename Other>
+  using Of = OneRowGroup<Other>;
+};
 
 /// Contacts of grains with one and the same body that has one unknown, the driven wall. Its side
 /// is a number a contact, and the lanes see its velocity one after the other.
 template <typename Number>
 struct WallGroup : RowGroup<Number, 1> {
+  template <typename Other>
+  using Of = WallGroup<Other>;
   Number wall[group_lanes];  ///< the row's entry for the wall's unknown L^T v
   int wall_body;             ///< distance of its velocity in bytes
 };

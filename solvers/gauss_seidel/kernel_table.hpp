@@ -22,30 +22,42 @@ struct LoopsOf {
   static void push(const Group* groups, const Impulses* impulses, int count, Body* bodies) {
     push_loop<V>(groups, impulses, count, bodies);
   }
+  static constexpr Loops loops() { return {sweep, search, push}; }
+};
+
+template <typename V, int K, typename Group>
+struct ExactLoopsOf : LoopsOf<V, K, Group> {
+  using Impulses = typename LoopsOf<V, K, Group>::Impulses;
+  using Single = typename ExactLoops<Group>::Single;
+
   static void make_principal(Group* groups, GroupFrame* frames, int count) {
     make_principal_loop<V>(groups, frames, count);
   }
   static double error(const Group* groups, const Impulses* impulses, const GroupFrame* frames,
-                      int count, const BodyRow<double>* bodies) {
-    return error_loop<V>(groups, impulses, frames, count, bodies);
+                      int count, const BodyRow<double>* bodies, Single* single) {
+    return error_loop<V>(groups, impulses, frames, count, bodies, single);
   }
   static constexpr ExactLoops<Group> exact() {
-    return {{sweep, search, push}, make_principal, error};
+    return {LoopsOf<V, K, Group>::loops(), make_principal, error};
   }
 };
 
 template <typename V>
-void move_bodies(const int* named, int count, SearchStep step, BodyRow<double>* w,
-                 BodyRow<double>* before, BodyRow<double>* direction) {
+void move_bodies(const int* named, int count, SearchStep step, BodyRow<typename V::Number>* w,
+                 BodyRow<typename V::Number>* before, BodyRow<typename V::Number>* direction) {
   move_bodies_loop<V>(named, count, step, w, before, direction);
 }
 
-/// K vectors of doubles are solved side by side.
-template <typename Doubles, int K>
+/// So many vectors of doubles, of singles are solved side by side.
+template <typename Doubles, int DoubleVectors, typename Singles, int SingleVectors>
 constexpr GroupKernels kernels_of(const char* instruction_set) {
-  return {instruction_set, LoopsOf<Doubles, K, FrictionGroup<double>>::exact(),
-          LoopsOf<Doubles, K, OneRowGroup<double>>::exact(),
-          LoopsOf<Doubles, K, WallGroup<double>>::exact(), move_bodies<Doubles>};
+  return {instruction_set,
+          {ExactLoopsOf<Doubles, DoubleVectors, FrictionGroup<double>>::exact(),
+           ExactLoopsOf<Doubles, DoubleVectors, OneRowGroup<double>>::exact(),
+           ExactLoopsOf<Doubles, DoubleVectors, WallGroup<double>>::exact(), move_bodies<Doubles>},
+          {LoopsOf<Singles, SingleVectors, FrictionGroup<float>>::loops(),
+           LoopsOf<Singles, SingleVectors, OneRowGroup<float>>::loops(),
+           LoopsOf<Singles, SingleVectors, WallGroup<float>>::loops(), move_bodies<Singles>}};
 }
 
 }  // namespace ballast

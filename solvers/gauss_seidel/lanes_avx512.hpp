@@ -102,4 +102,58 @@ BALLAST_INLINE Lanes16s halves_high(Lanes16s a, Lanes16s b) {
   return {(__m512)_mm512_unpackhi_pd((__m512d)a.x, (__m512d)b.x)};
 }
 
+// Sixteen bodies of eight singles: a row is a register's half, loaded and stored at once.
+
+/// Squares of four by four numbers transposed, in each sixteen bytes' place.
+BALLAST_INLINE void transpose_squares(const __m512 (&rows)[4], __m512 (&columns)[4]) {
+  const __m512d low01 = (__m512d)_mm512_unpacklo_ps(rows[0], rows[1]),
+                high01 = (__m512d)_mm512_unpackhi_ps(rows[0], rows[1]),
+                low23 = (__m512d)_mm512_unpacklo_ps(rows[2], rows[3]),
+                high23 = (__m512d)_mm512_unpackhi_ps(rows[2], rows[3]);
+  columns[0] = (__m512)_mm512_unpacklo_pd(low01, low23);
+  columns[1] = (__m512)_mm512_unpackhi_pd(low01, low23);
+  columns[2] = (__m512)_mm512_unpacklo_pd(high01, high23);
+  columns[3] = (__m512)_mm512_unpackhi_pd(high01, high23);
+}
+
+/// See gather_bodies in body_lanes.hpp.
+BALLAST_INLINE void gather_rows(const void* base, const int* at, Lanes16s* c) {
+  const auto row = [ base, at ](int lane) __attribute__((always_inline)) {
+    return _mm256_load_ps(reinterpret_cast<const float*>(at_offset(base, at[lane])));
+  };
+  __m512 rows[4], first[4], second[4];
+  for (int half = 0; half < 2; ++half) {
+    for (int k = 0; k < 4; ++k) {
+      const __m256 low = row(8 * half + k), high = row(8 * half + 4 + k);
+      rows[k] =
+          __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    }
+    transpose_squares(rows, half ? second : first);
+  }
+  for (int k = 0; k < 4; ++k) c[k].x = _mm512_shuffle_f32x4(first[k], second[k], 0x88);
+  for (int k = 0; k < 2; ++k) c[4 + k].x = _mm512_shuffle_f32x4(first[k], second[k], 0xdd);
+}
+
+BALLAST_INLINE void scatter_rows(void* base, const int* at, const Lanes16s* c) {
+  const __m512 zero = _mm512_setzero_ps();
+  const __m512 last[4] = {c[4].x, c[5].x, zero, zero};
+  // Sixteen bytes' places: components k of lanes 0-3, components 4 + k of lanes 0-3, then lanes
+  // 4-7.
+  const __m512i take[2] = {_mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0),
+                           _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4)};
+  for (int half = 0; half < 2; ++half) {
+    __m512 columns[4], rows[4];
+    for (int k = 0; k < 4; ++k)
+      columns[k] = (__m512)_mm512_permutex2var_pd((__m512d)c[k].x, take[half], (__m512d)last[k]);
+    transpose_squares(columns, rows);
+    for (int k = 0; k < 4; ++k) {
+      const auto put = [ base, at ](int lane, __m256 x) __attribute__((always_inline)) {
+        _mm256_store_ps(reinterpret_cast<float*>(at_offset(base, at[lane])), x);
+      };
+      put(8 * half + k, _mm512_castps512_ps256(rows[k]));
+      put(8 * half + 4 + k, (__m256)_mm512_extractf64x4_pd((__m512d)rows[k], 1));
+    }
+  }
+}
+
 }  // namespace ballast

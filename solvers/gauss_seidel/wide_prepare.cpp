@@ -39,10 +39,11 @@ double block_lambda_max(const FrictionGroup<double>& k, const GroupFrame& f, int
 bool WideSweep::prepare(const FrictionProblem& problem) {
   if (!sort_bodies(problem.dynamics) || !group_contacts(problem)) return false;
   factor_masses(problem.dynamics, roots_);
-  const bool made = make_records(problem, friction_, kernels_->friction) &&
-                    make_records(problem, one_row_, kernels_->one_row) &&
-                    make_records(problem, wall_, kernels_->wall);
+  const bool made = make_records(problem, exact_.friction, kernels_->exact.friction) &&
+                    make_records(problem, exact_.one_row, kernels_->exact.one_row) &&
+                    make_records(problem, exact_.wall, kernels_->exact.wall);
   if (made) free_bodies(problem.dynamics);
+  single_made_ = false;
   return made;
 }
 
@@ -63,7 +64,7 @@ bool WideSweep::sort_bodies(const DynamicsForm& dynamics) {
 /// not move, so that threads share no line.
 bool WideSweep::group_contacts(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
-  for_kinds([](auto& kind) {
+  exact_.for_kinds([](auto& kind) {
     kind.groups.clear();
     kind.frames.clear();
   });
@@ -83,10 +84,10 @@ bool WideSweep::group_contacts(const FrictionProblem& problem) {
     if (!group_part(problem, part, nowhere++, interiors_)) return false;
   for (const SweepPlan::Part& part : plan_.interfaces())
     if (!group_part(problem, part, nowhere++, interfaces_)) return false;
-  for_kinds([](auto& kind) { kind.impulses.resize(kind.groups.size()); });
-  const size_t groups = friction_.groups.size() + one_row_.groups.size();
+  exact_.for_kinds([](auto& kind) { kind.impulses.resize(kind.groups.size()); });
+  const size_t groups = exact_.friction.groups.size() + exact_.one_row.groups.size();
   size_t walls = 0;
-  for (const GroupFrame& f : wall_.frames)
+  for (const GroupFrame& f : exact_.wall.frames)
     walls += group_lanes - std::count(f.contact, f.contact + group_lanes, -1);
   return contacts_ - walls >= least_fill * group_lanes * groups;
 }
@@ -110,7 +111,7 @@ bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part
     if (wall_of(order[i]) >= 0) return false;
     chosen_.push_back(order[i]);
   }
-  made.friction = add_groups(friction_, nowhere);
+  made.friction = add_groups(exact_.friction, nowhere);
   // One row without a wall, then wall after wall.
   chosen_.clear();
   walls_.clear();
@@ -124,15 +125,15 @@ bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part
     else if (std::find(walls_.begin(), walls_.end(), wall) == walls_.end())
       walls_.push_back(wall);
   }
-  made.one_row = add_groups(one_row_, nowhere);
-  made.wall.begin = static_cast<int>(wall_.groups.size());
+  made.one_row = add_groups(exact_.one_row, nowhere);
+  made.wall.begin = static_cast<int>(exact_.wall.groups.size());
   for (const int wall : walls_) {
     chosen_.clear();
     for (int i = part.friction_end; i < part.end; ++i)
       if (moves(order[i]) && wall_of(order[i]) == wall) chosen_.push_back(order[i]);
-    const Range added = add_groups(wall_, nowhere);
+    const Range added = add_groups(exact_.wall, nowhere);
     for (int g = added.begin; g < added.begin + added.count; ++g)
-      wall_.groups[g].wall_body = wall * row_bytes;
+      exact_.wall.groups[g].wall_body = wall * row_bytes;
     made.wall.count += added.count;
   }
   parts.push_back(made);

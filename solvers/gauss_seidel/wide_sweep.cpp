@@ -5,15 +5,9 @@
 
 namespace ballast {
 
-template <typename Task>
-void WideSweep::for_parts(const Task& task) {
-  team_.run(static_cast<int>(interiors_.size()), [&](int part) { task(interiors_[part]); });
-  team_.run(static_cast<int>(interfaces_.size()), [&](int part) { task(interfaces_[part]); });
-}
-
 void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
   // To the groups' coordinates.
-  for_kinds([&](auto& kind) {
+  exact_.for_kinds([&](auto& kind) {
     for (size_t g = 0; g < kind.groups.size(); ++g) {
       kind.impulses[g] = {};
       const GroupFrame& f = kind.frames[g];
@@ -31,23 +25,29 @@ void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
       }
     }
   });
-  // The bodies start free, and every impulse pushes them once.
-  bodies_ = free_;
+  push_all();
+  in_single_ = false;
+  single_begins_ = single_allowed_;
+}
+
+/// The bodies start free, and every impulse pushes them once.
+void WideSweep::push_all() {
+  exact_.bodies = free_;
   for_parts([this](const Part& part) {
     const auto push = [this](const auto& kind, const auto& loops, Range range) {
       loops.push(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
-                 bodies_.data());
+                 exact_.bodies.data());
     };
-    push(friction_, kernels_->friction, part.friction);
-    push(one_row_, kernels_->one_row, part.one_row);
-    push(wall_, kernels_->wall, part.wall);
+    push(exact_.friction, kernels_->exact.friction, part.friction);
+    push(exact_.one_row, kernels_->exact.one_row, part.one_row);
+    push(exact_.wall, kernels_->exact.wall, part.wall);
   });
 }
 
 void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   // What nothing moves is in no group.
   r.setZero(problem.row_count());
-  for_kinds([&](const auto& kind) {
+  exact_.for_kinds([&](const auto& kind) {
     for (size_t g = 0; g < kind.groups.size(); ++g) {
       const GroupFrame& f = kind.frames[g];
       const auto& y = kind.impulses[g].y;
@@ -67,39 +67,49 @@ void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   });
 }
 
-void WideSweep::sweep() {
-  for_parts([this](const Part& part) {
-    const auto sweep = [this](auto& kind, const auto& loops, Range range) {
+template <typename Number, typename Kernels>
+void WideSweep::sweep_in(State<Number>& state, const Kernels& kernels) {
+  for_parts([&](const Part& part) {
+    const auto sweep = [&state](auto& kind, const auto& loops, Range range) {
       loops.sweep(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
-                  bodies_.data());
+                  state.bodies.data());
     };
-    sweep(friction_, kernels_->friction, part.friction);
-    sweep(one_row_, kernels_->one_row, part.one_row);
-    sweep(wall_, kernels_->wall, part.wall);
+    sweep(state.friction, kernels.friction, part.friction);
+    sweep(state.one_row, kernels.one_row, part.one_row);
+    sweep(state.wall, kernels.wall, part.wall);
   });
 }
 
-void WideSweep::start_search() {
-  for_kinds([](auto& kind) { kind.search.assign(kind.groups.size(), {}); });
-  before_ = bodies_;
-  direction_.assign(bodies_.size(), {});
+void WideSweep::sweep() {
+  if (single_begins_) enter_single();
+  in_single_ ? sweep_in(single_, kernels_->single) : sweep_in(exact_, kernels_->exact);
 }
 
-double WideSweep::sweep(SearchStep step) {
-  const auto sweep_part = [this, step](Part& part) {
-    const auto search = [this, step](auto& kind, const auto& loops, Range range) {
+template <typename Number>
+void WideSweep::start_search_in(State<Number>& state) {
+  state.for_kinds([](auto& kind) { kind.search.assign(kind.groups.size(), {}); });
+  state.before = state.bodies;
+  state.direction.assign(state.bodies.size(), {});
+}
+
+void WideSweep::start_search() { in_single_ ? start_search_in(single_) : start_search_in(exact_); }
+
+template <typename Number, typename Kernels>
+double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, SearchStep step) {
+  const auto sweep_part = [&state, &kernels, step](Part& part) {
+    const auto search = [&state, step](auto& kind, const auto& loops, Range range) {
       return loops.search(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
-                          kind.search.data() + range.begin, step, range.count, bodies_.data());
+                          kind.search.data() + range.begin, step, range.count, state.bodies.data());
     };
-    part.change_square = search(friction_, kernels_->friction, part.friction) +
-                         search(one_row_, kernels_->one_row, part.one_row) +
-                         search(wall_, kernels_->wall, part.wall);
+    part.change_square = search(state.friction, kernels.friction, part.friction) +
+                         search(state.one_row, kernels.one_row, part.one_row) +
+                         search(state.wall, kernels.wall, part.wall);
   };
   // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
   team_.run(static_cast<int>(interiors_.size()), [&](int slab) {
     const std::span<const int> bodies = plan_.bodies(slab);
-    kernels_->move_bodies(bodies.data(), static_cast<int>(bodies.size()), step, bodies_.data(),
-                          before_.data(), direction_.data());
+    kernels.move_bodies(bodies.data(), static_cast<int>(bodies.size()), step, state.bodies.data(),
+                        state.before.data(), state.direction.data());
     sweep_part(interiors_[slab]);
   });
   team_.run(static_cast<int>(interfaces_.size()), [&](int k) { sweep_part(interfaces_[k]); });
@@ -109,15 +119,31 @@ double WideSweep::sweep(SearchStep step) {
   return square;
 }
 
+double WideSweep::sweep(SearchStep step) {
+  if (single_begins_) enter_single();
+  return in_single_ ? sweep_in(single_, kernels_->single, step)
+                    : sweep_in(exact_, kernels_->exact, step);
+}
+
 double WideSweep::error() {
+  if (!in_single_) return error_in_double();
+  const double drift = refresh(), error = error_in_double();
+  if (!single_suffices(error, drift)) leave_single();
+  return error;
+}
+
+/// In single precision, the contacts' velocities become its biases.
+double WideSweep::error_in_double() {
   for_parts([this](Part& part) {
-    const auto error = [this](const auto& kind, const auto& loops, Range range) {
+    const auto error = [this](const auto& kind, auto& single, const auto& loops, Range range) {
       return loops.error(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
-                         kind.frames.data() + range.begin, range.count, bodies_.data());
+                         kind.frames.data() + range.begin, range.count, exact_.bodies.data(),
+                         in_single_ ? single.groups.data() + range.begin : nullptr);
     };
-    part.error_square = error(friction_, kernels_->friction, part.friction) +
-                        error(one_row_, kernels_->one_row, part.one_row) +
-                        error(wall_, kernels_->wall, part.wall);
+    part.error_square =
+        error(exact_.friction, single_.friction, kernels_->exact.friction, part.friction) +
+        error(exact_.one_row, single_.one_row, kernels_->exact.one_row, part.one_row) +
+        error(exact_.wall, single_.wall, kernels_->exact.wall, part.wall);
   });
   // The parts' sums, always in the same order.
   double sum = 0.0;
@@ -129,26 +155,26 @@ double WideSweep::error() {
 void WideSweep::save(Eigen::VectorXd& state) const {
   // Impulses kind by kind, then velocities: restore() reads the same order.
   Eigen::Index size = 0;
-  for_kinds([&](const auto& kind) {
+  exact_.for_kinds([&](const auto& kind) {
     for (const auto& k : kind.impulses) size += sizeof k.y / sizeof(double);
   });
-  state.resize(size + 8 * static_cast<Eigen::Index>(bodies_.size()));
+  state.resize(size + 8 * static_cast<Eigen::Index>(exact_.bodies.size()));
   double* x = state.data();
-  for_kinds([&](const auto& kind) {
+  exact_.for_kinds([&](const auto& kind) {
     for (const auto& k : kind.impulses) x = std::copy_n(k.y[0], sizeof k.y / sizeof(double), x);
   });
-  for (const BodyRow<double>& body : bodies_) x = std::copy_n(body.w, 8, x);
+  for (const BodyRow<double>& body : exact_.bodies) x = std::copy_n(body.w, 8, x);
 }
 
 void WideSweep::restore(const Eigen::VectorXd& state) {
   const double* x = state.data();
-  for_kinds([&](auto& kind) {
+  exact_.for_kinds([&](auto& kind) {
     for (auto& k : kind.impulses) {
       std::copy_n(x, sizeof k.y / sizeof(double), k.y[0]);
       x += sizeof k.y / sizeof(double);
     }
   });
-  for (BodyRow<double>& body : bodies_) {
+  for (BodyRow<double>& body : exact_.bodies) {
     std::copy_n(x, 8, body.w);
     x += 8;
   }
@@ -157,7 +183,7 @@ void WideSweep::restore(const Eigen::VectorXd& state) {
 /// In the groups' coordinates W's diagonal is (1, 1, s2).
 void WideSweep::impulse_weights(Eigen::VectorXd& weights) const {
   std::vector<double> roots;
-  for_kinds([&](const auto& kind) {
+  exact_.for_kinds([&](const auto& kind) {
     for (const auto& k : kind.groups) {
       roots.insert(roots.end(), std::min(k.rows, 2) * group_lanes, 1.0);
       if constexpr (requires { k.s2; })
@@ -176,9 +202,9 @@ std::vector<int> WideSweep::order() const {
   };
   for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
     for (const Part& part : *parts) {
-      add(friction_, part.friction);
-      add(one_row_, part.one_row);
-      add(wall_, part.wall);
+      add(exact_.friction, part.friction);
+      add(exact_.one_row, part.one_row);
+      add(exact_.wall, part.wall);
     }
   return contacts;
 }

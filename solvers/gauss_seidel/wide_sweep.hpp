@@ -37,18 +37,49 @@ class WideSweep {
   /// The contacts one after the other: a sweep in this order is the same.
   std::vector<int> order() const;
 
+  /// Whether sweeps from the next load() on are in single precision, until finish_in_double() or
+  /// until their rounding shows in the error. Loads, stores and errors are in double in any case.
+  void allow_single(bool allowed) { single_allowed_ = allowed; }
+  /// Where sweeps were in single precision: one more in double, and the next ones are too, to the
+  /// next load(). Says whether that was so. A search begins anew.
+  bool finish_in_double();
+  bool is_single() const { return in_single_; }
+
   /// For tests: another instruction set.
   void use_kernels(const GroupKernels& kernels) { kernels_ = &kernels; }
 
  private:
-  /// The groups of one kind, and the iterate that goes with them.
+  /// The groups of one kind, and their impulses.
   template <typename Group>
   struct Kind {
     using Loops = GroupLoops<Group>;
     std::vector<Group> groups;
-    std::vector<GroupFrame> frames;
+    std::vector<GroupFrame> frames;  ///< in double alone
     std::vector<typename Loops::Impulses> impulses;
     std::vector<typename Loops::Search> search;
+  };
+  /// All groups and the iterate, in double or single precision.
+  template <typename Number>
+  struct State {
+    Kind<FrictionGroup<Number>> friction;
+    Kind<OneRowGroup<Number>> one_row;
+    Kind<WallGroup<Number>> wall;
+    /// Bodies, then one row for each part of the plan that never moves.
+    std::vector<BodyRow<Number>> bodies, before, direction;
+
+    /// Calls task(kind) for the three kinds.
+    template <typename Task>
+    void for_kinds(const Task& task) {
+      task(friction);
+      task(one_row);
+      task(wall);
+    }
+    template <typename Task>
+    void for_kinds(const Task& task) const {
+      task(friction);
+      task(one_row);
+      task(wall);
+    }
   };
   struct Range {
     int begin = 0, count = 0;
@@ -74,20 +105,23 @@ class WideSweep {
   void free_bodies(const DynamicsForm& dynamics);
   /// Calls task(part) for the interiors, then for the interfaces; those of a kind at the same time.
   template <typename Task>
-  void for_parts(const Task& task);
-  /// Calls task(kind) for the three kinds.
-  template <typename Task>
-  void for_kinds(const Task& task) {
-    task(friction_);
-    task(one_row_);
-    task(wall_);
+  void for_parts(const Task& task) {
+    team_.run(static_cast<int>(interiors_.size()), [&](int part) { task(interiors_[part]); });
+    team_.run(static_cast<int>(interfaces_.size()), [&](int part) { task(interfaces_[part]); });
   }
-  template <typename Task>
-  void for_kinds(const Task& task) const {
-    task(friction_);
-    task(one_row_);
-    task(wall_);
-  }
+  void push_all();
+  template <typename Number, typename Kernels>
+  void sweep_in(State<Number>& state, const Kernels& kernels);
+  template <typename Number, typename Kernels>
+  double sweep_in(State<Number>& state, const Kernels& kernels, SearchStep step);
+  template <typename Number>
+  void start_search_in(State<Number>& state);
+
+  void enter_single();
+  double refresh();
+  double error_in_double();
+  bool single_suffices(double error, double drift) const;
+  void leave_single();
 
   const SweepPlan& plan_;
   WorkerTeam& team_;
@@ -99,12 +133,18 @@ class WideSweep {
   std::vector<int> chosen_, walls_, grain_a_, grain_b_;  ///< room for group_part()
   int contacts_ = 0;                                     ///< that something moves
 
-  Kind<FrictionGroup<double>> friction_;
-  Kind<OneRowGroup<double>> one_row_;
-  Kind<WallGroup<double>> wall_;
+  State<double> exact_;
+  std::vector<BodyRow<double>> free_;
   std::vector<Part> interiors_, interfaces_;
-  /// Bodies, then one row for each part of the plan that never moves.
-  std::vector<BodyRow<double>> free_, bodies_, before_, direction_;
+
+  // In single precision, bodies hold what has changed since the last look, and the velocities that
+  // the contacts had then are their biases: rounding is that of the change. See wide_single.cpp.
+  State<float> single_;
+  std::vector<BodyRow<double>> last_bodies_;  ///< exact_.bodies of the last look
+  bool single_made_ = false;                  ///< records cast since prepare()
+  bool single_allowed_ = false;               ///< from the next load() on
+  bool single_begins_ = false;                ///< at the next sweep
+  bool in_single_ = false;
 };
 
 }  // namespace ballast

@@ -39,6 +39,10 @@ class Iteration {
   /// Small enough to stop. A hair below the tolerance, because the judge sums in another order than
   /// a backend does.
   bool reached(double error) const { return error <= budget_.tolerance * (1.0 - margin); }
+  /// True: evaluated(error) will find a reason to stop, be it the number of iterations or the time.
+  bool ends_with(double error) const {
+    return reached(error) || count_ >= budget_.max_iterations || out_of_time_;
+  }
   /// Takes the scaled natural map (rms) of the current iterate `r`, records it, and decides. `r` is
   /// read where the budget asks for another measure.
   void evaluated(double error, const Impulses& r);

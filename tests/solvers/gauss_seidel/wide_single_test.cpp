@@ -1,0 +1,128 @@
+// Sweeps in single precision that are made good in double at every look.
+
+#include "problems/algebra/contact_error.hpp"
+#include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/backends/nncg.hpp"
+#include "solvers/gauss_seidel/wide_sweep.hpp"
+#include "tests/catch.hpp"
+#include "tests/solvers/gauss_seidel/grain_problem.hpp"
+
+using namespace ballast;
+using samples::grain_problem;
+
+namespace {
+
+struct Sweep {
+  SweepPlan plan;
+  WorkerTeam team;
+  WideSweep wide{plan, team};
+
+  Sweep(const FrictionProblem& problem, bool single,
+        const GroupKernels& kernels = group_kernels()) {
+    plan.prepare(problem);
+    wide.use_kernels(kernels);
+    REQUIRE(wide.prepare(problem));
+    wide.allow_single(single);
+    wide.load(problem, Impulses::Zero(problem.row_count()));
+  }
+};
+
+/// rms over rows of q [m/s]: what errors are small against.
+double velocity_scale(const FrictionProblem& problem) {
+  return contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
+}
+
+}  // namespace
+
+TEST_CASE("single: errors fall as in double, for mass ratios up to a million") {
+  for (const double mass_ratio : {1.0, 1e3, 1e6}) {
+    const FrictionProblem problem = grain_problem({.mass_ratio = mass_ratio, .seed = 6});
+    Sweep single(problem, true), exact(problem, false);
+    for (const int sweeps : {10, 20, 50, 100, 200}) {
+      for (int k = 0; k < sweeps; ++k) {
+        single.wide.sweep();
+        exact.wide.sweep();
+      }
+      const double found = single.wide.error(), expected = exact.wide.error();
+      INFO("mass ratio " << mass_ratio << ", sweeps " << sweeps);
+      CHECK(found == Approx(expected).epsilon(0.02));
+      Impulses r;
+      single.wide.store(problem, r);
+      CHECK(contact_error(problem, r).natural_map_rms == Approx(found).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("single: the same bits on every instruction set") {
+  const FrictionProblem problem = grain_problem({.seed = 9});
+  Impulses expected;
+  for (const GroupKernels* kernels : all_group_kernels()) {
+    Sweep single(problem, true, *kernels);
+    single.wide.start_search();
+    for (int k = 0; k < 20; ++k) {
+      single.wide.sweep(SearchStep{k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0});
+      if (k % 5 == 4) single.wide.error();
+    }
+    CHECK(single.wide.is_single());
+    single.wide.error();
+    Impulses r;
+    single.wide.store(problem, r);
+    if (expected.size() == 0) expected = r;
+    INFO(kernels->instruction_set);
+    CHECK(r == expected);
+  }
+}
+
+TEST_CASE("single: leaves by itself where its rounding would show") {
+  const FrictionProblem problem =
+      grain_problem({.grains = 600, .contacts = 300, .reach = 300, .seed = 4});  // few are joined
+  Sweep single(problem, true);
+  single.wide.sweep();
+  CHECK(single.wide.is_single());
+  double error = single.wide.error();
+  for (int look = 0; look < 40; ++look) {
+    if (single.wide.is_single()) CHECK(error > 1e-9 * velocity_scale(problem));
+    for (int k = 0; k < 20; ++k) single.wide.sweep();
+    error = single.wide.error();
+  }
+  CHECK_FALSE(single.wide.is_single());
+  CHECK(error < 1e-12 * velocity_scale(problem));
+}
+
+TEST_CASE("single: loaded impulses are stored as they were; the last sweep is in double") {
+  const FrictionProblem problem = grain_problem({.seed = 2});
+  Sweep single(problem, true), exact(problem, false);
+  const Impulses start = Impulses::Constant(problem.row_count(), 1.0 / 3e5);
+  Impulses r, expected;
+  for (Sweep* sweep : {&single, &exact}) sweep->wide.load(problem, start);
+  single.wide.store(problem, r);
+  exact.wide.store(problem, expected);
+  CHECK(r == expected);
+  CHECK_FALSE(single.wide.finish_in_double());  // no sweep yet
+  single.wide.load(problem, start);
+  for (int k = 0; k < 30; ++k) single.wide.sweep();
+  CHECK(single.wide.error() > 0.0);
+  CHECK(single.wide.finish_in_double());
+  CHECK_FALSE(single.wide.is_single());
+  single.wide.store(problem, r);
+  const ContactError error = contact_error(problem, r);
+  CHECK(error.cone_violation <= 1e-15 * r.norm());
+  CHECK(single.wide.error() == Approx(error.natural_map_rms).epsilon(1e-9));
+  single.wide.load(problem, start);
+  single.wide.sweep();
+  CHECK(single.wide.is_single());  // begins again
+}
+
+TEST_CASE("single: backends that use it converge far below its rounding") {
+  const FrictionProblem problem = grain_problem({.grains = 300, .contacts = 800, .seed = 7});
+  const double tolerance = 1e-10 * velocity_scale(problem);
+  for (const bool nncg : {false, true}) {
+    const std::unique_ptr<Solver> solver = nncg ? make_nncg() : make_gauss_seidel();
+    solver->prepare(problem);
+    const Solved solved =
+        solver->solve(problem, Impulses::Zero(problem.row_count()),
+                      {.tolerance = tolerance, .max_iterations = 100000, .max_seconds = 1e30});
+    CHECK(solved.reason == StopReason::reached_tolerance);
+    CHECK(contact_error(problem, solved.impulses).natural_map_rms <= tolerance);
+  }
+}
