@@ -54,9 +54,11 @@ void restore_bodies(const SideReader& side, const GlobalProblem& global, Dynamic
     side.fail(path_of("dof_begin") + " does not divide the unknowns of M into bodies of 1 to 6");
   };
   if (begin.empty() || begin.front() != 0 || begin.back() != global.m.rows()) bad();
+  // all of them before the first block is taken: rising as far as M's rows, they stay within M
+  for (std::size_t b = 0; b + 1 < begin.size(); ++b)
+    if (begin[b + 1] <= begin[b] || begin[b + 1] > begin[b] + 6) bad();
   for (std::size_t b = 0; b + 1 < begin.size(); ++b) {
     const int d = begin[b + 1] - begin[b];
-    if (d < 1 || d > 6) bad();
     const Eigen::MatrixXd block =
         Eigen::SparseMatrix<double>(global.m.block(begin[b], begin[b], d, d));
     dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + block.size());

@@ -146,6 +146,9 @@ TEST_CASE("what does not fit the problem is named") {
   CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 6, 12, 18}) == bodies);
   CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 7, 12, 18, 24}) == bodies);
   CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 6, 6, 12, 18, 24}) == bodies);
+  // beyond M and back; a difference that no int holds
+  CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 6, 12, 18, 24, 30, 24}) == bodies);
+  CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 6, -2147483647 - 1, 24}) == bodies);
   CHECK(broken("/ballast/rows", std::vector<int>{3, 2, 3, 3, 3, 3}) ==
         "/ballast/rows[1] is neither 1 nor 3");
   CHECK(broken("/ballast/body_a", std::vector<int>{9, 0, 0, 0, 0, 0}) ==
