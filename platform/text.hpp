@@ -31,6 +31,13 @@ std::string joined(const Words& words) {
   return list;
 }
 
+/// The name of an enumerator, where `names` has one for each in their order; else "unknown".
+template <class Enum, std::size_t count>
+const char* name_in(const char* const (&names)[count], Enum value) {
+  const auto place = static_cast<std::size_t>(value);
+  return place < count ? names[place] : "unknown";
+}
+
 /// What stands between the separators: one more than there are of them.
 std::vector<std::string> split(std::string_view text, char separator);
 

@@ -5,6 +5,7 @@
 
 #include "geometry/shape/random_direction.hpp"
 #include "platform/content_key.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_key.hpp"
 
 namespace ballast {
@@ -78,10 +79,7 @@ void drive_by(WallSpec& spec, double mass, const HarmonicLoad& load) {
 
 }  // namespace
 
-const char* name_of(BoxStage stage) {
-  constexpr const char* names[] = {"rain", "press", "settle", "drive"};
-  return names[static_cast<size_t>(stage)];
-}
+const char* name_of(BoxStage stage) { return name_in({"rain", "press", "settle", "drive"}, stage); }
 
 Rain make_rain(const Scene& scene) {
   const GrainsSpec& spec = *scene.grains;

@@ -1,6 +1,6 @@
 #include "problems/scene/scene_bodies.hpp"
 
-#include <algorithm>
+#include <map>
 #include <set>
 
 #include "geometry/shape/mesh_file.hpp"
@@ -92,18 +92,15 @@ double mass_of(TomlTable& table, BodyText& given, double volume, bool can_move) 
 }
 
 void set_locks(TomlTable& table, const std::vector<std::string>& locked, BodySpec& body) {
+  const std::map<std::string, bool BodySpec::*> locks{{"x", &BodySpec::free_x},
+                                                      {"y", &BodySpec::free_y},
+                                                      {"z", &BodySpec::free_z},
+                                                      {"rotation", &BodySpec::free_rotation}};
   for (const std::string& lock : locked) {
-    if (lock == "x")
-      body.free_x = false;
-    else if (lock == "y")
-      body.free_y = false;
-    else if (lock == "z")
-      body.free_z = false;
-    else if (lock == "rotation")
-      body.free_rotation = false;
-    else
+    if (!locks.contains(lock))
       table.fail("locked", "unknown word \"" + lock +
                                "\", expected a list of \"x\", \"y\", \"z\", \"rotation\"");
+    body.*locks.at(lock) = false;
   }
 }
 

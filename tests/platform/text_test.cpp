@@ -96,3 +96,9 @@ TEST_CASE("a slip of the finger is recognised, another word is not") {
   CHECK(did_you_mean("slove", words) == ", did you mean \"solve\"?");
   CHECK(did_you_mean("frobnicate", words).empty());
 }
+
+TEST_CASE("an enumerator's name stands at its place") {
+  enum class Fruit { apple, pear };
+  CHECK(name_in({"apple", "pear"}, Fruit::pear) == std::string("pear"));
+  CHECK(name_in({"apple", "pear"}, static_cast<Fruit>(2)) == std::string("unknown"));
+}
