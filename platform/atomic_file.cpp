@@ -164,4 +164,13 @@ void create_folder(const fs::path& folder) {
     throw Error(folder.string() + ": cannot make the folder: there is a file of that name");
 }
 
+void require_own_folder(const fs::path& folder, std::initializer_list<const char*> known) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error) || fs::is_empty(folder, error)) return;
+  for (const char* name : known)
+    if (fs::is_directory(folder / name, error)) return;
+  throw Error(folder.string() +
+              ": holds files that are no results of this kind: give a folder that is new or empty");
+}
+
 }  // namespace ballast

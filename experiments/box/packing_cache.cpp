@@ -1,7 +1,10 @@
 #include "experiments/box/packing_cache.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
+#include "experiments/box/rest_forecast.hpp"
 #include "experiments/record/progress.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
@@ -22,12 +25,16 @@ bool deposit_visibly(const Scene& scene, const Rain& rain, const fs::path& part,
                      const std::function<bool()>& goes_on, Packing& packing) {
   Progress progress;
   BoxStage last = BoxStage::rain;
+  RestForecast rest(scene.deposit.rest_velocity,
+                    std::sqrt(2.0 * rain.height / deposit_gravity(scene).norm()));
   const auto show = [&](BoxStage stage, double time, double velocity, const StepRecord& record) {
     if (stage != last) progress.restart();
     last = stage;
-    const double most[] = {scene.deposit.max_time, scene.deposit.lid_time,
-                           scene.deposit.settle_time};
-    progress.show(name_of(stage), time, most[static_cast<int>(stage)], record, velocity);
+    // The rain ends when it rests: its limit says nothing of when that is.
+    if (stage == BoxStage::rain) rest.note(time, velocity);
+    const double end[] = {std::min(rest.end(), scene.deposit.max_time), scene.deposit.lid_time,
+                          scene.deposit.settle_time};
+    progress.show(name_of(stage), time, end[static_cast<int>(stage)], record, velocity);
     return goes_on();
   };
   const bool is_done = deposit(scene, rain, part, show, packing);

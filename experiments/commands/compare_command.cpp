@@ -10,6 +10,7 @@
 #include "experiments/compare/live_page.hpp"
 #include "experiments/compare/reference_times.hpp"
 #include "experiments/run/manifest.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
@@ -94,6 +95,7 @@ ExitCode compare_live(const CompareRequest& options) {
 ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError("compare: expected cases, or --live SCENE");
+  require_own_folder(options.output, {"rows", "trajectories", "start"});
   restart_with_one_algebra_thread();
   options.comparison.folder = options.output;
   options.comparison.command = own_command();

@@ -1,8 +1,11 @@
-// One state of a run as a file for other programs.
+// States of a run as files for other programs.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 
 #include "experiments/commands/command.hpp"
 #include "experiments/export/state_export.hpp"
@@ -10,45 +13,92 @@
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
 struct ExportOptions {
   std::filesystem::path source, output;
-  std::string format_name = "obj";
-  ExportFormat format = ExportFormat::obj;
-  double time = std::numeric_limits<double>::quiet_NaN();
-  bool last = false;
+  std::optional<ExportFormat> format;  ///< without one the output's suffix says it
+  std::optional<double> time;          ///< [s]
+  bool last = false, all = false;
+  std::string format_word, time_word;
 };
 
-/// The stored frame nearest in time.
-void state_at(const std::filesystem::path& folder, double time, MotionState& state) {
-  const std::vector<PoseFrame> frames = read_poses(folder);
+std::optional<double> parsed_time(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  const std::optional<double> time = parsed_number(word);
+  if (!time || !std::isfinite(*time))
+    throw std::invalid_argument("'" + word + "' is no time: expected a finite number [s]");
+  return time;
+}
+
+std::optional<ExportFormat> parsed_format(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  return export_format(word);
+}
+
+MotionState state_of(const PoseFrame& frame) {
+  return {frame.time, frame.step, frame.pose, frame.velocity, frame.spin};
+}
+
+std::vector<PoseFrame> frames_of(const std::filesystem::path& folder) {
+  std::vector<PoseFrame> frames = read_poses(folder);
   if (frames.empty()) throw Error(folder.string() + ": no poses are stored there");
-  const PoseFrame* nearest = &frames.front();
-  for (const PoseFrame& frame : frames)
-    if (std::abs(frame.time - time) < std::abs(nearest->time - time)) nearest = &frame;
-  state = {nearest->time, nearest->step, nearest->pose, nearest->velocity, nearest->spin};
+  return frames;
+}
+
+/// The stored frame nearest in time.
+MotionState state_at(const std::filesystem::path& folder, double time) {
+  const std::vector<PoseFrame> frames = frames_of(folder);
+  return state_of(
+      *std::min_element(frames.begin(), frames.end(), [&](const PoseFrame& a, const PoseFrame& b) {
+        return std::abs(a.time - time) < std::abs(b.time - time);
+      }));
+}
+
+void require_bodies(const ExportOptions& options, const MechanicalSystem& system, size_t bodies) {
+  if (bodies != system.bodies.size())
+    throw Error(options.source.string() + ": holds " + std::to_string(bodies) +
+                " bodies, the scene beside it " + std::to_string(system.bodies.size()));
+}
+
+/// Every stored frame as a file of its own.
+ExitCode export_all(const ExportOptions& options, const MechanicalSystem& system,
+                    ExportFormat format) {
+  std::vector<MotionState> states;
+  for (const PoseFrame& frame : frames_of(options.source)) {
+    require_bodies(options, system, frame.pose.size());
+    states.push_back(state_of(frame));
+  }
+  export_series(system, states, format, options.output);
+  std::cout << series_file(options.output, states.front().step).string() << " to "
+            << series_file(options.output, states.back().step).filename().string() << ": "
+            << states.size() << " states from " << states.front().time << " s to "
+            << states.back().time << " s\n";
+  return ExitCode::ok;
 }
 
 ExitCode export_run(const ExportOptions& options) {
+  const ExportFormat format =
+      options.format ? *options.format : export_format_of_suffix(options.output);
   if (!std::filesystem::exists(options.source))
     throw Error(options.source.string() + ": no such run folder or checkpoint");
   const bool is_folder = std::filesystem::is_directory(options.source);
+  if (!is_folder && (options.time || options.all))
+    throw Error(options.source.string() + ": a checkpoint is one state: give the run's folder");
   const std::filesystem::path folder =
       is_folder ? options.source : std::filesystem::absolute(options.source).parent_path();
   MotionState state;
-  const MechanicalSystem system = system_of_run(folder, state);
-  if (!is_folder) {
+  const MechanicalSystem system = recorded_system(folder, state);
+  if (options.all) return export_all(options, system, format);
+  if (!is_folder)
     state = read_checkpoint(options.source).state;
-  } else if (!std::isnan(options.time)) {
-    state_at(folder, options.time, state);
-  }
-  if (state.pose.size() != system.bodies.size())
-    throw Error(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
-                " bodies, the scene beside it " + std::to_string(system.bodies.size()));
-  export_state(system, state, options.format, options.output);
+  else if (options.time)
+    state = state_at(folder, *options.time);
+  require_bodies(options, system, state.pose.size());
+  export_state(system, state, format, options.output);
   std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step
             << '\n';
   return ExitCode::ok;
@@ -59,15 +109,20 @@ ExitCode export_run(const ExportOptions& options) {
 Command export_command() {
   const auto options = std::make_shared<ExportOptions>();
   return {"export",
-          "Writes one state of a run for other programs",
+          "Writes one state of a run, or all, for other programs",
           {{"source", &options->source, "A run's folder, or a checkpoint in it", required},
-           {"--format", &options->format_name,
+           {"--format FORMAT", &options->format_word,
             "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two files for "
-            "other engines' benches",
-            shown, into(options->format, export_format)},
+            "other engines' benches (default: what the suffix .obj, .txt or .vtp says)",
+            into(options->format, parsed_format)},
            {"--output FILE", &options->output, "The file to write", required},
-           {"--time", &options->time, "The stored frame nearest to this time [s]"},
-           {"--last", &options->last, "The latest checkpoint (default)", excludes("--time")}},
+           {"--time S", &options->time_word, "The stored frame nearest to this time [s]",
+            into(options->time, parsed_time)},
+           {"--last", &options->last, "The latest checkpoint (default)", excludes("--time")},
+           {"--all", &options->all,
+            "Every stored frame: FILE with _<step> before its suffix; with vtp also FILE.pvd, "
+            "which ParaView opens as one series",
+            excludes("--time"), excludes("--last")}},
           [options] { return export_run(*options); }};
 }
 

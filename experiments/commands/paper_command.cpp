@@ -8,6 +8,7 @@
 #include "experiments/paper/paper_report.hpp"
 #include "experiments/paper/sections.hpp"
 #include "experiments/plans/plan_runner.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/text.hpp"
@@ -71,6 +72,7 @@ ExitCode reproduce(PaperOptions options) {
     print_plan(campaign, options.running.results);
     return ExitCode::ok;
   }
+  require_own_folder(options.running.results, {"runs", "packings", "report"});
   // "report" draws what is there; every other target makes its runs first
   ExitCode code = ExitCode::ok;
   if (options.target == "report")

@@ -9,6 +9,7 @@
 #include "experiments/plans/resolved_run.hpp"
 #include "experiments/plans/snakemake.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
@@ -55,11 +56,12 @@ ExitCode run_planned(PlanRequest options) {
   if (!options.snakemake.empty()) {
     write_snakemake({plan.name, select(plan, options.running.only)}, options.running.results,
                     own_program(), options.snakemake);
-    std::cout << "cd " << options.snakemake.string()
+    std::cout << "cd " << shell_word(fs::absolute(options.snakemake).string())
               << "\n  snakemake -s Snakefile --profile slurm   on a cluster with Slurm\n"
               << "  snakemake -s Snakefile --cores 4         on this machine" << std::endl;
     return ExitCode::ok;
   }
+  require_own_folder(options.running.results, {"runs", "packings"});
   return run_plan(plan, options.running);
 }
 

@@ -194,7 +194,11 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file)
       row.history.push_back(point);
     }
     return row;
-  } catch (const std::exception& error) {  // of JSON, or of a name
+  } catch (const Json::exception&) {
+    throw Error(file +
+                ": is no row of a comparison: a name or a bracket is missing, or a number is "
+                "no number");
+  } catch (const std::invalid_argument& error) {  // of a name
     throw Error(file + ": is no row of a comparison: " + error.what());
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <optional>
 
 #include "experiments/box/vibrated_box.hpp"
@@ -142,8 +143,14 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
   trajectory.tolerance = tolerance;
   trajectory.max_iterations = options.max_iterations;
   if (fs::exists(file)) {
-    read_trajectory(file, trajectory);
-    return trajectory;
+    const Trajectory fresh = trajectory;
+    try {
+      read_trajectory(file, trajectory);
+      return trajectory;
+    } catch (const Error& error) {
+      std::cerr << "ballast: " << error.what() << "; it is made again" << std::endl;
+      trajectory = fresh;
+    }
   }
   step_in_child(options, scene, start, solver, trajectory);
   // an interrupt reaches the child as well: what it left is no result

@@ -63,15 +63,10 @@ fs::path ParaviewSeries::frame_file(const Series& series, long step) const {
 void ParaviewSeries::write_collection(const Series& series) const {
   const fs::path target = folder_ / (std::string(series.name) + ".pvd");
   if (series.frames.empty() && !fs::exists(target)) return;
-  AtomicFile file(target);
-  file.write(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\">\n<Collection>\n");
+  std::vector<std::pair<double, std::string>> frames;
   for (const Frame& frame : series.frames)
-    file.print("<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s\"/>\n", frame.time,
-               frame_file(series, frame.step).filename().c_str());
-  file.write("</Collection>\n</VTKFile>\n");
-  file.commit();
+    frames.emplace_back(frame.time, frame_file(series, frame.step).filename().string());
+  write_pvd(target, frames);
 }
 
 void ParaviewSeries::add(const MotionState& state) {

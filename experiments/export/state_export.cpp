@@ -166,12 +166,39 @@ void export_engines(const MechanicalSystem& system, const MotionState& state,
 }  // namespace
 
 ExportFormat export_format(const std::string& name) {
-  std::string names;
+  std::vector<std::string> names;
   for (const auto& [known, format] : format_names) {
     if (name == known) return format;
-    add_to_list(names, known);
+    names.emplace_back(known);
   }
-  throw Error("no export format '" + name + "': there are " + names);
+  throw Error("no export format '" + name + "'" + did_you_mean(name, names) + ": there are " +
+              joined(names));
+}
+
+ExportFormat export_format_of_suffix(const fs::path& file) {
+  const std::string suffix = file.extension().string();
+  if (suffix == ".obj") return ExportFormat::obj;
+  if (suffix == ".txt") return ExportFormat::text;
+  if (suffix == ".vtp") return ExportFormat::vtp;
+  throw Error(file.string() + ": the suffix '" + suffix +
+              "' says no format: give .obj, .txt or .vtp, or --format");
+}
+
+fs::path series_file(const fs::path& file, long step) {
+  return file.parent_path() /
+         (file.stem().string() + printed("_%08ld", step) + file.extension().string());
+}
+
+void export_series(const MechanicalSystem& system, std::span<const MotionState> states,
+                   ExportFormat format, const fs::path& file) {
+  if (file.has_parent_path()) create_folder(file.parent_path());
+  std::vector<std::pair<double, std::string>> frames;
+  for (const MotionState& state : states) {
+    const fs::path frame = series_file(file, state.step);
+    export_state(system, state, format, frame);
+    frames.emplace_back(state.time, frame.filename().string());
+  }
+  if (format == ExportFormat::vtp) write_pvd(fs::path(file).replace_extension(".pvd"), frames);
 }
 
 void export_state(const MechanicalSystem& system, const MotionState& state, ExportFormat format,

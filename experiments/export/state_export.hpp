@@ -2,6 +2,7 @@
 // One state of a run as a file for other programs.
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "problems/mechanics/mechanical_system.hpp"
@@ -17,6 +18,16 @@ enum class ExportFormat { obj, text, vtp, engines };
 
 /// By its name ("obj", ...). Throws Error with the list of names.
 ExportFormat export_format(const std::string& name);
+
+/// What a file of this suffix is: .obj, .txt, .vtp. Throws Error for others: engines has none.
+ExportFormat export_format_of_suffix(const std::filesystem::path& file);
+
+/// Every state in a file of its own, series_file(file, step); with vtp also the .pvd that names
+/// them with their times. The folder is made. Throws Error.
+void export_series(const MechanicalSystem& system, std::span<const MotionState> states,
+                   ExportFormat format, const std::filesystem::path& file);
+/// "folder/name.vtp" of step 50: "folder/name_00000050.vtp".
+std::filesystem::path series_file(const std::filesystem::path& file, long step);
 
 /// Writes `file` beside and renames. Throws Error naming it.
 ///

@@ -140,6 +140,18 @@ void write_contacts_vtp(const std::filesystem::path& path, double time,
   close_piece(file, points, "Verts", connectivity, offsets);
 }
 
+void write_pvd(const std::filesystem::path& path,
+               std::span<const std::pair<double, std::string>> frames) {
+  AtomicFile file(path);
+  file.write(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n");
+  for (const auto& [time, name] : frames)
+    file.print("<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s\"/>\n", time, name.c_str());
+  file.write("</Collection>\n</VTKFile>\n");
+  file.commit();
+}
+
 double read_vtp_time(const std::filesystem::path& path) {
   const std::string text = read_whole_file(path);
   const size_t at = text.find(time_opening);

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "geometry/contact/contact_detector.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
@@ -21,6 +23,10 @@ void write_grains_vtp(const std::filesystem::path& file, const MechanicalSystem&
 void write_contacts_vtp(const std::filesystem::path& file, double time,
                         std::span<const ContactPoint> contacts, std::span<const Vec3> impulses,
                         double h);
+
+/// A .pvd: the files of a series, in the same folder, with their times [s].
+void write_pvd(const std::filesystem::path& file,
+               std::span<const std::pair<double, std::string>> frames);
 
 /// TimeValue of a file written by these functions [s]. Throws Error when it has none.
 double read_vtp_time(const std::filesystem::path& file);

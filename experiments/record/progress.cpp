@@ -57,7 +57,10 @@ std::string Progress::line(double now) const {
                fraction = total_ > 0.0 ? std::clamp(time_ / total_, 0.0, 1.0) : 0.0;
   std::string text = label_ + " ";
   if (line_.style() == Style::bar) text += bar_text(fraction);
-  text += printed("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time_, total_);
+  if (std::isnan(total_))
+    text += printed("  ? %%  %.4g s", time_);
+  else
+    text += printed("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time_, total_);
   if (time_ > first_time_ && time_ < total_)
     text += "  " + duration_text(elapsed * (total_ - time_) / (time_ - first_time_)) + " left";
   if (steps_ > 0) text += printed("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));

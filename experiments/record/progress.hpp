@@ -22,9 +22,10 @@ class Progress {
   /// `clock`: seconds from anywhere, increasing.
   Progress(Style style, std::ostream& out, std::function<double()> clock);
 
-  /// After each step: `time` of `total` [s] in the phase `label`. Steps are counted by the calls;
-  /// rate and time left are those since the first call. `rms_velocity` [m/s] is shown unless it is
-  /// NaN. Costs a clock reading unless it is time to write.
+  /// After each step: `time` of `total` [s], NaN where that is not known, in the phase `label`.
+  /// Steps are counted by the calls; rate and time left are those since the first call.
+  /// `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is time to
+  /// write.
   void show(std::string_view label, double time, double total, const StepRecord& record,
             double rms_velocity = std::numeric_limits<double>::quiet_NaN());
 

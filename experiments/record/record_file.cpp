@@ -4,6 +4,7 @@
 #include <map>
 
 #include "experiments/record/bits_generation.hpp"
+#include "experiments/record/force_log.hpp"
 #include "platform/error.hpp"
 #include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
@@ -52,7 +53,8 @@ void add_steps(Hdf5Writer& file, RowReader& rows) {
         columns[c].unit, columns[c].description);
 }
 
-void add_poses(Hdf5Writer& file, RowReader& rows, size_t bodies) {
+/// Returns the steps of the frames.
+std::vector<std::int64_t> add_poses(Hdf5Writer& file, RowReader& rows, size_t bodies) {
   file.add_group("poses");
   const auto frames = static_cast<size_t>(rows.safe_count());
   std::vector<Hdf5Id> datasets;
@@ -78,6 +80,7 @@ void add_poses(Hdf5Writer& file, RowReader& rows, size_t bodies) {
   add(file, "poses/time", times, {times.size()}, "s", "of the frame");
   file.add("poses/step", steps, {steps.size()});
   describe(file, "poses/step", "1", "steps done at the frame");
+  return steps;
 }
 
 void add_bodies(Hdf5Writer& file, const MechanicalSystem& system) {
@@ -180,15 +183,16 @@ PoseFrame unpack_pose_row(std::span<const double> row) {
 }
 
 void write_record_file(const std::filesystem::path& path, const MechanicalSystem& system,
-                       RowReader& steps, RowReader& poses, const std::string& scene_text,
-                       const std::string& manifest_text) {
+                       RowReader& steps, RowReader& poses, RowReader* forces,
+                       const std::string& scene_text, const std::string& manifest_text) {
   Hdf5Writer file(path, Hdf5Storage::compressed);
   file.add_attribute("/", "format", "ballast record 2");
   file.add_attribute("/", "bits_generation", std::to_string(bits_generation));
   file.add_attribute("/", "scene", scene_text);
   file.add_attribute("/", "manifest", manifest_text);
   add_steps(file, steps);
-  add_poses(file, poses, system.bodies.size());
+  const std::vector<std::int64_t> frame_steps = add_poses(file, poses, system.bodies.size());
+  if (forces) add_forces(file, *forces, frame_steps);
   add_bodies(file, system);
   add_shapes(file, system);
   file.commit();

@@ -16,6 +16,9 @@
 //                                     from outside
 //   /shapes/vertex_begin, triangle_begin   (shapes + 1): where shape k begins and ends
 //
+//   /contacts/...                     contact forces of the frames, where record.forces asks for
+//                                     them: see force_log.cpp
+//
 // Every dataset of numbers has the attributes unit and description.
 
 #include <filesystem>
@@ -36,10 +39,11 @@ size_t pose_row_size(size_t bodies);
 void pack_pose_row(const MotionState& state, std::vector<double>& row);
 PoseFrame unpack_pose_row(std::span<const double> row);
 
-/// Both logs are read from their first row; all their rows must be safe. Throws Error.
+/// The logs are read from their first row; all their rows must be safe. `forces`: null where none
+/// were asked for. Throws Error.
 void write_record_file(const std::filesystem::path& file, const MechanicalSystem& system,
-                       RowReader& steps, RowReader& poses, const std::string& scene_text,
-                       const std::string& manifest_text);
+                       RowReader& steps, RowReader& poses, RowReader* forces,
+                       const std::string& scene_text, const std::string& manifest_text);
 
 std::vector<StepRecord> read_record_steps(const std::filesystem::path& file);
 std::vector<PoseFrame> read_record_poses(const std::filesystem::path& file);

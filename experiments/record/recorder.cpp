@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "experiments/record/force_log.hpp"
 #include "experiments/record/record_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
@@ -18,6 +19,7 @@ namespace {
 // Where the logs and the records made of them are in a run's folder.
 fs::path steps_log(const fs::path& folder) { return folder / "log" / "steps.bin"; }
 fs::path poses_log(const fs::path& folder) { return folder / "log" / "poses.bin"; }
+fs::path forces_log(const fs::path& folder) { return folder / "log" / "forces.bin"; }
 fs::path record_file(const fs::path& folder) { return folder / "record.h5"; }
 fs::path steps_table(const fs::path& folder) { return folder / "steps.csv"; }
 
@@ -54,6 +56,11 @@ RowLogHeader poses_header(const MechanicalSystem& system) {
           system_key(system), pose_row_size(bodies)};
 }
 
+RowLogHeader forces_header(const MechanicalSystem& system) {
+  return {"forces: step time body_a body_b position normal gap force", system_key(system),
+          force_row_size};
+}
+
 /// Opens a log that is to be continued: of this system, with these columns.
 RowReader open_log(const fs::path& file, const RowLogHeader& expected) {
   RowReader reader(file);
@@ -74,8 +81,9 @@ RowWriter continue_steps(const fs::path& file, const RowLogHeader& header, long 
   return RowWriter(file, reader, last_step);
 }
 
-/// Keeps the frames up to the checkpoint: those after it will be made again.
-RowWriter continue_poses(const fs::path& file, const RowLogHeader& header, long last_step) {
+/// Keeps the rows up to the checkpoint, of frames or of their contacts: those after it will be made
+/// again.
+RowWriter continue_frames(const fs::path& file, const RowLogHeader& header, long last_step) {
   RowReader reader = open_log(file, header);
   long kept = 0;
   for (auto row = reader.next(); !row.empty() && row[0] <= static_cast<double>(last_step);
@@ -112,22 +120,27 @@ void remove_stale(const fs::path& file) {
 struct Recorder::Impl {
   fs::path folder;
   const MechanicalSystem& system;
-  std::optional<RowWriter> steps, poses;
+  std::optional<RowWriter> steps, poses, forces;
   std::vector<double> row;
 };
 
-Recorder::Recorder(const fs::path& folder, const MechanicalSystem& system, long last_step)
-    : impl_(new Impl{folder, system, {}, {}, {}}) {
+Recorder::Recorder(const fs::path& folder, const MechanicalSystem& system, long last_step,
+                   bool with_forces)
+    : impl_(new Impl{folder, system, {}, {}, {}, {}}) {
   create_folder(folder / "log");
   const RowLogHeader of_steps = steps_header(system), of_poses = poses_header(system);
   // a resumed run cuts its logs back to the checkpoint; a fresh one begins them anew
   if (last_step > 0) {
     impl_->steps.emplace(continue_steps(steps_log(folder), of_steps, last_step));
-    impl_->poses.emplace(continue_poses(poses_log(folder), of_poses, last_step));
+    impl_->poses.emplace(continue_frames(poses_log(folder), of_poses, last_step));
   } else {
     impl_->steps.emplace(steps_log(folder), of_steps);
     impl_->poses.emplace(poses_log(folder), of_poses);
   }
+  if (with_forces && last_step > 0)
+    impl_->forces.emplace(continue_frames(forces_log(folder), forces_header(system), last_step));
+  else if (with_forces)
+    impl_->forces.emplace(forces_log(folder), forces_header(system));
   remove_stale(record_file(folder));
   remove_stale(steps_table(folder));
 }
@@ -145,9 +158,19 @@ void Recorder::add_poses(const MotionState& state) {
   impl_->poses->append(impl_->row);
 }
 
+void Recorder::add_forces(const MotionState& state, const StepMemory& memory, double h) {
+  // What is there before the first step belongs to no step of this run.
+  if (!impl_->forces || state.step == 0) return;
+  for (size_t c = 0; c < memory.contacts.size(); ++c) {
+    pack_force_row(state, memory.contacts[c], memory.impulses[c], h, impl_->row);
+    impl_->forces->append(impl_->row);
+  }
+}
+
 void Recorder::flush() {
   impl_->steps->flush();
   impl_->poses->flush();
+  if (impl_->forces) impl_->forces->flush();
 }
 
 void Recorder::finish(const std::string& scene_text, const std::string& manifest_text) {
@@ -155,7 +178,10 @@ void Recorder::finish(const std::string& scene_text, const std::string& manifest
   const fs::path& folder = impl_->folder;
   RowReader steps(steps_log(folder)), poses(poses_log(folder));
   write_table(steps_table(folder), steps);
-  write_record_file(record_file(folder), impl_->system, steps, poses, scene_text, manifest_text);
+  std::optional<RowReader> forces;
+  if (impl_->forces) forces.emplace(forces_log(folder));
+  write_record_file(record_file(folder), impl_->system, steps, poses, forces ? &*forces : nullptr,
+                    scene_text, manifest_text);
 }
 
 std::vector<StepRecord> read_steps(const fs::path& folder) {
@@ -178,6 +204,10 @@ std::vector<PoseFrame> read_poses(const fs::path& folder) {
   for (auto row = rows.next(); !row.empty(); row = rows.next())
     frames.push_back(unpack_pose_row(row));
   return frames;
+}
+
+void require_same_bodies(const fs::path& folder, const MechanicalSystem& system) {
+  if (fs::exists(steps_log(folder))) open_log(steps_log(folder), steps_header(system));
 }
 
 }  // namespace ballast

@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "experiments/record/pose_frame.hpp"
+#include "experiments/step/step_memory.hpp"
 #include "experiments/step/step_record.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 
-/// Rows are appended to log/steps.bin (fixed size, one per step) and log/poses.bin (fixed size, one
-/// per stored frame), so that a killed run loses at most what came after its last checkpoint, and a
-/// resumed one cuts both back to it.
+/// Rows are appended to log/steps.bin (fixed size, one per step), log/poses.bin (fixed size, one
+/// per stored frame) and, if asked for, log/forces.bin (one per contact of a stored frame), so that
+/// a killed run loses at most what came after its last checkpoint, and a resumed one cuts both back
+/// to it.
 class Recorder {
  public:
   /// Opens or creates the logs in `folder`. Rows with step > `last_step` are cut off (0: start
@@ -22,12 +24,16 @@ class Recorder {
   /// record.h5 of before are removed: they would not be this run's. `system` must outlive the
   /// recorder. Throws Error naming the file: unwritable, shorter than last_step says, damaged, of
   /// another system or other columns.
-  Recorder(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step);
+  Recorder(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step,
+           bool with_forces = false);
   ~Recorder();
 
   /// One call per step: row k is step k + 1.
   void add_step(const StepRecord& row);
   void add_poses(const MotionState& state);
+  /// The contacts of the frame that was added last, with the impulses of its step [N s], which is
+  /// `h` long [s]. Nothing where forces are not asked for.
+  void add_forces(const MotionState& state, const StepMemory& memory, double h);
   /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws
   /// Error, for instance on a full disk.
   void flush();
@@ -44,5 +50,9 @@ class Recorder {
 /// going. Throws Error.
 std::vector<StepRecord> read_steps(const std::filesystem::path& folder);
 std::vector<PoseFrame> read_poses(const std::filesystem::path& folder);
+
+/// Throws Error where the folder's log was begun with other bodies than these: a mesh file that the
+/// scene names has changed meanwhile. Without a log there is nothing to compare.
+void require_same_bodies(const std::filesystem::path& folder, const MechanicalSystem& system);
 
 }  // namespace ballast

@@ -33,7 +33,7 @@ class Drive {
         h_(settings.h),
         run_(run),
         stepper_(run.system, settings, run.driven_wall),
-        recorder_(order.folder.path(), run.system, run.state.step),
+        recorder_(order.folder.path(), run.system, run.state.step, scene_.record.forces),
         pose_every_(steps_between(scene_.record.pose_rate, h_)),
         state_every_(steps_between(scene_.record.state_rate, h_)) {
     if (scene_.record.paraview) paraview_.emplace(order.folder.path(), run.system, run.state.step);
@@ -96,6 +96,7 @@ class Drive {
 
   void store_poses() {
     recorder_.add_poses(run_.state);
+    recorder_.add_forces(run_.state, run_.memory, h_);
     if (paraview_) paraview_->add(run_.state, run_.memory.contacts, run_.memory.impulses, h_);
   }
 

@@ -88,8 +88,9 @@ Manifest Manifest::read(const std::filesystem::path& file) {
   Json json;
   try {
     json = Json::parse(read_whole_file(file));
-  } catch (const Json::exception& error) {
-    throw Error(file.string() + ": is no JSON: " + error.what());
+  } catch (const Json::parse_error& error) {
+    throw Error(file.string() + ": is no JSON: it cannot be read on from byte " +
+                std::to_string(error.byte));
   }
   // only what is read below is looked at: later programs may note more
   const auto has = [&](const char* name, Json::value_t type) {

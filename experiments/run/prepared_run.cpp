@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/record/record_system.hpp"
+#include "experiments/record/recorder.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
+#include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
 namespace {
@@ -61,10 +64,11 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
 MechanicalSystem system_of_run(const std::filesystem::path& path, MotionState& state) {
   const RunFolder folder(path);
   if (!folder.has_run()) throw Error(path.string() + ": no run here: scene.toml is missing");
-  const Scene scene = read_scene(folder.scene());
   const bool started = std::filesystem::exists(folder.checkpoint());
+  const Scene scene = read_scene(folder.scene());
   if (!scene.grains) {
     MechanicalSystem system = make_system(scene, state);
+    require_same_bodies(path, system);
     if (started) state = read_checkpoint(folder.checkpoint()).state;
     return system;
   }
@@ -72,8 +76,22 @@ MechanicalSystem system_of_run(const std::filesystem::path& path, MotionState& s
   state = read_checkpoint(folder.checkpoint()).state;
   // the lid stands where the packing has put it; it does not move in a drive
   const Rain rain = make_rain(scene);
-  return box_system(scene, rain, BoxStage::drive,
-                    state.pose[rain.grains.size() + wall_lid].position.z());
+  MechanicalSystem system = box_system(scene, rain, BoxStage::drive,
+                                       state.pose[rain.grains.size() + wall_lid].position.z());
+  require_same_bodies(path, system);
+  return system;
+}
+
+MechanicalSystem recorded_system(const std::filesystem::path& path, MotionState& state) {
+  const RunFolder folder(path);
+  const std::filesystem::path record = path / "record.h5";
+  if (!folder.has_run() || !std::filesystem::exists(record)) return system_of_run(path, state);
+  MechanicalSystem system = read_record_system(record);
+  const toml::table scene = load_toml(folder.scene(), {});
+  system.friction = scene["contact"]["friction"].value_or(0.0);
+  if (std::filesystem::exists(folder.checkpoint()))
+    state = read_checkpoint(folder.checkpoint()).state;
+  return system;
 }
 
 }  // namespace ballast

@@ -26,7 +26,12 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
                  PreparedRun& run);
 
 /// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest
-/// checkpointed state. Throws Error.
+/// checkpointed state. Throws Error, also where a mesh is not the one any more that the run began
+/// with.
 MechanicalSystem system_of_run(const std::filesystem::path& folder, MotionState& state);
+
+/// The same for looking at, not for stepping: bodies, walls and shapes come from record.h5 where
+/// there is one, whatever has become of the scene's files. How walls move is not in it.
+MechanicalSystem recorded_system(const std::filesystem::path& folder, MotionState& state);
 
 }  // namespace ballast

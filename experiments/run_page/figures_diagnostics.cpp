@@ -23,7 +23,8 @@ page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   panel.curves = {
       column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
       column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
-  if (is_relative)
+  const bool has_bounds = *summary.facts.has_packing;  // they are the vibrated box's
+  if (is_relative && has_bounds)
     panel.lines = {{target::error_mean, "10^{−3}: bound on the mean", false, Ink::grey},
                    {target::error_max, "10^{−2}: bound on every step", false, Ink::grey}};
   page::Text caption = page::words("run.error");
@@ -40,8 +41,10 @@ page::Picture penetration_figure(const RunData& data, const RunSummary& summary)
       column_line(data, &StepRecord::penetration_max, 1e6, "deepest", Ink::vermilion, 1.4),
       column_line(data, &StepRecord::penetration_mean, 1e6, "mean over active contact points",
                   Ink::blue, 1.4)};
-  panel.lines = {{1e6 * target::penetration_max, "250 µm: bound on the deepest", false, Ink::grey},
-                 {1e6 * target::penetration_mean, "5 µm: bound on the mean", false, Ink::grey}};
+  if (*summary.facts.has_packing)
+    panel.lines = {
+        {1e6 * target::penetration_max, "250 µm: bound on the deepest", false, Ink::grey},
+        {1e6 * target::penetration_mean, "5 µm: bound on the mean", false, Ink::grey}};
   // the axis ends at the decade below nearly all means
   std::vector<double> means = panel.curves[1].y;
   std::erase_if(means, [](double value) { return !(value > 0.0); });

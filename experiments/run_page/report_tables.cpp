@@ -21,8 +21,9 @@ class Results {
     row(page::marked(what), std::move(value), {}, std::move(remark));
   }
 
-  page::Table table() {
-    table_.head = {"", "this run", "asked, or paper", ""};
+  /// `has_bounds`: of the vibrated box, for which bounds and the paper's values are known.
+  page::Table table(bool has_bounds) {
+    table_.head = {"", "this run", has_bounds ? "asked, or paper" : "", ""};
     table_.is_number = {false, true, true, false};
     return std::move(table_);
   }
@@ -44,25 +45,34 @@ page::Text range_of(const Statistics& values, double factor, const char* unit) {
 }
 
 void add_accuracy(const RunSummary& summary, Results& results) {
+  // The bounds are those of the vibrated box: its grains' size, its drive.
+  const bool has_bounds = *summary.facts.has_packing;
+  const auto bounded = [&](const char* what, double value, double bound, const char* unit,
+                           double factor) {
+    if (has_bounds)
+      results.bounded(what, value, bound, unit, factor);
+    else
+      results.plain(what, page::quantity(factor * value, unit));
+  };
   results.group("Contact law");
   if (std::isfinite(summary.facts.velocity_scale)) {
-    results.bounded("error, rms over contacts, over *gh*: mean of the steps",
-                    summary.error_mean_relative, target::error_mean);
-    results.bounded("the same: worst step", summary.error_max_relative, target::error_max);
+    bounded("error, rms over contacts, over *gh*: mean of the steps", summary.error_mean_relative,
+            target::error_mean, "", 1.0);
+    bounded("the same: worst step", summary.error_max_relative, target::error_max, "", 1.0);
     results.plain("worst contact of all steps, over *gh*",
                   page::number(summary.error_worst_contact));
-    results.plain("steps with an error above 10^−3^ *gh*",
-                  page::quantity(100.0 * summary.above_target, "%"));
+    if (has_bounds)
+      results.plain("steps with an error above 10^−3^ *gh*",
+                    page::quantity(100.0 * summary.above_target, "%"));
   } else {
     results.plain("error, rms over contacts: mean of the steps",
                   page::quantity(summary.error_rms.mean, "m/s"));
     results.plain("the same: worst step", page::quantity(summary.error_rms.max, "m/s"));
   }
   results.group("Overlap");
-  results.bounded("deepest of all steps", summary.penetration_max, target::penetration_max, "µm",
-                  1e6);
-  results.bounded("mean over active contact points and steps", summary.penetration_mean,
-                  target::penetration_mean, "µm", 1e6);
+  bounded("deepest of all steps", summary.penetration_max, target::penetration_max, "µm", 1e6);
+  bounded("mean over active contact points and steps", summary.penetration_mean,
+          target::penetration_mean, "µm", 1e6);
   results.group("Energy");
   results.plain("|Δ*K* − works + dissipation| over absolute work",
                 page::number(summary.energy.relative));
@@ -128,7 +138,7 @@ page::Table results_table(const RunSummary& summary) {
   results.plain("contact points per step: mean, most",
                 page::number(summary.contacts.mean, 4) + ", " + page::exact(summary.contacts.max));
   results.plain("wall clock per step", page::quantity(summary.ms_per_step, "ms"));
-  return results.table();
+  return results.table(*summary.facts.has_packing);
 }
 
 page::Table periods_table(const RunSummary& summary) {

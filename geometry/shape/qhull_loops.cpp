@@ -28,11 +28,6 @@ class Messages {
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;
   FILE* file() { return file_; }
-  std::string first_line() {
-    std::fflush(file_);
-    const std::string all(text_, length_);
-    return all.substr(0, all.find('\n', all.find_first_not_of('\n')));
-  }
 
  private:
   char* text_ = nullptr;
@@ -52,9 +47,9 @@ class QhullRun {
         qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False,
                      text.data(), nullptr, messages_.file());
     if (code != qh_ERRnone) {
-      const std::string reason = messages_.first_line();
       release();
-      throw InvalidPolyhedron(reason);
+      // What qhull says is written for its own users.
+      throw InvalidPolyhedron("their hull is thinner than its numbers are exact");
     }
   }
   ~QhullRun() { release(); }

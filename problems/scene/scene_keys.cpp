@@ -94,6 +94,10 @@ const SceneKeys<RecordSpec> record_keys{
     {"checkpoint_seconds", number(&RecordSpec::checkpoint_seconds, positive, "s"),
      "wall clock between checkpoints"},
     {"paraview", flag(&RecordSpec::paraview), "`.vtp` and `.pvd` beside the record"},
+    {"forces", flag(&RecordSpec::forces),
+     "the contacts of every stored frame, with their forces, in `record.h5`: several times as "
+     "much as the poses",
+     Presence::only_where_given},
 };
 
 const SceneKeys<GrainsText> grains_keys{

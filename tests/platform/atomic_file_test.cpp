@@ -177,3 +177,20 @@ TEST_CASE("a pipe or a device is not read: it could be without end") {
   CHECK(complaint([&] { read_whole_file("/dev/zero"); }) ==
         "/dev/zero: cannot read: it is a device, not a regular file");
 }
+
+TEST_CASE("results go into a folder that is new, empty, or has such results") {
+  const TemporaryFolder folder;
+  const fs::path results = folder.path() / "results";
+  const auto said = [&] {
+    return complaint([&] { require_own_folder(results, {"rows", "runs"}); });
+  };
+  CHECK(said() == "no error");
+  fs::create_directory(results);
+  CHECK(said() == "no error");
+  write_whole_file(results / "notes.txt", "the user's own");
+  CHECK_THAT(said(), Catch::StartsWith(results.string() + ": holds files"));
+  write_whole_file(results / "rows", "no folder");
+  CHECK_THAT(said(), Catch::StartsWith(results.string() + ": holds files"));
+  fs::create_directory(results / "runs");
+  CHECK(said() == "no error");
+}

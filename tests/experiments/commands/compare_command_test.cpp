@@ -48,3 +48,31 @@ TEST_CASE("a comparison that cannot be had is one line") {
   check_failure(ballast_program({"compare", "known:", "--live", "zeno_ball"}), ExitCode::usage,
                 {"--live"});
 }
+
+TEST_CASE("a damaged row is made again, and a folder of somebody's is left alone") {
+  const TemporaryFolder folder;
+  const std::filesystem::path output = folder.path() / "compared";
+  const std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
+                                          "--solvers",    "pgs",
+                                          "--tolerances", "1e-2",
+                                          "--memory",     "0",
+                                          "--output",     output.string()};
+  REQUIRE(ballast_program(words).status == 0);
+  const auto row = std::filesystem::directory_iterator(output / "rows")->path();
+  const std::string whole = read_whole_file(row);
+  for (const std::string& damaged :
+       {whole.substr(0, whole.size() / 2), std::string(), std::string("[1]")}) {
+    write_whole_file(row, damaged);
+    const ProgramResult again = ballast_program(words);
+    CHECK(again.status == 0);
+    CHECK_THAT(again.output, !Catch::Contains("was there"));
+    CHECK_THAT(ballast_program(words).output, Catch::Contains("was there"));
+  }
+  const std::filesystem::path theirs = folder.path() / "theirs";
+  create_folder(theirs);
+  write_whole_file(theirs / "results.csv", "the user's own");
+  std::vector<std::string> elsewhere = words;
+  elsewhere.back() = theirs.string();
+  check_failure(ballast_program(elsewhere), ExitCode::failure, {theirs.string(), "holds files"});
+  CHECK(read_whole_file(theirs / "results.csv") == "the user's own");
+}

@@ -149,3 +149,32 @@ TEST_CASE("a file that cannot be written is an error that names it") {
                Contains(nowhere.string()));
   }
 }
+
+TEST_CASE("a suffix says the format, and a slip of the finger is recognised") {
+  CHECK(export_format_of_suffix("a/b.obj") == ExportFormat::obj);
+  CHECK(export_format_of_suffix("b.vtp") == ExportFormat::vtp);
+  CHECK(export_format_of_suffix("b.txt") == ExportFormat::text);
+  for (const char* name : {"b", "b.png", "obj"})
+    CHECK_THAT(run_error([&] { export_format_of_suffix(name); }), Contains("says no format"));
+  CHECK_THAT(run_error([] { export_format("vpt"); }), Contains("did you mean \"vtp\"?"));
+}
+
+TEST_CASE("a whole series: a file for each state, and for ParaView a list with their times") {
+  const TemporaryFolder folder;
+  const MechanicalSystem system = sample_system();
+  const std::vector<MotionState> states{sample_state(system, 0), sample_state(system, 50)};
+  const fs::path series = folder.path() / "series";
+  export_series(system, states, ExportFormat::vtp, series / "grains.vtp");
+  for (const MotionState& state : states) {
+    const fs::path alone = folder.path() / "alone.vtp";
+    export_state(system, state, ExportFormat::vtp, alone);
+    CHECK((file_bytes(series_file(series / "grains.vtp", state.step)) == file_bytes(alone)));
+  }
+  CHECK(series_file("a/grains.vtp", 50) == fs::path("a/grains_00000050.vtp"));
+  const std::string list = file_bytes(series / "grains.pvd");
+  CHECK_THAT(list, Contains("timestep=\"0\" part=\"0\" file=\"grains_00000000.vtp\"") &&
+                       Contains("file=\"grains_00000050.vtp\""));
+  export_series(system, states, ExportFormat::text, series / "state.txt");
+  CHECK(fs::exists(series / "state_00000050.txt"));
+  CHECK_FALSE(fs::exists(series / "state.pvd"));
+}

@@ -1,5 +1,6 @@
 #include "experiments/record/progress.hpp"
 
+#include <cmath>
 #include <sstream>
 
 #include "tests/catch.hpp"
@@ -89,4 +90,14 @@ TEST_CASE("phases, resumed runs and silence") {
   }
   CHECK_THAT(out.str(), Contains("drive ") && Contains("39 s left") && Contains("1000.0 ms/step") &&
                             !Contains("rms"));
+}
+
+TEST_CASE("where the end is not known, neither part nor time left is made up") {
+  std::ostringstream out;
+  Progress progress(Progress::Style::lines, out, [] { return 0.0; });
+  StepRecord record;
+  for (int step = 1; step < 10; ++step)
+    progress.show("rain", 1e-3 * step, std::nan(""), record, 0.5);
+  progress.finish();
+  CHECK_THAT(out.str(), Contains("rain   ? %  0.009 s") && !Contains("left") && !Contains("nan"));
 }

@@ -1,0 +1,29 @@
+#pragma once
+// The contact forces of stored frames: a log while a run lives, the group /contacts of record.h5
+// when it ends. Only where the scene asks for them (record.forces): they are several times as much
+// as the poses.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "experiments/step/step_memory.hpp"
+#include "platform/hdf5_writer.hpp"
+#include "platform/row_log.hpp"
+#include "problems/mechanics/mechanical_system.hpp"
+
+namespace ballast {
+
+/// One contact of one frame as a row of the log: step, time, bodies a and b, position, normal, gap,
+/// force on b.
+inline constexpr size_t force_row_size = 14;
+
+/// `h`: the step's length, by which an impulse is a force [s].
+void pack_force_row(const MotionState& state, const ContactPoint& contact, const Vec3& impulse,
+                    double h, std::vector<double>& row);
+
+/// The group /contacts: the rows of the log frame by frame. `frame_steps`: the steps of the stored
+/// frames in their order; a frame may have no contact. Throws Error.
+void add_forces(Hdf5Writer& file, RowReader& rows, std::span<const std::int64_t> frame_steps);
+
+}  // namespace ballast

@@ -1,0 +1,141 @@
+#!/usr/bin/env bash
+# Kills the program with -9 at random moments of what it can be doing - run, deposit, plan, compare,
+# paper - and lets it go on, again and again, until each ends. What it leaves must have the bits of
+# an undisturbed one.
+#
+#   scripts/kill_harness.sh [--kills N] [--seed S] [--only "run compare"] [--ballast PROGRAM]
+#                           [--report FILE]
+#
+# N kills in all (100), shared among the activities. Prints a report (Markdown), and writes it to
+# FILE. Exit code 1 when anything differs, or when the program ends in another way than by success.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+kills=100 seed=1 only="run deposit plan compare paper" report=
+ballast=$root/build/default/bin/ballast
+while [ $# -gt 0 ]; do
+  case $1 in
+    --kills) kills=$2 ;;
+    --seed) seed=$2 ;;
+    --only) only=$2 ;;
+    --ballast) ballast=$2 ;;
+    --report) report=$2 ;;
+    *) sed -n '2,11p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; exit 2 ;;
+  esac
+  shift 2
+done
+export OPENBLAS_NUM_THREADS=1
+folder=$(mktemp -d "${TMPDIR:-/tmp}/ballast_kills_XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+RANDOM=$seed
+
+# Twenty grains, checkpoints every 20 ms.
+small=(--set grains.count=20 --set box.length=0.14 --set box.width=0.14
+       --set record.checkpoint_seconds=0.02)
+cat >"$folder/plan.toml" <<'PLAN'
+scene = "vibrated_box_small"
+set = ["grains.count=20", "box.length=0.14", "box.width=0.14", "scene.duration=0.05",
+       "record.checkpoint_seconds=0.02"]
+[[grid]]
+name = "nu"
+vary."drive.frequency" = [5, 20]
+vary."grains.seed" = [1, 2]
+PLAN
+
+# begin ACTIVITY FOLDER: becomes the program at this work.
+begin() {
+  case $1 in
+    run) exec "$ballast" run vibrated_box_small "${small[@]}" --set scene.duration=0.4 \
+        --output "$2/run" --packing-cache "$folder/packings" --continue ;;
+    deposit) exec "$ballast" run vibrated_box_small "${small[@]}" --deposit-only \
+        --output "$2/run" --packing-cache "$2/packings" ;;
+    plan) exec "$ballast" plan "$folder/plan.toml" --jobs 2 --output "$2" ;;
+    compare) exec "$ballast" compare known:bodies=20,contacts=40,count=4 stress:table,copies=4 \
+        --solvers pgs,nncg,prox_newton,interior_point --tolerances 1e-4,1e-8 \
+        --output "$2" ;;
+    paper) exec "$ballast" paper fig3 --jobs 1 --seeds 1 --iterations 5 --scene vibrated_box_small \
+        "${small[@]}" --results "$2" ;;
+  esac
+}
+
+# columns FILE PATTERN: a table without the columns whose names match.
+columns() {
+  awk -F, -v drop="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) keep[i] = $i !~ drop }
+    { line = ""; for (i = 1; i <= NF; ++i) if (keep[i]) line = line "," $i; print line }' "$1"
+}
+
+# bits ACTIVITY FOLDER: what must be the same, as one line for each thing.
+bits() {
+  (cd "$2" && case $1 in
+    compare) columns results.csv 'seconds|memory|runs|key|note' | md5sum ;;
+    *)
+      find . -name poses.bin -o -name checkpoint.bin -o -name 'packing-*.bin' -o -name 'step_*.bin' |
+        sort | xargs -r md5sum
+      find . -name steps.csv | sort | while read -r table; do
+        echo "$table $(columns "$table" '^seconds' | md5sum)"
+      done
+      [ "$1" != paper ] || md5sum report/data/*.csv ;;
+  esac)
+}
+
+now() { date +%s.%N; }
+rows=() total=0 bad=0
+share=$(((kills + $(wc -w <<<"$only") - 1) / $(wc -w <<<"$only")))
+for activity in $only; do
+  log=$folder/$activity.log whole=$folder/$activity.whole
+  mkdir "$whole"
+  # the packing of the run is deposited before its time is taken
+  if [ "$activity" = run ]; then
+    "$ballast" run vibrated_box_small "${small[@]}" --deposit-only --output "$whole/run" \
+      --packing-cache "$folder/packings" >"$log" 2>&1
+  fi
+  start=$(now)
+  (begin "$activity" "$whole") >"$log" 2>&1 || { tail -n 3 "$log"; echo "$activity fails"; exit 1; }
+  seconds=$(awk -v a="$start" -v b="$(now)" 'BEGIN { print b - a }')
+  bits "$activity" "$whole" >"$folder/$activity.bits"
+  done_count=0 killed=0 wrong=0 ended=0 round=0
+  while [ "$killed" -lt "$share" ] && [ "$round" -lt 1000 ]; do
+    round=$((round + 1)) there=$folder/$activity.$round longest=0.4
+    mkdir "$there"
+    while :; do
+      after=$(awk -v r=$RANDOM -v t="$seconds" -v l="$longest" \
+        'BEGIN { printf "%.3f", t * (0.02 + l * r / 32767) }')
+      longest=$(awk -v l="$longest" 'BEGIN { print 1.05 * l }') # ends on a slower machine too
+      code=0
+      (begin "$activity" "$there") >"$log" 2>&1 &
+      child=$!
+      (sleep "$after"; kill -9 $child 2>/dev/null) &
+      killer=$!
+      wait $child 2>/dev/null || code=$?
+      kill $killer 2>/dev/null || true
+      wait $killer 2>/dev/null || true
+      [ "$code" = 137 ] || break
+      killed=$((killed + 1))
+    done
+    if [ "$code" != 0 ]; then
+      ended=$((ended + 1))
+      echo "$activity, round $round: exit code $code: $(tail -n 1 "$log")" >&2
+    elif bits "$activity" "$there" | diff -q - "$folder/$activity.bits" >/dev/null; then
+      done_count=$((done_count + 1))
+    else
+      wrong=$((wrong + 1))
+      echo "$activity, round $round: other bits than undisturbed:" >&2
+      bits "$activity" "$there" | diff - "$folder/$activity.bits" | head -n 6 >&2 || true
+    fi
+    rm -rf "$there"
+  done
+  total=$((total + killed)) bad=$((bad + wrong + ended))
+  rows+=("| $activity | $(printf '%.1f' "$seconds") s | $killed | $round | $done_count | $wrong | $ended |")
+done
+
+write_report() {
+  echo "# $total kills"
+  echo
+  echo "\`$("$ballast" --version)\`, seed $seed, $(date -u +%Y-%m-%dT%H:%MZ), $(nproc) cores."
+  echo
+  echo "| activity | undisturbed | kills | ended | with the same bits | other bits | failed |"
+  echo "|---|---|---|---|---|---|---|"
+  printf '%s\n' "${rows[@]}"
+}
+write_report
+[ -z "$report" ] || write_report >"$report"
+[ "$bad" = 0 ]

@@ -1,0 +1,73 @@
+// Exports of runs: from the record, whatever has become of the scene's files.
+
+#include <fstream>
+
+#include "geometry/shape/mesh_file.hpp"
+#include "platform/atomic_file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string mesh_scene =
+    "[scene]\nstep = 1e-3\nduration = 0.05\n[record]\npose_rate = 100\n[[wall]]\nnormal = [0, 0, "
+    "1]\n"
+    "[[body]]\nshape = \"mesh\"\nfile = \"grain.obj\"\nmass = 1\nposition = [0, 0, 0.5]\n";
+
+ProgramResult exported(const fs::path& run, const fs::path& output,
+                       std::vector<std::string> more = {}) {
+  std::vector<std::string> words{"export", run.string(), "--output", output.string()};
+  words.insert(words.end(), more.begin(), more.end());
+  return ballast_program(words);
+}
+
+}  // namespace
+
+TEST_CASE("an export has the shapes of the run, also when the mesh is another one by now") {
+  const TemporaryFolder folder;
+  const fs::path mesh = folder.path() / "grain.obj", before = folder.path() / "before.obj",
+                 after = folder.path() / "after.obj", run = folder.path() / "run";
+  write_mesh(mesh, make_box(Vec3(1, 1, 1)));
+  const std::string scene = folder.write("scene.toml", mesh_scene).string();
+  REQUIRE(ballast_program({"run", scene, "--output", run.string(), "--no-report"}).status == 0);
+  REQUIRE(exported(run, before).status == 0);
+  write_mesh(mesh, make_box(Vec3(1, 2, 1)));
+  CHECK(exported(run, after).status == 0);
+  CHECK(read_whole_file(after) == read_whole_file(before));
+  fs::remove(mesh);
+  CHECK(exported(run, after).status == 0);
+  CHECK(read_whole_file(after) == read_whole_file(before));
+
+  // without its record it would be made of the new mesh: refused
+  write_mesh(mesh, make_box(Vec3(1, 2, 1)));
+  fs::remove(run / "record.h5");
+  check_failure(exported(run, after), ExitCode::failure, {"another system of bodies"});
+}
+
+TEST_CASE("export takes its format from the suffix, one time, or all") {
+  const TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  REQUIRE(ballast_program({"run", "incline", "--set", "record.forces=true", "--output",
+                           run.string(), "--no-report"})
+              .status == 0);
+  CHECK_THAT(read_whole_file(run / "scene.toml"), Catch::Contains("forces = true"));
+  CHECK(exported(run, folder.path() / "a.vtp").status == 0);
+  CHECK_THAT(read_whole_file(folder.path() / "a.vtp"), Catch::Contains("<VTKFile"));
+  CHECK(exported(run, folder.path() / "a.vtp", {"--format", "text"}).status == 0);
+  CHECK_THAT(read_whole_file(folder.path() / "a.vtp"), Catch::StartsWith("# ballast"));
+  check_failure(exported(run, folder.path() / "a.xyz"), ExitCode::failure, {"a.xyz", "--format"});
+  for (const char* time : {"nan", "inf", "soon", "1e400"})
+    check_failure(exported(run, folder.path() / "a.obj", {"--time", time}), ExitCode::usage,
+                  {"export: --time", time});
+  const ProgramResult at = exported(run, folder.path() / "a.obj", {"--time", "0.2"});
+  CHECK_THAT(at.output, Catch::Contains("state at 0.2 s, step 200"));
+  const fs::path series = folder.path() / "all" / "block.vtp";
+  const ProgramResult all = exported(run, series, {"--all"});
+  CHECK(all.status == 0);
+  CHECK(fs::exists(folder.path() / "all" / "block_00000000.vtp"));
+  CHECK(fs::exists(folder.path() / "all" / "block_00000500.vtp"));
+  CHECK(fs::exists(folder.path() / "all" / "block.pvd"));
+}
