@@ -8,7 +8,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double h = 2e-4;
+constexpr double step_length = 2e-4;
 
 /// `step % 4` contacts, all numbers of which say the step and the contact.
 StepMemory sample_memory(long step) {
@@ -16,7 +16,7 @@ StepMemory sample_memory(long step) {
   for (int c = 0; c < step % 4; ++c) {
     const double x = static_cast<double>(step) + 0.1 * c;
     memory.contacts.push_back({c, c + 1, 7, Vec3(0, 0, 1), Vec3(x, -x, 2 * x), -1e-6 * x});
-    memory.impulses.push_back(Vec3(0.0, 0.5, x) * h);
+    memory.impulses.push_back(Vec3(0.0, 0.5, x) * step_length);
   }
   return memory;
 }
@@ -27,7 +27,7 @@ void record_with_forces(Recorder& recorder, const MechanicalSystem& system, long
     if (step % 5 != 0) continue;
     const MotionState state = sample_state(system, step);
     recorder.add_poses(state);
-    recorder.add_forces(state, sample_memory(step), h);
+    recorder.add_forces(state, sample_memory(step), step_length);
   }
 }
 
@@ -50,8 +50,8 @@ TEST_CASE("record.h5 has the contacts and forces of every stored frame, where th
                             normal = file.read_doubles("contacts/normal");
   REQUIRE(force.size() == 18);
   const double x = 15 + 0.1 * 2;
-  CHECK(same_bits(force[17], x * h / h));
-  CHECK(same_bits(force[16], 0.5 * h / h));
+  CHECK(same_bits(force[17], x * step_length / step_length));
+  CHECK(same_bits(force[16], 0.5 * step_length / step_length));
   CHECK(same_bits(position[15], x));
   CHECK(same_bits(gap[5], -1e-6 * x));
   CHECK(normal[17] == 1.0);
