@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "solvers/backends/interior_jump.hpp"
 #include "solvers/backends/nncg.hpp"
 #include "solvers/parts/regular_newton.hpp"
 #include "solvers/seam/course.hpp"
@@ -27,6 +28,7 @@ class NewtonBurst final : public Solver {
           "unknowns");
     sweeps_->prepare(problem);
     newton_.prepare(problem);
+    interior_.prepare(newton_.contacts(), newton_.system());
   }
 
   void use_threads(int threads) override { sweeps_->use_threads(threads); }
@@ -34,24 +36,15 @@ class NewtonBurst final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;
     NewtonIterate at = newton_.iterate(Impulses::Zero(problem.row_count()));
-    const double end = settings_.endgame * newton_.settle(at);
+    const double scale = newton_.settle(at), end = settings_.endgame * scale;
     at = newton_.iterate(start);
     double error = newton_.settle(at);
     newton_.contacts().to_impulses(at.r, start);
     Course course(budget, std::move(start), error);
     if (!course.over()) error = burst(course, at, settings_.start_sweeps);
     descend(course, at, error, end);
-    // From wherever the proximal steps are stuck, sweeps jump to another place.
-    double halved = course.error();
-    for (int waited = 0; !course.over() && waited < settings_.patience; ++waited) {
-      endgame(course, at, error);
-      if (course.over()) break;
-      at = newton_.iterate(course.best());
-      error = burst(course, at, settings_.jump);
-      if (course.error() > 0.5 * halved) continue;
-      halved = course.error();
-      waited = -1;
-    }
+    if (!course.over()) endgame(course, at, error);
+    jump_about(course, at, scale);
     return course.finish();
   }
 
@@ -152,6 +145,33 @@ class NewtonBurst final : public Solver {
     }
   }
 
+  /// From wherever the proximal steps are stuck: sweeps from the best iterate, interior-point steps
+  /// from there or from no impulses at all, and proximal steps again where one of them came near a
+  /// solution; every third time also where none did.
+  void jump_about(Course& course, NewtonIterate& at, double scale) {
+    double halved = course.error();
+    for (int waited = 0, jumps = 0; !course.over() && waited < settings_.patience; ++jumps) {
+      at = newton_.iterate(course.best());
+      double error = burst(course, at, settings_.jump);
+      if (course.over()) return;
+      NewtonIterate there = at;
+      if (jumps % 2 == 1) there.r.setZero();
+      const double landed = interior_.run(course, there.r, jumps, scale, settings_.endgame);
+      if (landed < settings_.landed * scale) {
+        error = landed;
+        at = std::move(there);
+        newton_.settle(at);
+        endgame(course, at, error);
+      } else if (jumps % 3 == 2 && !course.over()) {
+        endgame(course, at, error);
+      }
+      ++waited;
+      if (course.error() > 0.5 * halved) continue;
+      halved = course.error();
+      waited = 0;
+    }
+  }
+
   /// Newton steps on the law regularised around `at`, until the residual is a third of the error
   /// there. `at` is left wherever they ended.
   Inner proximal_step(Course& course, NewtonIterate& at, double error, double epsilon) {
@@ -198,6 +218,7 @@ class NewtonBurst final : public Solver {
   NewtonBurstSettings settings_;
   std::unique_ptr<Solver> sweeps_;
   RegularNewton newton_;
+  InteriorJump interior_;
   const FrictionProblem* problem_ = nullptr;
   NewtonIterate change_, trial_, best_trial_;
   Impulses impulses_;

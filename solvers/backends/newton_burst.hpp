@@ -15,11 +15,13 @@ namespace ballast {
 struct NewtonBurstSettings {
   int start_sweeps = 100;  ///< before the first Newton step
   int burst = 400;         ///< sweeps after a Newton step, at most
-  int jump = 300;          ///< sweeps where the proximal steps are stuck
+  int jump = 200;          ///< sweeps before a jump, where the proximal steps are stuck
   /// The compliance to begin with, as a part of lambda_max(W_cc).
   double epsilon = 3e-4;
   /// Below this part of the error at zero impulse there are no more bursts.
   double endgame = 1e-4;
+  /// Below this part of it a jump has come near enough to a solution to go on from there.
+  double landed = 4e-3;
   int inner_steps = 10;  ///< Newton steps after which a proximal step has failed
   int patience = 20;     ///< jumps without halving the error, after which it gives up (stalled)
 };

@@ -21,6 +21,8 @@ class RegularNewton {
   /// `problem` has the dynamics form and outlives the use.
   void prepare(const FrictionProblem& problem);
   const UnitMassContacts& contacts() const { return contacts_; }
+  /// For others that solve in the same unknowns: every step() factors it anew.
+  UnitMassSystem& system() { return system_; }
 
   /// The iterate with x from r.
   NewtonIterate iterate(const Impulses& r) const;

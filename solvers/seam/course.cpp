@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/iteration.hpp"
 #include "solvers/seam/relay.hpp"
 
@@ -10,14 +11,18 @@ namespace ballast {
 
 Course::Course(const Budget& budget, Impulses start, double error)
     : budget_(budget), error_(error), best_(std::move(start)) {
+  is_enough_ = budget_.fclib && budget_.fclib->reached(best_, error_);
   remember();
 }
 
 void Course::offer(const Impulses& r, double error) {
-  if (error < error_) {
+  // The other measure may be reached where the error is not the smallest.
+  const bool is_enough = budget_.fclib && !is_enough_ && budget_.fclib->reached(r, error);
+  if (is_enough || (error < error_ && !is_enough_)) {
     error_ = error;
     best_ = r;
   }
+  is_enough_ = is_enough_ || is_enough;
   remember();
 }
 
@@ -28,7 +33,9 @@ void Course::remember() {
   history_.push_back({iterations_, watch_.seconds(), error_});
 }
 
-bool Course::reached() const { return error_ <= budget_.tolerance * (1.0 - Iteration::margin); }
+bool Course::reached() const {
+  return is_enough_ || error_ <= budget_.tolerance * (1.0 - Iteration::margin);
+}
 
 bool Course::over() const {
   return reached() || !std::isfinite(error_) || iterations_ >= budget_.max_iterations ||

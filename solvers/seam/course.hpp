@@ -17,7 +17,8 @@ class Course {
   Course(const Budget& budget, Impulses start, double error);
 
   void spend(int iterations) { iterations_ += iterations; }
-  /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best.
+  /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best, or
+  /// where it satisfies the other measure that the budget asks for.
   void offer(const Impulses& r, double error);
 
   const Impulses& best() const { return best_; }
@@ -39,6 +40,7 @@ class Course {
   Stopwatch watch_;
   int iterations_ = 0;
   double error_;
+  bool is_enough_ = false;  ///< the best satisfies the budget's other measure
   Impulses best_;
   std::vector<HistoryPoint> history_;  ///< of the best error
 };

@@ -31,7 +31,7 @@ TEST_CASE("Newton with bursts closes on rank-deficient problems, nearly all", "[
     CHECK(run.success == (run.solved.reason == StopReason::reached_tolerance));
     solved += run.success;
   }
-  CHECK(solved >= 17);  // seeds 7, 12, 14 stay at 4e-5 to 5e-4; which ones depends on rounding
+  CHECK(solved >= 18);  // seed by seed it is a matter of rounding which one stays
 }
 
 TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[factors]") {

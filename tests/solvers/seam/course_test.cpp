@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "problems/algebra/known_solutions.hpp"
+#include "solvers/seam/fclib_stop.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -60,4 +62,17 @@ TEST_CASE("a course is over at the tolerance, at a limit, or where nothing is fi
   Course broken({}, Impulses::Zero(1), std::numeric_limits<double>::infinity());
   CHECK(broken.over());
   CHECK(broken.finish().reason == StopReason::numerical_failure);
+}
+
+TEST_CASE("a course that is asked for Siconos' measure ends with the iterate that satisfies it") {
+  const KnownSolution known = make_known_solution({});
+  FclibStop fclib(known.problem, 1e-6);
+  Course course({.tolerance = 0.0, .max_iterations = 10, .fclib = &fclib}, 0.0 * known.r, 0.5);
+  CHECK_FALSE(course.over());
+  course.offer(known.r, 0.4);
+  CHECK(course.over());
+  course.offer(0.0 * known.r, 0.3);  // comes too late
+  const Solved solved = course.finish();
+  CHECK(solved.reason == StopReason::reached_tolerance);
+  CHECK(solved.impulses == known.r);
 }
