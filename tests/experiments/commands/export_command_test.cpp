@@ -2,8 +2,9 @@
 
 #include <fstream>
 
-#include "geometry/shape/mesh_file.hpp"
+#include "geometry/shape/polyhedron.hpp"
 #include "platform/atomic_file.hpp"
+#include "tests/support/mesh_writer.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
