@@ -150,6 +150,14 @@ TEST_CASE("a breakdown is reported, and the next matrix is factored", "[factors]
   singular.makeCompressed();
   fronts.analyse(singular, good.begin);
   CHECK_FALSE(fronts.factor(singular));
+  // Nearly so: the last pivot is what rounding leaves of it.
+  dense = Eigen::MatrixXd(good.a);
+  dense.row(n - 1) = 0.7 * dense.row(0) + 0.3 * dense.row(1);
+  dense.col(n - 1) = 0.7 * dense.col(0) + 0.3 * dense.col(1);
+  SparseColumns nearly = dense.sparseView(1.0, 0.0);
+  nearly.makeCompressed();
+  fronts.analyse(nearly, good.begin);
+  CHECK_FALSE(fronts.factor(nearly));
   SparseColumns damaged = good.a;
   damaged.valuePtr()[7] = std::numeric_limits<double>::quiet_NaN();
   fronts.analyse(good.a, good.begin);

@@ -44,6 +44,26 @@ TEST_CASE("where u_N = 0 the step is Newton's on Alart and Curnier's function") 
   CHECK(sticks > 10);
 }
 
+TEST_CASE("a slipping step ends at u_N = 0 and on the edge of the disc, which moves with r_N") {
+  Random random(11);
+  int slips = 0;
+  for (int k = 0; k < 200; ++k) {
+    Vector3d r = random_vector(random);
+    r[0] = std::abs(r[0]) + 0.1;
+    const Vector3d u = 4.0 * random_vector(random), du = random_vector(random);
+    const RegularStep step = regular_step(contact, r, u);
+    if (step.status != ContactStatus::slip) continue;
+    ++slips;
+    const Vector3d dr = step.source - step.gain * du, after = r + dr;
+    const Vector3d z = r - u / contact.lambda_max;
+    const double compliance = contact.epsilon * contact.lambda_max;
+    CHECK(std::abs(u[0] + du[0] + compliance * dr[0]) < 1e-12);
+    const double along = (z[1] * after[1] + z[2] * after[2]) / std::hypot(z[1], z[2]);
+    CHECK(along == Approx(contact.friction * after[0]).margin(1e-9));
+  }
+  CHECK(slips > 50);
+}
+
 TEST_CASE("an open contact loses its impulse, whatever the bodies do") {
   const RegularStep step = regular_step(contact, {0.1, 0.2, -0.1}, {1.0, 0.3, 0.0});
   CHECK(step.status == ContactStatus::open);
