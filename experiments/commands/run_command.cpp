@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "experiments/commands/command.hpp"
+#include "experiments/measure/run_trust.hpp"
 #include "experiments/run/capture.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run_page/report.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 struct RunRequest {
   RunOptions run;
-  bool with_page = true;
+  bool with_page = true, strict = false;
 };
 
 /// This command line, so that it goes on with the run that it has begun: from the folder where it
@@ -63,11 +64,26 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
             << next_commands(end.has_grains) << std::flush;
 }
 
+/// What the user must know of a run that is finished. Strict: only a clean one is a success.
+ExitCode tell_trust(const RunEnd& end, const RunRequest& request) {
+  const RunTrust trust = trust_of(read_run_data(end.folder));
+  std::cout << "\nto be known\n";
+  for (const std::string& words : trust_words(trust)) std::cout << "  " << words << '\n';
+  std::cout << std::flush;
+  if (!request.strict || trust.is_clean()) return ExitCode::ok;
+  std::cerr << "ballast: " << request.run.scene << ": --strict: finished, with what is said above"
+            << std::endl;
+  return ExitCode::failure;
+}
+
 ExitCode run_scene(RunRequest& request) {
   request.run.again = command_that_goes_on();
   limit_threads(request.run);
   const RunEnd end = run(request.run);
-  if (end.has_record) show_results(end, request.run, request.with_page);
+  if (end.has_record) {
+    show_results(end, request.run, request.with_page);
+    if (end.code == ExitCode::ok && !request.run.deposit_only) return tell_trust(end, request);
+  }
   if (end.code != ExitCode::ok)
     std::cerr << "ballast: " << request.run.scene
               << ": stopped before its end; --continue goes on with it" << std::endl;
@@ -107,6 +123,8 @@ Command run_command() {
         between(1, 256)},
        {"--max-seconds S", &run.max_seconds,
         "Wall clock after which to write a checkpoint and exit with 3", above(0)},
+       {"--strict", &request->strict,
+        "Exit code 1 when steps missed their tolerance, overlaps can be seen or energy was gained"},
        {"--no-report", &request->with_page, "No figures and no page at the end"}},
       [request] { return run_scene(*request); }};
 }

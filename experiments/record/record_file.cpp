@@ -1,6 +1,7 @@
 #include "experiments/record/record_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "experiments/record/bits_generation.hpp"
@@ -202,7 +203,13 @@ std::vector<StepRecord> read_record_steps(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
   std::vector<StepRecord> steps;
   for (const StepColumn& column : step_columns()) {
-    const std::vector<double> values = file.read_doubles(std::string("steps/") + column.name);
+    const std::string path_of_column = std::string("steps/") + column.name;
+    // A record from before a column was there does not know it.
+    if (&column != &step_columns().front() && !file.has(path_of_column)) {
+      for (StepRecord& step : steps) step.*column.value = std::nan("");
+      continue;
+    }
+    const std::vector<double> values = file.read_doubles(path_of_column);
     if (&column == &step_columns().front()) steps.resize(values.size());
     if (values.size() != steps.size())
       throw Error(path.string() + ": steps/" + column.name + " has another length than the rest");

@@ -4,6 +4,7 @@
 
 #include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_summary.hpp"
+#include "experiments/measure/run_trust.hpp"
 #include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/page/page.hpp"
@@ -55,6 +56,10 @@ void write_report(const std::filesystem::path& folder) {
   RunData data = read_run_data(folder);
   const RunSummary summary = summarise(data.steps, data.facts);
   note_what_cannot_be_said(summary, data);
+  // What must be known first stands first.
+  const RunTrust trust = trust_of(data);
+  const std::vector<std::string> words = trust_words(trust);
+  if (!trust.is_clean()) data.notices.insert(data.notices.begin(), words.begin(), words.end());
   const bool has_packing = *summary.facts.has_packing;
   page::Page page;
   page.title = name_of_run(data);

@@ -27,6 +27,9 @@ constexpr std::array columns{
                &StepRecord::error_rms},
     StepColumn{"error_max", "m/s", "judge: scaled natural map, worst contact",
                &StepRecord::error_max},
+    StepColumn{"solved", "1",
+               "judge: 1 where every part of the contact law is within the tolerance, 0 elsewhere",
+               &StepRecord::solved},
     StepColumn{"penetration_max", "m", "deepest overlap of any contact point at detection",
                &StepRecord::penetration_max},
     StepColumn{"penetration_mean", "m",
@@ -51,6 +54,15 @@ constexpr std::array columns{
                "potential energy that the overlap correction gave in this step (gravity's work on "
                "its displacements, sign changed)",
                &StepRecord::work_correction},
+    StepColumn{"energy_gained", "J",
+               "energy that contacts gave beyond the free motion in this step: no law of contact "
+               "does, the solver's error did",
+               &StepRecord::energy_gained},
+    StepColumn{
+        "restitution", "1",
+        "lowest coefficient of restitution in force: below the scene's where that would have "
+        "given energy",
+        &StepRecord::restitution},
     StepColumn{"energy_residual", "J",
                "change of kinetic energy minus works plus dissipation in this step",
                &StepRecord::energy_residual},

@@ -17,11 +17,12 @@ struct StepRecord {
   double solid_fraction = 0;
   double contacts = 0, active_contacts = 0;
   double iterations = 0;
-  double error_rms = 0, error_max = 0;
+  double error_rms = 0, error_max = 0, solved = 0;
   double penetration_max = 0, penetration_mean = 0;
   double kinetic_energy = 0;
   double work_load = 0, work_gravity = 0, work_prescribed = 0, dissipated = 0, work_gyroscopic = 0;
   double work_correction = 0;
+  double energy_gained = 0, restitution = 0;
   double energy_residual = 0;
   double seconds_detect = 0, seconds_assemble = 0, seconds_solve = 0, seconds_judge = 0,
          seconds_correct = 0, seconds_other = 0;

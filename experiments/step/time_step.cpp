@@ -57,6 +57,7 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& set
       correction_(system, settings.correction),
       solver_(make_solver(settings.solver.name)),
       resting_(system, settings.sleep, settings.detection, settings.velocity_scale()),
+      impact_law_(system.restitution),
       reach_(system.bodies.size(), 0.0) {
   if (settings.solver.islands) solver_ = make_island_solver(std::move(solver_));
   solver_->use_threads(settings.solver.threads);
@@ -127,12 +128,15 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   budget.max_iterations = settings_.solver.max_iterations;
   budget.max_seconds = settings_.solver.max_seconds;
   // validates, solves and judges; the judge's error is what the record says
-  SolverRun run = runner_.run(*solver_, problem_, std::move(impulses_), budget);
+  SolverRun run = impact_law_.solve(runner_, *solver_, problem_, assembler_.rebound(),
+                                    std::move(impulses_), budget);
   impulses_ = std::move(run.solved.impulses);
   error_ = run.error;
   record.iterations = run.solved.iterations;
   record.error_rms = run.error.natural_map_rms;
   record.error_max = run.error.natural_map_max;
+  record.solved = run.error.within(budget.tolerance);
+  record.restitution = impact_law_.least_restitution();
   record.seconds_solve = run.prepare_seconds + run.solve_seconds + run.startup_seconds;
   memory.contacts = contacts_;
   assembler_.to_world(impulses_, contacts_, memory.impulses);
@@ -169,6 +173,14 @@ void TimeStepper::account_energy(double mid_time, StepRecord& record) {
   record.energy_residual = record.kinetic_energy - kinetic_before -
                            (record.work_load + record.work_gravity + record.work_prescribed) +
                            record.dissipated;
+}
+
+/// -L of impact_law.hpp where that is positive. Without error L = r . W r / 2 - r . u >= 0.
+double TimeStepper::gained_energy(double end_time) {
+  assembler_.prescribed_part(contacts_, end_time, prescribed_);
+  const double given =
+      0.5 * runner_.body_impulse().dot(v_after_ + v_free_) + impulses_.dot(prescribed_);
+  return std::max(0.0, given);
 }
 
 /// Of the contacts solved for, and of those of sleepers.
@@ -226,6 +238,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   // the books are closed before the poses move on
   v_after_ = runner_.body_velocity();
   account_energy(mid_time, record);
+  record.energy_gained = gained_energy(end_time);
   account_contacts(memory, record);
   finish_motion(end_time, state);
   record.seconds_other += clock.restart();

@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "experiments/step/impact_law.hpp"
 #include "experiments/step/overlap_correction.hpp"
 #include "experiments/step/resting_islands.hpp"
 #include "experiments/step/step_memory.hpp"
@@ -68,6 +69,7 @@ class TimeStepper {
   void detect(const MotionState& mid, StepMemory& memory);
   void solve(StepMemory& memory, StepRecord& record);
   void account_energy(double mid_time, StepRecord& record);
+  double gained_energy(double end_time);
   void account_contacts(const StepMemory& memory, StepRecord& record);
   void finish_motion(double end_time, MotionState& state);
 
@@ -81,6 +83,7 @@ class TimeStepper {
   std::unique_ptr<Solver> solver_;
   RestingIslands resting_;
   SolverRunner runner_;
+  ImpactLaw impact_law_;
 
   FrictionProblem problem_;
   Impulses impulses_;

@@ -80,11 +80,11 @@ NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& 
     const NoSolution proof = prover.proof(y);
     if (proof.least_growth > best.least_growth) best = proof;
   };
-  // Single contacts that no impulse moves.
+  // Single contacts that no normal impulse moves.
   std::vector<Eigen::Matrix3d> diagonal;
   delassus_diagonal(problem, diagonal);
   for (int c = 0; c < contacts && !best.proved(); ++c)
-    if (!(largest_eigenvalue(diagonal[c]) > 0.0)) consider(Eigen::VectorXd::Unit(contacts, c));
+    if (!(diagonal[c](0, 0) > 0.0)) consider(Eigen::VectorXd::Unit(contacts, c));
   // The impulses' own direction.
   Eigen::VectorXd y(contacts);
   for (int c = 0; c < contacts; ++c) {

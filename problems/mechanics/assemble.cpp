@@ -165,6 +165,7 @@ void ProblemAssembler::write_bias(const StepInput& step, FrictionProblem& proble
     return;
   }
   // Newton's law: u_N+ + e u_N- >= 0 for approaching points
+  rebound_.assign(problem.contact_count(), 0.0);
   pack(step.state, v_before_);
   prescribed_part(step.contacts, step.state.time, u_before_);
   for (int c = 0; c < problem.contact_count(); ++c) {
@@ -174,7 +175,9 @@ void ProblemAssembler::write_bias(const StepInput& step, FrictionProblem& proble
     for (int body : {dynamics.body_a[c], dynamics.body_b[c]})
       for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows)
         approach += *block * v_before_[dynamics.dof_begin[body] + d];
-    if (approach < 0.0) dynamics.bias[problem.row_begin[c]] += e * approach;
+    if (!(approach < 0.0)) continue;
+    rebound_[c] = e * approach;
+    dynamics.bias[problem.row_begin[c]] += rebound_[c];
   }
 }
 

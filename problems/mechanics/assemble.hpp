@@ -59,6 +59,10 @@ class ProblemAssembler {
   std::span<const Mat3> frames() const { return frames_; }
   std::span<const int> detected() const { return detected_; }
 
+  /// e u_N- <= 0 of each contact assembled last [m/s], which the normal row of its bias holds among
+  /// the rest. Empty without restitution.
+  std::span<const double> rebound() const { return rebound_; }
+
   /// Velocity of prescribed walls seen at the contacts assembled last, in the contact frames, at
   /// another time: the part of the relative velocity that is not H v. Rows as in the problem.
   void prescribed_part(std::span<const ContactPoint> contacts, double time,
@@ -88,6 +92,7 @@ class ProblemAssembler {
   std::vector<int> detected_;
   std::vector<int> row_begin_{0};
   Eigen::VectorXd v_before_, u_before_;
+  std::vector<double> rebound_;
 };
 
 }  // namespace ballast

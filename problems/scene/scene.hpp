@@ -118,6 +118,8 @@ struct DriveSpec {
   double lid_raise = 0.01;             ///< [m]
 };
 
+/// The paper's box is the default: it is known how it moves with these numbers. Other scenes have
+/// those of SolverSpec::for_any_scene().
 struct SolverSpec {
   std::string name = "nncg";
   double tolerance = 1e-3;  ///< natural map rms, in g h (in m/s where there is no gravity)
@@ -127,6 +129,15 @@ struct SolverSpec {
   bool islands =
       false;        ///< heaps that don't touch are solved each on its own, each to the tolerance
   int threads = 1;  ///< set by the program, never by the file: results do not depend on it
+
+  /// What holds whatever the masses and shapes are: where sweeps stand still, as with heavy bodies
+  /// on light ones, it turns to Newton.
+  static SolverSpec for_any_scene() {
+    SolverSpec spec;
+    spec.name = "auto";
+    spec.max_iterations = 1000;
+    return spec;
+  }
 };
 
 /// Islands at rest fall asleep: frozen, and neither detected nor solved until something comes near

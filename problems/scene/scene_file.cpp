@@ -157,7 +157,10 @@ void read_numerics(TomlTable& root, Scene& scene) {
           if (sleep.enabled && scene.gravity.isZero(0.0))
             table.fail("enabled", "rest is measured in g h, expected a gravity.magnitude > 0");
         });
-  scene.solver = read_section(root.section("solver"), solver_keys);
+  if (!root.has("grains")) scene.solver = SolverSpec::for_any_scene();
+  TomlTable solver = root.section("solver");
+  read_keys(solver, solver_keys, scene.solver);
+  solver.finish();
   scene.correction = read_section(root.section("correction"), correction_keys);
   scene.detection = read_section(root.section("detection"), detection_keys,
                                  [&](const TomlTable& table, const DetectionSettings& detection) {

@@ -26,15 +26,16 @@ const SceneKeys<GravityText> gravity_keys{
 
 const SceneKeys<Scene> contact_keys{
     {"friction", number(&Scene::friction, friction_range), "Coulomb's μ between bodies"},
-    {"restitution", number(&Scene::restitution, zero_to_one), "Newton's e"},
+    {"restitution", number(&Scene::restitution, zero_to_one), "Newton's e; lowered where it would give energy ([method.md](../theory/method.md))"},
 };
 
 const SceneKeys<SolverSpec> solver_keys{
-    {"name", text(&SolverSpec::name), "as listed by `ballast solvers`"},
+    {"name", text(&SolverSpec::name), "as listed by `ballast solvers`; without grains the default is \"auto\", which holds "
+     "whatever the masses are"},
     {"tolerance", number(&SolverSpec::tolerance, not_negative, "g h"),
      "scaled natural map, rms over contacts, in units of g h (of 1 m/s without gravity)"},
     {"max_iterations", whole(&SolverSpec::max_iterations, 1),
-     "Gauss–Seidel sweeps, Newton steps, ... per step"},
+     "Gauss–Seidel sweeps, Newton steps, ... per step; without grains the default is 1000"},
     {"max_seconds", number(&SolverSpec::max_seconds, positive, "s"),
      "wall clock per step; a finite one makes runs irreproducible"},
     {"warm_start", flag(&SolverSpec::warm_start), "start from the last step's impulses"},

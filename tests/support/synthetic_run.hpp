@@ -95,6 +95,7 @@ inline std::vector<StepRecord> synthetic_box(const SyntheticBox& box = {}) {
     StepRecord s;
     const double mid = (static_cast<double>(k) + 0.5) * box.h;
     s.time = static_cast<double>(k + 1) * box.h;
+    s.solved = 1.0;
     s.load = 0.5 * box.f_max * (1.0 - std::sin(omega * mid));
     wall.advance(s.time, s.load);
     s.wall_x = wall.x;
@@ -156,6 +157,7 @@ inline std::vector<StepRecord> synthetic_slide() {
     v = std::max(0.0, v - h * a);
     s.time = (k + 1) * h;
     s.contacts = s.active_contacts = 4;
+    s.solved = 1.0;
     s.iterations = 3;
     s.error_rms = s.error_max = 1e-12;
     s.kinetic_energy = 0.5 * v * v;

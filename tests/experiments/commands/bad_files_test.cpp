@@ -7,6 +7,7 @@
 #include "experiments/record/checkpoint.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
+#include "solvers/solver_list.hpp"
 #include "tests/support/delassus_form.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -159,6 +160,37 @@ TEST_CASE("a problem that the solver cannot take is a row with its reason") {
       ballast_program({"solve", too_large.string(), small.string(), "--solver", "pyramid_lemke"});
   CHECK(result.status == static_cast<int>(ExitCode::failure));
   CHECK_THAT(result.output, Catch::Contains("unsupported: ") && Catch::Contains("small.hdf5"));
+}
+
+TEST_CASE("a problem without a solution is said to have none, whatever the backend") {
+  const TemporaryFolder folder;
+  // q_N = -1 m/s between two bodies that nothing moves
+  const auto immovable =
+      folder.write("immovable.dat", "3\n1\n0 3 3\n3 3\n0 0 0 0 0 0 0 0 0\n-1 0 0\n0.5\n");
+  for (const SolverEntry& entry : solver_list()) {
+    if (!entry.make) continue;
+    const ProgramResult result = ballast_program(
+        {"solve", immovable.string(), "--solver", entry.name, "--max-seconds", "5"});
+    INFO(entry.name << ": " << result.output);
+    CHECK(result.status == 1);
+    CHECK(result.output.find(" solved") == std::string::npos);
+    if (result.output.find("unsupported") == std::string::npos)
+      CHECK_THAT(result.errors,
+                 Catch::Contains("there is no solution: contact 0 sinks in at 1 m/s"));
+  }
+}
+
+TEST_CASE("scales that overflow are one line") {
+  const TemporaryFolder folder;
+  const auto heavy = folder.write("scale.dat", dense_problem("1e200", "-1", "0.5"));
+  check_failure(ballast_program({"solve", heavy.string()}), ExitCode::failure,
+                {"scale.dat", "delassus.w(0, 0)", "is beyond 1e+30"});
+  const auto fast = folder.write("fast.dat", dense_problem("1", "-1e308", "0.5"));
+  check_failure(ballast_program({"solve", fast.string()}), ExitCode::failure,
+                {"fast.dat", "delassus.q[0]", "is beyond 1e+30"});
+  const auto rough = folder.write("rough.dat", dense_problem("1", "-1", "1e9"));
+  check_failure(ballast_program({"solve", rough.string()}), ExitCode::failure,
+                {"rough.dat", "friction[0]", "is above 10000"});
 }
 
 TEST_CASE("a solver that stops short is exit code 1, by the clock 3") {

@@ -18,6 +18,10 @@ TEST_CASE("two bodies that nothing can move and that approach have no solution")
   CHECK(proof.approach == 1.0);
   CHECK(proof.contacts == 1);
   CHECK(proof.words() == "there is no solution: contact 0 sinks in at 1 m/s whatever the impulses");
+  // one that moves sideways only
+  FrictionProblem sideways = immovable_contact(-1.0);
+  sideways.delassus.w.coeffRef(1, 1) = sideways.delassus.w.coeffRef(2, 2) = 1.0;
+  CHECK(look_for_no_solution(sideways, Impulses::Zero(3)).proved());
   CHECK_FALSE(look_for_no_solution(immovable_contact(0.5), Impulses::Zero(3)).proved());
 }
 

@@ -51,6 +51,18 @@ TEST_CASE("the vibrated box names the paper's values, and its chosen ones are th
 }
 
 TEST_CASE(
+    "single bodies are solved by what holds whatever their masses are, unless they say else") {
+  const TemporaryFolder folder;
+  const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
+  const SolverSpec spec = read_scene(folder.write("a.toml", one_wall)).solver;
+  CHECK(spec.name == "auto");
+  CHECK(spec.max_iterations == 1000);
+  const SolverSpec named =
+      read_scene(folder.write("b.toml", "[solver]\nname = \"pgs\"\n" + one_wall)).solver;
+  CHECK(named.name == "pgs");
+}
+
+TEST_CASE(
     "what is skipped stands in the resolved text only where it was given: older runs keep their "
     "key") {
   const TemporaryFolder folder;

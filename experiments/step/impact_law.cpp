@@ -1,0 +1,121 @@
+#include "experiments/step/impact_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ballast {
+namespace {
+
+/// What earlier solves of the same step cost is booked with the last one.
+void book(const SolverRun& earlier, SolverRun& run) {
+  run.solved.iterations += earlier.solved.iterations;
+  run.prepare_seconds += earlier.prepare_seconds;
+  run.solve_seconds += earlier.solve_seconds;
+}
+
+/// Calls f(row) for every row of an island's contacts.
+template <class F>
+void for_rows(const FrictionProblem& problem, std::span<const int> contacts, F&& f) {
+  for (const int c : contacts)
+    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) f(row);
+}
+
+}  // namespace
+
+void ImpactLaw::split_bias(const FrictionProblem& problem, std::span<const double> rebound) {
+  newton_ = walls_ = problem.dynamics.bias;
+  for (int c = 0; c < problem.contact_count(); ++c) walls_[problem.row_begin[c]] -= rebound[c];
+}
+
+void ImpactLaw::set_bias(FrictionProblem& problem, std::span<const double> rebound) const {
+  problem.dynamics.bias = newton_;
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (scale_[i] == 1.0) continue;
+    for (const int c : islands_.contacts(i)) {
+      const int row = problem.row_begin[c];
+      problem.dynamics.bias[row] = walls_[row] + scale_[i] * rebound[c];
+    }
+  }
+}
+
+/// `v`: the bodies' velocities that the judge found. Leaves the walls' part alone in the bias.
+void ImpactLaw::measure(FrictionProblem& problem, const SolverRun& run, const Eigen::VectorXd& v,
+                        Impact& impact) const {
+  impact.r = run.solved.impulses;
+  impact.error = run.error.natural_map_rms;
+  problem.dynamics.bias = walls_;
+  body_to_contact_velocity(problem.dynamics, problem.row_begin, v, impact.u);
+}
+
+/// The factor by which the island's scale must fall; 1 where it takes enough energy.
+double ImpactLaw::lowered_to(const FrictionProblem& problem, int island) const {
+  // L_0 and L, and along r_0 + t (r - r_0): L(t) = L_0 - slope t - curvature t^2 / 2.
+  double inelastic = 0.0, rebounding = 0.0, slope = 0.0, curvature = 0.0, impulse = 0.0;
+  int rows = 0;
+  for_rows(problem, islands_.contacts(island), [&](int row) {
+    const double r0 = inelastic_.r[row], r1 = rebounding_.r[row];
+    const double u0 = inelastic_.u[row], u1 = rebounding_.u[row];
+    inelastic -= 0.5 * r0 * (u0 + u_free_[row]);
+    rebounding -= 0.5 * r1 * (u1 + u_free_[row]);
+    slope += (r1 - r0) * u0;
+    curvature += (r1 - r0) * (u1 - u0);
+    impulse += r1 * r1 + r0 * r0;
+    ++rows;
+  });
+  // Energies are known to the solves' errors times the impulses.
+  const double error = inelastic_.error + rebounding_.error;
+  const double known_to = 1e-9 * std::abs(inelastic) + error * std::sqrt(impulse * rows);
+  const double e2 = restitution_ * restitution_;
+  if (rebounding >= (1.0 - e2) * inelastic - known_to) return 1.0;
+  if (!(curvature > 0.0) || !(inelastic > 0.0)) return 0.0;
+  const double root = std::sqrt(slope * slope + 2.0 * curvature * e2 * inelastic);
+  return std::clamp((root - slope) / curvature, 0.0, 0.95);
+}
+
+/// True when some island's scale fell: it must be solved again.
+bool ImpactLaw::lower(const FrictionProblem& problem, bool give_up) {
+  bool fell = false;
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (scale_[i] == 0.0) continue;
+    const double factor = lowered_to(problem, i);
+    if (factor == 1.0) continue;
+    scale_[i] *= give_up ? 0.0 : factor;
+    least_ = std::min(least_, scale_[i] * restitution_);
+    fell = true;
+  }
+  return fell;
+}
+
+SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem& problem,
+                           std::span<const double> rebound, Impulses start, const Budget& budget) {
+  constexpr int most_lowerings = 5;
+  least_ = restitution_;
+  if (std::none_of(rebound.begin(), rebound.end(), [](double x) { return x < 0.0; }))
+    return runner.run(solver, problem, std::move(start), budget);
+  split_bias(problem, rebound);
+  islands_.find(problem);
+  scale_.assign(islands_.count(), 1.0);
+
+  // The inelastic impact, for what it takes.
+  problem.dynamics.bias = walls_;
+  SolverRun earlier = runner.run(solver, problem, start, budget);
+  measure(problem, earlier, runner.body_velocity(), inelastic_);
+  body_to_contact_velocity(problem.dynamics, problem.row_begin, problem.dynamics.v_free, u_free_);
+  // Newton's law, then with lower e where it gives too much back.
+  set_bias(problem, rebound);
+  SolverRun run = runner.run(solver, problem, std::move(start), budget);
+  book(earlier, run);
+  for (int k = 1; k <= most_lowerings; ++k) {
+    measure(problem, run, runner.body_velocity(), rebounding_);
+    const bool fell = lower(problem, k == most_lowerings);
+    set_bias(problem, rebound);
+    if (!fell) break;
+    earlier = std::move(run);
+    run = runner.run(solver, problem, earlier.solved.impulses, budget);
+    book(earlier, run);
+  }
+  return run;
+}
+
+}  // namespace ballast

@@ -1,0 +1,58 @@
+#pragma once
+// Newton's law of restitution, limited by energy.
+//
+// Newton's e speaks of normal velocities alone: u_N+ >= -e u_N-. With friction, or where a contact
+// that opens is pushed shut by others, it can give energy (Kane and Levinson 1985; Glocker 2013).
+// So it is limited. With u_free the relative velocity without contact impulses and u the one at the
+// step's end, the contacts of an island take from the free motion
+//
+//   L(r) = -1/2 sum_c r_c . (u_c + u_free,c)      [J], walls' own work apart
+//
+// of which the inelastic impact, e = 0, takes L_0 >= 0 always. Asked is L >= (1 - e^2) L_0: the
+// rebound gives back at most e^2 of what the inelastic impact takes. Moreau's law with one e for
+// all velocities keeps to that; so does Newton's without friction, with equality. Where Newton's
+// doesn't, the island's e is lowered to where it does; e = 0 always does.
+
+#include <span>
+#include <vector>
+
+#include "problems/algebra/islands.hpp"
+#include "solvers/seam/run_solver.hpp"
+
+namespace ballast {
+
+class ImpactLaw {
+ public:
+  explicit ImpactLaw(double restitution) : restitution_(restitution) {}
+
+  /// Solves `problem`, in whose bias the normal row of contact c holds rebound[c] = e u_N- <= 0
+  /// among the rest; the bias is left as it was solved with. Two solves where something rebounds,
+  /// some more where e is lowered. Throws as SolverRunner::run.
+  SolverRun solve(SolverRunner& runner, Solver& solver, FrictionProblem& problem,
+                  std::span<const double> rebound, Impulses start, const Budget& budget);
+
+  /// The lowest coefficient in force in the last solve(): the scene's, or what it was lowered to.
+  double least_restitution() const { return least_; }
+
+ private:
+  struct Impact {
+    Impulses r;
+    Eigen::VectorXd u;  ///< with the walls' motion, without the rebound
+    double error = 0.0;
+  };
+
+  void split_bias(const FrictionProblem& problem, std::span<const double> rebound);
+  void measure(FrictionProblem& problem, const SolverRun& run, const Eigen::VectorXd& v,
+               Impact& impact) const;
+  bool lower(const FrictionProblem& problem, bool give_up);
+  double lowered_to(const FrictionProblem& problem, int island) const;
+  void set_bias(FrictionProblem& problem, std::span<const double> rebound) const;
+
+  double restitution_, least_ = 0.0;
+  Islands islands_;
+  std::vector<double> scale_;  ///< of e, per island
+  Eigen::VectorXd newton_, walls_, u_free_;
+  Impact inelastic_, rebounding_;
+};
+
+}  // namespace ballast
