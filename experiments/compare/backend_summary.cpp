@@ -29,6 +29,7 @@ std::vector<BackendSummary> backend_summaries(const CompareTable& table, double 
       summary.crashes +=
           cell.row->outcome == Outcome::crashed || cell.row->outcome == Outcome::out_of_memory;
       summary.unsupported += cell.row->outcome == Outcome::unsupported;
+      summary.no_solutions += cell.row->outcome == Outcome::no_solution;
       summary.false_successes += cell.row->is_false_success();
       if (cell.solved && cell.median > 0.0)
         summary.largest_spread =
@@ -64,9 +65,9 @@ std::string compare_summary(std::span<const CompareRow> rows,
     for (const BackendSummary& s : backend_summaries(table, limit)) {
       text += printed(
           "  %-16s solved %4d   mean %10.4g ms (hides %d unsolved)   over fastest %8.3g   "
-          "timeouts %d, crashes %d, not taken %d%s\n",
+          "timeouts %d, crashes %d, not taken %d, no solution %d%s\n",
           s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.unsolved, s.mean_ratio, s.timeouts,
-          s.crashes, s.unsupported, s.false_successes ? "   CLAIMS DENIED" : "");
+          s.crashes, s.unsupported, s.no_solutions, s.false_successes ? "   CLAIMS DENIED" : "");
     }
   }
   for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))

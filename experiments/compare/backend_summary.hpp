@@ -20,7 +20,8 @@ inline constexpr double summary_shift = 1e-3;
 /// One backend in a table of one tolerance and start.
 struct BackendSummary {
   std::string solver, law;
-  int solved = 0, unsolved = 0, timeouts = 0, crashes = 0, unsupported = 0, false_successes = 0;
+  int solved = 0, unsolved = 0, timeouts = 0, crashes = 0, unsupported = 0, no_solutions = 0,
+      false_successes = 0;
   double mean_seconds = 0.0;  ///< shifted geometric mean over all cases (summary_shift); the
                               ///< `unsolved` ones in it count with the limit
   double mean_ratio =

@@ -42,16 +42,16 @@ page::Text if_any(long count) {
 
 page::Table backends_table(const CompareTable& table, double limit) {
   page::Table result;
-  result.head = {"backend",        "law",           "solved",   "mean time",
-                 "unsolved in it", "over fastest",  "timeouts", "crashes",
-                 "not taken",      "claims denied", "spread"};
-  result.is_number = {false, false, true, true, true, true, true, true, true, true, true};
+  result.head = {"backend",        "law",          "solved",        "mean time",
+                 "unsolved in it", "over fastest", "timeouts",      "crashes",
+                 "not taken",      "no solution",  "claims denied", "spread"};
+  result.is_number = {false, false, true, true, true, true, true, true, true, true, true, true};
   for (const BackendSummary& s : backend_summaries(table, limit))
     result.rows.push_back(
         {s.solver, s.law, page::exact(s.solved) + " of " + count_of(table.cases.size()),
          time_of(s.mean_seconds), page::styled(if_any(s.unsolved), page::bad),
          page::number(s.mean_ratio), if_any(s.timeouts), if_any(s.crashes), if_any(s.unsupported),
-         page::styled(if_any(s.false_successes), page::bad),
+         if_any(s.no_solutions), page::styled(if_any(s.false_successes), page::bad),
          s.largest_spread > 0.0 ? page::quantity(100.0 * s.largest_spread, "%", 2) : page::Text()});
   return result;
 }

@@ -17,8 +17,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* measure_names[] = {"natural_map", "fclib"};
 constexpr const char* start_names[] = {"cold", "warm"};
-constexpr const char* outcome_names[] = {"solved",        "stopped",     "timeout",   "crashed",
-                                         "out_of_memory", "unsupported", "unreadable"};
+constexpr const char* outcome_names[] = {"solved",      "stopped",       "timeout",
+                                         "crashed",     "out_of_memory", "unsupported",
+                                         "no_solution", "unreadable"};
 
 template <typename Enum, size_t count>
 Enum by_name(const char* const (&names)[count], const std::string& name, const char* what) {

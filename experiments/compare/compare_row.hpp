@@ -26,6 +26,7 @@ enum class Outcome {
   crashed,        ///< the child process died
   out_of_memory,  ///< allocation refused under the memory limit
   unsupported,    ///< the backend says that it cannot take the problem
+  no_solution,    ///< no solution found: r grows without bound, or it is proved that there is none
   unreadable,     ///< the case itself cannot be had: no backend was tried, `solver` is empty
 };
 
@@ -59,7 +60,8 @@ struct CompareRow {
   std::string reason;    ///< the backend's StopReason; empty when none was heard
   std::string note;      ///< why it failed
   bool claimed = false;  ///< the backend says that the tolerance is reached
-  bool judged = false;   ///< the judge, in another process, finds the error below the tolerance
+  bool judged = false;   ///< the judge, in another process, finds every part of the law within the
+                         ///< tolerance (ContactError::within), or fclib's measure
   double error = 0.0;    ///< in the row's measure, the judge's
   double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< the judge's [m/s]
   double fclib = 0.0;
@@ -77,8 +79,8 @@ struct CompareRow {
   std::vector<HistoryRow> history;
 
   double seconds() const { return prepare_seconds + solve_seconds; }
-  /// A claim that the judge denies.
-  bool is_false_success() const { return claimed && !judged; }
+  /// A claim that the judge denies. Where no solution is to be had that is said instead.
+  bool is_false_success() const { return claimed && !judged && outcome != Outcome::no_solution; }
 };
 
 /// One column of the CSV. `text` writes a cell.

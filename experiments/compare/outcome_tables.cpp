@@ -19,6 +19,8 @@ std::string reason_of(const CompareRow& row) {
       return "memory";
     case Outcome::unsupported:
       return "not taken";
+    case Outcome::no_solution:
+      return "no solution";
     default:
       break;
   }
@@ -71,11 +73,16 @@ page::Table failures_table(std::span<const CompareRow> rows) {
     const bool is_noted = row.outcome == Outcome::stopped || row.outcome == Outcome::timeout;
     const bool is_refused =
         row.outcome == Outcome::unsupported && told.insert(row.solver + row.note).second;
-    if (!died && !row.is_false_success() && !is_refused && (row.note.empty() || !is_noted))
+    const bool has_none =
+        row.outcome == Outcome::no_solution && told.insert(row.case_name + row.note).second;
+    if (!died && !row.is_false_success() && !is_refused && !has_none &&
+        (row.note.empty() || !is_noted))
       continue;
-    const std::string what = row.is_false_success() ? "claims success, the judge denies it"
-                                                    : std::string(name_of(row.outcome)) +
-                                                          (row.note.empty() ? "" : ": " + row.note);
+    const std::string what =
+        row.is_false_success()
+            ? std::string("claims success, ") +
+                  (row.note.empty() ? "the judge denies it" : row.note)
+            : std::string(name_of(row.outcome)) + (row.note.empty() ? "" : ": " + row.note);
     result.rows.push_back(
         {row.case_name, row.solver, page::exact(row.tolerance), what, page::number(row.error, 2)});
   }

@@ -11,6 +11,7 @@
 #include "platform/clock.hpp"
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
+#include "solvers/seam/verdict.hpp"
 
 namespace ballast {
 namespace {
@@ -134,8 +135,10 @@ ChildMessage work_of_child(SolverMaker make, const LoadedCase& loaded, const Dri
   return message;
 }
 
-void judge(const LoadedCase& loaded, const Impulses& impulses, CompareRow& row) {
-  if (impulses.size() != loaded.problem.row_count()) return;
+/// The judge's measures of the row, and what they and the backend's word come to.
+Finding judge(const LoadedCase& loaded, const Impulses& impulses, StopReason reason,
+              CompareRow& row) {
+  if (impulses.size() != loaded.problem.row_count()) return {};
   const ContactError error = contact_error(loaded.problem, impulses);
   row.natural_map_rms = error.natural_map_rms;
   row.natural_map_max = error.natural_map_max;
@@ -146,10 +149,22 @@ void judge(const LoadedCase& loaded, const Impulses& impulses, CompareRow& row) 
   row.worst = loaded.describe_contact(error.worst_contact);
   row.error = row.measure == Measure::fclib ? error.fclib
                                             : error.natural_map_rms / loaded.facts.velocity_scale;
-  row.judged = error.finite && row.error <= row.tolerance;
+  const double tolerance = row.tolerance * loaded.facts.velocity_scale;
+  const bool by_fclib = row.measure == Measure::fclib;
+  const StopReason said = row.claimed ? StopReason::reached_tolerance : reason;
+  const Verdict verdict =
+      by_fclib ? fclib_verdict_of(said, error, row.tolerance) : verdict_of(said, error, tolerance);
+  row.judged = by_fclib
+                   ? error.finite && error.fclib <= row.tolerance && verdict != Verdict::no_solution
+                   : error.within(tolerance);
+  if (verdict == Verdict::solved) return {verdict, ""};
+  const Finding found = finding_on(loaded.problem, impulses, said, error, tolerance);
+  if (found.verdict == Verdict::no_solution || !by_fclib) return found;
+  return {verdict, ""};
 }
 
-Outcome outcome_of(const ChildMessage& message, const CompareRow& row, double max_seconds) {
+Outcome outcome_of(const ChildMessage& message, const CompareRow& row, Verdict verdict,
+                   double max_seconds) {
   switch (message.outcome) {
     case ChildOutcome::unsupported:
       return Outcome::unsupported;
@@ -160,6 +175,7 @@ Outcome outcome_of(const ChildMessage& message, const CompareRow& row, double ma
     case ChildOutcome::driven:
       break;
   }
+  if (verdict == Verdict::no_solution) return Outcome::no_solution;
   if (row.seconds() > max_seconds) return Outcome::timeout;
   if (row.claimed && row.judged) return Outcome::solved;
   return message.reason == StopReason::time_limit ? Outcome::timeout : Outcome::stopped;
@@ -206,8 +222,10 @@ void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSetti
   row.first_seconds = message.first_seconds;
   row.peak_memory_MB = message.peak_memory_MB;
   row.history = std::move(message.history);
-  judge(loaded, message.impulses, row);
-  row.outcome = outcome_of(message, row, drive.max_seconds);
+  const Finding found = judge(loaded, message.impulses, message.reason, row);
+  row.outcome = outcome_of(message, row, found.verdict, drive.max_seconds);
+  const bool is_told = found.verdict == Verdict::denied || found.verdict == Verdict::no_solution;
+  if (row.note.empty() && is_told) row.note = found.words;
 }
 
 }  // namespace ballast

@@ -26,11 +26,13 @@ const SceneKeys<GravityText> gravity_keys{
 
 const SceneKeys<Scene> contact_keys{
     {"friction", number(&Scene::friction, friction_range), "Coulomb's μ between bodies"},
-    {"restitution", number(&Scene::restitution, zero_to_one), "Newton's e; lowered where it would give energy ([method.md](../theory/method.md))"},
+    {"restitution", number(&Scene::restitution, zero_to_one),
+     "Newton's e; lowered where it would give energy ([method.md](../theory/method.md))"},
 };
 
 const SceneKeys<SolverSpec> solver_keys{
-    {"name", text(&SolverSpec::name), "as listed by `ballast solvers`; without grains the default is \"auto\", which holds "
+    {"name", text(&SolverSpec::name),
+     "as listed by `ballast solvers`; without grains the default is \"auto\", which holds "
      "whatever the masses are"},
     {"tolerance", number(&SolverSpec::tolerance, not_negative, "g h"),
      "scaled natural map, rms over contacts, in units of g h (of 1 m/s without gravity)"},

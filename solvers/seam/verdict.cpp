@@ -61,7 +61,8 @@ Verdict verdict_of(StopReason reason, const ContactError& error, double toleranc
 }
 
 Verdict fclib_verdict_of(StopReason reason, const ContactError& error, double tolerance) {
-  const bool within = error.finite && error.fclib <= tolerance;
+  const bool within =
+      error.finite && error.fclib <= tolerance && !(error.growth > unbounded_growth);
   // Its tolerance is a pure number; contacts that sink in are measured in m/s.
   return verdict_from(within, reason, error, tolerance * error.velocity_scale);
 }

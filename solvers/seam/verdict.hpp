@@ -25,7 +25,8 @@ constexpr double unbounded_growth = 1e8;
 /// Of impulses with that error, which a solver returned for that reason under that tolerance [m/s].
 Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance);
 
-/// The same where Siconos' measure (ContactError::fclib) is what was asked for: it alone decides.
+/// The same where Siconos' measure (ContactError::fclib) is what was asked for: it alone decides,
+/// but that it divides by |r|, and what grows without bound meets it: that is no solution.
 Verdict fclib_verdict_of(StopReason reason, const ContactError& error, double tolerance);
 
 /// In words, one line: "solved", "the judge denies it: -u_N is 0.3 m/s (rms), at most 4e-08 may

@@ -19,6 +19,8 @@ TEST_CASE("Who solves most comes first, and what was not solved counts with the 
       hand_made_row("y", "c", 0.5, Outcome::stopped),
   };
   rows.back().claimed = true;  // and the judge denies it
+  rows.push_back(hand_made_row("z", "c", 0.5, Outcome::no_solution));
+  rows.back().claimed = true;  // there is none: that is said instead
   CHECK(limit_of(rows) == 60.0);
   const std::vector<CompareTable> tables = compare_tables(rows);
   const std::vector<BackendSummary> all = backend_summaries(tables.at(0), 60.0);
@@ -36,7 +38,8 @@ TEST_CASE("Who solves most comes first, and what was not solved counts with the 
   CHECK(all[2].crashes == 1);
   CHECK(all[2].false_successes == 1);
   CHECK(all[2].solved == 0);
-  CHECK(all[2].unsolved == 2);
+  CHECK(all[2].unsolved == 3);
+  CHECK(all[2].no_solutions == 1);
 }
 
 TEST_CASE("The spread is over repeats") {

@@ -9,6 +9,7 @@
 
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
+#include "tests/problems/algebra/unsolvable.hpp"
 
 using namespace ballast;
 
@@ -92,6 +93,29 @@ TEST_CASE("Whatever a backend does becomes a row") {
   CHECK(tried(misbehaving<NoMemory>, 1e-6).outcome == Outcome::out_of_memory);
   // a row without an answer has no error, not a small one
   CHECK(std::isnan(tried(misbehaving<Crash>, 1e-6).error));
+}
+
+TEST_CASE("A case without a solution is said to have none, in either measure") {
+  LoadedCase loaded = compare_cases({"known:contacts=12,bodies=6,seed=3"})[0].load();
+  loaded.problem = squeezed_contacts();
+  DriveSettings drive;
+  drive.max_seconds = 20.0;
+  drive.max_iterations = 2000;
+  ChildLimits limits;
+  limits.memory_MB = 0.0;
+  limits.warm_seconds = 0.0;
+  for (const Measure measure : {Measure::natural_map, Measure::fclib})
+    for (const char* name : {"pgs", "apgd"}) {
+      CompareRow row;
+      row.measure = measure;
+      row.tolerance = 1e-6;
+      solve_in_child(find_solver(name).make, loaded, drive, limits, row);
+      CAPTURE(name, row.reason, row.error);
+      CHECK(row.outcome == Outcome::no_solution);
+      CHECK_FALSE(row.judged);
+      CHECK_FALSE(row.is_false_success());
+      CHECK(row.note.find("no solution") != std::string::npos);
+    }
 }
 
 TEST_CASE("A solve brings back its answer, its history and where it is worst") {

@@ -42,6 +42,8 @@ TEST_CASE("impulses that swallow the velocities solve nothing") {
   CHECK(verdict_of(claimed, error, 1e-8) == Verdict::no_solution);
   CHECK(words_of(Verdict::no_solution, claimed, error, 1e-8) ==
         "no solution found; r grows without bound: 1e+17 times what a contact alone needs");
+  CHECK(error.fclib < 1e-8);
+  CHECK(fclib_verdict_of(claimed, error, 1e-8) == Verdict::no_solution);
   r[0] = r[3] = 1e3;  // on the way there
   CHECK(verdict(squeezed_contacts(), r) == Verdict::denied);
   CHECK(verdict_of(StopReason::iteration_limit, contact_error(squeezed_contacts(), r), 1e-8) ==
