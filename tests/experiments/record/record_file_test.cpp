@@ -1,7 +1,10 @@
 #include "experiments/record/record_file.hpp"
 
+#include <cmath>
+
 #include "experiments/record/bits_generation.hpp"
 #include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_writer.hpp"
 #include "tests/support/sample_record.hpp"
 
 using namespace ballast;
@@ -72,6 +75,21 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
     }
     CHECK(volume == Approx(system.bodies[k].volume).epsilon(1e-12));
   }
+}
+
+TEST_CASE("columns that an older record lacks are not known, and the others are read") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "record.h5";
+  Hdf5Writer file(path, Hdf5Storage::compressed);
+  file.add_group("steps");
+  file.add("steps/time", std::vector<double>{0.5, 1.0});
+  file.add("steps/wall_x", std::vector<double>{2.0, 3.0});
+  file.commit();
+  const std::vector<StepRecord> steps = read_record_steps(path);
+  REQUIRE(steps.size() == 2);
+  CHECK(steps[1].wall_x == 3.0);
+  CHECK(std::isnan(steps[1].solved));
+  CHECK(std::isnan(steps[0].energy_gained));
 }
 
 TEST_CASE("a broken record.h5 is an error that names it") {
