@@ -62,7 +62,7 @@ class WorkerTeam {
   std::atomic<std::uint32_t> round_{0};
   std::atomic<int> left_{0};  // parts that are not done
   std::atomic<int> parts_{0};
-  bool ends_ = false;
+  std::atomic<bool> ends_{false};  // one who is late for a round reads it while stop() sets it
   Call call_ = nullptr;
   const void* context_ = nullptr;
   TeamPatience patience_;
