@@ -42,4 +42,4 @@ export -f run_one
 export seconds
 export limits_text="${limits[*]}"
 printf '%s\n' "$@" | xargs -P "${JOBS:-$(nproc)}" -I{} bash -c \
-  'limits=($limits_text); run_one {} || exit 1'
+  'limits=($limits_text); run_one {} || exit 1' || exit 1
