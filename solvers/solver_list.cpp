@@ -105,6 +105,8 @@ constexpr SolverEntry rows[] = {
      PyramidLemkeSettings{}.limit()},
     {"siconos_nsgs", "Siconos: nonsmooth Gauss-Seidel, hybrid local Newton", ContactLaw::coulomb,
      [] { return make_siconos(SiconosMethod::nsgs); }, siconos},
+    {"siconos_nsgs_full", "Siconos: nonsmooth Gauss-Seidel, its true error after every sweep",
+     ContactLaw::coulomb, [] { return make_siconos(SiconosMethod::nsgs_full); }, siconos},
     {"siconos_prox", "Siconos: proximal point around a nonsmooth Newton", ContactLaw::coulomb,
      [] { return make_siconos(SiconosMethod::prox); }, siconos},
     {"siconos_admm", "Siconos: ADMM, penalty by residual balancing", ContactLaw::coulomb,

@@ -126,6 +126,7 @@ void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
     word.fail("friction_max: expected at least friction_min");
   settings.active = word.take("active", settings.active);
   if (settings.active > 1.0) word.fail("active: expected a number from 0 to 1");
+  settings.slenderness = word.take("slenderness", settings.slenderness, 1e-3);
   settings.shear = word.take("shear", settings.shear);
   settings.mass_unit = word.take("mass_unit", settings.mass_unit, 1e-9);
   settings.is_stored = word.take("stored", 0.0) > 0.0;

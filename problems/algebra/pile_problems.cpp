@@ -64,10 +64,16 @@ class Pile {
     return std::max(1, static_cast<int>(std::lround(bodies)));
   }
 
+  /// Lattice points along a side of the ground.
+  int side_of(int bodies) const {
+    const double side = std::cbrt(bodies / settings_.slenderness);
+    return std::max(1, static_cast<int>(std::lround(side)));
+  }
+
   /// Near the points of a cubic lattice of spacing 1, in layers from below.
   void place_bodies() {
     const int bodies = body_count();
-    const int side = static_cast<int>(std::ceil(std::cbrt(bodies)));
+    const int side = side_of(bodies);
     for (int b = 0; b < bodies; ++b) {
       const Vector3d lattice(b % side, b / side % side, b / (side * side));
       centre_.push_back(lattice + in_cube(random_, 0.2));
@@ -108,7 +114,7 @@ class Pile {
   /// The nearest pairs, three for a body: the lowest layer has the ground for a neighbour.
   void find_pairs() {
     const int bodies = static_cast<int>(centre_.size());
-    const int side = static_cast<int>(std::ceil(std::cbrt(bodies)));
+    const int side = side_of(bodies);
     const int layer = side * side;
     for (int b = 0; b < bodies; ++b) {
       if (b < layer) pairs_.push_back({-1, b, 0.0});
@@ -200,6 +206,7 @@ FrictionProblem make_pile(const PileSettings& settings) {
           "friction: expected 0 <= friction_min <= friction_max");
   require(settings.active >= 0.0 && settings.active <= 1.0,
           "active: expected a number from 0 to 1");
+  require(settings.slenderness > 0.0, "slenderness: expected a number > 0");
   require(settings.shear >= 0.0, "shear: expected a number >= 0");
   require(settings.mass_unit > 0.0, "mass_unit: expected a number > 0");
   return Pile(settings).make();
@@ -217,6 +224,7 @@ PileSettings random_pile(std::uint64_t seed, int most_contacts) {
   settings.active = random.uniform(0.4, 1.0);
   settings.shear = random.log_uniform(0.05, 5.0);
   settings.mass_unit = random.log_uniform(1e-2, 1e4);
+  settings.slenderness = random.log_uniform(1.0, 30.0);
   settings.is_stored = random.uniform() < 0.75;
   settings.seed = seed;
   return settings;

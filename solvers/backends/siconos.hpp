@@ -18,10 +18,11 @@ namespace ballast {
 /// tightened in rounds until the judge does, or nothing comes of it any more. An iteration is one
 /// of Siconos' own.
 enum class SiconosMethod {
-  nsgs,   ///< nonsmooth Gauss-Seidel, local Newton with line search and projections
-  prox,   ///< proximal point around a nonsmooth Newton
-  admm,   ///< ADMM, penalty by residual balancing
-  nsn_ac  ///< nonsmooth Newton on Alart-Curnier's function
+  nsgs,       ///< nonsmooth Gauss-Seidel, local Newton with line search and projections
+  nsgs_full,  ///< the same; its true error after every sweep, in place of what the sweep moved
+  prox,       ///< proximal point around a nonsmooth Newton
+  admm,       ///< ADMM, penalty by residual balancing
+  nsn_ac      ///< nonsmooth Newton on Alart-Curnier's function
 };
 std::unique_ptr<Solver> make_siconos(SiconosMethod method);
 

@@ -23,7 +23,7 @@ void NewtonSystem::prepare(const ContactOperator& w) {
   if (w.problem().has_dynamics)
     prepare_bodies(w.problem());
   else
-    prepare_delassus(w.problem());
+    matrix_form_.prepare(w.problem());
 }
 
 void NewtonSystem::prepare_bodies(const FrictionProblem& problem) {
@@ -143,58 +143,10 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
   return true;
 }
 
-void NewtonSystem::prepare_delassus(const FrictionProblem& problem) {
-  // the pattern of W with full diagonal blocks, in columns
-  const SparseRows& w = problem.delassus.w;
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<size_t>(w.nonZeros()) + 9 * problem.contact_count());
-  for (int c = 0; c < problem.contact_count(); ++c)
-    for (int i = problem.row_begin[c]; i < problem.row_begin[c + 1]; ++i) {
-      for (int j = problem.row_begin[c]; j < problem.row_begin[c + 1]; ++j)
-        entries.emplace_back(i, j, 0.0);
-      for (SparseRows::InnerIterator entry(w, i); entry; ++entry)
-        for (int k = problem.row_begin[c]; k < problem.row_begin[c + 1]; ++k)
-          entries.emplace_back(k, static_cast<int>(entry.col()), 0.0);
-    }
-  matrix_.resize(problem.row_count(), problem.row_count());
-  matrix_.setFromTriplets(entries.begin(), entries.end());
-}
-
-bool NewtonSystem::solve_delassus(const ContactOperator& w,
-                                  const std::vector<ContactLinearisation>& linear,
-                                  const std::vector<double>& alpha, Impulses& dr) {
-  const FrictionProblem& problem = w.problem();
-  const SparseRows& stored = problem.delassus.w;
-  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
-  const int* outer = matrix_.outerIndexPtr();
-  const int* inner = matrix_.innerIndexPtr();
-  const auto entry_at = [&](int row, int column) -> double& {
-    const int* found = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
-    return matrix_.valuePtr()[found - inner];
-  };
-  right_.resize(problem.row_count());
-  for (int c = 0; c < problem.contact_count(); ++c) {
-    const int begin = problem.row_begin[c], rows = problem.contact_rows(c);
-    const Eigen::Matrix3d b = linear[c].by_r + alpha[c] * linear[c].by_u;
-    if (!b.allFinite() || !linear[c].f.allFinite()) return false;
-    for (int i = 0; i < rows; ++i) {
-      right_[begin + i] = -linear[c].f[i];
-      for (int j = 0; j < rows; ++j) entry_at(begin + i, begin + j) += b(i, j);
-      for (SparseRows::InnerIterator entry(stored, begin + i); entry; ++entry)
-        for (int k = 0; k < rows; ++k)
-          entry_at(begin + k, static_cast<int>(entry.col())) +=
-              linear[c].by_u(k, i) * entry.value();
-    }
-  }
-  if (!factor_.factor(matrix_)) return false;
-  factor_.solve(matrix_, right_, dr, 1);
-  return dr.allFinite();
-}
-
 bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
                          const std::vector<double>& alpha, Impulses& dr) {
   return w.problem().has_dynamics ? solve_bodies(w, linear, alpha, dr)
-                                  : solve_delassus(w, linear, alpha, dr);
+                                  : matrix_form_.solve(linear, alpha, dr);
 }
 
 }  // namespace ballast

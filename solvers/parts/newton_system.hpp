@@ -13,6 +13,7 @@
 
 #include "solvers/parts/contact_equation.hpp"
 #include "solvers/parts/contact_operator.hpp"
+#include "solvers/parts/newton_matrix.hpp"
 #include "solvers/parts/sparse_factor.hpp"
 
 namespace ballast {
@@ -30,11 +31,8 @@ class NewtonSystem {
 
  private:
   void prepare_bodies(const FrictionProblem& problem);
-  void prepare_delassus(const FrictionProblem& problem);
   bool solve_bodies(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
                     const std::vector<double>& alpha, Impulses& dr);
-  bool solve_delassus(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
-                      const std::vector<double>& alpha, Impulses& dr);
   /// Adds H_p^T e H_q of contact c (sides p, q in 0, 1) to the matrix.
   void add_block(const FrictionProblem& problem, int c, int p, int q, const Eigen::Matrix3d& e);
 
@@ -46,6 +44,7 @@ class NewtonSystem {
   std::vector<Eigen::Matrix3d> gain_;    ///< E = B^-1 by_u per contact
   std::vector<Eigen::Vector3d> source_;  ///< B^-1 f
   LuFactor factor_;
+  NewtonMatrix matrix_form_;  ///< where W is stored
   Eigen::VectorXd right_, dv_, u_;
 };
 
