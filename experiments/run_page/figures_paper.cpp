@@ -122,7 +122,8 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
        {std::tuple{WallPhase::jammed, "jammed", Ink::green},
         std::tuple{WallPhase::active, "active", Ink::blue},
         std::tuple{WallPhase::passive, "passive", Ink::vermilion}}) {
-    add(cycles.force, title, ink, 2.2, [&](size_t k) { return cycles.phase[k] == phase; });
+    add(cycles.force, title, ink, 2.2,
+        [&, wanted = phase](size_t k) { return cycles.phase[k] == wanted; });
     if (const double peak = statistics(panel.curves.back().y).max; peak > top) top = peak;
   }
   panel.y_max = 1.1 * top;

@@ -75,7 +75,8 @@ class Pile {
     const int bodies = body_count();
     const int side = side_of(bodies);
     for (int b = 0; b < bodies; ++b) {
-      const Vector3d lattice(b % side, b / side % side, b / (side * side));
+      const int row = b / side % side, layer = b / (side * side);
+      const Vector3d lattice(b % side, row, layer);
       centre_.push_back(lattice + in_cube(random_, 0.2));
       add_body(random_.log_uniform(1.0, settings_.mass_ratio));
     }
