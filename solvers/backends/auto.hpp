@@ -6,11 +6,11 @@
 
 namespace ballast {
 
-/// Accelerated sweeps first. Their pace over the later half of what was done says how many more they
-/// need; where that is more work than a proximal Newton would take, it takes over; where Newton
-/// stands still, sweeps of the other kind go on from the best iterate, and so by turns. What a sweep
-/// and a Newton step cost is counted in operations from the problem's own size and entries, never
-/// clocked: same input, same bits. One iteration is a sweep or a Newton step.
+/// Gauss-Seidel first, in growing rounds. When the rate of the last round says that the tolerance
+/// is further away than some factorisations cost, proximal Newton takes over; where that stands
+/// still, sweeps and Newton go on by turns from the best iterate. What a sweep and a factorisation
+/// cost is modelled from sizes, not clocked: same input, same bits. One iteration is a sweep or a
+/// factorisation.
 std::unique_ptr<Solver> make_auto();
 
 }  // namespace ballast

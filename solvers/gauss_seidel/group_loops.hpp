@@ -2,6 +2,8 @@
 // The loops of group_kernels.hpp for one instruction set: V, its lanes. Included by the sources
 // group_kernels_*.cpp alone, after the lanes.
 
+#include <type_traits>
+
 #include "solvers/gauss_seidel/body_lanes.hpp"
 #include "solvers/gauss_seidel/group_kernels.hpp"
 #include "solvers/gauss_seidel/law_lanes.hpp"
@@ -46,7 +48,7 @@ BALLAST_INLINE void push(const Group& k, int lane, const V* e, V* a, V* b) {
 template <bool Search, typename V, typename Impulses, typename GroupSearch>
 BALLAST_INLINE void load_impulses(const Impulses& impulses, GroupSearch* search, SearchStep step,
                                   int lane, V* r) {
-  constexpr int rows = sizeof(Impulses::y) / sizeof(Impulses::y[0]);
+  constexpr int rows = std::extent_v<decltype(Impulses::y)>;
   for (int i = 0; i < rows; ++i) {
     r[i] = V::load(impulses.y[i] + lane);
     if constexpr (Search) {

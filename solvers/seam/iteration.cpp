@@ -54,8 +54,7 @@ void Iteration::evaluated(double error, const Impulses& r) {
     reason_ = StopReason::iteration_limit;
   else if (out_of_time_ || now >= budget_.max_seconds)
     reason_ = StopReason::time_limit;
-  else if (count_ - unchanged_since_ >= patience_ ||
-           (budget_.leave && (*budget_.leave)(count_, error)))
+  else if (count_ - unchanged_since_ >= patience_)
     reason_ = StopReason::stalled;
   else
     stopped_ = false;

@@ -12,6 +12,24 @@
 #include "solvers/seam/relay.hpp"
 
 namespace ballast {
+namespace {
+
+/// Rounds without progress: a tenth less error than when it was last seen.
+struct Progress {
+  double from;
+  int idle = 0;
+
+  void see(double best_error, bool is_round_finished) {
+    if (best_error < 0.9 * from) {
+      from = best_error;
+      idle = 0;
+    } else if (is_round_finished) {
+      ++idle;
+    }
+  }
+};
+
+}  // namespace
 
 Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& moving, Impulses start,
                        const Budget& budget, int patience,
@@ -39,9 +57,9 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
   Eigen::VectorXd last;
   moving.gather(problem, r, last);
   Eigen::VectorXd best = last;
-  double last_error = error_of(last), best_error = last_error, progress_from = last_error;
+  double last_error = error_of(last), best_error = last_error;
   evaluated(best, best_error);
-  int idle = 0;
+  Progress progress{best_error};
   bool stalled = false;
   RoundAnswer answer;
   while (!stalled && iteration.next()) {
@@ -64,16 +82,10 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
         best = last;
       }
     }
-    // Progress is a tenth less than when it was last seen.
-    if (best_error < 0.9 * progress_from) {
-      progress_from = best_error;
-      idle = 0;
-    } else if (answer.finished) {
-      ++idle;
-    }
+    progress.see(best_error, answer.finished);
     iteration.error_due();
     evaluated(best, best_error);
-    stalled = idle >= patience;
+    stalled = progress.idle >= patience;
   }
   moving.scatter(problem, best, r);
   Solved solved = iteration.finish(std::move(r));

@@ -1,7 +1,6 @@
 #pragma once
 // The seam between problems and algorithms.
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,9 +37,6 @@ struct Budget {
   /// Not null: solvers stop on this measure as well (fclib_stop.hpp), wherever they evaluate the
   /// error. One object serves one solve.
   FclibStop* fclib = nullptr;
-  /// Not null: asked at every evaluation of the error (iteration, error [m/s]) that gives no reason
-  /// to stop. True ends the solve as stalled: another method shall go on.
-  const std::function<bool(int, double)>* leave = nullptr;
 
   /// The natural map to plan for [m/s]: the tolerance, or where `fclib` expects its own to be
   /// reached.

@@ -93,18 +93,3 @@ TEST_CASE("time runs out") {
   CHECK(solved.reason == StopReason::time_limit);
   CHECK(solved.iterations > 1);
 }
-
-TEST_CASE("a solve is left where another method shall go on") {
-  std::vector<int> asked;
-  const std::function<bool(int, double)> leave = [&](int iteration, double error) {
-    asked.push_back(iteration);
-    CHECK(error == 1.0 / (iteration + 1));
-    return iteration >= 9;
-  };
-  Budget budget{.tolerance = 1e-9};
-  budget.leave = &leave;
-  const Solved solved = run(budget, {4, 1.5}, [](int n) { return 1.0 / (n + 1); });
-  CHECK(solved.reason == StopReason::stalled);
-  CHECK(solved.iterations == 9);
-  CHECK(asked == std::vector<int>{0, 4, 6, 9});
-}
