@@ -200,7 +200,11 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file)
                 ": is no row of a comparison: a name or a bracket is missing, or a number is "
                 "no number");
   } catch (const std::invalid_argument& error) {  // of a name
-    throw Error(file + ": is no row of a comparison: " + error.what());
+    // One line, whatever the name holds.
+    std::string what = error.what();
+    for (char& c : what)
+      if (static_cast<unsigned char>(c) < 0x20) c = '?';
+    throw Error(file + ": is no row of a comparison: " + what);
   }
 }
 

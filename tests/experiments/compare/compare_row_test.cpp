@@ -47,6 +47,14 @@ TEST_CASE("Names of measures, starts and outcomes are read back, others are refu
                     Catch::Contains("exploded"));
 }
 
+TEST_CASE("A broken name with a line break in it is refused in one line") {
+  std::string json = to_json(CompareRow{});
+  const std::string name = name_of(CompareRow{}.outcome);
+  json.replace(json.find('"' + name + '"') + 1, name.size(), "ex\\nploded");
+  CHECK_THROWS_WITH(compare_row_of_json(json, "row.json"),
+                    Catch::Contains("'ex?ploded' is no outcome"));
+}
+
 TEST_CASE("A count that no int can hold is refused") {
   const std::string json = to_json(CompareRow{}), count = "\"repeat\":0";
   const size_t at = json.find(count);
