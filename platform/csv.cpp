@@ -18,9 +18,9 @@ void CsvWriter::add(std::string_view cell) {
   // A cell in quotes may hold commas; a quote in it is written twice.
   const bool is_quoted = cell.find_first_of(",\"\n\r") != std::string_view::npos;
   if (is_quoted) text_ += '"';
-  for (const char c : cell) {
+  for (const char c : one_line(cell, ' ')) {
     if (c == '"') text_ += '"';
-    text_ += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    text_ += c;
   }
   if (is_quoted) text_ += '"';
 }

@@ -2,13 +2,21 @@
 // What goes wrong outside the program: a file, a folder, a disk, another program.
 
 #include <stdexcept>
+#include <string>
+
+#include "platform/text.hpp"
 
 namespace ballast {
 
-/// what() is one line that begins with the file or program and says what is wrong with it.
+/// what() begins with the file or program and says what is wrong with it. It is one line: control
+/// characters of what is quoted are shown as '?'.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& what) : std::runtime_error(one_line(what, '?')) {}
 };
+
+/// What a message says of JSON of ours that is not as we write it, in place of the library's words.
+inline constexpr const char* broken_json =
+    "a name or a bracket is missing, or a value is of another kind";
 
 }  // namespace ballast

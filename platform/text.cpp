@@ -28,6 +28,13 @@ void add_to_list(std::string& list, std::string_view item) {
   list += item;
 }
 
+std::string one_line(std::string_view text, char shown) {
+  std::string line(text);
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = shown;
+  return line;
+}
+
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts(1);
   for (const char c : text) {

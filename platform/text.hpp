@@ -15,6 +15,10 @@ std::string printed(const char* format, ...) __attribute__((format(printf, 1, 2)
 /// Appends to a list that is written "one, two, three".
 void add_to_list(std::string& list, std::string_view item);
 
+/// `text` with every control character, line ends among them, as `shown`: what is quoted from a
+/// file may hold any.
+std::string one_line(std::string_view text, char shown);
+
 /// Levenshtein's distance: letters to insert, to leave out and to replace.
 size_t edit_distance(std::string_view a, std::string_view b);
 

@@ -99,8 +99,8 @@ BenchResult read_bench_result(const std::filesystem::path& file) {
                                      number(m.at("median")), number(m.at("mean")),
                                      number(m.at("low")), number(m.at("high")), m.at("samples")});
     return result;
-  } catch (const Json::exception& error) {
-    throw Error(file.string() + ": is no result of ballast bench: " + error.what());
+  } catch (const Json::exception&) {
+    throw Error(file.string() + ": is no result of ballast bench: " + broken_json);
   }
 }
 

@@ -196,15 +196,9 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file)
     }
     return row;
   } catch (const Json::exception&) {
-    throw Error(file +
-                ": is no row of a comparison: a name or a bracket is missing, or a number is "
-                "no number");
+    throw Error(file + ": is no row of a comparison: " + broken_json);
   } catch (const std::invalid_argument& error) {  // of a name
-    // One line, whatever the name holds.
-    std::string what = error.what();
-    for (char& c : what)
-      if (static_cast<unsigned char>(c) < 0x20) c = '?';
-    throw Error(file + ": is no row of a comparison: " + what);
+    throw Error(file + ": is no row of a comparison: " + error.what());
   }
 }
 

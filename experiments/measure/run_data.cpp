@@ -71,10 +71,10 @@ void read_manifest(RunData& data) {
   }
   try {
     data.manifest_text = read_whole_file(file);
-    nlohmann::ordered_json parsed = nlohmann::ordered_json::parse(data.manifest_text);
-    if (!parsed.is_object()) throw Error("it is not an object");
+    auto parsed = nlohmann::ordered_json::parse(data.manifest_text, nullptr, false);
+    if (!parsed.is_object()) throw Error(broken_json);
     data.manifest = std::move(parsed);
-  } catch (const std::exception& error) {
+  } catch (const Error& error) {
     data.notices.push_back(std::string("manifest.json cannot be read: ") + error.what());
   }
 }

@@ -13,9 +13,9 @@ namespace {
 /// In single quotes gnuplot expands nothing (double quotes would run what is between backquotes).
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) {
+  for (const char c : one_line(text, ' ')) {
     if (c == '\'') result += '\'';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    result += c;
   }
   return result + '\'';
 }
@@ -140,11 +140,11 @@ const char* rgb_of(Ink ink) {
 
 std::string plain_text(const std::string& text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : one_line(text, ' ')) {
     if (c == '^' || c == '_' || c == '@' || c == '&' || c == '~' || c == '{' || c == '}' ||
         c == '\\')
       result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    result += c;
   }
   return result;
 }

@@ -66,8 +66,8 @@ void add_rows(CsvWriter& csv, const fs::path& results, const fs::path& file,
                                            std::to_string(facts.steps_done), std::to_string(steps),
                                            facts.seconds, facts.error, facts.commit});
     }
-  } catch (const Json::exception& error) {
-    throw Error(file.string() + ": is no plan that ballast noted: " + error.what());
+  } catch (const Json::exception&) {
+    throw Error(file.string() + ": is no plan that ballast noted: " + broken_json);
   }
 }
 

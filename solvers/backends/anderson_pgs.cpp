@@ -5,6 +5,7 @@
 
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/gauss_seidel/either_form.hpp"
 #include "solvers/gauss_seidel/swept_error.hpp"
 #include "solvers/parts/anderson.hpp"
 #include "solvers/seam/iteration.hpp"
@@ -20,15 +21,12 @@ class AndersonPgs final : public Solver {
   explicit AndersonPgs(const AndersonPgsSettings& settings) : settings_(settings) {}
 
   void prepare(const FrictionProblem& problem) override {
-    if (problem.has_dynamics)
-      bodies_.prepare(problem);
-    else
-      delassus_.prepare(problem);
+    sweeps_.visit(problem, [&](auto& sweep) { sweep.prepare(problem); });
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    return problem.has_dynamics ? iterate(bodies_, problem, std::move(start), budget)
-                                : iterate(delassus_, problem, std::move(start), budget);
+    return sweeps_.visit(
+        problem, [&](auto& sweep) { return iterate(sweep, problem, std::move(start), budget); });
   }
 
  private:
@@ -79,8 +77,7 @@ class AndersonPgs final : public Solver {
   }
 
   AndersonPgsSettings settings_;
-  BodySweep bodies_;
-  DelassusSweep delassus_;
+  EitherForm<BodySweep, DelassusSweep> sweeps_;
   Anderson mixing_;
   Eigen::VectorXd x_, image_, good_image_, weights_;
   double last_change_ = 0.0;

@@ -4,6 +4,7 @@
 
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/gauss_seidel/either_form.hpp"
 #include "solvers/gauss_seidel/swept_error.hpp"
 #include "solvers/seam/iteration.hpp"
 
@@ -53,17 +54,14 @@ struct MatrixSearch {
 class Nncg final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
-    if (problem.has_dynamics)
-      bodies_.sweep.prepare(problem);
-    else
-      matrix_.sweep.prepare(problem);
+    searches_.visit(problem, [&](auto& search) { search.sweep.prepare(problem); });
   }
 
-  void use_threads(int threads) override { bodies_.sweep.use_threads(threads); }
+  void use_threads(int threads) override { searches_.bodies.sweep.use_threads(threads); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    return problem.has_dynamics ? iterate(bodies_, problem, std::move(start), budget)
-                                : iterate(matrix_, problem, std::move(start), budget);
+    return searches_.visit(
+        problem, [&](auto& search) { return iterate(search, problem, std::move(start), budget); });
   }
 
  private:
@@ -113,8 +111,7 @@ class Nncg final : public Solver {
     return {beta, 1.0};
   }
 
-  BodySearch bodies_;
-  MatrixSearch matrix_;
+  EitherForm<BodySearch, MatrixSearch> searches_;
   double square_ = 0.0, last_square_ = 0.0;  ///< |d|^2 of the last sweep, and of the one before
 };
 

@@ -12,6 +12,29 @@ namespace ballast {
 
 bool has_sparse_factors() { return true; }
 
+namespace {
+
+/// CHOLMOD's view of the lower triangle of a symmetric matrix in compressed columns: nothing is
+/// copied. `x` null: the pattern alone.
+cholmod_sparse lower_view(size_t rows, size_t entries, const int* outer, const int* inner,
+                          const double* x) {
+  cholmod_sparse view{};
+  view.nrow = view.ncol = rows;
+  view.nzmax = entries;
+  view.p = const_cast<int*>(outer);
+  view.i = const_cast<int*>(inner);
+  view.x = const_cast<double*>(x);
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = x ? CHOLMOD_REAL : CHOLMOD_PATTERN;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+}  // namespace
+
 struct CholeskyFactor::State {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
@@ -35,23 +58,6 @@ struct CholeskyFactor::State {
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
-
-  static cholmod_sparse view(const SparseColumns& a) {
-    cholmod_sparse view{};
-    view.nrow = static_cast<size_t>(a.rows());
-    view.ncol = static_cast<size_t>(a.cols());
-    view.nzmax = static_cast<size_t>(a.nonZeros());
-    view.p = const_cast<int*>(a.outerIndexPtr());
-    view.i = const_cast<int*>(a.innerIndexPtr());
-    view.x = const_cast<double*>(a.valuePtr());
-    view.stype = -1;
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = 1;
-    view.packed = 1;
-    return view;
-  }
 };
 
 CholeskyFactor::CholeskyFactor() : state_(std::make_unique<State>()) {}
@@ -62,7 +68,8 @@ CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
 // The ordering is kept while the pattern is the same; the numbers are new every time.
 bool CholeskyFactor::factor(const SparseColumns& a) {
   State& s = *state_;
-  cholmod_sparse view = State::view(a);
+  cholmod_sparse view = lower_view(static_cast<size_t>(a.rows()), static_cast<size_t>(a.nonZeros()),
+                                   a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr());
   if (!s.factor || !s.pattern.is(a)) {
     cholmod_free_factor(&s.factor, &s.common);
     s.factor = cholmod_analyze(&view, &s.common);
@@ -151,17 +158,8 @@ std::vector<int> dissection_order(const BlockGraph& graph) {
   }
   std::iota(order.begin(), order.end(), 0);
   if (inner.empty()) return order;
-  cholmod_sparse view{};
-  view.nrow = view.ncol = static_cast<size_t>(nodes);
-  view.nzmax = inner.size();
-  view.p = outer.data();
-  view.i = inner.data();
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_PATTERN;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
+  cholmod_sparse view =
+      lower_view(static_cast<size_t>(nodes), inner.size(), outer.data(), inner.data(), nullptr);
   cholmod_common common;
   cholmod_start(&common);
   common.print = 0;

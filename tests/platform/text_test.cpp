@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -28,6 +29,13 @@ TEST_CASE("lists have a separator between their items alone") {
   add_to_list(list, "a");
   add_to_list(list, "b");
   CHECK(list == "a, b");
+}
+
+TEST_CASE("one line holds no control character, and an Error is one line") {
+  const std::string text("a\nb\r\tc\0d\x7f", 9), other = "\xc3\xa9\xff ~";
+  CHECK(one_line(text, ' ') == "a b  c d ");
+  CHECK(one_line(other, '?') == other);  // beyond ASCII nothing is touched
+  CHECK(std::string(Error("file: " + text).what()) == "file: a?b??c?d?");
 }
 
 TEST_CASE("a number is all of a text, or it is none") {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/solvers/conformance_support.hpp"
+#include "tests/support/fixed_contact.hpp"
 
 using namespace ballast;
 
@@ -83,13 +84,7 @@ TEST_CASE("no contacts, no bodies, and contacts that nothing moves") {
 
     FrictionProblem fixed =
         known(5, 4, 0.5, 1.0).problem;  // one more contact, between two things that do not move
-    fixed.row_begin.push_back(fixed.row_begin.back() + 3);
-    fixed.friction.push_back(0.5);
-    fixed.dynamics.body_a.push_back(-1);
-    fixed.dynamics.body_b.push_back(-1);
-    fixed.dynamics.h_begin.push_back(fixed.dynamics.h_begin.back());
-    fixed.dynamics.bias.conservativeResize(fixed.row_count());
-    fixed.dynamics.bias.tail<3>() << -1.0, 0.5, 0.5;
+    add_fixed_contact(fixed);
     const SolverRun result = run_either(entry, fixed, patient);
     CHECK(result.error.finite);
     if (solves_coulomb(entry)) CHECK(result.error.natural_map_rms <= patient.tolerance);

@@ -18,6 +18,16 @@ inline void record(Recorder& recorder, const MechanicalSystem& system, long firs
   }
 }
 
+/// A folder with the record of the sample system's first steps, still open.
+struct OpenRecord {
+  explicit OpenRecord(long steps) { record(recorder, system, 1, steps); }
+  const std::filesystem::path& path() const { return folder.path(); }
+
+  const TemporaryFolder folder;
+  const MechanicalSystem system = sample_system();
+  Recorder recorder{folder.path(), system, 0};
+};
+
 /// The logs of a run of the sample system that died after its checkpoint at step `last`.
 inline void leave_logs(const std::filesystem::path& folder, const MechanicalSystem& system,
                        long last) {

@@ -1,8 +1,11 @@
 #pragma once
 // The obvious twin of every Gauss-Seidel sweep: dense matrices, one contact after the other.
 
+#include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/parts/one_contact.hpp"
+#include "tests/catch.hpp"
+#include "tests/problems/algebra/dense_oracle.hpp"
 
 namespace ballast {
 
@@ -22,6 +25,24 @@ void slow_sweep(const FrictionProblem& problem, const Eigen::MatrixXd& w, const 
     double slip = 0.0;
     solve_one_contact(block, others, problem.friction[c], own, slip);
     r.segment(begin, rows) = own.head(rows);
+  }
+}
+
+/// Four sweeps beside their twin's in the given order. `problem`: as `sweep` takes it; `dynamics`:
+/// the same in the dynamics form.
+template <class Sweep, class Order>
+void check_beside_slow_sweep(Sweep& sweep, const FrictionProblem& problem,
+                             const FrictionProblem& dynamics, const Order& order) {
+  const Eigen::MatrixXd w = oracle::dense_delassus(dynamics);
+  const Eigen::VectorXd q = oracle::dense_q(dynamics);
+  Impulses fast = Impulses::Constant(problem.row_count(), 0.01), slow = fast;
+  sweep.load(problem, fast);
+  for (int k = 0; k < 4; ++k) {
+    sweep.sweep();
+    slow_sweep(problem, w, q, order, slow);
+    sweep.store(problem, fast);
+    CHECK((fast - slow).norm() <= 1e-10 * slow.norm());
+    CHECK(sweep.error() == Approx(contact_error(problem, fast).natural_map_rms).margin(1e-14));
   }
 }
 

@@ -44,7 +44,9 @@ TEST_CASE("Results are written, read and compared") {
   CHECK_THAT(read_whole_file(folder.path() / "a" / "kernels.csv"),
              Catch::Contains("sweep,jacobi,ns,7,"));
   write_whole_file(folder.path() / "bad.json", "{\"kind\": 3}");
-  CHECK_THROWS_WITH(read_bench_result(folder.path() / "bad.json"), Catch::Contains("bad.json"));
+  CHECK_THROWS_WITH(
+      read_bench_result(folder.path() / "bad.json"),
+      Catch::EndsWith("bad.json: is no result of ballast bench: " + std::string(broken_json)));
   CHECK_THROWS_AS(read_bench_result(folder.path() / "none.json"), Error);
 }
 

@@ -9,12 +9,10 @@ using namespace ballast;
 namespace fs = std::filesystem;
 
 TEST_CASE("bodies, walls and shapes come back from the record with their bits") {
-  const TemporaryFolder folder;
-  const MechanicalSystem system = sample_system();
-  Recorder recorder(folder.path(), system, 0);
-  record(recorder, system, 1, 5);
-  recorder.finish("", "");
-  const MechanicalSystem read = read_record_system(folder.path() / "record.h5");
+  OpenRecord open(5);
+  open.recorder.finish("", "");
+  const MechanicalSystem& system = open.system;
+  const MechanicalSystem read = read_record_system(open.path() / "record.h5");
   CHECK(read.grain_count == system.grain_count);
   REQUIRE(read.bodies.size() == system.bodies.size());
   REQUIRE(read.shapes.size() == system.shapes.size());

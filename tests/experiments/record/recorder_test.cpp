@@ -9,25 +9,19 @@ using namespace ballast;
 namespace fs = std::filesystem;
 
 TEST_CASE("records come back to the last bit, from the logs and from record.h5") {
-  const TemporaryFolder folder;
-  const MechanicalSystem system = sample_system();
-  Recorder recorder(folder.path(), system, 0);
-  record(recorder, system, 1, 23);
-  recorder.flush();
-  check_record(folder.path(), system, 23);
-  recorder.finish("scene text", "{}");
-  fs::remove_all(folder.path() / "log");
-  check_record(folder.path(), system, 23);
-  CHECK_FALSE(fs::exists(folder.path() / "record.h5.tmp"));
+  OpenRecord open(23);
+  open.recorder.flush();
+  check_record(open.path(), open.system, 23);
+  open.recorder.finish("scene text", "{}");
+  fs::remove_all(open.path() / "log");
+  check_record(open.path(), open.system, 23);
+  CHECK_FALSE(fs::exists(open.path() / "record.h5.tmp"));
 }
 
 TEST_CASE("steps.csv has a line of names and then numbers that round trip") {
-  const TemporaryFolder folder;
-  const MechanicalSystem system = sample_system();
-  Recorder recorder(folder.path(), system, 0);
-  record(recorder, system, 1, 4);
-  recorder.finish("", "");
-  std::istringstream lines(file_bytes(folder.path() / "steps.csv"));
+  OpenRecord open(4);
+  open.recorder.finish("", "");
+  std::istringstream lines(file_bytes(open.path() / "steps.csv"));
   std::string line, names;
   for (const StepColumn& column : step_columns())
     names.append(names.empty() ? "" : ",").append(column.name);

@@ -77,19 +77,9 @@ TEST_CASE(
 TEST_CASE("a sweep over bodies is that of dense matrices, in its own order") {
   const FrictionProblem problem =
       make_known_solution({.bodies = 20, .contacts = 30, .frictionless_fraction = 0.3}).problem;
-  const Eigen::MatrixXd w = oracle::dense_delassus(problem);
-  const Eigen::VectorXd q = oracle::dense_q(problem);
   BodySweep sweep;
   sweep.prepare(problem);
-  Impulses fast = Impulses::Constant(problem.row_count(), 0.01), slow = fast;
-  sweep.load(problem, fast);
-  for (int k = 0; k < 4; ++k) {
-    sweep.sweep();
-    slow_sweep(problem, w, q, sweep.order(), slow);
-    sweep.store(problem, fast);
-    CHECK((fast - slow).norm() <= 1e-10 * slow.norm());
-    CHECK(sweep.error() == Approx(contact_error(problem, fast).natural_map_rms).margin(1e-13));
-  }
+  check_beside_slow_sweep(sweep, problem, problem, sweep.order());
 }
 
 TEST_CASE("contacts and bodies of every kind: loaded and stored alike, but for what cannot move") {

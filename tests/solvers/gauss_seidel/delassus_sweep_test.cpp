@@ -25,19 +25,9 @@ std::vector<int> in_order(const FrictionProblem& problem) {
 TEST_CASE("sweeps on the stored W are those of dense matrices, contact after contact") {
   const FrictionProblem dynamics = make_known_solution({.bodies = 20, .contacts = 18}).problem;
   const FrictionProblem problem = only_delassus(dynamics);
-  const Eigen::MatrixXd w = oracle::dense_delassus(dynamics);
-  const Eigen::VectorXd q = oracle::dense_q(dynamics);
   DelassusSweep sweep;
   sweep.prepare(problem);
-  Impulses fast = Impulses::Constant(problem.row_count(), 0.01), slow = fast;
-  sweep.load(problem, fast);
-  for (int k = 0; k < 4; ++k) {
-    sweep.sweep();
-    slow_sweep(problem, w, q, in_order(problem), slow);
-    sweep.store(problem, fast);
-    CHECK((fast - slow).norm() <= 1e-10 * slow.norm());
-    CHECK(sweep.error() == Approx(contact_error(problem, fast).natural_map_rms).margin(1e-14));
-  }
+  check_beside_slow_sweep(sweep, problem, dynamics, in_order(problem));
 }
 
 TEST_CASE("an iterate is saved and restored, and an impulse that moves nothing is dropped") {

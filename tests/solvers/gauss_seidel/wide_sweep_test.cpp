@@ -7,6 +7,7 @@
 #include "solvers/gauss_seidel/scalar_sweep.hpp"
 #include "tests/catch.hpp"
 #include "tests/solvers/gauss_seidel/grain_problem.hpp"
+#include "tests/support/fixed_contact.hpp"
 
 using namespace ballast;
 using samples::grain_problem;
@@ -175,14 +176,7 @@ TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step
 
 TEST_CASE("wide: impulses that are loaded come back; what nothing moves is dropped") {
   FrictionProblem problem = grain_problem({.seed = 2});
-  // A contact of nothing with nothing at the end.
-  problem.dynamics.body_a.push_back(-1);
-  problem.dynamics.body_b.push_back(-1);
-  problem.dynamics.h_begin.push_back(problem.dynamics.h_begin.back());
-  problem.row_begin.push_back(problem.row_begin.back() + 3);
-  problem.friction.push_back(0.5);
-  problem.dynamics.bias.conservativeResize(problem.row_count());
-  problem.dynamics.bias.tail<3>().setConstant(0.1);
+  add_fixed_contact(problem, Eigen::Vector3d::Constant(0.1));
   Wide wide(problem);
   REQUIRE(wide.fits);
   Impulses r = Impulses::LinSpaced(problem.row_count(), 1e-6, 1e-4), back;

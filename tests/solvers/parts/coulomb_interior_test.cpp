@@ -4,6 +4,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/stress_problems.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/fixed_contact.hpp"
 
 using namespace ballast;
 
@@ -80,13 +81,7 @@ TEST_CASE("a sliding block stays on its plane: the law is Coulomb's, not its rel
 
 TEST_CASE("where nothing moves there is no impulse", "[factors]") {
   FrictionProblem problem = make_known_solution({}).problem;
-  problem.row_begin.push_back(problem.row_begin.back() + 3);
-  problem.friction.push_back(0.5);
-  problem.dynamics.body_a.push_back(-1);
-  problem.dynamics.body_b.push_back(-1);
-  problem.dynamics.h_begin.push_back(problem.dynamics.h_begin.back());
-  problem.dynamics.bias.conservativeResize(problem.row_count());
-  problem.dynamics.bias.tail<3>() << -1.0, 0.5, 0.5;
+  add_fixed_contact(problem);
   Interior interior(problem);
   interior.run(1.0, 1e-7, 60);
   CHECK(interior.impulses.tail<3>().norm() == 0.0);

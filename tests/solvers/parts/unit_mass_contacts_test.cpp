@@ -3,6 +3,7 @@
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/fixed_contact.hpp"
 
 using namespace ballast;
 
@@ -57,13 +58,7 @@ TEST_CASE("impulses come out as they went in, each in its cone") {
 
 TEST_CASE("where nothing moves there is no impulse, and nothing is pushed") {
   FrictionProblem problem = some_problem(1);
-  problem.row_begin.push_back(problem.row_begin.back() + 3);
-  problem.friction.push_back(0.5);
-  problem.dynamics.body_a.push_back(-1);
-  problem.dynamics.body_b.push_back(-1);
-  problem.dynamics.h_begin.push_back(problem.dynamics.h_begin.back());
-  problem.dynamics.bias.conservativeResize(problem.row_count());
-  problem.dynamics.bias.tail<3>() << -1.0, 0.5, 0.5;
+  add_fixed_contact(problem);
   UnitMassContacts contacts;
   contacts.prepare(problem);
   ContactColumns r;

@@ -8,6 +8,7 @@
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/fixed_contact.hpp"
 
 using namespace ballast;
 
@@ -117,13 +118,7 @@ TEST_CASE("the reason of several islands is the worst of theirs") {
 
 TEST_CASE("contacts between bodies that cannot move get no impulse") {
   FrictionProblem all = beside({easy, hard});
-  all.row_begin.push_back(all.row_begin.back() + 1);
-  all.friction.push_back(0.0);
-  all.dynamics.body_a.push_back(-1);
-  all.dynamics.body_b.push_back(-1);
-  all.dynamics.h_begin.push_back(all.dynamics.h_begin.back());
-  all.dynamics.bias.conservativeResize(all.row_count());
-  all.dynamics.bias[all.row_count() - 1] = 0.0;
+  add_fixed_contact(all, Eigen::VectorXd::Zero(1));
   const SolverRun run = SolverRunner().run(*by_islands("nncg"), all,
                                            Impulses::Ones(all.row_count()), {.tolerance = 1e-6});
   CHECK(run.success);

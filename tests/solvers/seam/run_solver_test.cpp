@@ -36,7 +36,7 @@ const KnownSolution known = make_known_solution({});
 TEST_CASE("a claim is believed only when the judge agrees") {
   Puppet puppet;
   SolverRunner runner;
-  puppet.answer = {known.r, StopReason::reached_tolerance, 1, 0.0, {}};
+  puppet.answer = {known.r, StopReason::reached_tolerance, 1, 0.0, 0.0, {}};
   const SolverRun honest = runner.run(puppet, known.problem, {}, {});
   CHECK(honest.success);
   CHECK(honest.error.natural_map_rms < 1e-12);
@@ -46,7 +46,7 @@ TEST_CASE("a claim is believed only when the judge agrees") {
   CHECK_FALSE(lie.success);
   CHECK(lie.error.natural_map_rms > 1e-4);
 
-  puppet.answer = {known.r, StopReason::stalled, 1, 0.0, {}};
+  puppet.answer = {known.r, StopReason::stalled, 1, 0.0, 0.0, {}};
   CHECK_FALSE(runner.run(puppet, known.problem, {}, {}).success);
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("a solver that stops on the natural map goes on until the law holds") 
   // With mu = 1e4 a natural map below the tolerance leaves the contact sinking in.
   const FrictionProblem problem = rough_contact(1e4);
   Puppet puppet;
-  puppet.answer = {Impulses::Zero(3), StopReason::reached_tolerance, 5, 0.0, {}};
+  puppet.answer = {Impulses::Zero(3), StopReason::reached_tolerance, 5, 0.0, 0.0, {}};
   puppet.on_solve = [&] {
     if (puppet.solved == 2) puppet.answer.impulses = Eigen::Vector3d(9.81e-3, -1e-3, 0.0);
   };
@@ -78,7 +78,7 @@ TEST_CASE("a solver that stops on the natural map goes on until the law holds") 
 TEST_CASE("an empty start means zero; a wrong one never reaches the solver") {
   Puppet puppet;
   SolverRunner runner;
-  puppet.answer = {known.r, StopReason::reached_tolerance, 1, 0.0, {}};
+  puppet.answer = {known.r, StopReason::reached_tolerance, 1, 0.0, 0.0, {}};
   runner.run(puppet, known.problem, {}, {});
   CHECK(puppet.start == Impulses::Zero(known.problem.row_count()));
   runner.run(puppet, known.problem, known.r, {});
@@ -113,7 +113,7 @@ TEST_CASE("a backend that throws, or returns rubbish, has failed; one that decli
   CHECK_THROWS_AS(runner.run(puppet, known.problem, {}, {}), UnsupportedProblem);
 
   puppet.on_prepare = puppet.on_solve = [] {};
-  puppet.answer = {Impulses::Zero(2), StopReason::reached_tolerance, 1, 0.0, {}};
+  puppet.answer = {Impulses::Zero(2), StopReason::reached_tolerance, 1, 0.0, 0.0, {}};
   run = runner.run(puppet, known.problem, {}, {});
   CHECK(run.solved.reason == StopReason::numerical_failure);
   CHECK_FALSE(run.success);
@@ -121,6 +121,7 @@ TEST_CASE("a backend that throws, or returns rubbish, has failed; one that decli
       Impulses::Constant(known.problem.row_count(), std::numeric_limits<double>::quiet_NaN()),
       StopReason::reached_tolerance,
       1,
+      0.0,
       0.0,
       {}};
   run = runner.run(puppet, known.problem, {}, {});

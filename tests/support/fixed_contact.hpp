@@ -1,0 +1,26 @@
+#pragma once
+// Contacts that nothing can move: their W is zero.
+
+#include "problems/algebra/friction_problem.hpp"
+
+namespace ballast {
+
+/// Adds a contact between two things that do not move, at the end of a problem in the dynamics form
+/// alone. `bias` [m/s]: its velocity, one entry without friction, three with friction 0.5.
+inline void add_fixed_contact(FrictionProblem& problem, const Eigen::VectorXd& bias) {
+  const Eigen::Index rows = bias.size();
+  problem.row_begin.push_back(problem.row_begin.back() + static_cast<int>(rows));
+  problem.friction.push_back(rows == 1 ? 0.0 : 0.5);
+  problem.dynamics.body_a.push_back(-1);
+  problem.dynamics.body_b.push_back(-1);
+  problem.dynamics.h_begin.push_back(problem.dynamics.h_begin.back());
+  problem.dynamics.bias.conservativeResize(problem.row_count());
+  problem.dynamics.bias.tail(rows) = bias;
+}
+
+/// It moves into itself at 1 m/s and slides, and no impulse can help.
+inline void add_fixed_contact(FrictionProblem& problem) {
+  add_fixed_contact(problem, Eigen::Vector3d(-1.0, 0.5, 0.5));
+}
+
+}  // namespace ballast
