@@ -14,7 +14,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t any_length = std::string::npos;
-constexpr size_t most_runs = 100'000;
+// What a plan may grow to: every run is resolved when the plan is read.
+constexpr size_t most_runs = 10'000;
+constexpr size_t most_text = 32 << 20;  // bytes of all names and overrides
 
 /// What plan, run and grid may say of the scene; the inner one adds to the outer one.
 struct Base {
@@ -164,12 +166,32 @@ PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
   return run;
 }
 
-/// All members, the last key changing fastest.
+size_t text_size(const PlannedRun& run) {
+  size_t size = run.name.size() + run.scene.size();
+  for (const std::string& text : run.overrides) size += text.size();
+  return size;
+}
+
+/// Each run is small enough and they are not too many, before any of them is looked at closer.
+void check_size(const Plan& plan, const fs::path& file) {
+  size_t text = 0;
+  for (const PlannedRun& run : plan.runs) text += text_size(run);
+  const bool is_much = text > most_text;
+  if (!is_much && plan.runs.size() <= most_runs) return;
+  throw SceneFileError(file.string() + ": more than " +
+                       (is_much ? std::to_string(most_text >> 20) + " MB of names and overrides"
+                                : std::to_string(most_runs) + " runs") +
+                       ": expected several smaller plans");
+}
+
+/// All members, the last key changing fastest; they end at the first that is too much.
 void expand(const Grid& grid, std::vector<PlannedRun>& runs) {
   std::vector<size_t> chosen(grid.axes.size(), 0);
+  size_t text = 0;
   // counts like an odometer
-  for (;;) {
+  while (runs.size() <= most_runs && text <= most_text) {
     runs.push_back(member(grid, chosen));
+    text += text_size(runs.back());
     size_t a = chosen.size();
     while (a > 0 && ++chosen[a - 1] == grid.axes[a - 1].values.size()) chosen[--a] = 0;
     if (a == 0) return;
@@ -205,6 +227,7 @@ Plan read_plan(const fs::path& file) {
     }
   if (plan.runs.empty())
     throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[grid]]");
+  check_size(plan, file);
   validate(plan, file.string());
   return plan;
 }

@@ -142,3 +142,21 @@ TEST_CASE("what is wrong with a plan is said with file, key and value") {
   CHECK_THAT(error_of(varied + "when.\"drive.frequency\" = 1\nsett = []\n"),
              Catch::Contains("did you mean \"set\"?"));
 }
+
+TEST_CASE("a plan that is too much to look at is refused before its runs are") {
+  const std::string head = "scene = \"vibrated_box_small\"\n";
+  std::string numbers = "1";
+  for (int k = 2; k <= 101; ++k) numbers += ", " + std::to_string(k);
+  const auto grid = [](const std::string& name, const std::string& varied) {
+    return "[[grid]]\nname = \"" + name + "\"\nvary.\"drive.frequency\" = [" + varied + "]\n";
+  };
+  const std::string seeds = "vary.\"grains.seed\" = [" + numbers + "]\n";
+  CHECK_THAT(error_of(head + grid("a", numbers) + seeds), Catch::Contains("more than 10000 runs"));
+  // two grids that are small enough each
+  const std::string half =
+      "vary.\"grains.seed\" = [" + numbers.substr(0, numbers.find(", 61")) + "]\n";
+  CHECK_THAT(error_of(head + grid("a", numbers) + half + grid("b", numbers) + half),
+             Catch::Contains("more than 10000 runs"));
+  const std::string wide = "set = [\"scene.name=" + std::string(8000, 'x') + "\"]\n";
+  CHECK_THAT(error_of(head + wide + grid("a", numbers) + half), Catch::Contains("more than 32 MB"));
+}
