@@ -44,8 +44,8 @@ foreach(level O1 O3)
     target_compile_options(ballast_headers_O1 PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   target_precompile_headers(ballast_headers_${level} PRIVATE
-    <Eigen/Dense> <Eigen/Sparse> <algorithm> <chrono> <cmath> <filesystem> <fstream> <functional> <iostream> <map> <memory> <optional> <set>
-    <span> <sstream> <string> <variant> <vector>)
+    <Eigen/Dense> <Eigen/Sparse> <algorithm> <chrono> <cmath> <filesystem> <fstream> <functional>
+    <iostream> <map> <memory> <optional> <set> <span> <sstream> <string> <variant> <vector>)
 endforeach()
 
 # ballast_texts(NAME): builds the texts/*.md of all rooms beside this CMakeLists.txt into the room
@@ -93,7 +93,7 @@ function(ballast_files name folder function)
     string(APPEND code "{\"${file}\", R\"file(${text})file\"},\n")
   endforeach()
   string(APPEND code "  };\n  const auto found = files.find(name);\n")
-  string(APPEND code "  return found == files.end() ? \"\" : found->second;\n}\n\n}  // namespace ballast\n")
+  string(APPEND code "  return found == files.end() ? \"\" : found->second;\n}\n\n}\n")
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp CONTENT "${code}" @ONLY)
   target_sources(ballast_${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
 endfunction()
