@@ -80,6 +80,13 @@ class CollisionShape {
     double offset;
   };
 
+  /// A face with its loop, whether it stands in the tables or in a copy of them.
+  struct FaceView {
+    const Face& face;
+    std::span<const Corner> corners;
+    std::span<const Side> sides;
+  };
+
   explicit CollisionShape(const Polyhedron& polyhedron);
 
   /// Rows (position, 0); padding is far above every height.
@@ -96,6 +103,7 @@ class CollisionShape {
   std::span<const Side> sides(int f) const {
     return {sides_.data() + faces_[f].first_corner, corner_span(f)};
   }
+  FaceView view(int f) const { return {faces_[f], corners(f), sides(f)}; }
   /// Faces that have v in their plane, ascending.
   std::span<const int> vertex_faces(int v) const {
     return {vertex_faces_.data() + vertex_begin_[v],

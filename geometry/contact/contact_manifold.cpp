@@ -7,8 +7,12 @@
 namespace ballast {
 namespace {
 
-/// The face of the other body, among those at its touching vertex, that opposes the reference face
-/// most. Near-ties go to the smallest index: rounding must not choose.
+double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const ClippedPoint& r) {
+  return 0.5 * (q.position - p.position).cross(r.position - p.position).norm();
+}
+
+}  // namespace
+
 int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
   const CollisionShape& other = *pair.shape[1 - reference];
   const Vec3 direction =
@@ -17,27 +21,51 @@ int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
   double most_opposed = 2.0;
   for (const int f : other.vertex_faces(vertex)) {
     const double cosine = other.face(f).normal.dot(direction);
-    if (cosine >= most_opposed - 1e-12) continue;
+    if (cosine >= most_opposed - kEqualCosines) continue;
     most_opposed = cosine;
     incident = f;
   }
   return incident;
 }
 
-double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const ClippedPoint& r) {
-  return 0.5 * (q.position - p.position).cross(r.position - p.position).norm();
-}
-
-}  // namespace
-
 std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair,
                                                        const SeparatingAxis& axis, double alert,
                                                        int max_points) {
-  candidates_.clear();
-  if (axis.feature.kind == AxisKind::edges)
-    edge_candidates(pair, axis, alert);
-  else
-    face_candidates(pair, axis, alert);
+  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
+  const AxisFeature& feature = axis.feature;
+  if (feature.kind == AxisKind::edges) {
+    const CollisionShape::Edge &edge_a = a.edges()[feature.a], &edge_b = b.edges()[feature.b];
+    const EdgesMeeting meeting(pair, axis, edge_a, edge_b);
+    if (meeting.is_sharp() ||
+        is_lone_crossing(pair, axis, meeting, edge_of_face(a, feature.a, meeting.face_a),
+                         edge_of_face(b, feature.b, meeting.face_b), alert))
+      return lone_point(pair, axis, edges_cross(pair, axis, edge_a, edge_b));
+    return points(pair, axis, meeting,
+                  {edge_a, edge_b, a.view(meeting.face_a), b.view(meeting.face_b)}, alert,
+                  max_points);
+  }
+  const int reference = feature.reference(), face = feature.face();
+  const CollisionShape& other = *pair.shape[1 - reference];
+  const CollisionShape::FaceView own = pair.shape[reference]->view(face);
+  const Vec3 vertex = other.vertices().xyz(axis.support);
+  if (is_lone_vertex(pair, axis, alert))
+    return lone_point(pair, axis, vertex_on_face(pair, axis, own.face, vertex));
+  return points(pair, axis,
+                {own, other.view(incident_face(pair, reference, face, axis.support)), vertex},
+                alert, max_points);
+}
+
+std::span<const ManifoldPoint> ContactManifold::lone_point(const PairFrame& pair,
+                                                           const SeparatingAxis& axis,
+                                                           const ClippedPoint& place) {
+  points_.assign(1, contact_at(pair, axis, place));
+  return points_;
+}
+
+/// The points of the candidates that are kept, in the order of their keys.
+std::span<const ManifoldPoint> ContactManifold::chosen_points(const PairFrame& pair,
+                                                              const SeparatingAxis& axis,
+                                                              int max_points) {
   reduce(max_points, pair.size());
   points_.clear();
   for (const ClippedPoint& p : candidates_) points_.push_back(contact_at(pair, axis, p));
@@ -47,26 +75,22 @@ std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair,
   return points_;
 }
 
-void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxis& axis,
-                                      double alert) {
-  const AxisFeature& feature = axis.feature;
-  const CollisionShape::Edge& edge_a = pair.shape[0]->edges()[feature.a];
-  const CollisionShape::Edge& edge_b = pair.shape[1]->edges()[feature.b];
-  const ClippedPoint crossing = edges_cross(pair, axis, edge_a, edge_b);
-  const EdgesMeeting meeting(pair, axis, edge_a, edge_b);
-  if (meeting.is_sharp() ||
-      is_lone_crossing(pair, axis, meeting, edge_of_face(*pair.shape[0], feature.a, meeting.face_a),
-                       edge_of_face(*pair.shape[1], feature.b, meeting.face_b), alert)) {
-    candidates_.push_back(crossing);
-    return;
-  }
-  // Flat edges: the corners of the faces' common part, cut along the axis.
-  const int reference = meeting.reference(), face = meeting.reference_face();
+/// The corners of the faces' common part, cut along the axis, and the edges' crossing.
+std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
+                                                       const SeparatingAxis& axis,
+                                                       const EdgesMeeting& meeting,
+                                                       const EdgeOnEdge& edges, double alert,
+                                                       int max_points) {
+  candidates_.clear();
+  const ClippedPoint crossing = edges_cross(pair, axis, edges.a, edges.b);
+  const int reference = meeting.reference();
+  const CollisionShape::FaceView &face = reference == 0 ? edges.beside_a : edges.beside_b,
+                                 &incident = reference == 0 ? edges.beside_b : edges.beside_a;
   const Vec3 direction =
       reference == 0 ? axis.direction : Vec3(-(pair.other[1].rotation * axis.direction));
   const std::span<ClippedPoint> corners = clipper_.clip_along(
-      pair, reference, face, meeting.incident_face(), direction, clipping_thickness(pair.size()));
-  set_heights(corners, pair.shape[reference]->face(face), direction);
+      pair, reference, face, incident, direction, clipping_thickness(pair.size()));
+  set_heights(corners, face.face, direction);
   bool has_crossing = false;
   for (ClippedPoint p : corners) {
     if (p.height > alert) continue;
@@ -76,21 +100,19 @@ void ContactManifold::edge_candidates(const ShapePair& pair, const SeparatingAxi
     candidates_.push_back(p.key == crossing.key ? crossing : p);
   }
   if (!has_crossing) candidates_.push_back(crossing);
+  return chosen_points(pair, axis, max_points);
 }
 
-void ContactManifold::face_candidates(const ShapePair& pair, const SeparatingAxis& axis,
-                                      double alert) {
-  const int reference = axis.feature.reference(), index = axis.feature.face();
-  const CollisionShape::Face& face = pair.shape[reference]->face(index);
-  const ClippedPoint touching =
-      vertex_on_face(pair, axis, face, pair.shape[1 - reference]->vertices().xyz(axis.support));
-  if (is_lone_vertex(pair, axis, alert)) {
-    candidates_.push_back(touching);
-    return;
-  }
-  const int incident = incident_face(pair, reference, index, axis.support);
+std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
+                                                       const SeparatingAxis& axis,
+                                                       const FaceOnFace& faces, double alert,
+                                                       int max_points) {
+  candidates_.clear();
+  const CollisionShape::Face& face = faces.reference.face;
+  const ClippedPoint touching = vertex_on_face(pair, axis, face, faces.vertex);
   const std::span<ClippedPoint> corners =
-      clipper_.clip(pair, reference, index, incident, clipping_thickness(pair.size()));
+      clipper_.clip(pair, axis.feature.reference(), faces.reference, faces.incident,
+                    clipping_thickness(pair.size()));
   set_heights(corners, face);
   double deepest = alert + pair.size();
   for (const ClippedPoint& point : corners) {
@@ -103,6 +125,7 @@ void ContactManifold::face_candidates(const ShapePair& pair, const SeparatingAxi
                   [&](const ClippedPoint& point) { return point.key == touching.key; });
     candidates_.push_back(touching);
   }
+  return chosen_points(pair, axis, max_points);
 }
 
 /// Keeps the deepest point, then the one farthest from it, then again and again the one that adds

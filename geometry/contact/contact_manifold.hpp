@@ -10,6 +10,24 @@
 
 namespace ballast {
 
+/// The face of body 1 - `reference`, among those at its vertex, that opposes the reference face
+/// most. Near-ties go to the smallest index: rounding must not choose.
+int incident_face(const ShapePair& pair, int reference, int face, int vertex);
+/// Cosines nearer than this are near-ties.
+constexpr double kEqualCosines = 1e-12;
+
+/// What a manifold is made from when the axis is a face: that face, the incident face, and the
+/// axis' support vertex, each in its own body's frame.
+struct FaceOnFace {
+  CollisionShape::FaceView reference, incident;
+  const Vec3& vertex;
+};
+/// The same for two edges: of the faces beside each, EdgesMeeting's.
+struct EdgeOnEdge {
+  const CollisionShape::Edge &a, &b;
+  CollisionShape::FaceView beside_a, beside_b;
+};
+
 /// Holds scratch memory; one per thread.
 class ContactManifold {
  public:
@@ -18,10 +36,20 @@ class ContactManifold {
   /// separation: the touching vertex is added if clipping has lost it. Valid until the next call.
   std::span<const ManifoldPoint> points(const ShapePair& pair, const SeparatingAxis& axis,
                                         double alert, int max_points);
+  /// The same from the features alone, where nothing proves that the point is alone; of two edges,
+  /// if they are flat.
+  std::span<const ManifoldPoint> points(const PairFrame& pair, const SeparatingAxis& axis,
+                                        const FaceOnFace& faces, double alert, int max_points);
+  std::span<const ManifoldPoint> points(const PairFrame& pair, const SeparatingAxis& axis,
+                                        const EdgesMeeting& meeting, const EdgeOnEdge& edges,
+                                        double alert, int max_points);
+  /// The only point of the pair.
+  std::span<const ManifoldPoint> lone_point(const PairFrame& pair, const SeparatingAxis& axis,
+                                            const ClippedPoint& place);
 
  private:
-  void edge_candidates(const ShapePair& pair, const SeparatingAxis& axis, double alert);
-  void face_candidates(const ShapePair& pair, const SeparatingAxis& axis, double alert);
+  std::span<const ManifoldPoint> chosen_points(const PairFrame& pair, const SeparatingAxis& axis,
+                                               int max_points);
   void reduce(int max_points, double size);
 
   FaceClipper clipper_;

@@ -146,11 +146,12 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   const double turn = bodies_.travel[a].turn + bodies_.travel[b].turn;
   if (settings_.use_cache && candidate.touching >= 0) {
     const PairFrame pair(bodies_.bounds[a], bodies_.bounds[b], b_in_a);
-    ManifoldPoint point;
-    switch (records_.touching[candidate.touching].look(pair, turn, alert, axis, point)) {
+    std::span<const ManifoldPoint> points;
+    switch (records_.touching[candidate.touching].look(pair, turn, alert, settings_.max_points,
+                                                       manifold_, axis, points)) {
       case TouchingPair::Look::touching:
         ++counters_.proved_axes;
-        return append(candidate, pair, axis, {&point, 1}, contacts);
+        return append(candidate, pair, axis, points, contacts);
       case TouchingPair::Look::apart:
         ++counters_.cached_separations;
         return bound_separated(candidate, between.norm(), axis.separation);
@@ -226,7 +227,7 @@ void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair,
     records_.touching.emplace_back();
     if (bodies_.holds()) records_.held.emplace_back();
   }
-  records_.touching[candidate.touching].record(pair, axis, turn);
+  records_.touching[candidate.touching].record(pair, axis, turn, heights_);
 }
 
 /// Asks the cache for the record of a pair that is looked at a few pairs from now: the list of

@@ -30,15 +30,18 @@ class FaceClipper {
     distance_.reserve(kRoom);
   }
 
+  using FaceView = CollisionShape::FaceView;
+
   /// The part of face `incident` of body 1 - `reference` that lies within the prism on face `face`
   /// of body `reference`, along the face's normal, counter-clockwise seen from the incident body's
   /// outside. Corners up to `thickness` [m] outside a side count as inside and stay where they are.
   /// Valid until the next call.
-  std::span<ClippedPoint> clip(const ShapePair& pair, int reference, int face, int incident,
-                               double thickness);
+  std::span<ClippedPoint> clip(const PairFrame& pair, int reference, const FaceView& face,
+                               const FaceView& incident, double thickness);
   /// The same for a prism along another unit direction, in the reference body's frame.
-  std::span<ClippedPoint> clip_along(const ShapePair& pair, int reference, int face, int incident,
-                                     const Vec3& direction, double thickness);
+  std::span<ClippedPoint> clip_along(const PairFrame& pair, int reference, const FaceView& face,
+                                     const FaceView& incident, const Vec3& direction,
+                                     double thickness);
 
  private:
   static constexpr size_t kRoom = 128;
@@ -46,10 +49,9 @@ class FaceClipper {
     Vec3 outward;
     double offset;
   };
-  void start(const ShapePair& pair, int reference, int incident);
-  void clip_by_side(const ShapePair& pair, int reference, int face, int k, const Plane& plane,
+  void start(const PairFrame& pair, int reference, const FaceView& incident);
+  void clip_by_side(int reference, const FaceView& face, int k, const Plane& plane,
                     double thickness);
-  std::uint64_t crossing_key(const ShapePair& pair, int reference, int face, int k, int edge) const;
 
   std::vector<ClippedPoint> polygon_, clipped_;
   std::vector<double> distance_;

@@ -94,7 +94,8 @@ TEST_CASE("clipping finds the corners that the definition names, under the same 
     bool clear = true;
     const auto expected = clipped_by_definition(pair, reference, face, incident, clear);
     if (!clear) continue;
-    const auto found = clipper.clip(pair, reference, face, incident, 1e-9 * c.size());
+    const auto found =
+        clipper.clip(pair, reference, own.view(face), other.view(incident), 1e-9 * c.size());
     ++compared;
     corners += static_cast<int>(found.size());
     empty += found.empty();
@@ -122,8 +123,8 @@ TEST_CASE("corners on a side stay corners: equal boxes") {
   Random random(5);
   for (double noise : {0.0, 1e-15, 1e-10}) {
     const Vec3 shift(noise * random.uniform(-1, 1), noise * random.uniform(-1, 1), 1.0);
-    const auto points =
-        clipper.clip(ShapePair(box, box, {Mat3::Identity(), shift}), 0, top, bottom, 1e-9);
+    const auto points = clipper.clip(ShapePair(box, box, {Mat3::Identity(), shift}), 0,
+                                     box.view(top), box.view(bottom), 1e-9);
     REQUIRE(points.size() == 4);
     for (const ClippedPoint& p : points) CHECK(p.key < 8);  // vertices of b
   }

@@ -39,7 +39,8 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
     int others = 0;
     const CollisionShape& other = *pair.shape[1 - reference];
     for (int f = 0; f < other.faces().count(); ++f) {
-      const auto corners = clipper.clip(pair, reference, face, f, clipping_thickness(c.size()));
+      const auto corners = clipper.clip(pair, reference, pair.shape[reference]->view(face),
+                                        other.view(f), clipping_thickness(c.size()));
       set_heights(corners, pair.shape[reference]->face(face));
       for (const ClippedPoint& p : corners)
         others += p.key != vertex_key(1 - reference, axis->support) && p.height <= reach;
@@ -71,8 +72,10 @@ TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their cr
     const int reference = meeting.reference(), face = meeting.reference_face();
     const Vec3 direction =
         reference == 0 ? axis->direction : Vec3(-(pair.other[1].rotation * axis->direction));
-    const auto corners = clipper.clip_along(pair, reference, face, meeting.incident_face(),
-                                            direction, clipping_thickness(c.size()));
+    const auto corners =
+        clipper.clip_along(pair, reference, pair.shape[reference]->view(face),
+                           pair.shape[1 - reference]->view(meeting.incident_face()), direction,
+                           clipping_thickness(c.size()));
     set_heights(corners, pair.shape[reference]->face(face), direction);
     const auto crossing = feature_key(PointKind::edges, feature.a, feature.b);
     int others = 0;
