@@ -23,7 +23,8 @@ namespace {
 /// The words of the command line, and what is made of them.
 struct CompareRequest {
   LiveOptions live;
-  std::vector<std::string> cases;
+  std::vector<std::string> cases, external;
+  ExternalLimits program_limits;
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
   std::filesystem::path output = "results/compare", reference;
   CompareOptions comparison;
@@ -96,6 +97,15 @@ ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError("compare: expected cases, or --live SCENE");
   require_own_folder(options.output, {"rows", "trajectories", "start"});
+  if (!options.external.empty() && !options.live.scene.empty())
+    throw UsageError("compare: --external: not with --live, whose solver works inside the step");
+  options.program_limits.memory_MB = options.comparison.limits.memory_MB;
+  try {
+    for (ComparedSolver& solver : external_solvers(options.external, options.program_limits))
+      options.comparison.solvers.push_back(std::move(solver));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("compare: --external: ") + error.what());
+  }
   restart_with_one_algebra_thread();
   options.comparison.folder = options.output;
   options.comparison.command = own_command();
@@ -128,6 +138,11 @@ Command compare_command() {
       {{"cases", &options->cases, "Problem files, folders, patterns, known:..., stress:..."},
        {"--solvers", &options->solvers, "Names, separated by commas, or all", shown,
         into(comparison.solvers, parse_solvers)},
+       {"--external NAME=COMMAND", &options->external,
+        "Also a program that solves, or FILE.toml with a list (docs/manual/external.md)"},
+       {"--startup-seconds", &options->program_limits.startup_seconds,
+        "Wall clock that such a program may take beside --max-seconds, to start and read", shown,
+        at_least(0)},
        {"--tolerances", &options->tolerances, "Separated by commas", shown,
         into(comparison.tolerances, parse_tolerances)},
        {"--starts", &options->starts, "cold, warm or cold,warm; warm where a case has a warm start",

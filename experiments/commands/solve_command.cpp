@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/command.hpp"
+#include "experiments/compare/compare_options.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "solvers/seam/run_solver.hpp"
@@ -19,7 +20,8 @@ namespace {
 
 struct SolveOptions {
   std::vector<std::string> files;
-  std::string solver = "pgs";
+  std::string solver = "pgs", external;
+  MakeSolver make;
   double tolerance = 1e-8;
   bool absolute = false;
   int max_iterations = 10000;
@@ -32,7 +34,8 @@ struct SolvedFile {
   int contacts = 0, rows = 0;
   double tolerance = 0.0;  ///< [m/s]
   SolverRun run;
-  /// Why nothing was solved: "unreadable" or "unsupported", and what is wrong. Empty: it was.
+  /// Why nothing was solved, and what is wrong: "unreadable", "unsupported"; of a program
+  /// "out_of_time", "crashed". Empty: it was.
   std::string refused, why;
   Finding found;
 };
@@ -84,7 +87,7 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
     const double scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
     solved.tolerance *= scale;
   }
-  const auto solver = make_solver(options.solver);  // a new one for each: nothing is carried over
+  const auto solver = options.make();  // a new one for each: nothing is carried over
   solved.run = runner.run(*solver, problem, {},
                           {solved.tolerance, options.max_iterations, options.max_seconds, false});
   solved.found = finding_on(problem, solved.run.solved.impulses, solved.run.solved.reason,
@@ -107,6 +110,8 @@ SolvedFile solved_or_refused(const std::string& file, const SolveOptions& option
     return solve_file(file, options, runner);
   } catch (const UnsupportedProblem& error) {
     return refused("unsupported", error.what());
+  } catch (const LostProcess& error) {
+    return refused(error.is_out_of_time ? "out_of_time" : "crashed", error.what());
   } catch (const std::exception& error) {
     return refused("unreadable", error.what());
   }
@@ -175,7 +180,20 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
   return only_time ? ExitCode::time_limit : ExitCode::failure;
 }
 
-ExitCode solve(const SolveOptions& options) {
+/// How the solver is made that was asked for.
+MakeSolver maker_of(SolveOptions& options) {
+  if (options.external.empty()) return [name = options.solver] { return make_solver(name); };
+  const std::vector<ComparedSolver> programs =
+      external_solvers({options.external}, {.memory_MB = 0.0});
+  if (programs.size() != 1)
+    throw UsageError("solve: --external: expected one program, there are " +
+                     std::to_string(programs.size()));
+  options.solver = programs[0].name;
+  return programs[0].make;
+}
+
+ExitCode solve(SolveOptions& options) {
+  options.make = maker_of(options);
   if (std::isinf(options.tolerance))
     throw UsageError("solve: --tolerance: expected a finite number");
   int width = 7;
@@ -207,6 +225,11 @@ Command solve_command() {
       {{"files", &options->files, "Problems: FCLIB .hdf5, Siconos .dat", required},
        {"--solver", &options->solver, "As listed by ballast solvers", shown,
         parsed([](const std::string& name) { make_solver(name); })},
+       {"--external NAME=COMMAND", &options->external,
+        "Instead: a program that solves (docs/manual/external.md)", excludes("--solver"),
+        parsed([](const std::string& text) {
+          if (!text.empty()) external_solvers({text}, {});
+        })},
        {"--tolerance", &options->tolerance, "Relative to the velocity scale", shown, at_least(0)},
        {"--absolute", &options->absolute, "The tolerance is in m/s"},
        {"--max-iterations", &options->max_iterations, "Sweeps, Newton steps, ...", shown,

@@ -39,6 +39,19 @@ std::vector<ComparedSolver> parse_solvers(const std::string& list) {
   return solvers;
 }
 
+std::vector<ComparedSolver> external_solvers(const std::vector<std::string>& words,
+                                             const ExternalLimits& limits) {
+  std::vector<ComparedSolver> solvers;
+  for (const ExternalCommand& command : external_commands(words)) {
+    for (const SolverEntry& entry : solver_list())
+      if (command.name == entry.name)
+        throw std::invalid_argument(command.name + ": is the name of one of Ballast's solvers");
+    solvers.push_back(
+        {command.name, ContactLaw::coulomb, external_solver(command, limits), key_of(command)});
+  }
+  return solvers;
+}
+
 std::vector<double> parse_tolerances(const std::string& list) {
   std::vector<double> tolerances;
   for (const std::string& word : words_of(list, "numbers > 0")) {

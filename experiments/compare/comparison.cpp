@@ -45,8 +45,8 @@ std::string key_of(const CompareOptions& options, const std::string& binary,
               options.max_iterations, options.limits.memory_MB, options.limits.warm_seconds,
               options.limits.most_runs, repeat);
   return content_key("compare row 2|" + binary + '|' + tried.name + '|' + facts.content + '|' +
-                     attempt.solver->name + '|' + name_of(options.measure) + '|' +
-                     name_of(attempt.start) + '|' + numbers);
+                     attempt.solver->name + '|' + attempt.solver->external_key + '|' +
+                     name_of(options.measure) + '|' + name_of(attempt.start) + '|' + numbers);
 }
 
 /// One comparison under way.
@@ -147,7 +147,8 @@ class Comparison {
     DriveSettings drive;
     drive.max_seconds = options_.max_seconds;
     drive.max_iterations = options_.max_iterations;
-    solve_in_child(attempt.solver->make, loaded, drive, options_.limits, row);
+    const auto solve = attempt.solver->external_key.empty() ? solve_in_child : solve_outside;
+    solve(attempt.solver->make, loaded, drive, options_.limits, row);
     // an interrupt reaches the child as well: what it left is no result
     if (!InterruptGuard::requested()) write_whole_file(file, to_json(row));
     return row;

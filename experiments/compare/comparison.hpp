@@ -14,11 +14,13 @@
 
 namespace ballast {
 
-/// A backend of a comparison: of solver_list(), or a test's own.
+/// A backend of a comparison: of solver_list(), a test's own, or a program.
 struct ComparedSolver {
   std::string name;
   ContactLaw law = ContactLaw::coulomb;
-  SolverMaker make = nullptr;
+  MakeSolver make;
+  /// Key of a program that is no part of this one; not empty: no child is forked for it.
+  std::string external_key = {};
 };
 
 struct CompareOptions {

@@ -2,10 +2,16 @@
 // One solve as a comparison wants it: to a tolerance in either measure, timed outside the judge,
 // with its history.
 
+#include <functional>
+#include <memory>
+
 #include "experiments/compare/compare_row.hpp"
 #include "solvers/seam/run_solver.hpp"
 
 namespace ballast {
+
+/// Makes a backend of solver_list(), a test's own, or one that starts a program.
+using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 
 struct DriveSettings {
   Measure measure = Measure::natural_map;

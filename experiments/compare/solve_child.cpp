@@ -17,7 +17,7 @@ namespace ballast {
 namespace {
 
 /// How the child says it ended, apart from being solved or not.
-enum class ChildOutcome { driven, unsupported, out_of_memory, failed };
+enum class ChildOutcome { driven, unsupported, out_of_memory, failed, lost, late };
 
 /// What a child sends.
 struct ChildMessage {
@@ -91,7 +91,7 @@ void take_result(DrivenSolve&& driven, ChildMessage& message) {
 }
 
 /// The whole of what the child does. A new solver for each run: nothing is carried over but caches.
-void drive_repeatedly(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive,
+void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const DriveSettings& drive,
                       const ChildLimits& limits, StartKind start, ChildMessage& message) {
   const Impulses from = start == StartKind::warm ? loaded.warm_start : Impulses();
   double spent = 0.0, fastest = 0.0;
@@ -116,14 +116,16 @@ void drive_repeatedly(SolverMaker make, const LoadedCase& loaded, const DriveSet
            spent + fastest < limits.warm_seconds);
 }
 
-ChildMessage work_of_child(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive,
-                           const ChildLimits& limits, StartKind start) {
-  limit_memory(limits.memory_MB);
+ChildMessage solve_here(const MakeSolver& make, const LoadedCase& loaded,
+                        const DriveSettings& drive, const ChildLimits& limits, StartKind start) {
   ChildMessage message;
   try {
     drive_repeatedly(make, loaded, drive, limits, start, message);
   } catch (const UnsupportedProblem& error) {
     message.outcome = ChildOutcome::unsupported;
+    message.note = error.what();
+  } catch (const LostProcess& error) {
+    message.outcome = error.is_out_of_time ? ChildOutcome::late : ChildOutcome::lost;
     message.note = error.what();
   } catch (const std::bad_alloc&) {
     message.outcome = ChildOutcome::out_of_memory;
@@ -131,8 +133,15 @@ ChildMessage work_of_child(SolverMaker make, const LoadedCase& loaded, const Dri
     message.outcome = ChildOutcome::failed;
     message.note = error.what();
   }
-  message.peak_memory_MB = peak_memory();
   return message;
+}
+
+/// What is asked of the solver, the row's share included.
+DriveSettings settings_of(const CompareRow& row, const LoadedCase& loaded, DriveSettings drive) {
+  drive.measure = row.measure;
+  drive.tolerance = row.tolerance;
+  drive.velocity_scale = loaded.facts.velocity_scale;
+  return drive;
 }
 
 /// The judge's measures of the row, and what they and the backend's word come to.
@@ -172,6 +181,10 @@ Outcome outcome_of(const ChildMessage& message, const CompareRow& row, Verdict v
       return Outcome::out_of_memory;
     case ChildOutcome::failed:
       return Outcome::stopped;
+    case ChildOutcome::lost:
+      return Outcome::crashed;
+    case ChildOutcome::late:
+      return Outcome::timeout;
     case ChildOutcome::driven:
       break;
   }
@@ -181,35 +194,13 @@ Outcome outcome_of(const ChildMessage& message, const CompareRow& row, Verdict v
   return message.reason == StopReason::time_limit ? Outcome::timeout : Outcome::stopped;
 }
 
-}  // namespace
-
-void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSettings& settings,
-                    const ChildLimits& limits, CompareRow& row) {
-  DriveSettings drive = settings;
-  drive.measure = row.measure;
-  drive.tolerance = row.tolerance;
-  drive.velocity_scale = loaded.facts.velocity_scale;
-  // Backends look at the clock between iterations, prepare() never does: some grace before the
-  // child is killed.
-  const double most_seconds = 1.25 * drive.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
-  const ChildResult child = run_in_child(most_seconds, [&] {
-    ChildMessage message = work_of_child(make, loaded, drive, limits, row.start);
-    Packer packer;
-    message.carry(packer);
-    return packer.bytes();
-  });
+void clear_measures(CompareRow& row) {
   row.error = row.natural_map_rms = row.natural_map_max = row.fclib = std::nan("");
-  if (child.end != ChildEnd::complete) {
-    row.outcome = child.end == ChildEnd::out_of_time ? Outcome::timeout : Outcome::crashed;
-    row.note = child.end == ChildEnd::out_of_time ? "killed: did not stop at the time limit"
-                                                  : "the child process died";
-    row.solve_seconds = child.end == ChildEnd::out_of_time ? most_seconds : 0.0;
-    return;
-  }
-  ChildMessage message;
-  Unpacker unpacker(child.answer, "ballast compare: a child's answer");
-  message.carry(unpacker);
-  unpacker.finish();
+}
+
+/// What the solver's process said, and what the judge says to that.
+void take_message(ChildMessage&& message, const LoadedCase& loaded, double max_seconds,
+                  CompareRow& row) {
   row.note = message.note;
   row.reason = message.outcome == ChildOutcome::driven ? name_of(message.reason) : "";
   row.claimed = message.claimed;
@@ -223,9 +214,51 @@ void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSetti
   row.peak_memory_MB = message.peak_memory_MB;
   row.history = std::move(message.history);
   const Finding found = judge(loaded, message.impulses, message.reason, row);
-  row.outcome = outcome_of(message, row, found.verdict, drive.max_seconds);
+  row.outcome = outcome_of(message, row, found.verdict, max_seconds);
   const bool is_told = found.verdict == Verdict::denied || found.verdict == Verdict::no_solution;
   if (row.note.empty() && is_told) row.note = found.words;
+}
+
+}  // namespace
+
+void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const DriveSettings& settings,
+                    const ChildLimits& limits, CompareRow& row) {
+  const DriveSettings drive = settings_of(row, loaded, settings);
+  // Backends look at the clock between iterations, prepare() never does: some grace before the
+  // child is killed.
+  const double most_seconds = 1.25 * drive.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
+  const ChildResult child = run_in_child(most_seconds, [&] {
+    limit_memory(limits.memory_MB);
+    ChildMessage message = solve_here(make, loaded, drive, limits, row.start);
+    message.peak_memory_MB = peak_memory();
+    Packer packer;
+    message.carry(packer);
+    return packer.bytes();
+  });
+  clear_measures(row);
+  if (child.end != ChildEnd::complete) {
+    row.outcome = child.end == ChildEnd::out_of_time ? Outcome::timeout : Outcome::crashed;
+    row.note = child.end == ChildEnd::out_of_time ? "killed: did not stop at the time limit"
+                                                  : "the child process died";
+    row.solve_seconds = child.end == ChildEnd::out_of_time ? most_seconds : 0.0;
+    return;
+  }
+  ChildMessage message;
+  Unpacker unpacker(child.answer, "ballast compare: a child's answer");
+  message.carry(unpacker);
+  unpacker.finish();
+  take_message(std::move(message), loaded, drive.max_seconds, row);
+}
+
+void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const DriveSettings& settings,
+                   const ChildLimits& limits, CompareRow& row) {
+  const DriveSettings drive = settings_of(row, loaded, settings);
+  const Stopwatch watch;
+  ChildMessage message = solve_here(make, loaded, drive, limits, row.start);
+  message.peak_memory_MB = std::nan("");
+  if (message.outcome == ChildOutcome::late) message.solve_seconds = watch.seconds();
+  clear_measures(row);
+  take_message(std::move(message), loaded, drive.max_seconds, row);
 }
 
 }  // namespace ballast

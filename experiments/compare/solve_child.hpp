@@ -18,7 +18,12 @@ struct ChildLimits {
 /// Solves the case with a solver made by `make` in a forked child, judges what comes back here, and
 /// fills in what came of it in `row`; what was tried (row.measure, tolerance, start) must be in it.
 /// `drive`'s measure, tolerance and scale are the row's. Throws InvalidProblem.
-void solve_in_child(SolverMaker make, const LoadedCase& loaded, const DriveSettings& drive,
+void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const DriveSettings& drive,
                     const ChildLimits& limits, CompareRow& row);
+
+/// The same without a child, for a solver that has its work done in a program under limits of its
+/// own (experiments/external).
+void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const DriveSettings& drive,
+                   const ChildLimits& limits, CompareRow& row);
 
 }  // namespace ballast

@@ -5,6 +5,7 @@
 
 #include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
+#include "problems/algebra/delassus.hpp"
 #include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
@@ -223,8 +224,8 @@ std::variant<LocalProblem, GlobalProblem> read_fclib(const std::filesystem::path
   using Stored = std::variant<LocalProblem, GlobalProblem>;
   return with_problem_file_errors([&]() -> Stored {
     const Hdf5Reader file(path);
-    if (file.has("/fclib_local")) return read_local(file);
     if (file.has("/fclib_global")) return read_global(file);
+    if (file.has("/fclib_local")) return read_local(file);
     file.fail("has neither /fclib_local nor /fclib_global");
   });
 }
@@ -237,6 +238,23 @@ void write_fclib(const std::filesystem::path& path,
     std::visit([&](const auto& form) { add_fclib(file, form); }, problem);
     if (add) add(file);
     file.commit();
+  });
+}
+
+void write_problem_forms(const std::filesystem::path& file, const FrictionProblem& problem,
+                         const std::function<void(Hdf5Writer&)>& add) {
+  problem.validate();
+  FrictionProblem stored;
+  stored.row_begin = problem.row_begin;
+  stored.friction = problem.friction;
+  stored.has_delassus = true;
+  stored.delassus.w = delassus_matrix(problem);
+  free_contact_velocity(problem, stored.delassus.q);
+  const LocalProblem local = to_local_problem(stored);
+  if (!problem.has_dynamics) return write_fclib(file, local, add);
+  write_fclib(file, to_global_problem(problem), [&](Hdf5Writer& opened) {
+    add_fclib(opened, local);
+    if (add) add(opened);
   });
 }
 

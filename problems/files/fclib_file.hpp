@@ -12,8 +12,8 @@ namespace ballast {
 
 class Hdf5Writer;
 
-/// Throws ProblemFileError: not HDF5, a dataset that is missing, has the wrong size or holds NaN,
-/// 2-D, bilateral parts.
+/// The global form where a file has both. Throws ProblemFileError: not HDF5, a dataset that is
+/// missing, has the wrong size or holds NaN, 2-D, bilateral parts.
 std::variant<LocalProblem, GlobalProblem> read_fclib(const std::filesystem::path& file);
 
 /// The whole file or none: written beside and renamed. `add` adds what else shall be in it. Throws
@@ -27,5 +27,9 @@ void write_fclib(const std::filesystem::path& file,
 /// ProblemFileError; InvalidProblem before anything is written.
 void write_problem(const std::filesystem::path& file, const FrictionProblem& problem,
                    const std::function<void(Hdf5Writer&)>& add = nullptr);
+
+/// The same with W beside M and H: builds W.
+void write_problem_forms(const std::filesystem::path& file, const FrictionProblem& problem,
+                         const std::function<void(Hdf5Writer&)>& add = nullptr);
 
 }  // namespace ballast

@@ -125,13 +125,6 @@ std::vector<int> file_rows(const FrictionProblem& problem) {
   return rows;
 }
 
-Eigen::VectorXd spread(const FrictionProblem& problem, const Eigen::VectorXd& x) {
-  const std::vector<int> rows = file_rows(problem);
-  Eigen::VectorXd wide = Eigen::VectorXd::Zero(3 * problem.contact_count());
-  for (std::size_t i = 0; i < rows.size(); ++i) wide[rows[i]] = x[i];
-  return wide;
-}
-
 }  // namespace
 
 FrictionProblem to_friction_problem(LocalProblem local) {
@@ -158,6 +151,20 @@ FrictionProblem to_friction_problem(const GlobalProblem& global) {
   return condense(global);
 }
 
+Eigen::VectorXd three_rows(const FrictionProblem& problem, const Eigen::VectorXd& x) {
+  const std::vector<int> rows = file_rows(problem);
+  Eigen::VectorXd wide = Eigen::VectorXd::Zero(3 * problem.contact_count());
+  for (std::size_t i = 0; i < rows.size(); ++i) wide[rows[i]] = x[i];
+  return wide;
+}
+
+Eigen::VectorXd own_rows(const FrictionProblem& problem, const Eigen::VectorXd& wide) {
+  const std::vector<int> rows = file_rows(problem);
+  Eigen::VectorXd x(problem.row_count());
+  for (std::size_t i = 0; i < rows.size(); ++i) x[i] = wide[rows[i]];
+  return x;
+}
+
 LocalProblem to_local_problem(const FrictionProblem& problem) {
   const std::vector<int> rows = file_rows(problem);
   std::vector<Eigen::Triplet<double>> entries;
@@ -167,7 +174,7 @@ LocalProblem to_local_problem(const FrictionProblem& problem) {
   LocalProblem local;
   local.w.resize(3 * problem.contact_count(), 3 * problem.contact_count());
   local.w.setFromTriplets(entries.begin(), entries.end());
-  local.q = spread(problem, problem.delassus.q);
+  local.q = three_rows(problem, problem.delassus.q);
   local.mu = problem.friction;
   return local;
 }
@@ -184,7 +191,7 @@ GlobalProblem to_global_problem(const FrictionProblem& problem) {
   global.h.setFromTriplets(entries.begin(), entries.end());
   global.m = sparse_mass(problem.dynamics);
   global.f = global.m * problem.dynamics.v_free;
-  global.w = spread(problem, problem.dynamics.bias);
+  global.w = three_rows(problem, problem.dynamics.bias);
   global.mu = problem.friction;
   return global;
 }

@@ -36,6 +36,10 @@ FrictionProblem to_friction_problem(LocalProblem local);
 /// InvalidProblem when M is not symmetric positive definite.
 FrictionProblem to_friction_problem(const GlobalProblem& global);
 
+/// Rows of the problem as three per contact, tangents of one-row contacts being zero, and back.
+Eigen::VectorXd three_rows(const FrictionProblem& problem, const Eigen::VectorXd& x);
+Eigen::VectorXd own_rows(const FrictionProblem& problem, const Eigen::VectorXd& wide);
+
 /// One-row contacts become three rows with mu = 0: their tangential rows of W or H are zero.
 LocalProblem to_local_problem(const FrictionProblem& problem);
 GlobalProblem to_global_problem(const FrictionProblem& problem);

@@ -36,6 +36,8 @@ SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& bu
     work(run);
   } catch (const UnsupportedProblem&) {
     throw;
+  } catch (const LostProcess&) {
+    throw;
   } catch (const std::exception& error) {
     run.solved = {};
     run.solved.reason = StopReason::numerical_failure;

@@ -32,9 +32,9 @@ class SolverRunner {
   /// A solver stops on the natural map. Where that is reached and another part of the law is not
   /// (much friction), it goes on from its answer to a smaller natural map, within the same budget.
   ///
-  /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem. A start of the wrong
-  /// size is an InvalidProblem; an empty one means zero. Other exceptions of a backend become
-  /// reason = numerical_failure.
+  /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem, LostProcess. A start of
+  /// the wrong size is an InvalidProblem; an empty one means zero. Other exceptions of a backend
+  /// become reason = numerical_failure.
   SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start,
                 const Budget& budget);
 

@@ -67,6 +67,14 @@ class UnsupportedProblem : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The process that works for a backend is gone; what() says how.
+class LostProcess : public std::runtime_error {
+ public:
+  LostProcess(const std::string& what, bool ran_out_of_time)
+      : std::runtime_error(what), is_out_of_time(ran_out_of_time) {}
+  const bool is_out_of_time;  ///< killed because it did not answer; false: it died
+};
+
 /// A frictional-contact solver. One object serves a sequence of problems; buffers are kept between
 /// them.
 class Solver {

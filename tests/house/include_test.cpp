@@ -44,8 +44,8 @@ const std::vector<std::pair<std::string, Words>> third_party = {
 };
 
 /// POSIX; every other header of the C or C++ library has neither a slash nor a suffix.
-const Words posix = {"fcntl.h", "fnmatch.h", "glob.h",   "poll.h",  "signal.h",
-                     "spawn.h", "stdlib.h",  "unistd.h", "dlfcn.h", "sys/"};
+const Words posix = {"dirent.h", "fcntl.h",  "fnmatch.h", "glob.h",  "poll.h", "signal.h",
+                     "spawn.h",  "stdlib.h", "unistd.h",  "dlfcn.h", "sys/"};
 
 bool begins_like_one_of(const std::string& text, const Words& beginnings) {
   return std::any_of(beginnings.begin(), beginnings.end(),

@@ -1,0 +1,198 @@
+#include "experiments/external/external_program.hpp"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <new>
+#include <utility>
+
+#include "experiments/external/external_files.hpp"
+#include "platform/clock.hpp"
+#include "platform/error.hpp"
+#include "platform/supervised_program.hpp"
+#include "platform/text.hpp"
+#include "solvers/seam/fclib_stop.hpp"
+
+namespace ballast {
+namespace fs = std::filesystem;
+namespace {
+
+/// In memory where there is room, because files there cost no wait for a disk; TMPDIR decides.
+fs::path place_for_files() {
+  constexpr std::uintmax_t room = std::uintmax_t{1} << 30;  // bytes
+  const fs::path memory = "/dev/shm";
+  std::error_code error;
+  const bool has_room =
+      access(memory.c_str(), W_OK) == 0 && fs::space(memory, error).available > room;
+  return has_room && !getenv("TMPDIR") ? memory : fs::temp_directory_path();
+}
+
+/// A folder of our own that goes with this object.
+class WorkFolder {
+ public:
+  WorkFolder() {
+    std::string name = (place_for_files() / "ballast-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw Error(name + ": cannot be made: " + std::strerror(errno));
+    path_ = name;
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// One program, the requests to which are numbered.
+class ExternalProgram {
+ public:
+  ExternalProgram(ExternalCommand command, const ExternalLimits& limits)
+      : command_(std::move(command)), limits_(limits) {}
+
+  ExternalAnswer ask(ExternalRequest& request) {
+    const std::string number = std::to_string(++count_);
+    const fs::path problem = folder_.path() / ("problem" + number + ".hdf5"),
+                   answer = folder_.path() / ("answer" + number + ".hdf5");
+    request.id = count_;
+    write_request(problem, request);
+    // Backends look at the clock between iterations: some grace before it is killed.
+    const double seconds = 1.25 * request.max_seconds + 2.0;
+    if (command_.is_served)
+      tell(problem, answer, seconds);
+    else
+      start(problem, answer, seconds + limits_.startup_seconds);
+    ExternalAnswer read = answer_in(answer, request);
+    fs::remove(problem);
+    fs::remove(answer);
+    return read;
+  }
+
+ private:
+  [[noreturn]] void lost(const SupervisedProgram& program) const {
+    const int status = program.status();
+    std::string how =
+        status > 128 ? printed("signal %d", status - 128) : printed("exit code %d", status);
+    if (const std::string words = program.last_words(); !words.empty()) how += ": " + words;
+    throw LostProcess(command_.name + ": the program ended with " + how, false);
+  }
+  [[noreturn]] void late(double seconds) const {
+    throw LostProcess(
+        printed("%s: killed: no answer within %.3g s", command_.name.c_str(), seconds), true);
+  }
+  SupervisedLimits limits_of_program() const { return {limits_.memory_MB, command_.folder}; }
+
+  /// One process for one problem.
+  void start(const fs::path& problem, const fs::path& answer, double seconds) const {
+    SupervisedProgram program(command_.command, {problem, answer}, limits_of_program());
+    program.close_input();
+    if (!program.wait(seconds)) late(seconds);
+    if (program.status() != 0) lost(program);
+  }
+
+  /// One line for the process that is kept.
+  void tell(const fs::path& problem, const fs::path& answer, double seconds) {
+    if (!served_) {
+      served_ = std::make_unique<SupervisedProgram>(
+          command_.command, std::vector<std::string>{"--serve"}, limits_of_program());
+      await("ready", limits_.startup_seconds);
+    }
+    served_->write_line(problem.string() + '\t' + answer.string());
+    const std::string reply = await("done", seconds);
+    if (reply != "done") throw Error(command_.name + ": " + reply);
+  }
+
+  /// The next line that is this word or begins with "failed"; others are its own business.
+  std::string await(const std::string& word, double seconds) {
+    const Stopwatch watch;
+    for (std::string line;;) {
+      const double left = seconds - watch.seconds();
+      const auto heard = served_->read_line(line, left);
+      if (heard == SupervisedProgram::Heard::line) {
+        if (line == word || line.starts_with("failed")) return line;
+        if (left > 0.0) continue;
+      }
+      // The next request finds a new one.
+      const std::unique_ptr<SupervisedProgram> gone = std::move(served_);
+      if (heard != SupervisedProgram::Heard::end || !gone->wait(1.0)) late(seconds);
+      lost(*gone);
+    }
+  }
+
+  ExternalAnswer answer_in(const fs::path& file, const ExternalRequest& request) const {
+    try {
+      return read_answer(file, request);
+    } catch (const Error& error) {
+      // The folder goes, its name says nothing.
+      std::string words = error.what();
+      if (words.starts_with(file.string()))
+        words = file.filename().string() + words.substr(file.string().size());
+      throw Error(command_.name + ": " + words);
+    }
+  }
+
+  const ExternalCommand command_;
+  const ExternalLimits limits_;
+  const WorkFolder folder_;
+  int count_ = 0;
+  std::unique_ptr<SupervisedProgram> served_;
+};
+
+class ExternalSolver final : public Solver {
+ public:
+  ExternalSolver(std::shared_ptr<ExternalProgram> program, std::string name)
+      : program_(std::move(program)), name_(std::move(name)) {}
+
+  void prepare(const FrictionProblem&) override {}
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    const Stopwatch watch;
+    ExternalRequest request{.problem = problem,
+                            .start = start,
+                            .tolerance = budget.tolerance,
+                            .fclib_tolerance = budget.fclib ? budget.fclib->tolerance() : 0.0,
+                            .max_iterations = budget.max_iterations,
+                            .max_seconds = budget.max_seconds};
+    ExternalAnswer answer = program_->ask(request);
+    if (answer.status == ExternalStatus::unsupported)
+      throw UnsupportedProblem(name_ + ": says that it cannot take the problem");
+    if (answer.status == ExternalStatus::out_of_memory) throw std::bad_alloc();
+    if (answer.status == ExternalStatus::failed) throw Error(name_ + ": says that it failed");
+    Solved solved;
+    solved.impulses = std::move(answer.impulses);
+    solved.reason = static_cast<StopReason>(answer.status);
+    solved.iterations = answer.iterations;
+    solved.own_residual = answer.own_residual;
+    if (budget.keep_history) solved.history = std::move(answer.history);
+    // Its own clock is believed as far as ours allows it.
+    const double all = watch.seconds();
+    if (answer.seconds >= 0.0 && answer.seconds <= all)
+      solved.startup_seconds = all - answer.seconds;
+    return solved;
+  }
+
+ private:
+  const std::shared_ptr<ExternalProgram> program_;
+  const std::string name_;
+};
+
+}  // namespace
+
+std::function<std::unique_ptr<Solver>()> external_solver(const ExternalCommand& command,
+                                                         const ExternalLimits& limits) {
+  // One that is not asked makes no folder.
+  const auto shared = std::make_shared<std::shared_ptr<ExternalProgram>>();
+  return [shared, command, limits]() -> std::unique_ptr<Solver> {
+    if (!*shared) *shared = std::make_shared<ExternalProgram>(command, limits);
+    return std::make_unique<ExternalSolver>(*shared, command.name);
+  };
+}
+
+}  // namespace ballast

@@ -1,0 +1,189 @@
+// Programs as backends of `ballast compare` and `ballast solve`: each thing that a program can do
+// wrong is its row, the others go on, and nothing of it is left running.
+
+#include <fstream>
+#include <map>
+
+#include "experiments/external/external_files.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/files/problem_file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+namespace {
+
+const std::string own = std::string("'") + BALLAST_PROGRAM + "' answer --solver pgs";
+
+/// Processes whose command line holds the word.
+int processes_with(const std::string& word) {
+  int count = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "cmdline", std::ios::binary);
+    const std::string words{std::istreambuf_iterator<char>(file), {}};
+    count += words.find(word) != std::string::npos && words.find("ballast") == std::string::npos;
+  }
+  return count;
+}
+
+struct Row {
+  std::string outcome, note;
+  double startup = 0.0;
+};
+
+/// The rows of a comparison by solver.
+std::map<std::string, Row> rows_of(const fs::path& folder) {
+  std::map<std::string, Row> rows;
+  CsvReader table(folder / "results.csv");
+  REQUIRE(table.next());
+  std::map<std::string, size_t> column;
+  for (size_t k = 0; k < table.cells().size(); ++k) column[std::string(table.cells()[k])] = k;
+  while (table.next())
+    rows[std::string(table.cells()[column.at("solver")])] = {
+        std::string(table.cells()[column.at("outcome")]),
+        std::string(table.cells()[column.at("note")]),
+        table.number(column.at("startup_seconds"), "startup_seconds")};
+  return rows;
+}
+
+std::vector<std::string> compare_words(const fs::path& output, const std::string& max_seconds) {
+  return {"compare",      "known:contacts=10,bodies=6,frictionless=0",
+          "--solvers",    "pgs",
+          "--tolerances", "1e-6",
+          "--memory",     "0",
+          "--no-report",  "--startup-seconds",
+          "0.5",          "--max-seconds",
+          max_seconds,    "--output",
+          output.string()};
+}
+
+}  // namespace
+
+TEST_CASE("whatever a program does is its row, and nothing is left running") {
+  const TemporaryFolder folder;
+  const std::string sleep = "sleep 86398.25";  // known by its duration
+  const std::string half = "; head -c 600 \"$2\" > \"$2.x\"; mv \"$2.x\" \"$2\"; : ";
+  const auto script = [&](const std::string& name, const std::string& text) {
+    return name + "=sh '" + folder.write(name, text).string() + "'";
+  };
+  const std::string answered = own + " \"$1\" \"$2\"";
+  const std::string kept = (folder.path() / "kept").string();
+  std::vector<std::string> words = compare_words(folder.path() / "out", "0.2");
+  for (const std::string& program :
+       {"good=" + own, script("hangs", sleep), script("dies", "echo no licence >&2; exit 3"),
+        script("crashes", "kill -SEGV $$"), script("half", answered + half),
+        script("silent", "exit 0"), script("floods", "exec yes"),
+        script("chatty", "yes | head -c 3000000; " + answered),
+        script("forks", sleep + " & (setsid " + sleep + " &); " + answered),
+        script("other",
+               answered + "; test -e " + kept + " && cp " + kept + " \"$2\"; cp \"$2\" " + kept)})
+    words.insert(words.end(), {"--external", program});
+  // The case a second time, so that there is another problem's answer to give.
+  words.insert(words.begin() + 1, "known:contacts=11,bodies=6,frictionless=0");
+  const ProgramResult result = ballast_program(words);
+  INFO(result.output << result.errors);
+  REQUIRE(result.status == 0);
+  // Of the second case: the last row by a name.
+  const std::map<std::string, Row> rows = rows_of(folder.path() / "out");
+  CHECK(rows.at("pgs").outcome == "solved");
+  CHECK(rows.at("good").outcome == "solved");
+  CHECK(rows.at("good").startup > 0.0);
+  CHECK(rows.at("hangs").outcome == "timeout");
+  CHECK_THAT(rows.at("hangs").note, Contains("hangs: killed: no answer within"));
+  CHECK(rows.at("dies").outcome == "crashed");
+  CHECK_THAT(rows.at("dies").note, Contains("exit code 3: no licence"));
+  CHECK(rows.at("crashes").outcome == "crashed");
+  CHECK_THAT(rows.at("crashes").note, Contains("signal 11"));
+  CHECK(rows.at("half").outcome == "stopped");
+  CHECK_THAT(rows.at("half").note, Contains("truncated"));
+  CHECK(rows.at("silent").outcome == "stopped");
+  CHECK_THAT(rows.at("silent").note, Contains("no such file"));
+  CHECK(rows.at("floods").outcome == "timeout");
+  CHECK(rows.at("chatty").outcome == "solved");
+  CHECK(rows.at("forks").outcome == "solved");
+  CHECK(rows.at("other").outcome == "stopped");
+  CHECK_THAT(rows.at("other").note, Contains("10 contacts") || Contains("11 contacts") ||
+                                        Contains("answers another problem"));
+  CHECK(processes_with("86398.25") == 0);
+}
+
+TEST_CASE("a program of a list is served, and its rows are kept until its script changes") {
+  const TemporaryFolder folder;
+  folder.write("solver.sh", "exec " + own + " \"$@\"");
+  const auto list = folder.write("list.toml",
+                                 "[[external]]\nname = \"served\"\ncommand = \"sh solver.sh\"\n"
+                                 "serve = true\n");
+  std::vector<std::string> words = compare_words(folder.path() / "out", "20");
+  words.insert(words.end(), {"--external", list.string()});
+  const ProgramResult first = ballast_program(words);
+  INFO(first.output << first.errors);
+  REQUIRE(first.status == 0);
+  CHECK(rows_of(folder.path() / "out").at("served").outcome == "solved");
+  const auto was_there = [&] {
+    const std::string output = ballast_program(words).output;
+    const size_t row = output.find("served");
+    return output.substr(row, output.find('\n', row) - row).find("was there") != std::string::npos;
+  };
+  CHECK(was_there());
+  folder.write("solver.sh", "# edited\nexec " + own + " \"$@\"");
+  CHECK_FALSE(was_there());
+}
+
+TEST_CASE("solve asks a program, and says what is wrong with the words") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "problem.hdf5";
+  write_problem(file, make_known_solution({.bodies = 4, .contacts = 8}).problem);
+  const ProgramResult solved =
+      ballast_program({"solve", file.string(), "--external", "own=" + own, "--json"});
+  INFO(solved.errors);
+  CHECK(solved.status == 0);
+  CHECK_THAT(solved.output, Contains("\"solver\": \"own\"") && Contains("\"verdict\": \"solved\""));
+  check_failure(ballast_program({"solve", file.string(), "--external", "bad=exit 3 #"}),
+                ExitCode::failure, {"the program ended with exit code 3", "(crashed)"});
+  check_failure(ballast_program({"solve", file.string(), "--external", "nothing"}), ExitCode::usage,
+                {"--external", "expected name=command"});
+  check_failure(ballast_program({"compare", "known:", "--external", "pgs=true"}), ExitCode::usage,
+                {"pgs: is the name of one of Ballast's solvers"});
+  check_failure(ballast_program({"answer", file.string()}), ExitCode::usage,
+                {"expected PROBLEM and ANSWER, or --serve"});
+  check_failure(ballast_program({"answer", file.string(), file.string()}), ExitCode::failure,
+                {"is no request"});
+}
+
+TEST_CASE("the examples in Python solve") {
+  const std::string python = BALLAST_PYTHON;
+  if (!run_program(python, {"-c", "import numpy, scipy, h5py"}, 60.0).succeeded()) {
+    WARN("skipped: python3-numpy, python3-scipy or python3-h5py is not there");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string examples = std::string(BALLAST_SOURCE_FOLDER) + "/examples/external/";
+  std::vector<std::string> words = {"compare",
+                                    "known:contacts=10,bodies=6",
+                                    "--solvers",
+                                    "pgs",
+                                    "--tolerances",
+                                    "1e-4",
+                                    "--memory",
+                                    "0",
+                                    "--no-report",
+                                    "--output",
+                                    (folder.path() / "out").string()};
+  for (const char* name : {"gauss_seidel", "conic_scipy"})
+    words.insert(words.end(), {"--external", std::string(name) + "=" + python + " -B '" + examples +
+                                                 name + ".py'"});
+  const ProgramResult result = ballast_program(words);
+  INFO(result.output << result.errors);
+  REQUIRE(result.status == 0);
+  const std::map<std::string, Row> rows = rows_of(folder.path() / "out");
+  for (const char* name : {"gauss_seidel", "conic_scipy"}) {
+    INFO(name << ": " << rows.at(name).note);
+    CHECK(rows.at(name).outcome == "solved");
+    CHECK(rows.at(name).startup > 0.0);
+  }
+}
