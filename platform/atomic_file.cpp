@@ -75,6 +75,8 @@ AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)) {
   if (destination.is_in_place) {
     file_ = std::fopen(target_.c_str(), "wb");  // a folder: "Is a directory"
   } else {
+    // Written beside the target and renamed over it: readers see the
+    // old file or the new one, whole.
     neighbour_ = target_.string() + ".tmp";
     file_ = std::fopen(neighbour_.c_str(), "wb");
     struct stat old, mine;

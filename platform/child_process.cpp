@@ -25,6 +25,7 @@ namespace {
   throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
 }
 
+/// In the pipe:   | mark | length | the answer | mark |   A child that dies on the way leaves less.
 /// Before the answer: that it follows, and its length. After it: the same word once more.
 struct Head {
   std::uint64_t word;
@@ -99,6 +100,7 @@ ChildProcess::ChildProcess(const std::function<void()>& live) {
   child_ = fork();
   if (child_ < 0) throw_no_child();
   if (child_ > 0) return;
+  // The kernel kills the child when its parent dies, whatever the parent dies of.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // the parent died before the line above
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE, SIGABRT, SIGSEGV, SIGFPE})

@@ -44,6 +44,8 @@ hid_t create_in_memory(Hdf5Writer::Image& image) {
                                         image_memory::resize,      image_memory::release,
                                         image_memory::same_image,  image_memory::keep_image,
                                         static_cast<void*>(&image)};
+  // Nothing of it is on the disk before commit(), and no times of day are kept:
+  // equal records are equal files.
   H5Pset_fapl_core(access, memory_increment, false);
   H5Pset_file_image_callbacks(access, &callbacks);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);

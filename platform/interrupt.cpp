@@ -23,6 +23,7 @@ extern "C" void on_signal(int signal) {
 
 InterruptGuard::InterruptGuard() {
   interrupted = false;
+  // A hang-up that was ignored before, as under nohup, stays ignored.
   for (const int signal : caught)
     if (std::signal(signal, on_signal) == SIG_IGN && signal == SIGHUP) std::signal(signal, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);

@@ -154,6 +154,8 @@ std::string shell_word(const std::string& word) {
           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,@%") ==
           std::string::npos;
   if (is_plain) return word;
+  // Within single quotes a shell takes everything as it is but the quote itself, which
+  // is put in from outside of them.
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + '\'';

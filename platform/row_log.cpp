@@ -18,6 +18,9 @@ constexpr std::uint32_t version = 1;
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint64_t largest_row = std::uint64_t{1} << 32;  // numbers: 300 million bodies
 
+/// The file, with a checksum (8 bytes) behind the header and behind every row:
+///
+///     | FixedHeader 40 | SafeMark 16 | text | checksum | row 0 | checksum | row 1 | checksum | ...
 struct FixedHeader {
   char magic[8];
   std::uint32_t version, byte_order;

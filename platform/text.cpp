@@ -57,6 +57,7 @@ bool is_plain(std::string_view text, std::string_view also) {
 
 size_t edit_distance(std::string_view a, std::string_view b) {
   // One row of the table of distances between prefixes of a and of b.
+  // row[j] is the distance of the first i letters of a to the first j of b (Levenshtein).
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
   for (size_t i = 0; i < a.size(); ++i) {

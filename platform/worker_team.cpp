@@ -66,6 +66,8 @@ void WorkerTeam::stop() {
 }
 
 void WorkerTeam::start(int parts, Call call, const void* context) {
+  // A share's upper half is the number of the round, its lower half how many of the member's parts
+  // are taken. A thread that is still in an earlier round finds another number there, and leaves.
   const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
   parts_.store(parts, std::memory_order_relaxed);
   call_ = call;
@@ -91,6 +93,8 @@ bool WorkerTeam::do_parts(int member, std::uint32_t round) {
   while (true) {
     std::uint64_t now = taken.load(std::memory_order_acquire);
     if (now >> 32 != round) return false;
+    // The member's parts are member, member + members, member + 2 members and so on:
+    // the same parts whoever does them.
     const std::int64_t part = member + static_cast<std::int64_t>(now & 0xffffffffu) * members_;
     if (part >= parts_.load(std::memory_order_relaxed)) return true;
     if (!taken.compare_exchange_weak(now, now + 1, std::memory_order_acq_rel)) continue;

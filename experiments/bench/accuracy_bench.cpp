@@ -25,6 +25,7 @@ AccuracyRow row_of(const Trajectory& trajectory, double scale) {
   }
   const double steps = static_cast<double>(trajectory.steps.size());
   if (steps > 1.0) {
+    // Times are the ends of steps: from the first to the last there is one step less than all.
     const double simulated =
         (trajectory.steps.back().time - trajectory.steps.front().time) * steps / (steps - 1.0);
     row.seconds_per_second = seconds / simulated;

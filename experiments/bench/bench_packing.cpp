@@ -13,6 +13,9 @@ namespace ballast {
 namespace {
 
 /// Where a body of one copy is found among the tiles; -1: a wall between two copies.
+///
+///     | 2 | 3 |   2 x 2 copies, each with its grains numbered in one piece. The walls between
+///     | 0 | 1 |   copies fall away; the outer ones become those of one large box.
 class TileMap {
  public:
   TileMap(int grains, int nx, int ny) : grains_(grains), nx_(nx), ny_(ny) {}

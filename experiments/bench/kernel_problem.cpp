@@ -22,6 +22,7 @@ double touching_distance(const Polyhedron& a, const Polyhedron& b, const Quat& t
   const double none[] = {0.0, 0.0};
   std::vector<ContactPoint> contacts;
   double apart = a.circumradius() + b.circumradius(), deep = 0.0;
+  // Forty halvings leave 1e-12 of the range.
   for (int k = 0; k < 40; ++k) {
     const double middle = 0.5 * (apart + deep);
     const Pose poses[] = {{Vec3::Zero(), turn_a}, {Vec3(middle, 0, 0), turn_b}};

@@ -66,6 +66,7 @@ struct OneContactWork {
     while (cases.size() < count) {
       Eigen::Matrix3d root;
       for (int k = 0; k < 9; ++k) root(k) = random.uniform(-0.5, 0.5);
+      // I + R R^T is positive definite whatever R is.
       const Eigen::Matrix3d w = Eigen::Matrix3d::Identity() + root * root.transpose();
       const double mu = 0.4, reach = wanted == ContactStatus::stick ? 0.2 : 2.0;
       Case one;

@@ -33,6 +33,7 @@ BALLAST_FOR_EACH_CPU double sum_of(const CacheLine* values, size_t count) {
   return sum[0] + sum[7];
 }
 
+/// a = b + s c: two streams are read and one is written.
 BALLAST_FOR_EACH_CPU void triad(CacheLine* a, const CacheLine* b, const CacheLine* c, double s,
                                 size_t count) {
   for (size_t i = 0; i < count; ++i) a[i].lanes = b[i].lanes + s * c[i].lanes;

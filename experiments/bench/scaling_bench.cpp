@@ -105,6 +105,7 @@ void carry(Carrier& carrier, Point& point) {
 
 /// Measures the packing that `point` names in a child, and fills in what it measured.
 void measure_in_child(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
+  // The peak of memory is a process' own: a child for each packing keeps them apart.
   const ChildResult child = run_in_child(options.max_seconds, [&] {
     const ScalingPoint measured = measure_packing(box, options, point);
     Packer packer;
@@ -123,6 +124,7 @@ void measure_in_child(const DepositedBox& box, const ScalingOptions& options, Sc
 }  // namespace
 
 std::pair<int, int> tiles_for(long grains, int block) {
+  // As nearly square as whole numbers allow.
   const double tiles = std::max(1.0, static_cast<double>(grains) / block);
   const int nx = std::max(1, static_cast<int>(std::lround(std::sqrt(tiles))));
   return {nx, std::max(1, static_cast<int>(std::lround(tiles / nx)))};

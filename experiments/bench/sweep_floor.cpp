@@ -63,6 +63,7 @@ std::vector<Measurement> floor_measurements(const FrictionProblem& problem,
     return measurement_of("floor", name, unit, {value});
   };
   // ns a contact: bytes over GB/s, or flops over Gflop/s, whichever lasts longer
+  // This is the roofline of Williams, Waterman and Patterson (2009).
   const auto least_ns = [&](double GB_s) {
     return std::max(cost.streamed_bytes() / GB_s, cost.flops / facts.gflops);
   };

@@ -50,6 +50,8 @@ class Depositor {
         key_(packing_key(scene)) {}
 
   bool run() {
+    // Every stage goes on from the state that the one before has left. A deposit that was
+    // stopped goes on within its stage.
     if (!continue_part()) start();
     if (stage_ == BoxStage::rain && !rain_to_rest()) return false;
     if (stage_ == BoxStage::press && !press()) return false;
@@ -67,6 +69,7 @@ class Depositor {
     return true;
   }
 
+  /// Each stage counts its time from zero.
   void enter(BoxStage stage) {
     stage_ = stage;
     packing_.state.time = 0.0;

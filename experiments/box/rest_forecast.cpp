@@ -35,6 +35,7 @@ double RestForecast::end() const {
   }
   const double slope = product / square;
   if (!(slope < 0.0)) return unknown;
+  // log speed falls along the line logarithm + slope (t - time), and meets that of rest there.
   const double rest = time + (std::log(at_rest_) - logarithm) / slope;
   return std::max({rest, earliest_, samples_.back().time});
 }

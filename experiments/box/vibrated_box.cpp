@@ -40,6 +40,7 @@ std::vector<Vec3> scatter(const std::vector<double>& radii, double length, doubl
   std::stable_sort(order.begin(), order.end(),
                    [&](size_t a, size_t b) { return radii[a] > radii[b]; });
   std::vector<Vec3> centres(radii.size());
+  // Random sequential addition: places are drawn until one is free.
   for (size_t done = 0; done < order.size(); ++done) {
     const double r = radii[order[done]];
     for (int attempt = 0;; ++attempt) {
@@ -131,6 +132,8 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
   const double horizontal = deposits ? scene.deposit.friction : box.friction_horizontal;
   const double mass = system.mass_of_grains(), weight = mass * system.gravity.norm();
   // the box as it stands, then what drives a wall of it in this stage
+  // A corner of the box is the origin, and normals point into the box. A wall's plane is normal.x =
+  // offset: of x_max, at x = length, the normal is -x and the offset -length.
   WallSpec walls[box_wall_count];
   walls[wall_floor] = wall("floor", Vec3::UnitZ(), 0.0, horizontal);
   walls[wall_lid] = wall("lid", -Vec3::UnitZ(), -lid, horizontal);

@@ -148,6 +148,7 @@ void export_engines(const MechanicalSystem& system, const MotionState& state,
   double volume = 0.0;
   for (int b = 0; b < system.grain_count; ++b) volume += system.bodies[b].volume;
   AtomicFile scene(path), motion(path.string() + ".state");
+  // A line for all: number of grains, side of the box, friction, density; then grain by grain.
   scene.print("%d %.17g %.17g %.17g\n", system.grain_count, box.side, system.friction,
               system.mass_of_grains() / volume);
   for (int b = 0; b < system.grain_count; ++b) {

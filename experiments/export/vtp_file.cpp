@@ -122,6 +122,7 @@ void write_contacts_vtp(const std::filesystem::path& path, double time,
                         double h) {
   std::vector<float> points, gap, normal_force, force;
   std::vector<std::int32_t> connectivity, offsets;
+  // Each contact is a cell of one point.
   for (size_t c = 0; c < contacts.size(); ++c) {
     append(points, contacts[c].position);
     gap.push_back(static_cast<float>(contacts[c].gap));

@@ -28,11 +28,13 @@ double compaction_rate(std::span<const StepRecord> steps, double frequency, doub
   if (steps.empty()) return not_known;
   // from the first begin of a period in the window to the last end of one
   const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
+  // Periods begin at multiples of 1 / nu: the first one not before a, the last one not after b.
   const double a = std::ceil((window.begin - slack) * frequency) / frequency,
                b = std::floor((end + slack) * frequency) / frequency;
   if (!(b > a + slack)) return not_known;
   const long first = sample_at(steps, a, step), last = sample_at(steps, b, step);
   if (first < 0 || last <= first) return not_known;
+  // C = (rho(b) - rho(a)) / (rho_reference (b - a)) [1/s].
   return (steps[static_cast<size_t>(last)].solid_fraction -
           steps[static_cast<size_t>(first)].solid_fraction) /
          (reference * (b - a));

@@ -46,6 +46,7 @@ double determination(double residual_squares, double total) {
 /// Minimum of a function that has one minimum in [a, b].
 template <class Function>
 double golden_section(const Function& f, double a, double b) {
+  // With ratio^2 = 1 - ratio an inner point of one interval is an inner point of the next, too.
   const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
   // two inner points; of each shorter interval one of them is known already
   double c = b - ratio * (b - a), d = a + ratio * (b - a);
@@ -94,6 +95,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
   }
   fit.r2 = determination(residual, total_squares(samples.y));
   // two parameters take two degrees of freedom
+  // The slope's variance is s^2 / xx, with s^2 the residual's.
   if (fit.samples > 2) fit.slope_error = std::sqrt(residual / (fit.samples - 2) / xx);
   return fit;
 }
@@ -108,6 +110,8 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
   // x counts from its least in units of its range, so that rates are pure numbers and nothing
   // overflows
   const double origin = *low, range = *high - *low;
+  // y = A exp(rate x) is linear in A: for a rate the best A follows,
+  // and the rate alone is searched.
   const auto projected = [&](double rate) {
     return project(samples.x, samples.y,
                    [&](double at) { return std::exp(rate * (at - origin) / range); });
@@ -174,6 +178,7 @@ Statistics statistics(std::span<const double> values) {
 
 double quantile_of_sorted(std::span<const double> sorted, double p) {
   if (sorted.empty()) return not_known;
+  // By rank: p = 0 is the least, p = 1 the largest, and linear between two that follow each other.
   const double at = p * static_cast<double>(sorted.size() - 1);
   const size_t below = static_cast<size_t>(at), above = std::min(below + 1, sorted.size() - 1);
   return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);

@@ -24,12 +24,14 @@ Spread spread_of(std::span<const double> values) {
 
 /// Eq. 5 with D = 1.
 double peaked_shape(double frequency, double critical) {
+  // Proportional to nu up to nu_c, to 1 / nu from there on, and continuous.
   return frequency <= critical ? frequency : critical * critical / frequency;
 }
 
 }  // namespace
 
 double student_t95(int degrees_of_freedom) {
+  // 95 % of the distribution lies within +-t: for 1 to 30 degrees of freedom.
   constexpr std::array table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
                              2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
                              2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
@@ -85,6 +87,8 @@ double reduced_chi2(const PowerFit& fit, std::span<const double> x, std::span<co
     ++points;
   }
   if (points < 3 || !std::isfinite(misses) || !(variances > 0.0)) return not_known;
+  // Squared misses per degree of freedom, over the mean variance: about one where the power law
+  // misses the points by no more than their errors.
   return misses / (points - 2) / (variances / points);
 }
 
@@ -146,6 +150,7 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   if (total > 0.0) fit.r2 = 1.0 - least_residual / total;
   // where the squared residuals exceed the least by what t at 95 % allows
   const double t = student_t95(fit.samples - 2);
+  // The profile of the residual: S(nu_c) <= S_least (1 + t^2 / (n - 2)).
   const double bound = least_residual * (1.0 + t * t / (fit.samples - 2)) + 1e-300;
   int first = best, last = best;
   for (int k = 0; k <= parts; ++k)

@@ -21,10 +21,12 @@ double frequency_of(std::span<const StepRecord> steps, double middle) {
   for (size_t k = 1; k < steps.size(); ++k) {
     const double a = steps[k - 1].load - middle, b = steps[k].load - middle;
     if (!(a * b < 0.0) && !(b == 0.0 && a != 0.0)) continue;
+    // Where the line through the two samples crosses the middle.
     const double t = steps[k - 1].time + (steps[k].time - steps[k - 1].time) * a / (a - b);
     if (crossings++ == 0) first = t;
     last = t;
   }
+  // Half a period lies between a crossing and the next.
   return crossings < 2 ? not_known : 0.5 * (crossings - 1) / (last - first);
 }
 
@@ -86,6 +88,8 @@ EnergyBalance energy_balance(std::span<const StepRecord> steps) {
   energy.kinetic_first = steps.front().kinetic_energy;
   energy.kinetic_last = steps.back().kinetic_energy;
   // a missing term makes the balance NaN: it is not silently left out
+  // T_last - T_first = works - dissipated, summed from the second step on, as T_first is the
+  // energy at the end of the first.
   double residual = energy.kinetic_last - energy.kinetic_first, works = 0.0;
   for (size_t k = 0; k < steps.size(); ++k) {
     const double work = steps[k].work_load + steps[k].work_gravity + steps[k].work_prescribed;
@@ -150,6 +154,7 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
 }  // namespace
 
 double eq3_displacement(const RunFacts& facts) {
+  // Eq. 3 of the paper: m / (m + m_w) (m g / f_max) g / nu^2, m of all grains, m_w of the wall.
   const double m = facts.grain_mass, g = facts.gravity;
   return m / (m + facts.wall_mass) * m * g / facts.f_max * g / (facts.frequency * facts.frequency);
 }

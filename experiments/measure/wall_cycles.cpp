@@ -19,6 +19,13 @@ size_t first_after(std::span<const StepRecord> steps, double t, double h) {
 /// Largest rise above the running minimum, and where the wall comes back to. NaN samples are passed
 /// over.
 void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
+  // One period of x, outwards drawn upwards; rise = x_peak - x_before:
+  //
+  //     \          __ x_peak
+  //      \        /  \
+  //       \      /    \___ x_after
+  //        \____/
+  //          x_before, the least x so far
   double running = not_known;
   for (size_t k = period.first; k < period.last; ++k) {
     const double x = steps[k].wall_x;
@@ -172,6 +179,8 @@ LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles,
     const size_t width = cycles.smoothing_samples;
     for (size_t k = period.first + width; k + width < period.last; ++k) {
       const bool rises = k <= period.peak;
+      // The stroke is counted from where it began: x_before on the
+      // way out, x_after on the way back.
       const double xi = steps[k].wall_x - (rises ? period.x_before : period.x_after);
       const double stroke = period.x_peak - (rises ? period.x_before : period.x_after);
       if (!is_fitted(xi, stroke)) continue;

@@ -55,6 +55,7 @@ double Campaign::seconds() const {
 
 std::string campaign_number(double value) { return printed("%g", value); }
 
+/// Three periods of the load, and at least a second.
 double duration_at(double frequency) { return std::max(1.0, 3.0 / frequency); }
 
 CampaignBuilder::CampaignBuilder(const CampaignSettings& settings)

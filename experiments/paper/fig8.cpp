@@ -91,6 +91,7 @@ PaperSection fig8_section(PaperData& data) {
     section.notes = {"PARTIAL: no whole period after the transient."};
     return section;
   }
+  // Where x goes with nu^-2 and v with nu^-1 the scaled orbits are one.
   const double before = distance(raw[0], raw[1]), after = distance(collapsed[0], collapsed[1]);
   const page::Values words{{"slow", std::to_string(raw[0].periods)},
                            {"fast", std::to_string(raw[1].periods)},

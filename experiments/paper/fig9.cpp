@@ -66,6 +66,7 @@ PaperSection fig9_section(PaperData& data) {
     const std::string of = name;
     words[of] = words_of(fit);
     words[of + "_misfit"] = misfit_words(fit, curve);
+    // Either part of the frequencies by itself: a law that bends has two exponents.
     words[of + "_low"] = words_of(fit_part(curve, 0.0, 10.0));
     words[of + "_high"] = words_of(fit_part(curve, 10.0, 1e9));
     section.claim("fig9." + of, words, judge_exponent(fit, expected));

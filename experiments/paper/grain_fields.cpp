@@ -37,6 +37,7 @@ void count_contacts(const MechanicalSystem& system, std::span<const PairForce> p
   };
   const size_t grains = static_cast<size_t>(system.grain_count);
   std::vector<bool> out(grains, false);
+  // Z = (2 C_gg + C_gw) / N: a contact between two grains counts at both of them.
   std::vector<int> counts = contact_counts(system, pairs, out);
   result.coordination = total(counts) / static_cast<double>(grains);
   // Rattlers are peeled off: a grain that loses its neighbours may become one in the next round.
@@ -93,6 +94,8 @@ void find_anisotropy(const MechanicalSystem& system, const MotionState& state,
   result.fabric = contrast(fabric.contact);
   result.normal = contrast(fabric.normal) - result.fabric;
   result.tangential = contrast(fabric.full) - contrast(fabric.normal);
+  // q/p is about 2/5 (a_c + a_n + a_t): the stress-force-fabric relation of
+  // Rothenburg and Bathurst, 1989.
   result.shear_ratio = (stress.value[0] - stress.value[2]) / stress.value.sum();
   result.shear_from_anisotropy = 0.4 * (result.fabric + result.normal + result.tangential);
 }
@@ -132,6 +135,7 @@ Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state,
   const auto place = [&](int body, const Vec3& contact) -> Vec3 {
     return body < system.grain_count ? state.pose[static_cast<size_t>(body)].position : contact;
   };
+  // The Love-Weber formula: force times branch vector, from the centre of a to that of b.
   for (const PairForce& pair : pairs)
     sum += pair.force *
            (place(pair.body_b, pair.position) - place(pair.body_a, pair.position)).transpose();
@@ -208,6 +212,7 @@ PackingStatistics packing_statistics(const MechanicalSystem& system, const Motio
     if (!is_between_grains(system, pair)) continue;
     between += 1.0;
     force += pair.normal_force();
+    // Coulomb's bound; what the force has besides its normal part is friction.
     const double bound = system.pair_friction(pair.body_a, pair.body_b) * pair.normal_force();
     if ((pair.force - pair.normal_force() * pair.normal).norm() >= 0.99 * bound) sliding += 1.0;
   }

@@ -75,6 +75,7 @@ page::Table observable_table(const std::string& name) {
 
 SampleMean exponent_between(const VariedValue& a, const VariedValue& b,
                             double Observation::*quantity) {
+  // log(q_b / q_a) / log(b / a) of each sample by itself: differences between samples drop out.
   const double span = std::log(b.value / a.value);
   return over_common(a, b, quantity,
                      [&](double qa, double qb) { return std::log(qb / qa) / span; });
@@ -82,6 +83,7 @@ SampleMean exponent_between(const VariedValue& a, const VariedValue& b,
 
 SampleMean interpolated(const VariedValue& a, const VariedValue& b, double at,
                         double Observation::*quantity) {
+  // A power law through a and b: a straight line of the logarithms.
   const double w = std::log(at / a.value) / std::log(b.value / a.value);
   return over_common(a, b, quantity,
                      [&](double qa, double qb) { return qa * std::pow(qb / qa, w); });

@@ -7,6 +7,7 @@ namespace ballast {
 namespace {
 
 /// Where the wall stands in its cycle.
+/// jammed_before -> out -> turning -> in -> jammed_after; what turns may also go out again.
 enum class ModelPhase { jammed_before, out, turning, in, jammed_after };
 
 struct Moving {
@@ -19,6 +20,7 @@ double packing_force(const WallModel& model, ModelPhase phase, double x) {
 
 /// One step of Heun's rule (second order) with the force law of a phase.
 Moving advanced(const WallModel& model, ModelPhase phase, const Moving& from, double t, double dt) {
+  // m_w dv/dt = f_g(x) - f(t), outwards positive.
   const auto acceleration = [&](double x, double time) {
     return (packing_force(model, phase, x) - model.load.at(time)) / model.wall_mass;
   };
@@ -30,6 +32,8 @@ Moving advanced(const WallModel& model, ModelPhase phase, const Moving& from, do
 
 /// A wall at rest leaves when the load lets it, or is pushed in.
 ModelPhase released(const WallModel& model, ModelPhase phase, double x, double load) {
+  // At rest the packing bears the load as long as it need not push out with more than active(x),
+  // nor give way inwards to more than passive(x).
   const bool can_go_out = load < model.active.at(x);
   if (phase == ModelPhase::jammed_before) return can_go_out ? ModelPhase::out : phase;
   if (phase == ModelPhase::jammed_after) return phase;

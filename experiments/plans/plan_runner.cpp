@@ -37,6 +37,8 @@ class Engine {
   /// What stopped everything before its end; ok: nothing did.
   ExitCode execute() {
     ExitCode stopped = ExitCode::ok;
+    // Every five milliseconds: take in what has ended, start what can
+    // be started, say how far it is.
     while (start_what_can(stopped == ExitCode::ok) || !workers_.empty()) {
       collect();
       if (stopped == ExitCode::ok &&

@@ -16,6 +16,7 @@ ResolvedRun resolve(const PlannedRun& run) {
   resolved.run = run;
   resolved.key = read.key;
   resolved.steps = scene.step_count();
+  // Work is counted in bodies times steps.
   const double bodies =
       scene.grains ? scene.grains->count : static_cast<double>(scene.bodies.size());
   resolved.work = bodies * static_cast<double>(resolved.steps);

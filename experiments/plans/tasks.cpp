@@ -52,6 +52,8 @@ void sort_by_work(std::vector<Task>& tasks) {
 }  // namespace
 
 std::vector<Task> make_tasks(const fs::path& results, const std::vector<ResolvedRun>& runs) {
+  // A packing that several runs need is deposited once. Of deposits and of drives the longest come
+  // first, so that no long one is left for the end.
   std::vector<Task> drives, tasks;
   std::map<std::string, Task> deposits;           // by packing
   std::map<std::string, std::string> packing_of;  // run -> packing

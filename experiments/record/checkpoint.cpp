@@ -65,6 +65,8 @@ void take_phase_numbers(const std::vector<double>& numbers, const Unpacker& unpa
   }
 }
 
+/// A file may be whole and yet not fit together: every body has a pose, a velocity and a
+/// spin, and every contact an impulse.
 void check(const Checkpoint& checkpoint, const Unpacker& unpacker,
            const std::filesystem::path& file) {
   const size_t bodies = checkpoint.state.pose.size();

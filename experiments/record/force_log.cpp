@@ -4,6 +4,7 @@ namespace ballast {
 
 void pack_force_row(const MotionState& state, const ContactPoint& contact, const Vec3& impulse,
                     double h, std::vector<double>& row) {
+  // Fourteen numbers: step, time, a, b | position x y z | normal x y z | gap | force x y z.
   row = {static_cast<double>(state.step), state.time, static_cast<double>(contact.body_a),
          static_cast<double>(contact.body_b)};
   for (const Vec3& vector : {contact.position, contact.normal})
@@ -19,6 +20,7 @@ void add_forces(Hdf5Writer& file, RowReader& rows, std::span<const std::int64_t>
   std::vector<double> position, normal, gap, force;
   rows.rewind();
   std::span<const double> row = rows.next();
+  // Rows and frames come in the order of steps: a frame has the rows up to its own step.
   for (const std::int64_t step : frame_steps) {
     frame_begin.push_back(static_cast<std::int64_t>(gap.size()));
     for (; !row.empty() && static_cast<std::int64_t>(row[0]) <= step; row = rows.next()) {

@@ -61,6 +61,7 @@ std::string Progress::line(double now) const {
     text += printed("  ? %%  %.4g s", time_);
   else
     text += printed("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time_, total_);
+  // The mean pace so far says how long the rest will take.
   if (time_ > first_time_ && time_ < total_)
     text += "  " + duration_text(elapsed * (total_ - time_) / (time_ - first_time_)) + " left";
   if (steps_ > 0) text += printed("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));

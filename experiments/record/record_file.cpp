@@ -149,6 +149,7 @@ void add_shapes(Hdf5Writer& file, const MechanicalSystem& system) {
 size_t pose_row_size(size_t bodies) { return leading + parts_per_body * bodies; }
 
 void pack_pose_row(const MotionState& state, std::vector<double>& row) {
+  // step, time | positions of all bodies | rotations w x y z | velocities | spins
   row.clear();
   row.push_back(static_cast<double>(state.step));
   row.push_back(state.time);
@@ -227,6 +228,7 @@ std::vector<PoseFrame> read_record_poses(const std::filesystem::path& path) {
     throw Error(path.string() + ": the datasets of /poses do not fit together");
   std::vector<PoseFrame> frames;
   for (size_t k = 0; k < time.size(); ++k) {
+    // A frame is put together as its row stood in the log, and then taken apart like one.
     std::vector<double> row{step[k], time[k]};
     for (const PoseBlock& block : pose_blocks) {
       const std::vector<double> slice = file.read_slice(std::string("poses/") + block.name, k);

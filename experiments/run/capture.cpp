@@ -48,6 +48,7 @@ CaptureSettings CaptureSettings::parse(std::string_view text) {
 
 bool CaptureSettings::takes(long step) const {
   if (step < from || step > to) return false;
+  // With every = n and steps = k: the steps n to n + k - 1, then 2 n to 2 n + k - 1, and so on.
   return every == 0 || (step >= every && step % every < steps);
 }
 
@@ -90,6 +91,7 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
     captured.id_a.push_back(contact.body_a);
     captured.id_b.push_back(contact.body_b);
   }
+  // Row by row in the world frame: the normal from a to b, then the two tangents.
   for (const Mat3& frame : stepper.assembler().frames())
     for (int row = 0; row < 3; ++row)
       for (int axis = 0; axis < 3; ++axis) captured.frame.push_back(frame(row, axis));

@@ -47,6 +47,7 @@ class Drive {
     const Stopwatch watch;
     Stopwatch since_saved;
     DriveEnd end = DriveEnd::finished;
+    // The first frame is the state that the drive begins with.
     if (run_.state.step == 0) store_poses();
     while (run_.state.step < scene_.step_count()) {
       StepRecord record = stepper_.step(run_.state, run_.memory);

@@ -24,6 +24,8 @@ void for_rows(const FrictionProblem& problem, std::span<const int> contacts, F&&
 }  // namespace
 
 void ImpactLaw::split_bias(const FrictionProblem& problem, std::span<const double> rebound) {
+  // The bias holds the walls' motion and Newton's e u_N-. The latter can be scaled island by
+  // island once it is known apart.
   newton_ = walls_ = problem.dynamics.bias;
   for (int c = 0; c < problem.contact_count(); ++c) walls_[problem.row_begin[c]] -= rebound[c];
 }
@@ -69,6 +71,7 @@ double ImpactLaw::lowered_to(const FrictionProblem& problem, int island) const {
   const double e2 = restitution_ * restitution_;
   if (rebounding >= (1.0 - e2) * inelastic - known_to) return 1.0;
   if (!(curvature > 0.0) || !(inelastic > 0.0)) return 0.0;
+  // The positive root of L(t) = (1 - e^2) L_0, that is of slope t + curvature t^2 / 2 = e^2 L_0.
   const double root = std::sqrt(slope * slope + 2.0 * curvature * e2 * inelastic);
   return std::clamp((root - slope) / curvature, 0.0, 0.95);
 }

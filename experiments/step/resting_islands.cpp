@@ -202,6 +202,7 @@ bool RestingIslands::counts_rest(const MotionState& state, StepMemory& memory) c
   for (size_t b = 0; b < activity_.size(); ++b) {
     const RigidBody& body = system_.bodies[b];
     if (!has_unknowns_[b] || body.is_wall() || activity_[b] == Activity::asleep) continue;
+    // |v| + |w| R bounds the speed of every point of the body.
     const double speed =
         state.velocity[b].norm() + state.spin[b].norm() * body.shape.polyhedron->circumradius();
     // One step of motion begins the count anew.

@@ -10,6 +10,7 @@ constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 /// Index of the largest value, the smallest among equals.
 int argmax(const double* values, int padded) {
+  // The largest of each lane, then of the lanes; where it stands is looked for once it is known.
   using Lanes = Eigen::Array<double, 8, 1>;
   Lanes most = Eigen::Map<const Lanes>(values);
   for (int i = 8; i < padded; i += 8) most = most.max(Eigen::Map<const Lanes>(values + i));
@@ -41,9 +42,12 @@ AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
 
 AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& hint,
                              SeparatingAxis& axis) {
+  // What was the best axis in the last step nearly always is again: one evaluation and a proof
+  // then take the place of the search.
   const std::optional<SeparatingAxis> last = evaluate_axis(pair, hint, heights_);
   if (!last) return search(pair, alert, nullptr, hint, axis);
   axis.separation = last->separation;
+  // A gap above `alert` along any direction means no contact, whichever axis is the best.
   if (last->separation > alert) return AxisOutcome::separated_by_hint;
   if (!is_proved_best(pair, face_isolation(pair, hint), *last))
     return search(pair, alert, &*last, hint, axis);
@@ -53,6 +57,8 @@ AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& h
 
 AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const SeparatingAxis* start,
                                AxisFeature& hint, SeparatingAxis& axis) {
+  // Branch and bound over all facets of the Minkowski difference: the faces of both bodies, then
+  // those pairs of edges that no witness rules out.
   best_ = start ? start->separation : kMinusInfinity;
   best_feature_ = start ? start->feature : AxisFeature{};
   edge_pairs_.clear();
@@ -80,6 +86,8 @@ void AxisSearch::start_side(const ShapePair& pair, int own) {
   Side& side = side_[own];
   side.witnesses = 0;
   side.edges.clear();
+  // Where a ball with centre c and radius r lies in the other body, min n.x over that body is at
+  // most n.c - r: the height of c over a face, less r, bounds the face's separation from above.
   faces.evaluate(pair.other[own] * other.bounds().ball_centre, side.bound.data());
   for (int f = 0; f < faces.padded(); ++f) side.bound[f] -= other.bounds().ball_radius;
   std::fill_n(side.value.begin(), faces.padded(), kMinusInfinity);
@@ -93,6 +101,7 @@ void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) 
       std::min(side.witnesses, kWitnesses - 1);  // when full, the last place is used again
   double* __restrict heights = side.heights.data() + static_cast<size_t>(slot) * faces.padded();
   double* __restrict bound = side.bound.data();
+  // The same with a point w of the other body: its height over a face bounds the separation.
   faces.evaluate(point, heights);
   for (int f = 0; f < faces.padded(); ++f) bound[f] = heights[f] < bound[f] ? heights[f] : bound[f];
   side.witnesses = slot + 1;
@@ -100,6 +109,8 @@ void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) 
 
 /// Makes the corners of the axis' facet witnesses, each for the other body's faces.
 void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& axis) {
+  // Points near the facet bound the directions near its own best: of two edges the ends, of a face
+  // its corners and the vertex over it.
   if (axis.feature.kind == AxisKind::edges) {
     const CollisionShape::Edge& edge_a = pair.shape[0]->edges()[axis.feature.a];
     const CollisionShape::Edge& edge_b = pair.shape[1]->edges()[axis.feature.b];
@@ -137,6 +148,8 @@ bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
       best_feature_ = AxisFeature::of_face(own, f);
       if (best_ > alert) return true;
     }
+    // The vertex that is lowest over this face is low over faces nearly parallel to it: one more
+    // witness, which lowers their bounds.
     add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(found.support));
   }
 }
@@ -158,6 +171,10 @@ void AxisSearch::collect_edges(const ShapePair& pair, int own) {
     const double* heights = side.heights.data();
     double low = 0.0, high = 1.0;
     for (int k = 0; k < side.witnesses && low <= high; ++k, heights += stride) {
+      // The witness leaves, with `left` and `right` what it has at l = 0 and l = 1 above the least:
+      //
+      //     left >= 0, right >= 0: all of [0, 1]     left >= 0 > right: up to left / (left - right)
+      //     left < 0, right < 0:   nothing           left < 0 <= right: from there on
       const double left = heights[edges[e].left] - least, right = heights[edges[e].right] - least;
       if (left < 0.0) low = right < 0.0 ? 2.0 : std::max(low, left / (left - right));
       if (left >= 0.0 && right < 0.0) high = std::min(high, left / (left - right));
@@ -183,6 +200,7 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
     const CollisionShape::Edge& edge = a.edges()[ea];
     const double length_blur = blur * pair.size();
     for (const TurnedEdge& other : turned_) {
+      // Two edges make a facet where each separates the ends of the other's arc: four signs.
       const double left_a = edge.left_normal.dot(other.along),
                    right_a = edge.right_normal.dot(other.along);
       if (std::min(left_a, right_a) > length_blur || std::max(left_a, right_a) < -length_blur)

@@ -26,6 +26,8 @@ std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<i
   }
   std::sort(next.begin(), next.end());
   std::vector<int> loop{next.front().first};
+  // Edges can be followed as each corner of the outline has one that leaves it: the
+  // one found by the end of the last.
   while (loop.size() < next.size()) {
     loop.push_back(std::lower_bound(next.begin(), next.end(), std::pair(loop.back(), -1))->second);
   }
@@ -43,6 +45,11 @@ Vec3 newell_normal(const Polyhedron& polyhedron, std::span<const int> loop) {
 }  // namespace
 
 AffineRows::AffineRows(int count, double padding) : count_(count), padded_(rounded_up(count)) {
+  // Four columns of padded length, so that d.xyz + w is one pass of vector
+  // instructions over all rows. The w of the padding is so far off that padding never
+  // is the least height or the largest bound.
+  //
+  //     x x x x .. | y y y y .. | z z z z .. | w w w w .. P P
   table_.assign(4 * static_cast<size_t>(padded_), 0.0);
   std::fill(table_.end() - padded_, table_.end(), padding);
 }
@@ -110,6 +117,8 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
   }
   face_rows_ = AffineRows(count, -kFar);
   std::vector<double> heights(vertices_.padded());
+  // A patch of one face is that face. Of several the outline is the polygon, and
+  // its area vector gives the normal.
   for (int p = 0; p < count; ++p) {
     std::vector<int> loop(polyhedron.face(seed[p]).begin(), polyhedron.face(seed[p]).end());
     Vec3 normal = polyhedron.normal(seed[p]);
@@ -117,6 +126,8 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
       loop = boundary_loop(polyhedron, patch, p);
       normal = newell_normal(polyhedron, loop);
     }
+    // Through the highest vertex and not the mean of the corners: no
+    // vertex is in front of its face.
     vertices_.evaluate(normal, heights.data());
     const double offset = *std::max_element(heights.begin(), heights.begin() + vertices_.count());
     face_rows_.set(p, normal, -offset);
@@ -127,6 +138,7 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
       bounds_.unevenness = std::max(bounds_.unevenness, offset - heights[v]);
     }
   }
+  // The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
   for (Face& face : faces_) {
     for (const Face& other : faces_) {
       if (&face == &other || face.normal.dot(other.normal) < 0.5) continue;
@@ -144,6 +156,8 @@ void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector
     const auto corner =
         std::find_if(first, corners_.end(), [&](const Corner& c) { return c.vertex == from; });
     corner->edge = static_cast<int>(edges_.size());
+    // With the face on the left of its side, along x normal points
+    // out of the face within its plane.
     const Vec3 outward =
         (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_[f].normal).normalized();
     const double offset =

@@ -72,6 +72,7 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   State& s = *state_;
   s.check(poses, reach);
   contacts.clear();
+  // Rotations of all bodies once, then the pairs that may touch, then each part's run of pairs.
   s.bodies.take(poses, reach);
   const long rebuilds = s.broad_phase.rebuilds();
   s.broad_phase.update(poses, s.bodies.rotations, s.bodies.reach);
@@ -117,6 +118,8 @@ void ContactDetector::State::share() {
   size_t total = 0, passed = 0;
   for (int a = 0; a < bodies.count(); ++a) total += work_of(a);
   for (DetectionPart& part : parts) part.lay_aside();
+  // Neighbours in the list stay together: a part is a run of bodies, and the parts' contacts, one
+  // after the other, are in the order that one part alone would give.
   int begin = 0;
   for (size_t k = 0; k < parts.size(); ++k) {
     int end = begin;

@@ -66,9 +66,12 @@ EdgesMeeting::EdgesMeeting(const PairFrame& pair, const SeparatingAxis& axis,
   flat_on_a = beside_a.cosine > flat;
   flat_on_b = beside_b.cosine > flat;
   const Vec3 along_b = pair.other[0].rotation * b.along;
+  // |a x b| = |a| |b| sin, squared so that no root is needed.
   across = a.along.cross(along_b).squaredNorm() >
            across_squared * a.along.squaredNorm() * along_b.squaredNorm();
   const Vec3 along_a = pair.other[1].rotation * a.along;
+  // An edge of direction t lies across the axis d. A plane of normal n changes its height along d
+  // by |n.t| / n.d for a unit of length along t.
   rise_a = std::abs(beside_b.normal.dot(along_a)) / (a.length * beside_b.cosine);
   rise_b = std::abs(beside_a.normal.dot(along_b)) / (b.length * beside_a.cosine);
 }
@@ -76,6 +79,7 @@ EdgesMeeting::EdgesMeeting(const PairFrame& pair, const SeparatingAxis& axis,
 CarriedContact::CarriedContact(const ShapePair& pair, const SeparatingAxis& axis)
     : kind_(axis.feature.kind) {
   const Vec3 normal = contact_normal(pair, axis);
+  // Kept in the frame of the body that it belongs to, so that it turns with that body.
   if (kind_ == AxisKind::face_of_a) first_ = normal;
   if (kind_ == AxisKind::face_of_b) first_ = pair.other[1].rotation * normal;
   if (kind_ == AxisKind::edges) {

@@ -48,6 +48,9 @@ size_t nearest(std::span<const ContactPoint> candidates, std::span<const Contact
 void carry_impulses(std::span<const ContactPoint> old_contacts, std::span<const Vec3> old_impulses,
                     std::span<const ContactPoint> new_contacts, std::vector<Vec3>& carried) {
   carried.assign(new_contacts.size(), Vec3::Zero());
+  // Both lists are sorted by pair and feature. An impulse goes to the point with its
+  // key, and that of a point that is gone to another point of its pair: what a pair
+  // carries is kept while it touches.
   size_t o = 0, n = 0;
   while (o < old_contacts.size() && n < new_contacts.size()) {
     if (pair_of(old_contacts[o]) < pair_of(new_contacts[n])) {

@@ -33,6 +33,8 @@ void DetectedBodies::take(std::span<const Pose> new_poses, std::span<const doubl
     for (size_t i = 0; i < poses.size(); ++i) wide_reach_[i] = given_reach[i] + margin[i];
     reach = wide_reach_;
   }
+  // Motion summed up step by step: of two times, the difference of the
+  // sums bounds the motion between.
   for (size_t i = 0; i < previous_.size(); ++i) {
     const Travel step = step_bound(previous_[i], poses[i]);
     travel[i].shift += step.shift;

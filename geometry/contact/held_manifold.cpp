@@ -15,6 +15,8 @@ void HeldManifold::hold(const ShapePair& pair, const SeparatingAxis& axis,
   b_in_a_ = pair.other[0];
   const Vec3 normal = contact_normal(pair, axis);
   for (const ManifoldPoint& point : points) {
+    // The point lies midway: half the gap along the normal on either
+    // side is the body's own material.
     const Vec3 half = 0.5 * point.gap * normal;
     points_[count_++] = {point.key, point.position - half, a_in_b * (point.position + half)};
   }
@@ -25,6 +27,9 @@ void HeldManifold::hold(const ShapePair& pair, const SeparatingAxis& axis,
 bool HeldManifold::is_valid(const RelativePose& b_in_a, double radius, double alert) const {
   if (count_ == 0) return false;
   const double turn = (b_in_a.rotation - b_in_a_.rotation).norm() / std::numbers::sqrt2;
+  // Seen from a, no point of b has moved farther than its frame's shift and radius
+  // times turn. While that and the asked reach stay below the reach of the search, no
+  // point can have come in unseen.
   return (b_in_a.position - b_in_a_.position).norm() + radius * turn + alert < reach_;
 }
 

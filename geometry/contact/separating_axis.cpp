@@ -14,6 +14,8 @@ struct Lowest {
 };
 
 Lowest lowest(const double* values, int padded) {
+  // Least and second least value of every lane, and then of all lanes together: whatever is not the
+  // least of two is a candidate for the second.
   Lanes least = Eigen::Map<const Lanes>(values);
   Lanes second = Lanes::Constant(1e200);
   for (int i = 8; i < padded; i += 8) {
@@ -65,6 +67,10 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
   axis.direction = found.direction;
   axis.separation = found.separation;
   const Vec3 between = pair.other[0] * b.from - a.from;
+  // The closest points a.from + s a.along and b.from + t along_b differ by a multiple of d, which
+  // is across both edges. Cramer's rule with c = a.along x along_b = cross d gives
+  //
+  //     s = (between x along_b).c / c.c,    t = (between x a.along).c / c.c
   axis.at_a = between.cross(found.along_b).dot(found.direction) / found.cross;
   axis.at_b = between.cross(a.along).dot(found.direction) / found.cross;
   // The facet is the parallelogram of the two edges: the distances to its sides are lengths times
@@ -79,6 +85,8 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
 FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& heights) {
   const CollisionShape::Face& face = pair.shape[own]->face(f);
   const AffineRows& vertices = pair.shape[1 - own]->vertices();
+  // s(n) = min_B n.x - max_A n.x, and max_A is the face's own offset: the lowest vertex of the
+  // other body over the face is all that is looked for.
   vertices.evaluate(pair.other[1 - own].rotation * face.normal, heights.data());
   const Lowest low = lowest(heights.data(), vertices.padded());
   return {face_separation_at(pair, own, face, low.value), low.row, low.next - low.value};
@@ -102,6 +110,8 @@ std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape:
   facet.along_b = along_b;
   facet.weight_a = std::min(std::abs(left_a), std::abs(right_a));
   facet.weight_b = std::min(std::abs(left_b), std::abs(right_b));
+  // Two directions are across both edges, +-along_a x along_b. On a's arc from left to right around
+  // along_a lies the one with the plus where left_a > 0. What lies on it points out of a.
   const Vec3 cross = along_a.cross(along_b);
   const double sign = left_a > 0.0 ? 1.0 : -1.0, length = cross.norm(),
                sine = length / (a.length * b.length);

@@ -10,6 +10,8 @@ namespace {
 
 /// For each point the smallest index of a point equal to it.
 std::vector<int> first_equal(std::span<const Vec3> points) {
+  // Sorted by coordinates and then by index, equal points stand in runs that
+  // begin with the smallest index.
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int i) {

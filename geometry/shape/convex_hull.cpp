@@ -43,6 +43,8 @@ std::vector<Vec3> normalised(std::span<const Vec3> points) {
   }
   const double half = 0.5 * (high - low).maxCoeff();
   if (!(half > 0.0)) throw InvalidPolyhedron("no convex hull: all points coincide");
+  // The cube of the half-extent stands for the volume: no mass could
+  // be computed where it overflows.
   if (!std::isfinite(half * half * half))
     throw InvalidPolyhedron("no convex hull: the volume overflows");
   std::vector<Vec3> scaled;
@@ -57,6 +59,8 @@ void check_spatial(const std::vector<Vec3>& points) {
       return distance(a) < distance(b);
     });
   };
+  // Four points that span the set, each the farthest from what is there: a, a second one, c off the
+  // line through both, and one off the plane of the three. Flat sets fail at c or at the last.
   const Vec3 a = farthest([&](const Vec3& p) { return (p - points[0]).norm(); });
   const Vec3 along = (farthest([&](const Vec3& p) { return (p - a).norm(); }) - a).normalized();
   const auto from_line = [&](const Vec3& p) { return (p - a - along * along.dot(p - a)).norm(); };
@@ -80,6 +84,7 @@ std::vector<int> distinct(const std::vector<Vec3>& points) {
   return kept;
 }
 
+/// Twice the loop's area times its unit normal, right-handed about the loop: a fan of triangles.
 Vec3 area_vector(const std::vector<int>& loop, const std::vector<Vec3>& points) {
   Vec3 sum = Vec3::Zero();
   for (size_t k = 2; k < loop.size(); ++k)
@@ -100,6 +105,8 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
     double lowest = kCorner;
     int corner = -1;
     for (size_t k = 0; k < n; ++k) {
+      // |in x out| is twice the triangle of a corner and its neighbours; over the chord |in + out|
+      // between these it is the corner's height.
       const Vec3 in = points[loop[k]] - points[loop[(k + n - 1) % n]];
       const Vec3 out = points[loop[(k + 1) % n]] - points[loop[k]];
       const double height =
@@ -109,6 +116,7 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
         corner = loop[k];
       }
     }
+    // One corner of a face a round: its neighbours may rise enough once it is gone.
     if (corner < 0 || std::any_of(loop.begin(), loop.end(), listed)) continue;
     flat.push_back(corner);
     is_listed[static_cast<size_t>(corner)] = true;
@@ -139,6 +147,8 @@ void make_canonical(Loops& loops, const std::vector<Vec3>& points) {
 Loops hull_loops(const std::vector<Vec3>& points, double merge) {
   std::vector<int> kept = distinct(points);
   while (kept.size() >= 4) {
+    // Only the points that are left are handed over, under new numbers; what comes back is put into
+    // the caller's numbers before it is judged.
     std::vector<double> coordinates;
     for (const int i : kept)
       coordinates.insert(coordinates.end(), points[i].begin(), points[i].end());
@@ -175,6 +185,8 @@ Polyhedron assembled(std::span<const Vec3> points, Loops loops) {
 Polyhedron convex_hull(std::span<const Vec3> points) {
   const std::vector<Vec3> scaled = normalised(points);
   check_spatial(scaled);
+  // From qhull only the faces are taken; the solid is built from the caller's own coordinates, and
+  // its constructor checks everything once more.
   try {
     return assembled(points, hull_loops(scaled, kMerge[0]));
   } catch (const InvalidPolyhedron&) {

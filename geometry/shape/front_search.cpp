@@ -18,6 +18,12 @@ FrontSearch::FrontSearch(std::span<const Vec3> points) : points_(points), order_
   if (!order_.empty()) build(0, static_cast<int>(order_.size()));
 }
 
+/// Nodes are stored in the order of a depth-first walk. The first child stands right behind its
+/// parent, and `after` is where the walk goes on when a node is passed over:
+///
+///         0           node    0  1  2  3  4
+///       1   4         after   5  4  3  4  5
+///      2 3
 void FrontSearch::build(int begin, int end) {
   const size_t self = nodes_.size();
   nodes_.push_back(enclosing(begin, end));
@@ -52,6 +58,8 @@ FrontSearch::Node FrontSearch::enclosing(int begin, int end) const {
   Mat3 scatter = Mat3::Zero();
   for (int i = begin; i < end; ++i)
     scatter += (point(i) - node.centre) * (point(i) - node.centre).transpose();
+  // The direction of least scatter belongs to the smallest eigenvalue of sum d d', d = p - centre.
+  // Eigen lists eigenvalues in ascending order.
   node.slab_normal = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvectors().col(0);
   for (int i = begin; i < end; ++i) {
     const Vec3 arm = point(i) - node.centre;
@@ -67,6 +75,8 @@ bool FrontSearch::any_in_front(const Vec3& normal, const Vec3& origin, double he
   for (size_t at = 0; at < nodes_.size();) {
     const Node& node = nodes_[at];
     // The highest that a point of the slab and the ball can be: across the slab, and along it.
+    // For p = centre + h m + t with m the slab's normal, t within the slab and |t| <= radius:
+    // normal.p <= normal.centre + max(across low, across high) + along radius.
     const double across = normal.dot(node.slab_normal);
     const double along = (normal - across * node.slab_normal).norm();
     const double centre = normal.dot(node.centre - origin);
@@ -78,6 +88,7 @@ bool FrontSearch::any_in_front(const Vec3& normal, const Vec3& origin, double he
       at = static_cast<size_t>(node.after);
       continue;
     }
+    // Only leaves look at their points; behind an inner node stands its first child.
     if (node.end - node.begin <= leaf_size)
       for (int i = node.begin; i < node.end; ++i) {
         const Vec3& p = points_[static_cast<size_t>(order_[static_cast<size_t>(i)])];

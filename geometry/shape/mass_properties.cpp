@@ -29,6 +29,8 @@ Mat3 principal_axes(const Mat3& inertia) {
   return axes;
 }
 
+/// The same solid with every vertex p at axes^T (p - origin): seen from a frame at `origin` whose
+/// axes are the columns of `axes`.
 Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& origin) {
   std::vector<Vec3> vertices;
   for (const Vec3& p : polyhedron.vertices()) vertices.push_back(axes.transpose() * (p - origin));
@@ -46,6 +48,8 @@ Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& 
 /// det(a, b, c): volume d/6, first moment d/24 (a+b+c), second moment d/120 (a a' + b b' + c c' +
 /// (a+b+c)(a+b+c)').
 MassProperties mass_properties(const Polyhedron& polyhedron) {
+  // About a point inside and not about the origin: for a mesh far from its origin the tetrahedra
+  // would be large, nearly cancel, and leave few digits.
   Vec3 reference = Vec3::Zero();
   for (const Vec3& p : polyhedron.vertices()) reference += p;
   reference /= polyhedron.vertex_count();
@@ -71,6 +75,9 @@ MassProperties mass_properties(const Polyhedron& polyhedron) {
   result.volume = volume;
   const Vec3 centre = first / volume;
   result.centre = reference + centre;
+  // The sums are about the reference point. Steiner's theorem takes the second moment to the centre
+  // of mass, S = S_ref - V c c', and the inertia of unit density is tr(S) 1 - S: on its diagonal
+  // y^2 + z^2, z^2 + x^2, x^2 + y^2, off it -xy, -yz, -zx.
   const Mat3 about_centre = second - volume * centre * centre.transpose();
   result.inertia = about_centre.trace() * Mat3::Identity() - about_centre;
   return result;
@@ -93,6 +100,7 @@ PrincipalShape to_principal_frame(const Polyhedron& polyhedron) {
     axes = axes * correction;
     properties = mass_properties(shape);
   }
+  // x = origin + axes x' takes a point x' of the body frame to the frame of the given polyhedron.
   return {std::move(shape), properties.volume, properties.inertia.diagonal(),
           Pose{origin, Quat(axes).normalized()}};
 }

@@ -58,6 +58,8 @@ void check_loop(std::span<const Vec3> vertices, int face, std::span<const int> l
       invalid(At{.face = face}, "face ", face, " is not flat: vertex ", v, " lies ",
               std::abs(height) / size, " of the size off its plane");
   }
+  // Once around, the exterior angles of a simple polygon sum to 2 pi and those of one that winds
+  // twice to 4 pi. Each is taken from the sine and cosine between the edges before and behind.
   double turning = 0.0;  // [rad]
   for (size_t k = 0; k < n; ++k) {
     const Vec3 in = vertices[loop[k]] - vertices[loop[(k + n - 1) % n]];

@@ -90,10 +90,13 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
   if (mesh.faces.empty()) Place{file}.fail("the file has no faces");
   try {
     try {
+      // A mesh that is convex as it stands is taken, but for two kinds: single precision, whose
+      // faces are fitted anew, and polygons cut into pieces, which are joined.
       Polyhedron polyhedron(mesh.vertices, mesh.faces);
       if (mesh.is_single) return rounded_hull(mesh.vertices, kFileTolerance);
       return has_coplanar_neighbours(polyhedron) ? convex_hull(mesh.vertices) : polyhedron;
     } catch (const InvalidPolyhedron&) {
+      // Convex only to six digits: the solid that was meant is the rounded hull of its vertices.
       const Polyhedron nearly(mesh.vertices, mesh.faces,
                               kFileTolerance);  // throws when the mesh is really broken
       return rounded_hull(nearly.vertices(), kFileTolerance);

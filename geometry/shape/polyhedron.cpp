@@ -35,6 +35,8 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   if (!(size_ > 0.0)) invalid(At{}, "all vertices coincide");
   if (!std::isfinite(size_ * size_ * size_))
     invalid(At{}, "coordinates are too large: the volume overflows");
+  // Each check may rely on those before it: valid indices, distinct vertices, a closed surface in
+  // one piece, flat faces, and only then that the whole is convex.
   mesh_checks::check_indices(vertex_count(), faces);
   mesh_checks::check_distinct(vertices_, tolerance * size_);
   build_faces(faces);
@@ -45,6 +47,7 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   check_convex(tolerance, thinness);
 }
 
+/// All loops in one array: face f has those from face_begin_[f] to before face_begin_[f + 1].
 void Polyhedron::build_faces(const std::vector<std::vector<int>>& faces) {
   face_begin_.assign(1, 0);
   for (const std::vector<int>& face : faces) {
@@ -104,6 +107,8 @@ void Polyhedron::build_edges() {
   }
 }
 
+/// The faces around each vertex, stored like the loops: sorted (vertex,
+/// face) pairs, counted and summed up.
 void Polyhedron::build_vertex_faces() {
   std::vector<std::pair<int, int>> pairs;  // (vertex, face)
   for (int f = 0; f < face_count(); ++f) {
@@ -165,9 +170,12 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
     for (const int v : loop) extent = std::max(extent, (vertices_[v] - first).norm());
     if (!(length > tolerance * size_ * extent))
       invalid(At{.face = f}, "face ", f, " has no area (a needle or folded face)");
+    // Through the mean of the corners; the offset is the plane's signed distance from the origin.
     normals_[f] = area2 / length;
     offsets_[f] = normals_[f].dot(centre);
     inradius_ = std::min(inradius_, offsets_[f]);
+    // The pyramid from `inside` over the face has the volume area times height / 3: area2 is twice
+    // the area, so that this product is six times that volume.
     volume6 += area2.dot(centre - inside);
     surface2 += length;
     thinness.push_back(extent / length);
@@ -202,6 +210,7 @@ Polyhedron make_box(const Vec3& size) {
     corners.push_back(0.5 * Vec3(i & 1 ? size.x() : -size.x(), i & 2 ? size.y() : -size.y(),
                                  i & 4 ? size.z() : -size.z()));
   }
+  // Seen from outside each counter-clockwise: -x, +x, -y, +y, -z, +z.
   return Polyhedron(
       std::move(corners),
       {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});

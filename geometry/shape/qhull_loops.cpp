@@ -67,6 +67,7 @@ class QhullRun {
   }
 
  private:
+  /// qhull keeps two stores: large blocks, and a pool of small ones that is freed by itself.
   void release() {
     qh_freeqhull(&qh_, !qh_ALL);
     int blocks, bytes;
@@ -86,6 +87,7 @@ class QhullRun {
       links.emplace_back(qh_pointid(qh, SETfirstt_(ridge->vertices, vertexT)->point),
                          qh_pointid(qh, SETsecondt_(ridge->vertices, vertexT)->point));
     }
+    // From corner to corner along the ridge that does not lead back, until the loop closes.
     std::vector<int> chain{links.front().first};
     for (int at = links.front().second; at != chain.front();) {
       chain.push_back(at);

@@ -35,6 +35,9 @@ std::vector<int> group_faces(const Polyhedron& hull, double reach, int& groups) 
   });
   std::vector<int> group(area.size(), -1);
   groups = 0;
+  // A group grows across shared edges while all corners of the next face lie in the plane of
+  // the seed. All are measured by that one plane, so that a group cannot creep around a
+  // curved surface by small angles.
   for (const int seed : order) {
     if (group[static_cast<size_t>(seed)] >= 0) continue;
     const Plane plane{hull.normal(seed), hull.normal(seed).dot(hull.vertex(hull.face(seed)[0]))};
@@ -77,6 +80,8 @@ std::vector<Corner> find_corners(const Polyhedron& hull, const std::vector<int>&
 
 /// Least squares through the corners of each group, outward from `inside`.
 std::vector<Plane> fit_planes(const std::vector<Corner>& corners, int groups, const Vec3& inside) {
+  // The best plane of a group in the sense of least squares passes through the mean m of its
+  // corners; its normal is the eigenvector of the smallest eigenvalue of sum (x - m)(x - m)'.
   std::vector<Vec3> mean(static_cast<size_t>(groups), Vec3::Zero());
   std::vector<int> count(static_cast<size_t>(groups), 0);
   for (const Corner& corner : corners)
@@ -104,6 +109,8 @@ std::vector<Plane> fit_planes(const std::vector<Corner>& corners, int groups, co
 /// Moves a corner the shortest way to where its planes meet, as well as they do; returns how far it
 /// was off the worst of them [m].
 double move_to_planes(Corner& corner, const std::vector<Plane>& planes) {
+  // The shortest d with N d = -(heights over the planes), one row of N for each plane, in least
+  // squares: three planes in general position meet in one point, more of them need not.
   Eigen::MatrixXd normals(static_cast<Eigen::Index>(corner.groups.size()), 3);
   Eigen::VectorXd off(normals.rows());
   for (Eigen::Index k = 0; k < normals.rows(); ++k) {
@@ -127,6 +134,8 @@ Polyhedron rounded_hull(std::span<const Vec3> points, double rounding) {
   const double size = (high - low).maxCoeff();
   int groups = 0;
   const std::vector<int> group = group_faces(hull, rounding * size, groups);
+  // Where every group is one face there is nothing to join, and fewer
+  // than four planes bound no solid.
   if (groups == hull.face_count() || groups < 4) return hull;
   std::vector<Corner> corners = find_corners(hull, group);
   const std::vector<Corner> before = corners;
@@ -145,6 +154,8 @@ Polyhedron rounded_hull(std::span<const Vec3> points, double rounding) {
     moved = std::max(moved, (corners[k].position - before[k].position).norm());
     positions.push_back(corners[k].position);
   }
+  // Planes and corners that do not come to agree, or corners that went far, say that the groups
+  // were wrong: then the hull of the points as they are is the answer.
   if (!(off < 1e-11 * size && moved < 100.0 * rounding * size)) return hull;
   try {
     Polyhedron joined = convex_hull(positions);

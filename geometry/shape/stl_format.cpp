@@ -38,6 +38,10 @@ Soup read_binary(const std::filesystem::path& file, std::string_view content) {
                std::to_string(kHeader + kRecord * count) + " bytes, the file has " +
                std::to_string(content.size()));
   Soup soup;
+  // A record, all numbers little-endian floats; the normal is not read:
+  //
+  //     bytes   0         12         24         36         48      50
+  //             | normal  | corner 0 | corner 1 | corner 2 | unused |
   for (std::uint64_t t = 0; t < count; ++t) {
     const std::string_view record = content.substr(kHeader + kRecord * t, kRecord);
     for (int k = 0; k < 3; ++k) {
@@ -108,6 +112,11 @@ void read_facet(TextReader& reader, Soup& soup) {
   reader.expect("endfacet");
 }
 
+/// Solids, one after the other; line breaks mean nothing but for the names:
+///
+///     solid NAME
+///       facet normal x y z   outer loop   (vertex x y z) three times   endloop   endfacet
+///     endsolid NAME
 Soup read_text(const std::filesystem::path& file, std::string_view content) {
   Soup soup;
   TextReader reader(file, content);
@@ -149,6 +158,8 @@ RawMesh read_stl(const std::filesystem::path& file, std::string_view content) {
   const bool is_text = !has_zero && TextReader::same(next_word(start), "solid");
   const Soup soup = is_text ? read_text(file, content) : read_binary(file, content);
 
+  // Every triangle brings its own corners: those that are the same become one vertex, numbered in
+  // the order in which they first appear.
   RawMesh mesh;
   const std::vector<int> first = first_equals(soup.corners);
   std::vector<int> index(soup.corners.size(), -1);

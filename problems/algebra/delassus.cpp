@@ -67,6 +67,8 @@ std::vector<Side> all_sides(const FrictionProblem& problem, const std::vector<Ma
 }
 
 SparseRows assemble(const FrictionProblem& problem) {
+  // W = H M^-1 H^T = G G^T with G = H L^-T: the block of two contacts is the sum of G_c G_d^T over
+  // the bodies that both of them touch.
   std::vector<MassRoot> roots;
   factor_masses(problem.dynamics, roots);
   const std::vector<Side> sides = all_sides(problem, roots);

@@ -3,6 +3,7 @@
 namespace ballast {
 
 Eigen::Vector3d project_dual_cone(const Eigen::Vector3d& x, double mu) {
+  // Inside K* = {u : u_N >= mu |u_T|}, inside its polar cone -K_mu, or else nearest to K*'s side.
   const double t = tangential_norm(x);
   if (x[0] >= mu * t) return x;
   if (t <= -mu * x[0]) return Eigen::Vector3d::Zero();  // -x in K_mu
@@ -16,6 +17,8 @@ Eigen::Matrix3d project_cone_jacobian(const Eigen::Vector3d& x, double mu) {
   const double t = tangential_norm(x);
   if (mu * t <= -x[0]) return Eigen::Matrix3d::Zero();
   if (t <= mu * x[0]) return Eigen::Matrix3d::Identity();
+  // In between P_K(x) = n g with the generator g = (1, mu e), e = x_T / |x_T| and n = x.g / g.g.
+  // Moving x along g changes n; moving it around the axis turns e, by 1 / |x_T|.
   const double weight = 1.0 / (1.0 + mu * mu);
   const double n = weight * (mu * t + x[0]);
   const Eigen::Vector3d side(1.0, mu * x[1] / t, mu * x[2] / t);  // the cone's generator towards x

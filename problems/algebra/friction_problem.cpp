@@ -133,6 +133,7 @@ void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q) {
 
 void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::VectorXd& u) {
   require_rows("impulses", r.size(), problem.row_count());
+  // u = H v + bias with the bodies' velocities under the impulses, or u = W r + q as it is stored.
   if (problem.has_dynamics) {
     Eigen::VectorXd v;
     body_velocity(problem.dynamics, problem.row_begin, r, v);

@@ -27,6 +27,7 @@ int DisjointSets::find(int i) {
 }
 
 void DisjointSets::join(int i, int j) {
+  // The smallest member gives the set its name, whatever the order in which sets are joined.
   int low = find(i), high = find(j);
   if (low > high) std::swap(low, high);
   parent_[high] = low;
@@ -91,6 +92,7 @@ void Islands::extract(const FrictionProblem& problem, int island, FrictionProble
   result.clear();
   result.has_dynamics = true;
   DynamicsForm& to = result.dynamics;
+  // Bodies and contacts stay in the order that they have in the whole problem.
   for (const int b : bodies(island)) {
     to.dof_begin.push_back(to.dof_begin.back() + from.body_dofs(b));
     to.mass.insert(to.mass.end(), from.mass.begin() + from.mass_begin[b],

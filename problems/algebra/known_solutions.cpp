@@ -27,6 +27,7 @@ Eigen::Matrix3d random_frame(ProblemRandom& random) {
   return frame;
 }
 
+/// The matrix of x cross.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& x) {
   Eigen::Matrix3d cross;
   cross << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
@@ -56,6 +57,8 @@ void add_contact(int a, int b, int rows, ProblemRandom& random, FrictionProblem&
   for (int s = 0; s < 2; ++s) {
     if (bodies[s] < 0) continue;
     const Eigen::Vector3d arm = 0.5 * random_direction(random);  // from the centre to the point
+    // A point of the body moves with v + omega x arm = v - arm x
+    // omega, here in the contact's frame.
     Eigen::Matrix<double, 3, 6> side;
     side << frame, -frame * cross_matrix(arm);
     if (s == 0) side = -side;
@@ -74,6 +77,7 @@ void choose_solution(const KnownSolutionSettings& settings, double mu, int rows,
   const double kind = random.uniform(), angle = 2.0 * M_PI * random.uniform();
   const double t1 = std::cos(angle), t2 = std::sin(angle);
   const double force = random.uniform(0.1, 1.0), speed = random.uniform(0.1, 1.0);
+  // Leaves: no impulse, and any velocity that opens.
   if (kind < settings.open_fraction) {
     u[0] = speed;
     if (rows == 3) {

@@ -31,6 +31,8 @@ class Prover {
     NoSolution proof;
     const double sum = weights.sum();
     if (!(sum > 0.0) || !std::isfinite(sum)) return proof;
+    // For weights y >= 0 of sum one, y.u_N = q.y + r.(W^T y) whatever r is, and a solution has
+    // y.u_N >= 0. So it needs |r| >= -q.y / |W^T y|, and there is none where W^T y = 0.
     Eigen::VectorXd y = Eigen::VectorXd::Zero(problem_.row_count());
     for (int c = 0; c < problem_.contact_count(); ++c) y[normal(c)] = weights[c] / sum;
     proof.approach = -q_.dot(y);
@@ -39,6 +41,7 @@ class Prover {
     const double slope = (w_.transpose() * y).norm();
     const double infinity = std::numeric_limits<double>::infinity();
     proof.least_impulse = slope > 0.0 ? proof.approach / slope : infinity;
+    // In units of the impulses |q_c| / lambda_c that would stop single contacts.
     proof.least_growth = impulse_scale_ > 0.0 ? proof.least_impulse / impulse_scale_ : infinity;
     const double largest = weights.maxCoeff(&proof.first_contact);
     proof.contacts = static_cast<int>((weights.array() > 1e-3 * largest).count());

@@ -21,6 +21,7 @@ Vector3d in_cube(ProblemRandom& random, double half) {
   return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
 }
 
+/// The matrix of x cross.
 Matrix3d lever_of(const Vector3d& x) {
   Matrix3d cross;
   cross << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
@@ -60,12 +61,15 @@ class Pile {
  private:
   /// As many as leave the redundancy that is asked for: 6 unknowns a body, 3 rows a contact.
   int body_count() const {
+    // With B bodies and C contacts W has 3 C rows and the rank 6 B at
+    // most: 1 - 6 B / 3 C is redundant.
     const double bodies = (1.0 - settings_.redundancy) * 0.5 * settings_.contacts;
     return std::max(1, static_cast<int>(std::lround(bodies)));
   }
 
   /// Lattice points along a side of the ground.
   int side_of(int bodies) const {
+    // A lattice of width w and slenderness s has w x w x (s w) bodies.
     const double side = std::cbrt(bodies / settings_.slenderness);
     return std::max(1, static_cast<int>(std::lround(side)));
   }
@@ -119,6 +123,8 @@ class Pile {
     const int layer = side * side;
     for (int b = 0; b < bodies; ++b) {
       if (b < layer) pairs_.push_back({-1, b, 0.0});
+      // Steps between the numbers of lattice neighbours. One that leads over the end of a row joins
+      // bodies far apart, which the sort by distance puts last.
       for (int step : {1, side, layer, side + 1, side - 1, layer + 1, layer + side})
         if (b >= step && step > 0)
           pairs_.push_back({b - step, b, (centre_[b] - centre_[b - step]).norm()});
@@ -156,6 +162,7 @@ class Pile {
     const Vector3d point = middle + random_.uniform(-0.4, 0.4) * frame.row(1).transpose() +
                            random_.uniform(-0.4, 0.4) * frame.row(2).transpose();
     Vector3d free = Vector3d::Zero();  // the contact's velocity without impulses
+    // Rows n, t1, t2 of v + omega x arm at the point, those of body a with a minus.
     const std::array<int, 2> bodies{pair.a, pair.b};
     for (int s = 0; s < 2; ++s) {
       if (bodies[s] < 0) continue;

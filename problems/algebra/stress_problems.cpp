@@ -53,6 +53,7 @@ void all_rest(StressProblem& stress) {
   stress.v.setZero(stress.problem.dynamics.dof_count());
 }
 
+/// For names: one decimal, the others cut off.
 std::string number(double x) {
   const std::string text = std::to_string(x);
   return text.substr(0, text.find_last_not_of("0.") + 1).empty()
@@ -64,6 +65,8 @@ std::string number(double x) {
 StressProblem near_parallel_normals(double angle) {
   StressProblem stress = start("near-parallel normals", 17);
   const int body = add_body(stress.problem, Eigen::Vector3d::Ones(), Eigen::Vector3d(0, 0, -gh));
+  // The normals lean out of the vertical by the angle, one to each
+  // side: two nearly equal rows of W.
   for (const double side : {-angle, angle}) {
     Eigen::Matrix3d h;  // x, y, z of the body; normal first
     h << std::sin(side), 0, std::cos(side), std::cos(side), 0, -std::sin(side), 0, 1, 0;
@@ -156,6 +159,8 @@ StressProblem painleve_rod(double mu, double approach) {
   // z, x, y, and the angular velocity about y; the inertia of a rod is m l^2 / 3.
   const int rod = add_body(stress.problem, Eigen::Vector4d(1, 1, 1, 1.0 / 3.0),
                            Eigen::Vector4d(-approach, 1, 0, 0));
+  // From the centre the tip is at (cos theta, -sin theta) in x and z, ahead of it in the direction
+  // of sliding: omega x arm = omega (-sin theta, -cos theta).
   Eigen::Matrix<double, 3, 4> h;
   h << 1, 0, 0, -cosine, 0, 1, 0, -sine, 0, 0, 1, 0;
   add_contact(stress.problem, -1, rod, mu, {}, h);
@@ -208,6 +213,7 @@ StressProblem sliding_block(double mu, double heading) {
                              Eigen::Vector3d(-gh, along[0], along[1]));
   add_contact(stress.problem, -1, block, mu, {}, Eigen::Matrix3d::Identity());
   all_rest(stress);
+  // Friction's impulse mu m g h takes mu g h off the speed, along the direction of sliding.
   const double left = std::max(0.0, 1.0 - mu * gh);
   stress.u.tail<2>() = stress.v.tail<2>() = left * along;
   return stress;

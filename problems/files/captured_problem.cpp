@@ -80,6 +80,8 @@ void restore_contacts(const SideReader& side, const GlobalProblem& global,
   for (std::size_t c = 0; c < contacts; ++c) {
     if (rows[c] != 1 && rows[c] != 3)
       side.fail(path_of("rows") + "[" + std::to_string(c) + "] is neither 1 nor 3");
+    // FCLIB has u = H^T v + w: a contact is three columns of H, and the transposes of what stands
+    // there in the rows of either body are the blocks of ours.
     const Eigen::SparseMatrix<double> columns = global.h.middleCols(3 * static_cast<int>(c), 3);
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
       if (body >= dynamics.body_count())
@@ -127,6 +129,8 @@ void write_side_group(Hdf5Writer& file, const CapturedProblem& captured) {
   const auto number = [&](const char* name, double value) {
     file.add(path_of(name), std::vector<double>{value});
   };
+  // FCLIB knows neither bodies nor steps: what divides its M and H into bodies is kept beside them,
+  // and what the run knew of the step.
   file.add_group(side_group);
   number("h", captured.h);
   number("g", captured.g);

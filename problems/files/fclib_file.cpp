@@ -139,6 +139,7 @@ int contact_count(const Hdf5Reader& file, const std::string& group, int rows) {
   return rows / 3;
 }
 
+/// W, q and mu of u = W r + q: three rows a contact, normal first.
 LocalProblem read_local(const Hdf5Reader& file) {
   const std::string root = "/fclib_local";
   require_unilateral_3d(file, root);
@@ -155,6 +156,8 @@ LocalProblem read_local(const Hdf5Reader& file) {
   return local;
 }
 
+/// M, H, f, w and mu of M v = H r + f, u = H^T v + w: H has unknowns
+/// for rows, contacts for columns.
 GlobalProblem read_global(const Hdf5Reader& file) {
   const std::string root = "/fclib_global";
   require_unilateral_3d(file, root);

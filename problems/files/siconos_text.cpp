@@ -156,6 +156,11 @@ void read_sparse(Words& words, TextMatrix& matrix) {
   const int origin = words.integer("the origin of a sparse matrix");
   words.require(origin >= triplet && origin <= rows,
                 "sparse origin " + std::to_string(origin) + " is not supported");
+  // CSparse prints for people; what is read is behind the colons, and where a line begins and ends:
+  //
+  //     triplet: 6-by-6, nzmax: 2 nnz: 2        6-by-6, nzmax: 2 nnz: 2, 1-norm: 2.5
+  //         0 0 : 1.5                               col 0 : locations 0 to 1
+  //         3 0 : 2.5                                 0 : 1.5
   words.skip_line();
   words.skip_to(origin == triplet ? "triplet:" : "nzmax:", "a sparse matrix");
   if (origin == triplet) {
@@ -230,6 +235,8 @@ std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesyste
   const int contacts = words.backed_count("the number of contacts");
   const TextMatrix first = read_matrix(words);
   words.require(first.rows == first.columns, "the first matrix is not square");
+  // Nothing in the file says which form it has. A first matrix with three rows a contact is taken
+  // for W, any other for M with H behind it.
   if (first.rows == 3 * contacts) {
     LocalProblem local;
     assign(local.w, first);

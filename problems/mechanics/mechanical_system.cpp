@@ -5,6 +5,7 @@ namespace {
 
 Freedom freedom_of(const BodySpec& spec) {
   Freedom freedom;
+  // The free directions in the order x, y, z: the first columns of `axes`.
   freedom.translations = 0;
   const bool free[3] = {spec.free_x, spec.free_y, spec.free_z};
   for (int axis = 0; axis < 3; ++axis)
@@ -98,6 +99,7 @@ std::vector<ContactShape> contact_shapes(const MechanicalSystem& system) {
   return shapes;
 }
 
+/// m |v|^2 / 2 + w.I w / 2, spin and inertia in the body frame [J].
 double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& spin) {
   if (body.freedom.count() == 0) return 0.0;
   double energy = 0.5 * body.mass * velocity.squaredNorm();
@@ -105,6 +107,8 @@ double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& s
   return energy;
 }
 
+/// How far the wall's plane has moved outwards, against its normal,
+/// from its place in the scene [m].
 double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall) {
   const WallSpec& spec = system.bodies[wall].wall;
   return spec.offset - spec.normal.dot(state.pose[wall].position);

@@ -14,6 +14,7 @@ ControlVolume::ControlVolume(const Vec3& lo, const Vec3& hi) : lo_(lo), hi_(hi) 
 }
 
 double ControlVolume::solid_fraction(const MechanicalSystem& system, const MotionState& state) {
+  // Grains' volumes within the box over the box's own; where grains overlap both are counted.
   double solid = 0.0;
   for (int b = 0; b < system.grain_count; ++b) {
     const RigidBody& body = system.bodies[b];

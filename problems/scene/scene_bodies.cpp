@@ -126,6 +126,7 @@ BodySpec read_body(TomlTable& table, const std::filesystem::path& folder,
   set_locks(table, given.locked, body);
   const bool can_move = body.free_x || body.free_y || body.free_z || body.free_rotation;
   body.mass = mass_of(table, given, shape.volume, can_move);
+  // Moments per unit density [m^5] times the density.
   body.inertia = body.mass / shape.volume * shape.inertia;
 
   // pose of the shape as given, then of its principal frame within it
@@ -134,6 +135,7 @@ BodySpec read_body(TomlTable& table, const std::filesystem::path& folder,
   body.pose.rotation = (pose.rotation * shape.pose.rotation).normalized();
 
   body.velocity = given.velocity;
+  // A scene gives spins in the world frame, and states keep them in the body frame.
   body.spin = body.pose.rotation.conjugate() * given.spin;
   check_locked_velocity(table, body, given.spin);
   body.force = read_section(table.section("force"), force_keys);

@@ -13,6 +13,8 @@ std::string mesh_key(const Polyhedron& mesh) {
 }
 
 std::string scene_key(const Scene& scene, const std::string& resolved_text) {
+  // The text names meshes by their files. Their contents belong to the key, too: a mesh that
+  // is edited makes another scene.
   std::string text = resolved_text;
   for (const BodySpec& body : scene.bodies)
     if (!body.mesh_key.empty()) text += "mesh " + body.mesh_key + '\n';

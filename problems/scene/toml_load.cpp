@@ -125,6 +125,7 @@ void apply(const std::filesystem::path& file, Override o, toml::table& root) {
   for (size_t k = 0; k + 1 < o.path.size(); ++k) {
     toml::node* node = table->get(o.path[k]);
     if (!node) node = &table->insert(o.path[k], toml::table{}).first->second;
+    // After the name of a list a number says which of its tables: body.0.mass.
     if (toml::array* array = node->as_array()) {
       table = &element(file, o, *array, o.path[++k]);
       if (k + 1 == o.path.size()) fail(file, o, "expected a key after the index");

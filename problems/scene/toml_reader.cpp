@@ -135,6 +135,7 @@ void TomlTable::read(std::string_view key, const ValueRule& rule, bool is_requir
   const toml::node* node = find(key);
   if (!node && is_required)
     throw SceneFileError(place_of(table_) + ": " + full_key(key) + " is missing" + expected);
+  // Given or not, the value goes into the resolved scene, which says what the run was made with.
   const auto keep = [&](auto* value) {
     const std::string wrong = node ? take(*node, rule, *value) : "";
     if (!wrong.empty()) fail(key, wrong + expected);

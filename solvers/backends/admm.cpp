@@ -71,6 +71,7 @@ class Admm final : public Solver {
 
   /// One iteration of the formulas above; what x and r differ, and what r moved, on the way.
   void alternate(Impulses& r) {
+    // The right-hand side P r - y - q - s n.
     for (int c = 0; c < w_.contact_count(); ++c) {
       Eigen::Vector3d b = w_.at(r, c) / sigma_[c](0, 0) - w_.at(y_, c) - w_.at(q_, c);
       b[0] -= shift_[c];
@@ -82,6 +83,7 @@ class Admm final : public Solver {
       if (!(w_.rho()[c] > 0.0)) continue;
       const double sigma = sigma_[c](0, 0), lambda_max = 1.0 / w_.rho()[c];
       const Eigen::Vector3d before = w_.at(r, c), x = w_.at(x_, c), y = w_.at(y_, c);
+      // a > 1 goes beyond x (over-relaxation).
       const Eigen::Vector3d relaxed = before + settings_.relaxation * (x - before);
       const Eigen::Vector3d after = project_cone(relaxed + sigma * y, w_.friction(c));
       w_.put(r, c, after);
@@ -111,8 +113,11 @@ class Admm final : public Solver {
   /// al. 2011, 3.4.1).
   void adapt(int count) {
     next_look_ = count + look_after_;
+    // Looks become rarer: each new penalty costs a factorisation and throws the iteration back.
     look_after_ += look_after_ / 5;
     if (!(split_ > 0.0 && moved_ > 0.0)) return;
+    // split_ and moved_ are squares: the root of the ratio of their norms is half the
+    // way to balance, in logarithms.
     const double factor = std::clamp(std::pow(split_ / moved_, 0.25), 0.01, 100.0);
     if (factor > settings_.adapt_from || factor < 1.0 / settings_.adapt_from)
       factored_ = set_penalty(std::clamp(penalty_ * factor, 1e-6, 1e6));

@@ -74,7 +74,10 @@ class Apgd final : public Solver {
   /// The step counts: next extrapolation, or a restart where it went against the gradient.
   void accept(Impulses& r) {
     const Eigen::VectorXd& gone = (y_ = next_ - r);  // y has been used
+    // Where the gradient step points against the way gone, the momentum has carried too far.
     const bool uphill = w_.scaled_dot(moved_, gone) < 0.0;
+    // Nesterov's sequence: theta+^2 = (1 - theta+) theta^2, beta = theta (1
+    // - theta) / (theta^2 + theta+).
     const double next_theta =
         0.5 * (std::sqrt(theta_ * theta_ * (theta_ * theta_ + 4.0)) - theta_ * theta_);
     const double beta = theta_ * (1.0 - theta_) / (theta_ * theta_ + next_theta);

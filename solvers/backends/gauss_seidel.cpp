@@ -18,6 +18,8 @@ class GaussSeidel final : public Solver {
   }
 
   void prepare(const FrictionProblem& problem) override {
+    // A stored W is swept along its rows. Otherwise the bodies' velocities carry from contact to
+    // contact what an impulse changes, and W is never formed.
     if (problem.has_delassus && !problem.has_dynamics)
       delassus_.prepare(problem);
     else

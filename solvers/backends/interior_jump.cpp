@@ -9,6 +9,7 @@ namespace ballast {
 void InteriorJump::prepare(const UnitMassContacts& contacts, UnitMassSystem& system) {
   contacts_ = &contacts;
   point_.prepare(contacts, system);
+  // Scales of contacts differ by powers of ten: their geometric mean.
   double sum = 0.0;
   int counted = 0;
   for (int c = 0; c < contacts.contact_count(); ++c) {
@@ -25,6 +26,8 @@ double InteriorJump::run(Course& course, ContactColumns& r, int number, double s
   constexpr double to_boundary = 0.9, short_step = 0.05;
   constexpr int most_steps = 60, most_short_steps = 3, most_slow_steps = 10;
   const double distance = distances[number % std::size(distances)] * scale;
+  // Impulse times velocity is nu: velocities of size `distance`,
+  // impulses of size distance / lambda.
   point_.begin(r, distance * distance / mean_lambda_);
   double best = std::numeric_limits<double>::max(), halved = best;
   int short_steps = 0, slow_steps = 0;

@@ -106,6 +106,8 @@ class InteriorPoint final : public Solver {
     for (int c = 0; c < w_.contact_count(); ++c) {
       Eigen::Vector3d r = w_.at(point_.r, c), g = shift_.shifted(w_, u_, c);
       const double mu = w_.friction(c), rho = w_.rho()[c];
+      // In the cone's variables (mu r_N, r_T) and (g_N / mu, g_T) the first entries grow by push
+      // rho and by push: impulse and velocity leave their boundaries alike.
       if (mu > 0.0) {
         r[0] += push * rho / mu;
         g = project_dual_cone(g, mu);
@@ -129,6 +131,7 @@ class InteriorPoint final : public Solver {
   /// A new s begins at the last iterate whose barrier was not yet below what s had still to move:
   /// nearer to the cones' sides it could not follow.
   void keep_for_next() {
+    // Both sides are energies: the sum of x.z, and what s has to move times the sum of mu r_N.
     const double product = cone_step_.barrier() * cone_step_.moving_contacts();
     if (!(product < shift_.distance(w_, u_) * cone_step_.head_impulses(point_.r))) before_ = point_;
   }
@@ -138,6 +141,7 @@ class InteriorPoint final : public Solver {
   }
 
   void round(Impulses& r) const {
+    // P_K(r - rho g), the projection in the judge's natural map.
     r = point_.r;
     for (int c = 0; c < w_.contact_count(); ++c)
       w_.put(r, c, w_.at(point_.r, c) - w_.rho()[c] * w_.at(point_.g, c));

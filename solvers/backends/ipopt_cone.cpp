@@ -53,6 +53,8 @@ class ConeNlp final : public IpoptProgram {
   void hessian(const VectorXd& y, double factor, const VectorXd& multipliers,
                Entries& entries) const override {
     entries.clear();
+    // With x = x(y) and u = W x + q the second derivatives are J^T W J + sum_i u_i x_i''. Of x_T =
+    // mu n d only the mixed ones, mu, are not zero. Each 1 - |d|^2 adds -2 times its multiplier.
     for (int row = 0; row < cones_.row_count(); ++row)
       for (SparseRows::InnerIterator entry(cones_.w, row); entry; ++entry)
         add_product(y, row, static_cast<int>(entry.col()), factor * entry.value(), entries);
@@ -76,6 +78,7 @@ class ConeNlp final : public IpoptProgram {
   VectorXd velocity(const VectorXd& y) const { return cones_.w * cones_.from_polar(y) + q_; }
 
   Slopes slopes(const VectorXd& y, int row) const {
+    // x_N is n itself; an entry of x_T is mu n d and depends on n and its own d.
     const int k = contact_[row], normal = cones_.row_begin[k];
     if (row == normal) return {1, {row, 0}, {1.0, 0.0}};
     return {2, {normal, row}, {cones_.friction[k] * y[row], cones_.friction[k] * y[normal]}};

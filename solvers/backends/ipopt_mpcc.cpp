@@ -36,6 +36,11 @@ class MpccNlp final : public IpoptProgram {
     x_high.setConstant(ipopt_unbounded);
     g_low.setZero();
     g_high.setZero();
+    // The constraints of a contact, behind the rows of u = W r + q;
+    // those behind +0 with friction only:
+    //
+    //     +0     n u_N <= relaxation                 +3     1 - |d|^2 >= 0
+    //     +1,+2  u_T + speed d = 0                   +4     speed (1 - |d|^2) <= relaxation
     for (int k = 0; k < cones_.contact_count(); ++k) {
       const int v = variable_[k], g = row(k);
       x_low[v] = 0.0;
@@ -116,6 +121,8 @@ class MpccNlp final : public IpoptProgram {
                Entries& entries) const override {
     entries.clear();
     const VectorXd push = cones_.w_as_is.transpose() * multipliers.head(cones_.row_count());
+    // Second derivatives come from products alone: n u_N, speed d, n d
+    // within r_T, speed |d|^2, |d|^2.
     for (int k = 0; k < cones_.contact_count(); ++k) {
       const int v = variable_[k], at = row(k);
       entries.add(velocity(k), v, factor + multipliers[at]);

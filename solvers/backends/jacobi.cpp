@@ -69,6 +69,7 @@ class Jacobi final : public Solver {
   /// x := D^-1 x, in the principal coordinates of each contact.
   void divide_by_diagonal(Eigen::VectorXd& x) const {
     for (int c = 0; c < w_.contact_count(); ++c) {
+      // W_cc y = x by the Schur complement of the tangents, which is diagonal in principal ones.
       const PrincipalContact& local = contacts_[c].local;
       Eigen::Vector3d u = w_.at(x, c);
       contacts_[c].turn.to_principal(u[1], u[2]);

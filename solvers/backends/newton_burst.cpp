@@ -35,6 +35,7 @@ class NewtonBurst final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;
+    // The error without any impulse says how large the problem's velocities are.
     NewtonIterate at = newton_.iterate(Impulses::Zero(problem.row_count()));
     const double scale = newton_.settle(at), end = settings_.endgame * scale;
     at = newton_.iterate(start);

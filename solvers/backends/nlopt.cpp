@@ -121,6 +121,7 @@ class Nlopt final : public Solver {
                VectorXd& y) const {
     const unsigned n = static_cast<unsigned>(row.size()),
                    m = static_cast<unsigned>(program.row_begin.size());
+    // Normal impulses are bounded below by zero; the tangential ones by the cones alone.
     VectorXd low = VectorXd::Constant(n, -HUGE_VAL);
     for (unsigned i = 0; i < n; ++i)
       if (std::binary_search(cones_.row_begin.begin(), cones_.row_begin.end(), row[i]))

@@ -93,6 +93,12 @@ class PyramidLemke final : public Solver {
     for (int k = 0; k < contacts; ++k) e.push_back(spread(k));
     m_.setZero(n, n);
     q_.setZero(n);
+    // The diagonal block of a contact with friction, with D = (d_1 ..
+    // d_sides) the pyramid's directions:
+    //
+    //     [ W_NN      W_NT D       0 ]   r_N          u_N
+    //     [ D^T W_TN  D^T W_TT D   1 ]   beta    =>   lambda + d_j . u_T
+    //     [ mu        -1 .. -1     0 ]   lambda       mu r_N - sum beta_j
     for (int k = 0; k < contacts; ++k) {
       const int at = begin_[k], size = begin_[k + 1] - at;
       q_.segment(at, size) =

@@ -89,6 +89,7 @@ class Sap final : public Solver {
       w_.velocity(lambda_, u_);
     else
       body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
+    // gamma = P_K(r - u / epsilon): the impulse of a contact that gives way by epsilon.
     for (int c = 0; c < w_.contact_count(); ++c)
       w_.put(gamma_, c,
              w_.rho()[c] > 0.0 ? project_cone(pressed(c, w_.at(u_, c)), w_.friction(c))
@@ -98,6 +99,8 @@ class Sap final : public Solver {
   /// One step in v_, and what follows from it. Returns -gradient.dv [J], twice what the model
   /// promised to gain; not finite: the factorisation failed.
   double newton(const FrictionProblem& problem) {
+    // The energy's second derivative is M + H^T (P_K' / epsilon) H: contacts are springs of
+    // stiffness 1 / epsilon, which the projection's derivative turns, weakens or switches off.
     for (int c = 0; c < w_.contact_count(); ++c) {
       hessian_[c].setZero();
       if (w_.rho()[c] > 0.0)
@@ -108,6 +111,7 @@ class Sap final : public Solver {
     // The gradient M (v - v_free) - H^T gamma, and the Newton direction.
     contact_to_body_impulse(problem.dynamics, problem.row_begin, gamma_, gradient_);
     away_ = mass_ * (v_ - problem.dynamics.v_free);
+    // A decrement so small beside the energy moves velocities by 1e-13 of themselves: rounding.
     least_energy_ = 1e-26 * std::abs(away_.dot(v_ - problem.dynamics.v_free));
     gradient_ = away_ - gradient_;
     system_.solve_bodies(gradient_, dv_);
@@ -139,6 +143,8 @@ class Sap final : public Solver {
   /// The minimum of the convex energy along dv: its slope is bracketed, and found by secants kept
   /// inside the bracket (Illinois). `slope` and `curvature` of the kinetic part.
   double line_search(double slope, double curvature) const {
+    // |P_K(z)|^2 / 2 has the gradient P_K(z), so that a contact's epsilon |gamma|^2 / 2 with z = r
+    // - u / epsilon changes by -gamma.du.
     const auto derivative = [&](double t) {
       double sum = slope + t * curvature;
       for (int c = 0; c < w_.contact_count(); ++c)

@@ -99,6 +99,8 @@ class Spg final : public Solver {
 
   /// Barzilai-Borwein, the two formulas in turn.
   void choose_step(double curvature) {
+    // A step d changes the gradient by W d: d.d / d.W d is the long step, d.W d / |W d|^2 the short
+    // one, in the product in which W's diagonal is about one.
     double across = 0.0;  // |W d|^2 in the scaled product
     for (int c = 0; c < w_.contact_count(); ++c)
       across += w_.rho()[c] * w_.at(wd_, c).squaredNorm();

@@ -30,6 +30,8 @@ void ContactGroups::add(std::span<const int> contacts, std::span<const int> body
 
 /// Full groups point onwards; what was walked past is pointed at the end of the walk.
 int ContactGroups::first_with_room(int group) {
+  // A union-find on groups: next_ leads towards one with room, and is shortened where it was
+  // walked, so that a look-up takes nearly constant time however many groups are full.
   int end = group;
   while (end < count() && next_[end] != end) end = next_[end];
   if (end == count()) append_group();

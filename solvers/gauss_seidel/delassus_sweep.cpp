@@ -85,6 +85,7 @@ void DelassusSweep::velocity(int c, double* u) const {
 }
 
 void DelassusSweep::sweep() {
+  // Each contact already sees the impulses that those before it have just been given.
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     Contact& contact = contacts_[c];
     double u[3];
@@ -130,6 +131,7 @@ double DelassusSweep::error() const {
   return counted > 0 ? std::sqrt(sum / counted) : 0.0;
 }
 
+/// The impulses are the whole iterate: velocities follow from them.
 void DelassusSweep::save(Eigen::VectorXd& state) const {
   state = Eigen::Map<const Eigen::VectorXd>(r_.data(), static_cast<Eigen::Index>(r_.size()));
 }
@@ -139,6 +141,7 @@ void DelassusSweep::restore(const Eigen::VectorXd& state) {
 }
 
 void DelassusSweep::impulse_weights(Eigen::VectorXd& weights) const {
+  // lambda |r|^2 is an energy: in this scale impulses of light and heavy contacts can be compared.
   weights.resize(3 * contacts_.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c)
     weights.segment<3>(3 * c).setConstant(std::sqrt(contacts_[c].lambda_max));

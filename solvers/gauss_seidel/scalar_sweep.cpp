@@ -162,6 +162,8 @@ void ScalarSweep::start_search() {
 
 /// A slab's velocities, by the thread that sweeps its interior next: they stay in its cache.
 void ScalarSweep::move_along(std::span<const int> bodies, SearchStep step) {
+  // `before` is the velocity with which the last sweep began, x - before what it changed. The
+  // search's direction p becomes beta p + gain (x - before), and the velocity goes along beta p.
   for (const int b : bodies)
     for (int i = 0; i < body_width; ++i) {
       double &x = velocity_[b].w[i], &p = velocity_direction_[b].w[i],
@@ -263,6 +265,8 @@ void ScalarSweep::restore(const Eigen::VectorXd& state) {
 }
 
 void ScalarSweep::impulse_weights(Eigen::VectorXd& weights) const {
+  // Roots of W's diagonal in the records' coordinates, where a
+  // contact's block is diag(W_NN, s1, s2).
   weights.resize(3 * friction_.size() + one_row_.size());
   double* x = weights.data();
   for (const FrictionRecord& k : friction_) {

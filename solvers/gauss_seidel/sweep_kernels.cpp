@@ -23,6 +23,8 @@ BALLAST_INLINE void relax(const FrictionRecord& k, FrictionImpulse& r, BodyVeloc
   r.y[0] = y;
   r.y[1] = t1;
   r.y[2] = t2;
+  // w += G^T (dy, d1, d2). Of the eight numbers that a row's load brings,
+  // two are not the row's: masked.
   store8(va, wa + only_row(load_row(k.rows[0][0]) * dy + load_row(k.rows[0][1]) * d1 +
                            load_row(k.rows[0][2]) * d2));
   store8(vb, wb + only_row(load_row(k.rows[1][0]) * dy + load_row(k.rows[1][1]) * d1 +

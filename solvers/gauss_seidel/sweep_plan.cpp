@@ -84,6 +84,8 @@ void SweepPlan::cut_slabs(const DynamicsForm& dynamics) {
         ++count_[body];
         ++total;
       }
+  // A contact joins bodies of one level or of two that follow each other. A cut within level l is
+  // thus crossed by contacts of bodies on the levels l - 1, l and l + 1 only.
   int last_cut = 0;  // level
   for (const int body : queue_) {
     const bool thick = level_[body] - last_cut >= 3 && levels_ - 1 - level_[body] >= 3;
@@ -123,6 +125,8 @@ void SweepPlan::order(const FrictionProblem& problem) {
     if (first >= 0) {
       const int slab_a = slab_[first], slab_b = slab_[second];
       group = slab_a == slab_b ? slab_a : slabs_ + std::min(slab_a, slab_b);
+      // By turns from all bodies: contacts that follow each other seldom share one, and do not
+      // wait for each other's velocities.
       turn = rank_[first]++ % turns;
     }
     key_[c] = (group * 2 + (problem.contact_rows(c) == 1)) * turns + turn;

@@ -41,6 +41,7 @@ void load_impulse(const FrictionRecord& k, const TangentTurn& turn, const double
   const double weight = k.local.inverse_normal > 0.0 ? 1.0 : 0.0;
   double t1 = weight * r[1], t2 = weight * r[2];
   turn.to_principal(t1, t2);
+  // PrincipalContact's y = r_N + c . r_T stands in place of r_N.
   impulse.y[0] = weight * r[0] + k.local.c1 * t1 + k.local.c2 * t2;
   impulse.y[1] = t1;
   impulse.y[2] = t2;
@@ -79,6 +80,7 @@ double natural_map(const FrictionRecord& k, const FrictionImpulse& r, double lam
                    const BodyVelocity* velocity) {
   const Vector4 moved =
       relative_velocity(k.rows, load8(velocity[k.body[0]].w), load8(velocity[k.body[1]].w));
+  // From the record's (y, r_T) and (u_N, u_T - c u_N) back to r and u, as the judge wants them.
   const double un = moved[0] + k.bias[0];
   return judged(r.y[0] - k.local.c1 * r.y[1] - k.local.c2 * r.y[2], r.y[1], r.y[2], un,
                 moved[1] + k.bias[1] + k.local.c1 * un, moved[2] + k.bias[2] + k.local.c2 * un,

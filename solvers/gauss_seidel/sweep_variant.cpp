@@ -44,6 +44,7 @@ Vector alart_curnier(const Matrix& w, double mu, double rho, const Vector& r, co
         radius / length * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
     by_x.block<2, 1>(1, 0) = mu * direction;
   }
+  // x = r - rho u and du = W dr, hence dx/dr = 1 - rho W.
   by_r = by_x * (Matrix::Identity() - rho * w);
   jacobian = Matrix::Identity() - by_r;
   return r - projected;
@@ -63,6 +64,7 @@ bool newton(const Matrix& w, double mu, double rho, const Vector& u0, Vector& r)
     if (!direction.allFinite()) return false;
     const Vector before = r;
     const double norm = f.norm();
+    // Halved until |F| falls; after the last halving the step is taken whether it does or not.
     double length = 1.0;
     for (int k = 0; k < most_halvings; ++k, length *= 0.5) {
       r = before - length * direction;
@@ -92,6 +94,7 @@ void ContactOrder::begin(const SweepVariant& variant, int contacts) {
 
 const std::vector<int>& ContactOrder::next() {
   if (order_ == SweepOrder::symmetric && !first_) std::reverse(contacts_.begin(), contacts_.end());
+  // Fisher-Yates: every order is equally likely.
   if (order_ == SweepOrder::random)
     for (int i = static_cast<int>(contacts_.size()) - 1; i > 0; --i)
       std::swap(contacts_[i], contacts_[random_.below(i + 1)]);

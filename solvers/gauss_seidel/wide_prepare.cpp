@@ -37,6 +37,7 @@ double block_lambda_max(const FrictionGroup<double>& k, const GroupFrame& f, int
 }  // namespace
 
 bool WideSweep::prepare(const FrictionProblem& problem) {
+  // False for other bodies than grains and driven walls, and where groups would stay nearly empty.
   if (!sort_bodies(problem.dynamics) || !group_contacts(problem)) return false;
   factor_masses(problem.dynamics, roots_);
   const bool made = make_records(problem, exact_.friction, kernels_->exact.friction) &&
@@ -208,6 +209,7 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
       }
     k.body[s][lane] = body * row_bytes;
     k.inverse_mass[s][lane] = root.inverse[0] * root.inverse[0];
+    // Both sides see the same linear rows with opposite signs: they are stored once, as b has them.
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < rows; ++i) {
         const double entry = s == 0 ? -block[j * rows + i] : block[j * rows + i];
@@ -230,6 +232,7 @@ void WideSweep::free_bodies(const DynamicsForm& dynamics) {
   const int bodies = dynamics.body_count();
   free_.assign(bodies + interiors_.size() + interfaces_.size(), {});
   for (int b = 0; b < bodies; ++b) {
+    // Grains keep their velocity v [m/s] in a group's coordinates; L^T is taken of the spin alone.
     double* w = free_[b].w;
     const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];
     std::copy_n(v, dynamics.body_dofs(b), w);

@@ -136,6 +136,7 @@ void WideSweep::leave_single() {
 bool WideSweep::finish_in_double() {
   single_begins_ = false;
   if (!in_single_) return false;
+  // One more sweep in double: every contact then obeys its law as if all sweeps had been.
   refresh();
   leave_single();
   sweep();

@@ -15,6 +15,8 @@ void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
       for (int i = 0; i < group_lanes; ++i) {
         if (f.contact[i] < 0) continue;
         const double* rc = r.data() + problem.row_begin[f.contact[i]];
+        // The y' of group_record.hpp: n r_N + c' . (t r_T), with r_T
+        // turned to the principal tangents.
         y[0][i] = f.normal[i] * rc[0];
         if constexpr (requires { kind.groups[g].mu; }) {
           const auto& k = kind.groups[g];

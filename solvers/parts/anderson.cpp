@@ -16,6 +16,8 @@ void Anderson::reset(int memory) {
 
 void Anderson::step(Eigen::VectorXd& x, const Eigen::VectorXd& image, Eigen::Index compared,
                     const Eigen::VectorXd& weight) {
+  // The residual is G(x) - x. Differences of successive images G(x) and of successive residuals are
+  // kept in a ring of `memory` places.
   residual_ = image - x;
   if (compared >= 0) residual_.conservativeResize(compared);
   if (weight.size() > 0) residual_.array() *= weight.array();
@@ -24,6 +26,7 @@ void Anderson::step(Eigen::VectorXd& x, const Eigen::VectorXd& image, Eigen::Ind
     image_steps_[next_] = image - last_image_;
     residual_steps_[next_] = residual_ - last_residual_;
     count_ = std::min(count_ + 1, memory_);
+    // Of the products of residual differences only those with the newest one are new.
     for (int k = 0; k < count_; ++k)
       gram_(next_, k) = gram_(k, next_) = residual_steps_[next_].dot(residual_steps_[k]);
     next_ = (next_ + 1) % memory_;
@@ -33,6 +36,8 @@ void Anderson::step(Eigen::VectorXd& x, const Eigen::VectorXd& image, Eigen::Ind
   primed_ = true;
   x = image;
   if (count_ == 0) return;
+  // x := G(x) - sum gamma_k (difference of images)_k, where gamma would leave the least residual if
+  // G were linear (Anderson 1965).
   const Eigen::VectorXd gamma = combine();
   if (!gamma.allFinite()) return forget();
   for (int k = 0; k < count_; ++k) x -= gamma[k] * image_steps_[k];

@@ -6,6 +6,9 @@
 
 namespace ballast {
 
+/// Units are taken out of the impulses [N s] by r = unit D x with D = diag(1 /
+/// sqrt(lambda_max(W_cc))). Then D u = unit (D W D x + D q / unit): the program has D W D for W,
+/// whose diagonal blocks have no eigenvalue above one, and D q / unit for q.
 void ConeProgram::take(const FrictionProblem& problem) {
   moving_.take(problem);
   operator_.prepare(problem);
@@ -33,6 +36,7 @@ void ConeProgram::take(const FrictionProblem& problem) {
   unit_ = q.size() > 0 ? q.lpNorm<Eigen::Infinity>() : 0.0;
   if (!(unit_ > 0.0)) unit_ = 1.0;
   q /= unit_;
+  // The largest velocity [m/s] that an entry of size one can stand for.
   velocity_unit_ = unit_ * std::sqrt(largest_lambda);
 
   // W between the rows that are left, its blocks scaled on both sides.
@@ -71,6 +75,7 @@ Eigen::VectorXd ConeProgram::from_polar(const Eigen::VectorXd& y) const {
 
 Eigen::VectorXd ConeProgram::polar_gradient(const Eigen::VectorXd& y,
                                             const Eigen::VectorXd& g) const {
+  // By the chain rule for x_T = mu x_N d: dx_T / dx_N = mu d and dx_T / dd = mu x_N.
   Eigen::VectorXd gradient = g;
   for (int k = 0; k < contact_count(); ++k) {
     if (!has_friction(k)) continue;
@@ -88,6 +93,8 @@ Eigen::VectorXd ConeProgram::to_polar(const Eigen::VectorXd& x, const Eigen::Vec
     const int at = row_begin[k];
     y[at] = std::max(floor, x[at]);
     if (!has_friction(k)) continue;
+    // Where the impulse is zero it has no direction. Halfway to the disc's edge, against the
+    // sliding, is what friction will most likely ask for.
     Eigen::Vector2d d = x.segment<2>(at + 1) / (friction[k] * y[at]);
     const Eigen::Vector2d sliding = u.segment<2>(at + 1);
     if (!(x[at] > 0.0) && sliding.norm() > 0.0) d = -0.5 * sliding.normalized();
@@ -107,6 +114,7 @@ void ConeProgram::project(Eigen::VectorXd& x) const {
 /// q with s, and with what the symmetric part of W leaves out.
 Eigen::VectorXd ConeProgram::linear_term(const Eigen::VectorXd& x) const {
   Eigen::VectorXd term = q + w_as_is * x - w * x;
+  // scale_ is unit D by now, so that this is D s / unit: s is a velocity like q.
   for (int k = 0; k < contact_count(); ++k)
     term[row_begin[k]] += shift_[moving_.contact[k]] * scale_[row_begin[k]] / (unit_ * unit_);
   return term;
@@ -120,6 +128,8 @@ Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const 
   Eigen::VectorXd u;
   operator_.velocity(start, u);
   if (start.squaredNorm() > 0.0) shift_.follow(operator_, u);
+  // A round: the last impulses give the linear term, `convex` solves with s held, and the
+  // velocities of its answer say the next s.
   Impulses r;
   return solve_in_rounds(problem, moving_, std::move(start), budget, patience,
                          [&](const RoundRequest& request, RoundAnswer& answer) {
@@ -127,6 +137,7 @@ Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const 
                            const Eigen::VectorXd term = linear_term(x);
                            project(x);
                            convex({term, x, budget.aim() / velocity_unit_, request.left}, answer);
+                           // An empty answer tells the rounds that this one failed.
                            if (answer.x.size() != row_count() || !answer.x.allFinite()) {
                              answer.x.resize(0);
                              return;

@@ -16,11 +16,13 @@ void ConeStep::prepare(ContactOperator& w) {
   target_.resize(contacts);
 }
 
+/// x = (mu r_N, r_T): in Lorentz's cone exactly where |r_T| <= mu r_N.
 ConeStep::Vector ConeStep::to_cone(const Eigen::VectorXd& r, int c) const {
   const Vector x = w_->at(r, c);
   return half_line(c) ? Vector(x[0], 0.0, 0.0) : Vector(w_->friction(c) * x[0], x[1], x[2]);
 }
 
+/// z = (g_N / mu, g_T): in the same cone exactly where mu |g_T| <= g_N, and x.z = r.g.
 ConeStep::Vector ConeStep::to_dual(const Eigen::VectorXd& g, int c) const {
   const Vector z = w_->at(g, c);
   return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(z[0] / w_->friction(c), z[1], z[2]);
@@ -48,6 +50,9 @@ bool ConeStep::scale_contact(const ConePoint& point, int c) {
   lorentz::Scaling& scaling = scaling_[c];
   if (!lorentz::scale(to_cone(point.r, c), to_dual(point.g, c), half_line(c), scaling))
     return false;
+  // F^2 takes x to z. It grows without bound where the impulse of an opening contact vanishes, and
+  // vanishes where the velocity of a sticking one does. The bounds keep W + P within what a
+  // factorisation in doubles can take.
   const double least = settings_.least_shift * lambda_max,
                most = lambda_max / settings_.least_shift;
   const auto bounded = [=](double e) { return std::clamp(e, least, most); };
@@ -66,6 +71,7 @@ bool ConeStep::scale_contact(const ConePoint& point, int c) {
 }
 
 double ConeStep::barrier() const {
+  // x.z = (F x).(F^-1 z) = |lambda|^2.
   double sum = 0.0;
   for (int c = 0; c < w_->contact_count(); ++c)
     if (moves(c)) sum += scaling_[c].lambda.squaredNorm();
@@ -93,6 +99,8 @@ bool ConeStep::advance(const SlipShift& shift, const Eigen::VectorXd& u, ConePoi
   solve_newton(shift, u, point);
   const double predicted = longest(point, 1.0);
   // Corrector: back to the middle as much as the predictor fell short, and its second-order term.
+  // Mehrotra's choice: a predictor that could go all the way leaves sigma = 0 and nothing is
+  // centred; one that was blocked at once gives sigma = 1.
   const double sigma = std::pow(1.0 - predicted, 3.0);
   for (int c = 0; c < w_->contact_count(); ++c) {
     const Vector dx = scaling_[c].f * to_cone(dr_, c), dz = scaling_[c].f_inverse * to_dual(dg_, c);
@@ -100,6 +108,7 @@ bool ConeStep::advance(const SlipShift& shift, const Eigen::VectorXd& u, ConePoi
     target_[c][0] += sigma * nu;
   }
   solve_newton(shift, u, point);
+  // Stopping short of the boundary: on it the next scaling would not exist.
   const double length = longest(point, settings_.to_boundary);
   point.r += length * dr_;
   point.g += length * dg_;
@@ -120,6 +129,7 @@ void ConeStep::solve_newton(const SlipShift& shift, const Eigen::VectorXd& u,
     w_->put(right_, c, b);
   }
   // dr, and dg from the linearised complementarity.
+  // From lambda o (F dx + F^-1 dz) = c: dz = F (lambda \ c - F dx).
   system_.solve(right_, dr_, settings_.refinements);
   for (int c = 0; c < w_->contact_count(); ++c) {
     Vector dr = w_->at(dr_, c);

@@ -30,6 +30,8 @@ void CoulombInterior::prepare(const UnitMassContacts& contacts, UnitMassSystem& 
     const UnitMassContacts::Contact& k = contacts[c];
     if (!(k.lambda_max > 0.0)) continue;
     const double root = 1.0 / std::sqrt(k.lambda_max);
+    // In these units W_cc has the largest eigenvalue one. A half-line has no tangents:
+    // zeros keep them out of every sum.
     scaling_[c] = k.half_line ? Vector3d(root, 0.0, 0.0) : Vector3d(root / k.friction, root, root);
   }
   for (ContactColumns* columns : {&r_, &g_, &dr_, &dg_, &gap_, &slope_, &push_})
@@ -41,6 +43,8 @@ void CoulombInterior::prepare(const UnitMassContacts& contacts, UnitMassSystem& 
 
 void CoulombInterior::begin(const ContactColumns& r, double nu) {
   contacts_->body_velocity(r, x_);
+  // Contact by contact the pair (r~, g~) with the difference z = r~ - g~ of the start and the
+  // product r~ o g~ = nu 1. Large z_0 gives an impulse, a very negative one a gap.
   for (int c = 0; c < contacts_->contact_count(); ++c) {
     const UnitMassContacts::Contact& k = (*contacts_)[c];
     if (!(k.lambda_max > 0.0)) continue;
@@ -55,6 +59,9 @@ void CoulombInterior::begin(const ContactColumns& r, double nu) {
     g[0] += k.friction * std::hypot(g[1], g[2]);
     // z = r~ - g~ by its spectral values; r~ and g~ have the same frame.
     const Vector3d z = r.col(c).cwiseQuotient(t) - t.cwiseProduct(g);
+    // A vector of Lorentz's cone is a sum over its two spectral values x_0 +- |x_1..|,
+    // along (1, +- e) / 2. In them the Jordan product is the product of numbers, and so p -
+    // q = t, p q = nu is solved twice.
     const double length = std::hypot(z[1], z[2]);
     const double e1 = length > 0.0 ? z[1] / length : 1.0, e2 = length > 0.0 ? z[2] / length : 0.0;
     const auto [r_plus, g_plus] = centred(z[0] + length, nu);
@@ -82,6 +89,8 @@ void CoulombInterior::measure() {
       gap_.col(c) << u[0] - g_(0, c) / scaling_[c][0], 0.0, 0.0;
       continue;
     }
+    // s = mu |u_T| belongs to this very u. Its slope goes into the matrix: the step is one of
+    // Coulomb's law, not of the convex problem with s held.
     const double slip = std::hypot(u[1], u[2]);
     if (slip > 0.0) slope_.col(c) << 0.0, k.friction * u[1] / slip, k.friction * u[2] / slip;
     u[0] += k.friction * slip;
@@ -101,6 +110,8 @@ bool CoulombInterior::scale() {
     ++cones;
     inverse_square_[c] = nt_[c].of_square([](double x) { return 1.0 / x; });
     if (k.half_line) inverse_square_[c] = Vector3d(inverse_square_[c](0, 0), 0.0, 0.0).asDiagonal();
+    // For the bodies a contact is a spring: dr = -D J du with D = T F^-2 T and J = 1 + n (ds/du)'.
+    // J is what makes the matrix unsymmetric.
     const auto t = scaling_[c].asDiagonal();
     const Matrix3d stiffness = t * inverse_square_[c] * t;
     gain_[c] = stiffness + stiffness.col(0) * slope_.col(c).transpose();
@@ -126,6 +137,8 @@ void CoulombInterior::set_targets(double sigma_nu, bool corrects) {
 
 /// The Newton step for the targets: bodies first, and from them g~ and r~.
 void CoulombInterior::solve() {
+  // dr~ = push - F^-2 dg~ and dg~ = T (gap + J du) with du = G dx leave for the bodies (1 + G' D J
+  // G) dx = imbalance + G' T (push - F^-2 T gap).
   right_ = imbalance_;
   for (int c = 0; c < contacts_->contact_count(); ++c) {
     if (!((*contacts_)[c].lambda_max > 0.0)) continue;
@@ -172,6 +185,8 @@ double CoulombInterior::step(double part) {
   solve();
   if (!dx_.allFinite()) return 0.0;
   const double length = longest(part);
+  // One length for all: what is linear in the equations then keeps
+  // the part 1 - length of its error.
   x_ += length * dx_;
   r_ += length * dr_;
   g_ += length * dg_;
@@ -181,6 +196,9 @@ double CoulombInterior::step(double part) {
 double CoulombInterior::round(ContactColumns& rounded) {
   rounded.setZero(3, contacts_->contact_count());
   other_.setZero(3, contacts_->contact_count());
+  // An interior point has both r and g inside their cones, while in an answer r . g =
+  // 0. P_K(r) keeps small impulses; P_K(r - rho g) is the judge's own projection, and
+  // drops those of contacts that open.
   for (int c = 0; c < contacts_->contact_count(); ++c) {
     const UnitMassContacts::Contact& k = (*contacts_)[c];
     if (!(k.lambda_max > 0.0)) continue;

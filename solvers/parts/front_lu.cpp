@@ -35,6 +35,8 @@ void solve_unit_lower(int m, int n, const double* l, int stride_l, double* b, in
 /// A tall strip of `columns` columns, factored in place from its first row on.
 BALLAST_FOR_EACH_CPU
 void factor_strip(double* a, int stride, int rows, int columns) {
+  // Column by column: what is below the pivot becomes a column of L, and its product with the
+  // pivot's row is taken from the rest of the strip.
   for (int k = 0; k < columns; ++k) {
     double* __restrict pivot_column = a + static_cast<std::int64_t>(k) * stride;
     const double inverse = 1.0 / pivot_column[k];
@@ -172,6 +174,7 @@ bool FrontLu::factor(const SparseColumns& a) {
       --child;
     }
     if (!eliminate(front, boundary)) return false;
+    // The children's boundaries are used up, and this front's own takes their place.
     std::copy_n(boundary, size, stack_.data() + top);
     top += size;
   }
@@ -192,6 +195,8 @@ void FrontLu::extend_add(const Front& child, const double* from, const Front& fr
   const int* row = tree_.row_in_parent.data() + child.rows_begin + child.own;
   double* columns = numbers_.data() + numbers_begin_[number];
   double* rest = columns + static_cast<std::int64_t>(front.rows) * own;
+  // The child's rows, which ascend, are first rows of the parent's own unknowns, from `split` on
+  // rows of its boundary; so are its columns. That makes four blocks, in three places.
   const int split = static_cast<int>(std::lower_bound(row, row + rows, own) - row);
   for (int j = 0; j < rows; ++j, from += rows) {
     if (j < split) {
@@ -206,6 +211,13 @@ void FrontLu::extend_add(const Front& child, const double* from, const Front& fr
   }
 }
 
+/// The elimination of one front, whose rows and columns are its own unknowns and then its boundary:
+///
+///     [ A11  A12 ]   [ L11     ] [ U11  U12 ]
+///     [ A21  A22 ] = [ L21   1 ] [        S ]    S = A22 - L21 U12: the parent's share
+///
+/// A11 and A21 are `a`, A12 is `rest`. A22 is `boundary`: it holds what the children left, as the
+/// matrix's own entries there belong to fronts above.
 bool FrontLu::eliminate(const Front& front, double* boundary) {
   constexpr int strip = 24;
   constexpr double smallest_pivot = 1e-14;
@@ -225,6 +237,7 @@ bool FrontLu::eliminate(const Front& front, double* boundary) {
     subtract_product(below, right, width, diagonal + width, rows, beside, rows, beside + width,
                      rows);
   }
+  // Nothing is exchanged, so that a tiny pivot would drown what follows in rounding.
   for (int j = 0; j < own; ++j) {
     const double pivot = std::abs(a[static_cast<std::int64_t>(j) * rows + j]);
     if (!std::isfinite(pivot) || !(pivot > smallest_pivot * largest_[front.first + j]))
@@ -240,6 +253,8 @@ bool FrontLu::eliminate(const Front& front, double* boundary) {
 void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   const int unknowns = graph_.unknown_count(), fronts = static_cast<int>(tree_.fronts.size());
   for (int i = 0; i < unknowns; ++i) work_[tree_.place[i]] = b[i];
+  // L y = b from the leaves up: a front solves its own rows, and takes their share from the rows of
+  // its boundary, which belong to fronts above.
   for (int f = 0; f < fronts; ++f) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;
@@ -248,6 +263,7 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
             below_.data());
     for (int i = 0; i < front.boundary(); ++i) work_[place[i]] -= below_[i];
   }
+  // U x = y from the roots down: a front's boundary is known when its turn comes.
   for (int f = fronts - 1; f >= 0; --f) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;
@@ -262,6 +278,8 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
 double FrontLu::operations() const {
   double sum = 0.0;
   for (const Front& front : tree_.fronts) {
+    // 2/3 k^3 for L11 U11, k^2 m each for L21 and U12, 2 k m^2 for S,
+    // with k own and m boundary rows.
     const double own = front.own, outside = front.boundary();
     sum += 2.0 / 3.0 * own * own * own + 2.0 * own * own * outside + 2.0 * own * outside * outside;
   }

@@ -21,6 +21,7 @@ std::vector<int> postorder(const std::vector<int>& parent, const std::vector<int
   for (int k = 0; k < n; ++k) (parent[k] < 0 ? roots : children[parent[k]]).push_back(k);
   for (std::vector<int>& list : children)
     std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return weight[a] < weight[b]; });
+  // Depth first with a stack of its own: a chain of bodies can make the tree as deep as it is long.
   std::vector<int> result, stack;
   std::vector<std::size_t> next(n, 0);
   for (const int root : roots) {
@@ -41,6 +42,10 @@ std::vector<int> postorder(const std::vector<int>& parent, const std::vector<int
 /// The tree, and what every node sees when its turn comes: its own later neighbours and what its
 /// children saw.
 NodeTree eliminate(const BlockGraph& graph, const std::vector<int>& order) {
+  // Eliminating a node joins all the later ones that it sees with one another. So the first of them
+  // is its parent, and sees the others. Of a chain a - b - c - d in the order a, c, b, d
+  //
+  //     turn 0 (a) sees 2   turn 1 (c) sees 2, 3   turn 2 (b) sees 3 through c   turn 3 (d): root
   const int n = graph.node_count();
   std::vector<int> turn(n);
   for (int k = 0; k < n; ++k) turn[order[k]] = k;
@@ -95,9 +100,11 @@ std::vector<Group> join(const NodeTree& tree, const std::vector<int>& size,
     groups.push_back({k, k, size[k]});
     while (groups.size() > 1) {
       const Group &child = groups[groups.size() - 2], &parent = groups.back();
+      // In this order the group before is a child exactly where its parent lies within this group.
       if (tree.parent[child.last_node] < 0 || tree.parent[child.last_node] > parent.last_node)
         break;
       const int own = child.own + parent.own, boundary = seen[parent.last_node];
+      // The child's columns get all rows of the joined front: those that it did not see hold zeros.
       const double zeros =
           child.zeros + parent.zeros +
           static_cast<double>(child.own) * (parent.own + boundary - seen[child.last_node]);
@@ -187,6 +194,8 @@ FrontTree make_front_tree(const BlockGraph& graph, const std::vector<int>& order
     if (parent < 0) continue;
     front.parent = front_of[parent];
     ++result.fronts[front.parent].child_count;
+    // What a front leaves lies within the rows of its parent, and both
+    // lists ascend: one walk finds all.
     int row = result.fronts[front.parent].rows_begin;
     for (int i = front.rows_begin + front.own; i < front.rows_begin + front.rows; ++i) {
       while (result.places[row] != result.places[i]) ++row;

@@ -39,6 +39,8 @@ void Lemke::begin(const Eigen::MatrixXd& m, const Eigen::VectorXd& q) {
   entering_ = complement(left);
 }
 
+/// Compares rows i and j of the basis' inverse, which stands in the columns of w, each over its
+/// pivot. Rows of a regular matrix are never in proportion: exactly one row leaves.
 bool Lemke::lexicographically_less(int i, int j, int entering) const {
   const double pivot_i = tableau_(i, entering), pivot_j = tableau_(j, entering);
   for (int column = 0; column < n_; ++column) {
@@ -49,6 +51,8 @@ bool Lemke::lexicographically_less(int i, int j, int entering) const {
 }
 
 int Lemke::leaving_row(int entering) const {
+  // The entering variable grows until the first variable of the basis reaches zero: the least
+  // ratio of right-hand side to column.
   const double floor = no_pivot * std::max(1.0, tableau_.col(entering).cwiseAbs().maxCoeff());
   const auto ratio = [&](int i) {
     return std::max(0.0, tableau_(i, 2 * n_ + 1)) / tableau_(i, entering);
@@ -71,6 +75,7 @@ int Lemke::leaving_row(int entering) const {
   return best;
 }
 
+/// Gauss-Jordan: the entering variable's column becomes a unit vector.
 void Lemke::exchange(int row, int entering) {
   tableau_.row(row) /= tableau_(row, entering);
   for (int i = 0; i < n_; ++i) {
@@ -83,10 +88,12 @@ void Lemke::exchange(int row, int entering) {
 LemkeState Lemke::pivot() {
   if (state_ != LemkeState::running) return state_;
   const int row = leaving_row(entering_);
+  // Nothing in the basis limits the entering variable: the path of solutions goes off along a ray.
   if (row < 0) return state_ = LemkeState::ray;
   const int left = basis_[row];
   exchange(row, entering_);
   if (left == 2 * n_) return state_ = LemkeState::solved;
+  // z_i w_i = 0 is kept for every i, as what enters is always the partner of what has just left.
   entering_ = complement(left);
   return state_;
 }

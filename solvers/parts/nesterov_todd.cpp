@@ -16,6 +16,7 @@ double determinant(const Vector& x) {
 Vector reflect(const Vector& x) { return {x[0], -x[1], -x[2]}; }
 
 /// 2 v v^T - J.
+/// Where v.J v = 1 it maps the cone onto itself, and its inverse is the same of J v.
 Matrix hyperbolic_reflection(const Vector& v) {
   Matrix h = 2.0 * v * v.transpose();
   h(0, 0) -= 1.0;
@@ -33,12 +34,16 @@ Vector product(const Vector& x, const Vector& y) {
 }
 
 Vector divide(const Vector& x, const Vector& z) {
+  // With x = (x_0, x'): x o y = z says x.y = z_0 and x_0 y' + y_0 x' = z'. The latter gives y', and
+  // put into the former it leaves y_0 det x = x_0 z_0 - x'.z'.
   const double y0 = (x[0] * z[0] - x[1] * z[1] - x[2] * z[2]) / determinant(x);
   return {y0, (z[1] - y0 * x[1]) / x[0], (z[2] - y0 * x[2]) / x[0]};
 }
 
 double longest_step(const Vector& x, const Vector& d, double most) {
   // the smallest positive root of a t^2 + 2 b t + c, or where x_0 + t d_0 vanishes
+  // det(x + t d) = a t^2 + 2 b t + c vanishes where the path meets the boundary. Of its roots q / a
+  // and c / q neither suffers from cancellation, as q has no difference in it.
   const double a = determinant(d), c = determinant(x), b = x[0] * d[0] - x[1] * d[1] - x[2] * d[2];
   double step = most;
   if (d[0] < 0.0) step = std::min(step, -x[0] / d[0]);
@@ -54,6 +59,11 @@ bool scale(const Vector& x, const Vector& z, bool half_line, Scaling& scaling) {
   const double x_det = half_line ? x[0] * x[0] : determinant(x),
                z_det = half_line ? z[0] * z[0] : determinant(z);
   if (!(x[0] > 0.0 && z[0] > 0.0 && x_det > 0.0 && z_det > 0.0)) return false;
+  // Nesterov and Todd's F has F^2 x = z. With x^ = x / sqrt(det x), z^
+  // likewise, J = diag(1, -1, -1):
+  //
+  //     gamma^2 = (1 + x^.z^) / 2,    w = (z^ + J x^) / (2 gamma),    beta^4 = det z / det x
+  //     F^2 = beta^2 (2 w w' - J),    F = beta (2 v v' - J),    v = (w + e_0) / sqrt(2 (w_0 + 1))
   const double beta_square = std::sqrt(z_det / x_det), beta = std::sqrt(beta_square);
   Vector w(1.0, 0.0, 0.0);
   if (!half_line) {

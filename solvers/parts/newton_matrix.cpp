@@ -38,6 +38,7 @@ void NewtonMatrix::cut_into_pieces() {
       end[i] = w.outerIndexPtr()[first + i + 1];
     }
     int own = first;
+    // The rows' columns ascend: the next column is the least among what their heads show.
     for (;;) {
       int column = own < first + rows ? own : none;
       for (int i = 0; i < rows; ++i)
@@ -103,6 +104,7 @@ bool NewtonMatrix::solve_dense(const std::vector<ContactLinearisation>& linear, 
       const Piece& piece = pieces_[k];
       const Eigen::Vector3d scaled =
           linear[c].by_u * Eigen::Vector3d(piece.w[0], piece.w[1], piece.w[2]);
+      // The dr of an idle contact is known already and goes to the right-hand side.
       const int column = place_[piece.column];
       if (column < 0)
         right -= scaled * dr[piece.column];
@@ -129,6 +131,8 @@ bool NewtonMatrix::solve_dense(const std::vector<ContactLinearisation>& linear, 
 bool NewtonMatrix::solve_sparse(const std::vector<ContactLinearisation>& linear, Impulses& dr) {
   const int contacts = problem_->contact_count(), all_rows = problem_->row_count();
   if (!has_pattern_) {
+    // The pattern column by column from pieces that come contact by contact: how many entries each
+    // column has, where it begins, and then the rows in it.
     matrix_.resize(all_rows, all_rows);
     std::vector<int> filled(static_cast<size_t>(all_rows) + 1, 0);
     for (int c = 0; c < contacts; ++c)
@@ -147,6 +151,7 @@ bool NewtonMatrix::solve_sparse(const std::vector<ContactLinearisation>& linear,
   }
   right_.resize(all_rows);
   for (int c = 0; c < contacts; ++c) {
+    // by_u times W, piece by piece; B is added where the column is one of the contact's own.
     const int rows = problem_->contact_rows(c), first = problem_->row_begin[c];
     for (int k = piece_begin_[c]; k < piece_begin_[c + 1]; ++k) {
       const Piece& piece = pieces_[k];

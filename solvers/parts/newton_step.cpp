@@ -33,6 +33,7 @@ void NewtonStep::restart(const Impulses& r) {
   w_.velocity(r_, u_);
 }
 
+/// u + alpha (r - centre): the velocity that the law is asked of. At the centre it is u itself.
 Eigen::Vector3d NewtonStep::proximal_velocity(const Impulses& r, const Eigen::VectorXd& u,
                                               int c) const {
   return w_.at(u, c) + alpha_[c] * (w_.at(r, c) - w_.at(centre_, c));
@@ -66,6 +67,8 @@ bool NewtonStep::newton(int halvings) {
   // Backtracking along the step; u moves with r, as both are linear.
   const double before = residual();
   w_.multiply(dr_, du_);
+  // Halved until the residual has fallen by 1e-4 of what the linear model promises; the least
+  // one on the way is what is taken.
   double t = 1.0, best_t = 0.0,
          best = halvings > 0 ? before * 1.1 : std::numeric_limits<double>::max();
   for (int k = 0; k <= halvings; ++k, t *= 0.5) {

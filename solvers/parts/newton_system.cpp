@@ -90,6 +90,7 @@ void NewtonSystem::add_block(const FrictionProblem& problem, int c, int p, int q
   const double* hp = side_block(problem, c, p);
   const double* hq = side_block(problem, c, q);
   const int* outer = matrix_.outerIndexPtr();
+  // Column by column: E times a column of H_q, then H_p^T times that.
   for (int j = 0; j < right_dofs; ++j) {
     double eh[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < rows; ++i)
@@ -117,6 +118,7 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
     }
   }
   // B^-1 f and E = B^-1 by_u of every contact, and H^T E H.
+  // The contacts' equations give dr = -B^-1 f - E du, du = H dv, and the bodies' M dv = H^T dr.
   gain_.resize(linear.size());
   source_.resize(linear.size());
   dr.resize(problem.row_count());
@@ -137,6 +139,7 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
   factor_.solve(matrix_, right_, dv_, 1);
   if (!dv_.allFinite()) return false;
   body_to_contact_velocity(d, problem.row_begin, dv_, u_);
+  // It adds the bias, which a change of velocity has not.
   u_ -= d.bias;
   for (int c = 0; c < problem.contact_count(); ++c)
     w.put(dr, c, -source_[c] - gain_[c] * w.at(u_, c));

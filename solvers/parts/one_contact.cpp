@@ -18,6 +18,7 @@ void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& conta
   const double trace = w.trace();
   if (!(w(0, 0) > 0.25 * rounding * trace)) return;  // no motion along the normal, up to rounding
   contact.inverse_normal = 1.0 / w(0, 0);
+  // c = W_TN / W_NN and the tangents' Schur complement S = W_TT - c W_TN^T = (a b; b d).
   const double c1 = w(1, 0) * contact.inverse_normal, c2 = w(2, 0) * contact.inverse_normal;
   const double a = w(1, 1) - c1 * w(1, 0), b = w(2, 1) - c1 * w(2, 0), d = w(2, 2) - c2 * w(2, 0);
 
@@ -52,12 +53,14 @@ ContactStatus solve_one_contact(const Eigen::Matrix3d& w, const Eigen::Vector3d&
   make_principal(w, mu, contact, turn);
   double q1 = q[1], q2 = q[2];
   turn.to_principal(q1, q2);
+  // The impulse that stops all motion, u = 0: y = -q_N / W_NN and r_T = -S^-1 (q_T - c q_N).
   double y = -q[0] * contact.inverse_normal;
   double t1 = -(q1 - contact.c1 * q[0]) * contact.inverse_s1,
          t2 = -(q2 - contact.c2 * q[0]) * contact.inverse_s2;
   double x = lambda > 0.0 ? contact.s1 + lambda : 0.0;
   const ContactStatus status = apply_coulomb(contact, y, t1, t2, x);
   lambda = status == ContactStatus::slip && mu > 0.0 ? x - contact.s1 : 0.0;
+  // Back to the given coordinates: r_N = y - c . r_T, and the tangents turned back.
   r[0] = y - contact.c1 * t1 - contact.c2 * t2;
   turn.from_principal(t1, t2);
   r[1] = t1;

@@ -23,6 +23,7 @@ RegularStep regular_step(const RegularContact& contact, const Eigen::Vector3d& r
     return step;
   }
   // Stick: u~ + du~ = 0.
+  // u~ changes by du + epsilon_c dr, hence dr = -(u~ + du) / epsilon_c: a stiff spring.
   const double t = std::hypot(z[1], z[2]);
   if (t <= mu * z[0]) {
     step.source = -u * stiffness;
@@ -34,6 +35,8 @@ RegularStep regular_step(const RegularContact& contact, const Eigen::Vector3d& r
   // across it turns as the projection on the disc turns. kappa <= 1: else a gain would be negative.
   const double e1 = z[1] / t, e2 = z[2] / t, radius = mu * std::max(r[0], 0.0);
   const double kappa = std::min(1.0, radius / t);
+  // Across z_T: r + dr = kappa dz with dz = dr - rho (du + epsilon_c dr) and rho epsilon_c =
+  // epsilon give (1 - kappa + kappa epsilon) dr = -r - kappa rho du.
   const double turn = 1.0 - kappa + kappa * contact.epsilon, across_gain = kappa * rho / turn;
   const double normal = -u[0] * stiffness;
   const double along = radius - (e1 * r[1] + e2 * r[2]) + mu * normal;

@@ -74,6 +74,7 @@ int RegularNewton::linearise(const NewtonIterate& at) {
 }
 
 bool RegularNewton::step(NewtonIterate& change) {
+  // With dr = source - gain G dx the bodies' dx = G^T dr becomes (1 + G^T gain G) dx = G^T source.
   right_ = Eigen::VectorXd::Zero(contacts_.unknown_count());
   for (int c = 0; c < contacts_.contact_count(); ++c) contacts_.push(right_, c, source_.col(c));
   // The bodies' step, and from it the impulses'.

@@ -39,6 +39,7 @@ bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
                     [&](int i, int j, double x) { entries.emplace_back(i, j, x); });
   SparseColumns blocks(w_->problem().row_count(), w_->problem().row_count());
   blocks.setFromTriplets(entries.begin(), entries.end());
+  // M + H^T Sigma H couples bodies that touch, W + P contacts that share a body.
   if (dynamics_) {
     const SparseColumns scaled = blocks * h_;
     const SparseColumns product = h_transposed_ * scaled;
@@ -72,6 +73,8 @@ void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
 
 void ShiftedDelassus::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements) {
   solve_once(b, x);
+  // What (W + P) x lacks of b is solved for with the same factor: each turn takes off most of the
+  // rounding that P's wide range has caused.
   for (int k = 0; k < refinements; ++k) {
     residual_.resize(b.size());
     w_->multiply(x, residual_);

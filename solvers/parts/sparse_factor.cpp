@@ -77,6 +77,7 @@ bool CholeskyFactor::factor(const SparseColumns& a) {
     s.pattern.take(a);
   }
   cholmod_factorize(&view, s.factor, &s.common);
+  // `minor` is the column at which a pivot was not positive: n where all were.
   return s.common.status == CHOLMOD_OK && s.factor->minor == s.factor->n;
 }
 
@@ -102,6 +103,8 @@ struct LuFactor::State {
 
   State() {
     umfpack_di_defaults(control);
+    // Rows and columns are exchanged alike, and the diagonal's entry is the pivot where it is at
+    // least a thousandth of the largest in its column.
     control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
     control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
     control[UMFPACK_SYM_PIVOT_TOLERANCE] = 1e-3;

@@ -33,6 +33,8 @@ void UnitMassContacts::prepare(const FrictionProblem& problem) {
     k.bias.setZero();
     k.bias.head(rows) = d.bias.segment(problem.row_begin[c], rows);
     const double* block = d.h.data() + d.h_begin[c];
+    // G = H L^-T body by body. The side of what does not move stays
+    // zero, and its x is never changed.
     for (int s = 0; s < 2; ++s) {
       k.body[s] = body[s] < 0 ? bodies_ : body[s];
       k.g[s].setZero();
