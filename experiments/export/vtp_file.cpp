@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "platform/atomic_file.hpp"
+#include "platform/base64.hpp"
 #include "platform/error.hpp"
 #include "platform/pack.hpp"
 
@@ -15,21 +16,6 @@ namespace {
 
 constexpr std::string_view time_opening =
     "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
-
-/// Three bytes become four digits of 6 bits each; what lacks at the end is filled with =.
-std::string base64(std::string_view bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t at = 0; at < bytes.size(); at += 3) {
-    const size_t left = bytes.size() - at;
-    std::uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < left ? static_cast<unsigned char>(bytes[at + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += k <= left ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 template <class Number>
 constexpr const char* type_name() {

@@ -89,6 +89,7 @@ struct HtmlBlocks {
     return "<details><summary>" + html_of(folded.heading) + "</summary>\n<pre>" +
            escaped_html(folded.text) + "</pre></details>\n";
   }
+  std::string operator()(const Replay& replay) const { return replay_html(replay); }
 };
 
 std::string header_of(const Page& page) {

@@ -1,5 +1,6 @@
 #pragma once
-// Writes a page as one HTML file that opens offline: no script, nothing loaded from elsewhere.
+// Writes a page as one HTML file that opens offline: nothing is loaded from elsewhere, and only a
+// replay has a script.
 
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ std::string html_of(const Page& page);
 /// One part of it.
 std::string html_of(const Text& text);
 std::string html_of(const Block& block);
+
+/// A replay with its data and the script that draws it. One of a page: it has the only script.
+std::string replay_html(const Replay& replay);
 
 /// & < > " ' become entities; what clean_utf8 refuses becomes U+FFFD.
 std::string escaped_html(std::string_view text);

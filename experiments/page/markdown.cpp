@@ -128,6 +128,8 @@ struct MarkdownBlocks {
     return "<details><summary>" + markdown_of(folded.heading) + "</summary>\n\n" +
            fenced(folded.text) + "</details>\n\n";
   }
+  /// Markdown does not move.
+  std::string operator()(const Replay& replay) const { return (*this)(replay.caption); }
 };
 
 }  // namespace

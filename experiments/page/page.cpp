@@ -14,6 +14,7 @@ struct Emptiness {
   bool operator()(const Notices& notices) const { return notices.items.empty(); }
   bool operator()(const Listing& listing) const { return listing.text.empty(); }
   bool operator()(const Folded& folded) const { return folded.text.empty(); }
+  bool operator()(const Replay& replay) const { return replay.head.empty(); }
 };
 
 }  // namespace

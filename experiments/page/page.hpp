@@ -13,6 +13,7 @@
 //   write_whole_file(folder / "README.md", page::markdown_of(page));
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -64,8 +65,18 @@ struct Folded {
   std::string text;
 };
 
+/// Bodies in 3D that move: what experiments/page/replay draws in the reader's browser (replay.md
+/// there says what the head and each part hold).
+struct Replay {
+  std::string head = {};                                        ///< JSON; empty: no replay
+  std::vector<std::pair<std::string, std::string>> parts = {};  ///< name and raw bytes
+  std::string still = {};  ///< PNG: shown where the browser cannot draw, and in print
+  Text caption = {};
+};
+
 /// A paragraph is Text.
-using Block = std::variant<Text, Subheading, List, Table, Picture, Notices, Listing, Folded>;
+using Block =
+    std::variant<Text, Subheading, List, Table, Picture, Notices, Listing, Folded, Replay>;
 
 /// Says nothing: a table without rows, text without words. Writers leave it out.
 bool is_empty(const Block& block);

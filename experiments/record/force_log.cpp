@@ -1,5 +1,10 @@
 #include "experiments/record/force_log.hpp"
 
+#include <algorithm>
+
+#include "platform/error.hpp"
+#include "platform/hdf5_reader.hpp"
+
 namespace ballast {
 
 void pack_force_row(const MotionState& state, const ContactPoint& contact, const Vec3& impulse,
@@ -54,6 +59,31 @@ void add_forces(Hdf5Writer& file, RowReader& rows, std::span<const std::int64_t>
   describe("contacts/gap", "m", "along the normal at detection; negative: overlap");
   file.add("contacts/force", force, {count, 3});
   describe("contacts/force", "N", "on body b, world frame: the step's impulse over its length");
+}
+
+std::vector<std::vector<FrameContact>> read_record_forces(const std::filesystem::path& record) {
+  const Hdf5Reader file(record);
+  if (!file.has("contacts")) return {};
+  const std::vector<int> begin = file.read_ints("contacts/frame_begin"),
+                         body_a = file.read_ints("contacts/body_a"),
+                         body_b = file.read_ints("contacts/body_b");
+  const std::vector<double> position = file.read_doubles("contacts/position"),
+                            normal = file.read_doubles("contacts/normal"),
+                            force = file.read_doubles("contacts/force");
+  const size_t count = body_a.size();
+  if (begin.empty() || begin.front() != 0 || !std::is_sorted(begin.begin(), begin.end()) ||
+      static_cast<size_t>(begin.back()) != count || body_b.size() != count ||
+      position.size() != 3 * count || normal.size() != 3 * count || force.size() != 3 * count)
+    throw Error(record.string() + ": the datasets of /contacts do not fit together");
+  const auto vector = [](const std::vector<double>& values, size_t c) {
+    return Eigen::Vector3f(Vec3(values.data() + 3 * c).cast<float>());
+  };
+  std::vector<std::vector<FrameContact>> frames(begin.size() - 1);
+  for (size_t f = 0; f < frames.size(); ++f)
+    for (auto c = static_cast<size_t>(begin[f]); c < static_cast<size_t>(begin[f + 1]); ++c)
+      if (const Eigen::Vector3f on_b = vector(force, c); !on_b.isZero())
+        frames[f].push_back({body_a[c], body_b[c], vector(position, c), vector(normal, c), on_b});
+  return frames;
 }
 
 }  // namespace ballast

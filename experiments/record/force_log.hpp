@@ -4,6 +4,7 @@
 // as the poses.
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -25,5 +26,16 @@ void pack_force_row(const MotionState& state, const ContactPoint& contact, const
 /// The group /contacts: the rows of the log frame by frame. `frame_steps`: the steps of the stored
 /// frames in their order; a frame may have no contact. Throws Error.
 void add_forces(Hdf5Writer& file, RowReader& rows, std::span<const std::int64_t> frame_steps);
+
+/// A contact of a stored frame, for looking at: single precision.
+struct FrameContact {
+  int body_a = 0, body_b = 0;
+  Eigen::Vector3f position, normal;  ///< world frame [m]; from a to b
+  Eigen::Vector3f force;             ///< on b, world frame [N]
+};
+
+/// The contacts of every frame of a record.h5 that have a force; no entry where the record has no
+/// contacts at all. Throws Error.
+std::vector<std::vector<FrameContact>> read_record_forces(const std::filesystem::path& record);
 
 }  // namespace ballast

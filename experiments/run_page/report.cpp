@@ -11,7 +11,10 @@
 #include "experiments/run_page/figures.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "experiments/run_page/report_tables.hpp"
+#include "experiments/view/pack_view.hpp"
+#include "experiments/view/run_view.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "platform/program.hpp"
 
 namespace ballast {
@@ -50,12 +53,27 @@ page::Section pictures(const char* id, const char* heading,
   return section;
 }
 
+/// The bodies in 3D; empty where no pose is stored, or none that can be read.
+page::Replay replay_of(RunData& data) {
+  page::Replay replay;
+  try {
+    const std::optional<ViewData> view = view_of_run(data);
+    if (!view) return {};
+    replay = pack_view(*view);
+    replay.caption = page::words(view->contacts.empty() ? "run.replay.poses" : "run.replay.forces");
+  } catch (const Error& error) {
+    data.notices.push_back(std::string("No replay: ") + error.what());
+  }
+  return replay;
+}
+
 }  // namespace
 
 void write_report(const std::filesystem::path& folder) {
   RunData data = read_run_data(folder);
   const RunSummary summary = summarise(data.steps, data.facts);
   note_what_cannot_be_said(summary, data);
+  const page::Replay replay = replay_of(data);
   // What must be known first stands first.
   const RunTrust trust = trust_of(data);
   const std::vector<std::string> words = trust_words(trust);
@@ -66,6 +84,7 @@ void write_report(const std::filesystem::path& folder) {
   page.lede = lede_of(data, summary);
   page.notices.heading = "To be known before reading";
   page.notices.items.assign(data.notices.begin(), data.notices.end());
+  page.add({"motion", "What happens", {replay}});
   page.add({"results", "The run in numbers", {results_table(summary)}});
   page.add(pictures("paper", has_packing ? "What the paper shows" : "Motion of the wall",
                     paper_figures(data, summary)));

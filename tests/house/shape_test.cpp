@@ -57,6 +57,12 @@ TEST_CASE("no file is too long and no line too wide") {
     for (const std::string& breach : breaches(file.path, file.text)) FAIL_CHECK(breach);
 }
 
+TEST_CASE("the scripts of pages are as short as the sources") {
+  for (const auto& entry : std::filesystem::directory_iterator(root() / "experiments/page/replay"))
+    for (const std::string& breach : breaches(entry.path().filename(), content(entry.path())))
+      FAIL_CHECK(breach);
+}
+
 TEST_CASE("what is too long or too wide is seen") {
   CHECK(breaches("a.cpp", std::string(longest_file, '\n')).empty());
   CHECK(breaches("a.cpp", std::string(longest_file + 1, '\n')).size() == 1);

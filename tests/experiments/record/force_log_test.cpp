@@ -86,3 +86,33 @@ TEST_CASE("without being asked for there are none") {
   CHECK_FALSE(fs::exists(folder.path() / "log" / "forces.bin"));
   CHECK_FALSE(Hdf5Reader(folder.path() / "record.h5").has("contacts"));
 }
+
+TEST_CASE("the contacts of every frame are read back, those without force left out") {
+  const TemporaryFolder folder;
+  const MechanicalSystem system = sample_system();
+  const fs::path record = folder.path() / "record.h5";
+  {
+    Recorder recorder(folder.path(), system, 0, false);
+    record_with_forces(recorder, system, 0, 5);
+    recorder.finish("", "");
+    CHECK(read_record_forces(record).empty());
+  }
+  Recorder recorder(folder.path(), system, 0, true);
+  record_with_forces(recorder, system, 0, 20);
+  // one more without a force
+  const MotionState state = sample_state(system, 25);
+  StepMemory memory = sample_memory(2);
+  memory.impulses[0] = Vec3::Zero();
+  recorder.add_poses(state);
+  recorder.add_forces(state, memory, step_length);
+  recorder.finish("", "");
+  const auto frames = read_record_forces(record);
+  REQUIRE(frames.size() == 6);
+  for (size_t k = 0; k < 6; ++k)
+    CHECK(frames[k].size() == std::vector<size_t>{0, 1, 2, 3, 0, 1}[k]);
+  const FrameContact& last = frames[3][2];
+  CHECK((last.body_a == 2 && last.body_b == 3));
+  CHECK(last.position == Eigen::Vector3f(15.2f, -15.2f, 30.4f));
+  CHECK(last.normal == Eigen::Vector3f::UnitZ());
+  CHECK_THAT(last.force.z(), Catch::Matchers::WithinRel(15.2f, 1e-6f));
+}

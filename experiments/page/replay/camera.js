@@ -1,0 +1,58 @@
+// Where one looks from. One camera may serve several stages.
+
+const viewAngle = 28 * Math.PI / 180;
+
+class Camera {
+  constructor(data) {
+    this.data = data;
+    this.home();
+  }
+  home() {
+    const { centre, radius } = this.data;
+    Object.assign(this, { target: [...centre], yaw: -52, pitch: 20, distance: 3.9 * radius });
+  }
+  // From where along an axis: "x", "-x", ...
+  along(name) {
+    const [yaw, pitch] = { x: [0, 0], "-x": [180, 0], y: [90, 0], "-y": [-90, 0],
+      z: [-90, 90], "-z": [-90, -90] }[name];
+    Object.assign(this, { target: [...this.data.centre], yaw, pitch });
+  }
+  get eye() {
+    const yaw = this.yaw * Math.PI / 180, pitch = this.pitch * Math.PI / 180;
+    const flat = Math.cos(pitch);
+    return add(this.target, times([flat * Math.cos(yaw), flat * Math.sin(yaw), Math.sin(pitch)],
+      this.distance));
+  }
+  turn(dx, dy) {
+    this.yaw -= dx;
+    this.pitch = clamp(this.pitch + dy, -89.9, 89.9);
+  }
+  zoom(factor) {
+    this.distance = clamp(this.distance * factor, 0.15 * this.data.radius, 20 * this.data.radius);
+  }
+  // By shares of the picture's height.
+  pan(dx, dy) {
+    const [right, up] = axesOf(this.eye, this.target);
+    const size = 2 * this.distance * Math.tan(viewAngle / 2);
+    this.target = add(this.target, add(times(right, -dx * size), times(up, dy * size)));
+  }
+  // In narrow pictures the same width is seen.
+  matrix(aspect, shift = [0, 0]) {
+    const near = Math.max(0.02 * this.distance, this.distance - 3 * this.data.radius);
+    const far = this.distance + 6 * this.data.radius;
+    const lens = perspective(this.angle(aspect), aspect, near, far);
+    lens[8] += shift[0];
+    lens[9] += shift[1];
+    return product(lens, looking(this.eye, this.target));
+  }
+  angle(aspect) {
+    return aspect >= 1.25 ? viewAngle : 2 * Math.atan(Math.tan(viewAngle / 2) * 1.25 / aspect);
+  }
+  // From the eye through a point of a picture of unit size, y downward.
+  ray(x, y, aspect) {
+    const [right, up, back] = axesOf(this.eye, this.target);
+    const t = Math.tan(this.angle(aspect) / 2);
+    return unit(add(add(times(right, (2 * x - 1) * t * aspect), times(up, (1 - 2 * y) * t)),
+      times(back, -1)));
+  }
+}

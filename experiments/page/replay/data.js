@@ -1,0 +1,213 @@
+// What the page holds, and the state of all bodies at any time between the stored frames.
+
+class Data {
+  static async load() {
+    const names = ["shape_sizes", "face_sizes", "face_corners", "vertices", "grains", "positions",
+      "rotations", "left_out", "velocities", "walls", "series", "contact_bodies",
+      "contact_places", "contact_normals", "contact_forces", "contact_mobilised", "errors"];
+    const parts = {};
+    await Promise.all(names.map(async (name) => { parts[name] = await partBytes(name); }));
+    return new Data(JSON.parse(element("head").textContent), parts);
+  }
+
+  constructor(head, parts) {
+    this.head = head;
+    this.grains = head.grains;
+    this.times = head.times;
+    this.begin = head.times[0];
+    this.end = head.times[head.times.length - 1];
+    const columns = 3 * head.grains;
+    this.positions = historyOf(parts.positions, columns, 2, 2);
+    this.rotations = historyOf(parts.rotations, columns, 2, 1);
+    this.leftOut = historyOf(parts.left_out, head.grains, 1, 1);
+    this.velocities = historyOf(parts.velocities, columns, 1, 1);
+    const constants = floatsOf(parts.grains);
+    this.mass = constants.filter((_, k) => k % 2 === 0);
+    this.size = constants.filter((_, k) => k % 2).map((volume) => Math.cbrt(6 * volume / Math.PI));
+    this.wallStates = floatsOf(parts.walls);
+    this.readShapes(parts);
+    this.readSeries(floatsOf(parts.series));
+    this.readContacts(parts);
+    this.errors = parts.errors;
+    // position, colour value, quaternion of every grain: what the picture is drawn from
+    this.state = new Float32Array(8 * 512 * Math.ceil(Math.max(head.grains, 1) / 512));
+    this.measureBox();
+  }
+
+  readShapes(parts) {
+    const sizes = wordsOf(parts.shape_sizes), loops = wordsOf(parts.face_sizes);
+    const corners = wordsOf(parts.face_corners), entries = new Int16Array(wordsOf(parts.vertices));
+    this.shapes = [];
+    let vertex = 0, face = 0, corner = 0;
+    for (let k = 0; k < this.head.shapes; ++k) {
+      const vertices = entries.subarray(3 * vertex, 3 * (vertex + sizes[2 * k])), faces = [];
+      for (let f = 0; f < sizes[2 * k + 1]; ++f, ++face) {
+        faces.push(Array.from(corners.subarray(corner, corner + loops[face])));
+        corner += loops[face];
+      }
+      vertex += sizes[2 * k];
+      this.shapes.push({ vertices, faces });
+    }
+  }
+
+  readSeries(values) {
+    const rows = this.head.rows;
+    this.seriesTime = values.subarray(0, rows);
+    this.series = {};
+    this.head.series.forEach((series, k) => {
+      const own = values.subarray((k + 1) * rows, (k + 2) * rows);
+      this.series[series.name] = { ...series, values: own };
+    });
+  }
+
+  readContacts(parts) {
+    const words = wordsOf(parts.contact_bodies), count = words.length / 2;
+    const a = new Uint16Array(count), b = new Uint16Array(count);
+    const reach = this.shapes.map(({ vertices }) => {
+      let square = 0;
+      for (let v = 0; v < vertices.length; v += 3)
+        square = Math.max(square, vertices[v] ** 2 + vertices[v + 1] ** 2 + vertices[v + 2] ** 2);
+      return Math.sqrt(square) / 32767 * this.head.scale;
+    });
+    this.reach = this.head.shape_of.map((shape) => reach[shape]);
+    const force = wordsOf(parts.contact_forces).map((v) => v), strength = new Float32Array(count);
+    this.contactFrames = (this.head.contact_frames || []).map((frame, k) => ({ frame, k }));
+    let at = 0;
+    for (const [k, frame] of this.contactFrames.entries()) {
+      frame.begin = at;
+      for (let last = 0; at < frame.begin + this.head.contact_counts[k]; ++at) {
+        last = a[at] = last + words[at];
+        b[at] = a[at] + words[count + at];
+        strength[at] = (force[at] / 4095) ** 2 * this.head.largest_force;
+      }
+      frame.end = at;
+    }
+    this.contact = { a, b, force: strength, places: parts.contact_places, count,
+      normals: parts.contact_normals, mobilised: parts.contact_mobilised };
+  }
+
+  // Where a contact is, and its normal, while grain a is where the state has it.
+  contactPlace(c) {
+    const { a, places, count } = this.contact, g = a[c], reach = 1.02 * this.reach[g] / 127;
+    return [0, 1, 2].map((k) => this.state[8 * g + k] + (places[k * count + c] - 128) * reach);
+  }
+  contactNormal(c) {
+    const { normals, count } = this.contact;
+    return fromOctahedron(normals[c], normals[count + c]);
+  }
+
+  // The stored contacts nearest in time; none where the run kept none.
+  contactsAt(time) {
+    const away = ({ frame }) => Math.abs(this.times[frame] - time);
+    let best = null;
+    for (const frame of this.contactFrames)
+      if (!best || away(frame) < away(best)) best = frame;
+    return best || { begin: 0, end: 0, frame: -1 };
+  }
+
+  // The frame at or before a time, and the share of the way to the next.
+  frameAt(time) {
+    let low = 0, high = this.times.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.times[middle] <= time) low = middle; else high = middle;
+    }
+    const next = Math.min(low + 1, this.times.length - 1);
+    const span = this.times[next] - this.times[low];
+    return { frame: low, next, span, u: span ? clamp((time - this.times[low]) / span, 0, 1) : 0 };
+  }
+
+  positionOf(frame, g, k) {
+    const at = 3 * (frame * this.grains + g) + k;
+    return this.head.low[k] + this.positions[at] / 65535 * this.head.span[k];
+  }
+  velocityOf(frame, g, k) {
+    return fromSignedRoot(this.velocities[3 * (frame * this.grains + g) + k]) * this.head.fastest;
+  }
+  rotationOf(frame, g, out = [0, 0, 0, 0]) {
+    const at = frame * this.grains + g, left = this.leftOut[at], most = this.head.largest_kept;
+    let square = 0, place = 3 * at;
+    for (let k = 0; k < 4; ++k)
+      if (k !== left) {
+        out[k] = (this.rotations[place++] / 65535 * 2 - 1) * most;
+        square += out[k] ** 2;
+      }
+    out[left] = Math.sqrt(Math.max(0, 1 - square));
+    return out;
+  }
+
+  // Fills in the state at a time: positions by Hermite's cubic through places and velocities,
+  // rotations between the two, the shorter way round.
+  moveTo(time, valueOf) {
+    const { frame, next, span, u } = this.frameAt(time), state = this.state;
+    const u2 = u * u, u3 = u2 * u;
+    const h00 = 2 * u3 - 3 * u2 + 1, h10 = (u3 - 2 * u2 + u) * span;
+    const h01 = 3 * u2 - 2 * u3, h11 = (u3 - u2) * span;
+    const p = [0, 0, 0, 0], q = [0, 0, 0, 0];
+    for (let g = 0; g < this.grains; ++g) {
+      const at = 8 * g;
+      for (let k = 0; k < 3; ++k)
+        state[at + k] = h00 * this.positionOf(frame, g, k) + h10 * this.velocityOf(frame, g, k) +
+          h01 * this.positionOf(next, g, k) + h11 * this.velocityOf(next, g, k);
+      this.rotationOf(frame, g, p);
+      this.rotationOf(next, g, q);
+      const same = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3] < 0 ? -u : u;
+      let square = 0;
+      for (let k = 0; k < 4; ++k) {
+        state[at + 4 + k] = p[k] * (1 - u) + q[k] * same;
+        square += state[at + 4 + k] ** 2;
+      }
+      for (let k = 4; k < 8; ++k) state[at + k] /= Math.sqrt(square);
+      state[at + 3] = valueOf(g, frame, next, u);
+    }
+  }
+
+  // A curve's value at a time; before its first row that row's.
+  seriesAt(name, time) {
+    const t = this.seriesTime, values = this.series[name].values;
+    let low = 0, high = t.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (t[middle] <= time) low = middle; else high = middle;
+    }
+    const u = high > low ? clamp((time - t[low]) / (t[high] - t[low]), 0, 1) : 0;
+    return values[low] + (values[high] - values[low]) * u;
+  }
+
+  // A wall's point at a time. The driven one follows the curve of all steps, not the frames.
+  wallAt(w, time) {
+    const wall = this.head.walls[w], frames = this.times.length;
+    const part = (frame, k) => this.wallStates[6 * (w * frames + frame) + k];
+    if (wall.driven && this.series.x) {
+      const outward = (this.seriesAt("x", time) - this.seriesStart()) * 1e-3;
+      return [0, 1, 2].map((k) => part(0, k) - wall.normal[k] * outward);
+    }
+    const { frame, next, span, u } = this.frameAt(time);
+    return [0, 1, 2].map((k) => part(frame, k) + (part(next, k) - part(frame, k)) * u +
+      u * (1 - u) * span * ((1 - u) * (part(frame, 3 + k)) - u * part(next, 3 + k) +
+        (2 * u - 1) * (span ? (part(next, k) - part(frame, k)) / span : 0)));
+  }
+  // x at the first frame: 0, unless the stored frames begin later.
+  seriesStart() {
+    return this.begin < this.seriesTime[0] ? 0 : this.seriesAt("x", this.begin);
+  }
+
+  // The box that all is in: walls where there are some, else the bodies and some room.
+  measureBox() {
+    const { low, span } = this.head, most = Math.max(0.001, ...this.reach);
+    this.low = low.map((v) => v - 1.02 * most);
+    this.high = low.map((v, k) => v + span[k] + 1.02 * most);
+    const free = [...this.low, ...this.high];
+    this.head.walls.forEach((wall, w) => {
+      for (let k = 0; k < 3; ++k) {
+        if (Math.abs(wall.normal[k]) < 0.999) continue;
+        const places = this.times.map((t) => this.wallAt(w, t)[k]);
+        // a lid far above what it closes is not part of the picture
+        if (wall.normal[k] > 0) this.low[k] = Math.max(Math.min(...places), free[k] - 2 * most);
+        else this.high[k] = Math.min(Math.max(...places), free[3 + k] + 2 * most);
+      }
+    });
+    this.centre = times(add(this.low, this.high), 0.5);
+    this.radius = 0.5 * norm(sub(this.high, this.low));
+  }
+}

@@ -1,0 +1,110 @@
+// Mouse, fingers and keys.
+
+// Drag turns, with shift or two fingers it moves the picture; the wheel and a pinch zoom; a click
+// picks.
+function listenToPointer(canvas, replay) {
+  const { camera } = replay, fingers = new Map();
+  let travel = 0;
+  const spread = () => {
+    const [a, b] = [...fingers.values()];
+    return Math.hypot(a[0] - b[0], a[1] - b[1]);
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    travel = 0;
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const from = fingers.get(event.pointerId);
+    if (!from) return;
+    const dx = event.clientX - from[0], dy = event.clientY - from[1], high = canvas.clientHeight;
+    travel += Math.abs(dx) + Math.abs(dy);
+    if (fingers.size === 2) {
+      const before = spread();
+      fingers.set(event.pointerId, [event.clientX, event.clientY]);
+      camera.zoom(clamp(before / Math.max(spread(), 8), 0.8, 1.25));
+      camera.pan(dx / 2 / high, dy / 2 / high);
+    } else if (event.shiftKey || event.buttons & 6) {
+      camera.pan(dx / high, dy / high);
+    } else {
+      camera.turn(0.4 * dx, 0.4 * dy);
+    }
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    if (travel > 3) replay.touched();
+  });
+  const released = (event) => {
+    fingers.delete(event.pointerId);
+    if (event.type !== "pointerup" || travel > 4) return;
+    const box = canvas.getBoundingClientRect();
+    replay.pickAt((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
+  };
+  canvas.addEventListener("pointerup", released);
+  canvas.addEventListener("pointercancel", released);
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    camera.zoom(Math.exp(clamp(event.deltaY, -120, 120) * 0.0012));
+    replay.touched();
+  }, { passive: false });
+  canvas.addEventListener("dblclick", () => {
+    camera.home();
+    replay.touched();
+  });
+}
+
+// While the picture has the focus.
+function listenToKeys(canvas, replay) {
+  const { camera } = replay;
+  const turn = (dx, dy) => (event) =>
+    event.shiftKey ? camera.pan(dx / 100, dy / 100) : camera.turn(-dx, dy);
+  const actions = { " ": () => replay.setPlaying(!replay.playing), ",": () => replay.step(-1),
+    ".": () => replay.step(1), ArrowLeft: turn(-5, 0), ArrowRight: turn(5, 0), ArrowUp: turn(0, 5),
+    ArrowDown: turn(0, -5), "+": () => camera.zoom(0.9), "=": () => camera.zoom(0.9),
+    "-": () => camera.zoom(1.1), x: () => camera.along("x"), y: () => camera.along("y"),
+    z: () => camera.along("z"), X: () => camera.along("-x"), Y: () => camera.along("-y"),
+    Z: () => camera.along("-z"), h: () => camera.home(), g: () => replay.pickAt(0.5, 0.5),
+    n: () => replay.pick((replay.options.picked + 1) % replay.data.grains),
+    Escape: () => replay.pick(-1), Home: () => replay.setTime(replay.data.begin),
+    End: () => replay.setTime(replay.data.end) };
+  canvas.addEventListener("keydown", (event) => {
+    const action = actions[event.key];
+    if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    action(event);
+    replay.touched();
+  });
+}
+
+// Buttons, sliders and choices.
+function listenToPanel(replay) {
+  const on = (id, event, action) => {
+    const found = element(id);
+    if (found) found.addEventListener(event, () => action(found));
+  };
+  on("play", "click", () => replay.setPlaying(!replay.playing));
+  on("back", "click", () => replay.step(-1));
+  on("on", "click", () => replay.step(1));
+  on("time", "input", (slider_) => {
+    replay.setPlaying(false);
+    replay.setTime(+slider_.value);
+  });
+  on("rate", "change", (select) => { replay.rate = +select.value; });
+  on("colour", "change", (select) => replay.set({ colour: select.value }));
+  on("grains", "change", (select) => replay.set({ grains: select.value }));
+  on("chains", "change", (box) => replay.set({ chains: box.checked,
+    grains: box.checked ? "ghost" : replay.options.points ? "ghost" : "solid" }));
+  on("points", "change", (box) => replay.set({ points: box.checked,
+    grains: box.checked ? "ghost" : replay.options.chains ? "ghost" : "solid" }));
+  on("threshold", "input", (slider_) => replay.set({ threshold: +slider_.value }));
+  on("cut", "change", (select) => replay.set({ cut: select.value }));
+  on("cutat", "input", (slider_) => replay.set({ cutAt: +slider_.value }));
+  for (const name of ["x", "-x", "y", "-y", "z"])
+    on("view" + name, "click", () => {
+      replay.camera.along(name);
+      replay.touched();
+    });
+  on("viewhome", "click", () => {
+    replay.camera.home();
+    replay.touched();
+  });
+}

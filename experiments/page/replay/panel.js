@@ -1,0 +1,111 @@
+// The page's elements around the picture: buttons, choices, legend, facts about a picked grain.
+
+function make(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes))
+    if (name in made && typeof value !== "string") made[name] = value;
+    else made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+}
+const choice = (id, words, options, chosen) => {
+  const select = make("select", { id: "replay-" + id },
+    ...options.map(([value, text]) => make("option", { value, selected: value === chosen }, text)));
+  return make("label", {}, words, select);
+};
+const slider = (id, words, min, max, value) => make("label", {}, words,
+  make("input", { id: "replay-" + id, type: "range", min: String(min), max: String(max),
+    step: "any", value: String(value), "aria-label": words || id }));
+const button = (id, text, title) =>
+  make("button", { id: "replay-" + id, type: "button", title, "aria-label": title }, text);
+const tick = (id, words) => make("label", {},
+  make("input", { id: "replay-" + id, type: "checkbox" }), words);
+
+// All elements, in the place of the still picture.
+function buildPanel(data, shades) {
+  const place = element("stage"), moves = data.times.length > 1;
+  const hasContacts = data.contactFrames.length > 0;
+  const names = { speed: "speed", displacement: "displacement", rotation: "rotation",
+    force: "force carried", size: "size class", none: "none" };
+  const colours = Object.keys(shades.choices).map((name) => [name, names[name]]);
+  place.replaceChildren(
+    make("div", { class: "views" },
+      make("canvas", { id: "replay-canvas", tabindex: "0", role: "application",
+        "aria-label": "The bodies in 3D. Arrows turn, + and - zoom, g picks a grain." }),
+      make("div", { id: "replay-legend" }),
+      make("div", { id: "replay-facts", "aria-live": "polite", hidden: true }),
+      make("div", { id: "replay-load" })),
+    make("div", { class: "controls", hidden: !moves },
+      button("back", "\u25c2\u25c2", "One stored frame back"),
+      button("play", "\u25b6", "Play"),
+      button("on", "\u25b8\u25b8", "One stored frame on"),
+      slider("time", "", data.begin, data.end, data.begin),
+      make("output", { id: "replay-clock" }),
+      choice("rate", "speed", [["0.01", "1/100"], ["0.02", "1/50"], ["0.05", "1/20"],
+        ["0.1", "1/10"], ["0.2", "1/5"], ["0.5", "1/2"], ["1", "1"], ["2", "2"]], "0.2")),
+    make("div", { class: "controls" },
+      choice("colour", "colour", colours, moves ? "speed" : "size"),
+      choice("grains", "grains", [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]],
+        "solid"),
+      ...hasContacts ? [tick("chains", "force chains"), slider("threshold", "above", 0, 5, 1),
+        tick("points", "contact points")] : [],
+      choice("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], ""),
+      slider("cutat", "", 0, 1, 0.5),
+      make("span", { class: "views-along" }, "view ",
+        ...[["home", "home"], ["x", "x"], ["-x", "\u2212x"], ["y", "y"], ["-y", "\u2212y"],
+          ["z", "z"]].map(([name, text]) => button("view" + name, text,
+          name === "home" ? "The first view" : "Look along " + name)))),
+    make("div", { class: "controls", id: "replay-errors", hidden: true }),
+    make("canvas", { id: "replay-plots", hidden: !data.head.plots.length,
+      "aria-label": "Curves of the run: a click goes to that moment" }));
+  element("sentence").hidden = true;
+}
+
+// The ramp of what grains are coloured by.
+function drawLegend(shades, name) {
+  const legend = element("legend"), { words, unit, ramp } = shades.choices[name];
+  legend.hidden = !words;
+  const bar = make("div", { class: "bar" });
+  bar.style.background = cssGradient(ramps[ramp]);
+  if (name === "size")
+    bar.style.background = "linear-gradient(90deg," + [0, 1, 2, 3, 4].map((k) =>
+      `${cssColour(colourAt(ramps[ramp], (k + 0.5) / 5))} ${20 * k}% ${20 * k + 20}%`) + ")";
+  const ticks = make("div", { class: "ticks" }, ...shades.ticks(name).map(([at, text]) => {
+    const mark = make("span", {}, text);
+    mark.style.left = 100 * at + "%";
+    return mark;
+  }));
+  legend.replaceChildren(make("b", {}, words + (unit ? " / " + unit : "")), bar, ticks);
+}
+
+// What is known of a picked grain.
+function drawFacts(data, picked, time) {
+  const facts = element("facts");
+  facts.hidden = picked < 0;
+  if (picked < 0) return;
+  const { frame, next, u } = data.frameAt(time), at = data.contactsAt(time);
+  const v = [0, 1, 2].map((k) =>
+    data.velocityOf(frame, picked, k) * (1 - u) + data.velocityOf(next, picked, k) * u);
+  const place = Array.from(data.state.subarray(8 * picked, 8 * picked + 3));
+  const rows = [["size", shown(1e3 * data.size[picked]) + " mm"],
+    ["mass", data.mass[picked] < 1 ? shown(1e3 * data.mass[picked]) + " g" :
+      shown(data.mass[picked]) + " kg"],
+    ["place / mm", place.map((p) => shown(1e3 * p, 4)).join("  ")],
+    ["velocity / m/s", v.map((p) => shown(p, 2)).join("  ")], ["speed", shown(norm(v)) + " m/s"]];
+  if (at.frame >= 0) {
+    const { a, b, force } = data.contact, partners = new Map();
+    for (let c = at.begin; c < at.end; ++c)
+      if (a[c] === picked || b[c] === picked) {
+        const other = a[c] === picked ? b[c] : a[c];
+        partners.set(other, (partners.get(other) || 0) + force[c]);
+      }
+    const name = (body) => body < data.grains ? "grain " + body :
+      data.head.walls[body - data.grains].name;
+    rows.push(["touches", partners.size + (partners.size === 1 ? " body" : " bodies")]);
+    const strongest = [...partners].sort((p, q) => q[1] - p[1]).slice(0, 4);
+    for (const [body, sum] of strongest) rows.push(["\u00a0 " + name(body), shown(sum) + " N"]);
+  }
+  facts.replaceChildren(make("b", {}, "grain " + picked), make("table", {},
+    make("tbody", {}, ...rows.map(([what, value]) =>
+      make("tr", {}, make("td", {}, what), make("td", {}, value))))));
+}

@@ -1,0 +1,221 @@
+// The replay itself: one time, one camera, and what the reader has chosen. A page's address may say
+// where to begin: #t=0.3&colour=displacement&cut=y:0.5&chains=1&view=x&play=0
+
+class Replay {
+  constructor(data) {
+    this.data = data;
+    this.camera = new Camera(data);
+    this.shades = new Shades(data);
+    this.marks = new Marks(data);
+    this.time = data.begin;
+    this.rate = 0.2;
+    this.playing = false;
+    this.options = { colour: "speed", grains: "solid", chains: false, points: false, threshold: 1,
+      cut: "", cutAt: 0.5, picked: -1 };
+    this.quality = 1;
+    this.pace = 0;
+    this.frames = 0;
+    buildPanel(data, this.shades);
+    this.options.colour = element("colour").value;
+    this.mesh = new Mesh(data);
+    this.stages = [new Stage(element("canvas"), data, this.mesh)];
+    this.plots = new Plots(element("plots"), data, (time) => {
+      this.setPlaying(false);
+      this.setTime(time);
+    });
+    this.readStyle();
+    this.readAddress();
+    listenToPointer(element("canvas"), this);
+    listenToKeys(element("canvas"), this);
+    listenToPanel(this);
+    this.set({});
+    const observer = new ResizeObserver(() => {
+      this.plots.layOut(this.colours);
+      this.touched();
+    });
+    observer.observe(element("stage"));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+      this.readStyle();
+      this.plots.layOut(this.colours);
+      this.touched();
+    });
+    // back to a tab or from a lost context: draw anew
+    element("canvas").addEventListener("webglcontextrestored", () => location.reload());
+  }
+
+  readStyle() {
+    const names = ["paper", "ink", "soft", "rule", "grid", "grey", "blue", "vermilion", "green",
+      "purple", "orange"];
+    this.colours = Object.fromEntries(names.map((name) => [name, styleColour(name)]));
+  }
+
+  readAddress() {
+    const said = new URLSearchParams(location.hash.slice(1)), has = (name) => said.has(name);
+    for (const name of ["colour", "grains"]) if (has(name)) this.options[name] = said.get(name);
+    for (const name of ["chains", "points"])
+      if (said.get(name) === "1") Object.assign(this.options, { [name]: true, grains: "ghost" });
+    if (has("threshold")) this.options.threshold = +said.get("threshold");
+    if (has("cut")) {
+      const [axis, at] = said.get("cut").split(":");
+      Object.assign(this.options, { cut: axis, cutAt: at ? +at : 0.5 });
+    }
+    if (has("grains")) this.options.grains = said.get("grains");
+    if (has("pick")) this.options.picked = +said.get("pick");
+    if (has("view")) this.camera.along(said.get("view"));
+    for (const name of ["yaw", "pitch"]) if (has(name)) this.camera[name] = +said.get(name);
+    if (has("zoom")) this.camera.zoom(1 / +said.get("zoom"));
+    this.time = has("t") ? clamp(+said.get("t"), this.data.begin, this.data.end) : this.data.begin;
+    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (!calm && said.get("play") !== "0" && this.data.times.length > 1) this.setPlaying(true);
+  }
+
+  // Changes what the reader has chosen, and shows it in the panel.
+  set(changes) {
+    Object.assign(this.options, changes);
+    const { options } = this;
+    if (!(options.colour in this.shades.choices)) options.colour = "none";
+    for (const name of ["colour", "grains", "cut"]) element(name).value = options[name];
+    element("cutat").value = options.cutAt;
+    element("cutat").disabled = !options.cut;
+    for (const name of ["chains", "points"])
+      if (element(name)) element(name).checked = options[name];
+    if (element("threshold")) element("threshold").disabled = !options.chains;
+    drawLegend(this.shades, options.colour);
+    this.touched();
+  }
+
+  pick(grain) {
+    this.set({ picked: grain });
+  }
+  pickAt(x, y) {
+    this.pick(pickGrain(this.data, this.mesh, this.camera, this.stages[0].aspect, this.cutPlane(),
+      x, y));
+  }
+
+  // What is beyond is cut away: normal and offset; null: nothing is.
+  cutPlane() {
+    const axis = "xyz".indexOf(this.options.cut || "-");
+    if (axis < 0) return null;
+    // the nearer half goes
+    const sign = this.camera.eye[axis] >= this.data.centre[axis] ? 1 : -1;
+    const { low, high } = this.data, plane = [0, 0, 0, 0];
+    plane[axis] = sign;
+    plane[3] = sign * (low[axis] + (high[axis] - low[axis]) * this.options.cutAt);
+    return plane;
+  }
+
+  setTime(time) {
+    this.time = clamp(time, this.data.begin, this.data.end);
+    this.touched();
+  }
+  step(direction) {
+    this.setPlaying(false);
+    const { times: stored } = this.data, { frame, u } = this.data.frameAt(this.time);
+    // between two frames a step goes to one of them
+    const isPast = direction < 0 ? u > 1e-9 : u > 1 - 1e-9, from = isPast ? frame + 1 : frame;
+    this.setTime(stored[clamp(from + direction, 0, stored.length - 1)]);
+  }
+  setPlaying(on) {
+    this.playing = on;
+    element("play").textContent = on ? "\u275a\u275a" : "\u25b6";
+    element("play").setAttribute("aria-label", on ? "Pause" : "Play");
+    if (on && this.time >= this.data.end) this.time = this.data.begin;
+    this.last = 0;
+    this.touched();
+  }
+  touched() {
+    this.isStale = true;
+    this.restFrom = performance.now() + 180;
+  }
+
+  // All that the stages draw at this moment.
+  look() {
+    const look = { camera: this.camera, grains: this.options.grains, picked: this.options.picked,
+      cut: this.cutPlane(), paper: this.colours.paper.linear };
+    look.rods = this.marks.build(this.time, look, this.options, this.colours);
+    return look;
+  }
+
+  // One picture, while things move.
+  drawMoving() {
+    const ramp = this.shades.apply(this.options.colour, this.time);
+    this.current = this.look();
+    for (const stage of this.stages) {
+      stage.resize(this.moving && stage.software ? this.quality : 1);
+      stage.moved(ramp);
+      stage.rods.set(this.current.rods);
+      if (stage.software || !stage.canRest) drawQuick(stage, this.current, this.moving);
+      else drawResting(stage, this.current, 9);
+    }
+    element("time").value = this.time;
+    element("clock").textContent = this.time.toFixed(3) + " s";
+    drawFacts(this.data, this.options.picked, this.time);
+    this.placeLoad();
+    if (this.data.head.plots.length) this.plots.draw(this.time);
+    this.isStale = false;
+    ++this.frames;
+  }
+
+  // The words beside the load's arrow.
+  placeLoad() {
+    const label = element("load"), { load } = this.marks, { f, x } = this.data.series;
+    label.hidden = !load;
+    if (!load) return;
+    const [left, top] = projected(this.camera.matrix(this.stages[0].aspect), load.tail);
+    label.style.left = 100 * clamp(left, 0.02, 0.86) + "%";
+    label.style.top = 100 * clamp(top, 0.05, 0.9) + "%";
+    const line = (one, name) => make("span", { class: one.ink },
+      one.symbol + " = " + shown(this.data.seriesAt(name, this.time)) + " " + one.unit);
+    label.replaceChildren(line(f, "f"), line(x, "x"));
+  }
+
+  // Every frame of the browser.
+  loop(now) {
+    if (this.playing && this.last) {
+      const passed = now - this.last;
+      this.pace = this.pace ? 0.85 * this.pace + 0.15 * passed : 60;
+      // where software draws, fewer pixels keep the motion smooth
+      if (this.pace > 80) this.quality = Math.max(0.6, this.quality - 0.01);
+      if (this.pace < 60) this.quality = Math.min(1, this.quality + 0.01);
+      const time = this.time + Math.min(passed, 120) / 1000 * this.rate;
+      this.time = time > this.data.end ? this.data.begin : time;
+    }
+    this.last = now;
+    const wasMoving = this.moving;
+    this.moving = this.playing || now < this.restFrom;
+    if (this.playing || this.isStale || (wasMoving && !this.moving)) this.drawMoving();
+    else if (!this.moving)
+      for (const stage of this.stages) drawResting(stage, this.current, stage.software ? 1 : 6);
+    requestAnimationFrame((next) => this.loop(next));
+  }
+
+  // For tests: the picture as bytes, red green blue alpha, the lowest row first.
+  pixels(stage = this.stages[0]) {
+    const { gl, canvas } = stage, bytes = new Uint8Array(4 * canvas.width * canvas.height);
+    this.moving = false;
+    this.drawMoving();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return { width: canvas.width, height: canvas.height, bytes };
+  }
+}
+
+(async () => {
+  const started = performance.now();
+  try {
+    if (!window.DecompressionStream) throw new Error("this browser is too old to unpack the data");
+    if (!document.createElement("canvas").getContext("webgl2"))
+      throw new Error("this browser gives no WebGL 2");
+    const replay = new Replay(await Data.load());
+    replay.moving = false;
+    replay.drawMoving();
+    replay.firstFrame = performance.now() - started;
+    window.ballastReplay = replay;
+    Object.assign(window.ballastReplay, { projected, turned });
+    requestAnimationFrame((now) => replay.loop(now));
+  } catch (error) {
+    element("sentence").hidden = false;
+    element("sentence").textContent = "Only a still picture: " + error.message + ".";
+    window.ballastReplayError = String(error.stack || error);
+  }
+})();

@@ -1,0 +1,236 @@
+// The programs that run on the graphics card (GLSL ES 3). Colours are linear light, white = 1.
+
+// Light that arrives: from one direction (`sun`), shadowed, and from all around.
+const lightText = `
+uniform highp sampler2DShadow shadow;
+uniform vec3 sun, sunColour, around, eye;
+uniform mat4 shadowMatrix;
+uniform bool encode;
+// what lies outside the picture of shadows has none
+float lit(vec3 place) {
+  vec3 inside = step(vec3(0.), place) * step(place, vec3(1.));
+  return max(texture(shadow, place), 1. - inside.x * inside.y * inside.z);
+}
+vec3 shadowPlace(vec3 p) { return (shadowMatrix * vec4(p, 1.)).xyz * .5 + .5; }
+vec3 ambient(vec3 n) { return around * (.54 + .46 * n.z) + (.13 - .06 * n.z) * vec3(1., .97, .93); }
+// sRGB within 0.4 / 255, by roots alone
+vec3 srgb(vec3 c) {
+  vec3 a = sqrt(max(c, 0.)), b = sqrt(a), d = sqrt(b);
+  return max(.585122381 * a + .783140355 * b - .368262736 * d, 0.);
+}
+vec4 finished(vec3 c, float alpha) { return vec4((encode ? srgb(c) : c) * alpha, alpha); }
+`;
+
+// A body's pose from the texture of states.
+const poseText = `
+uniform highp sampler2D states;
+vec3 turn(vec4 q, vec3 v) { return v + 2. * cross(q.yzw, cross(q.yzw, v) + q.x * v); }
+void pose(uint g, out vec4 p, out vec4 q) {
+  ivec2 at = ivec2(int(g & 511u) * 2, int(g >> 9));
+  p = texelFetch(states, at, 0);
+  q = texelFetch(states, at + ivec2(1, 0), 0);
+}
+`;
+
+const grainVertex = lightText + poseText + `
+layout(location = 0) in vec3 corner;
+layout(location = 1) in uint grain;
+layout(location = 2) in vec3 normal;
+layout(location = 3) in uint hidden;
+uniform mat4 camera;
+uniform highp sampler2D ramp;
+uniform float scale;
+uniform int picked;
+out vec3 place, edge;
+flat out vec3 albedo, direct, indirect, facing;
+out vec3 inShadow;
+flat out float chosen;
+void main() {
+  vec4 p, q;
+  pose(grain, p, q);
+  place = p.xyz + turn(q, corner * scale);
+  vec3 n = turn(q, normal);
+  // how far from each edge: an edge inside a face is never near
+  int c = gl_VertexID % 3;
+  edge = vec3(c == 0, c == 1, c == 2);
+  edge = max(edge, vec3((hidden & 1u) != 0u, (hidden & 2u) != 0u, (hidden & 4u) != 0u));
+  chosen = int(grain) == picked ? 1. : 0.;
+  albedo = texelFetch(ramp, ivec2(int(clamp(p.w, 0., 1.) * 255. + .5), 0), 0).rgb;
+  if (chosen > .5) albedo = vec3(.25, .9, .95);
+  // faces are flat: their light is found here once, but for the shadow
+  float rim = max(dot(n, normalize(eye - place)), 0.);
+  float edgewise = mix(.8, 1., smoothstep(0., .5, rim));
+  facing = n;
+  direct = albedo * edgewise * max(dot(n, sun), 0.) * sunColour;
+  indirect = albedo * (edgewise * ambient(n) + .08 * rim);
+  inShadow = shadowPlace(place + n * scale * .02);
+  gl_Position = camera * vec4(place, 1.);
+}`;
+
+const grainFragment = `
+in vec3 place, edge;
+flat in vec3 albedo, direct, indirect, facing;
+in vec3 inShadow;
+flat in float chosen;
+out vec4 colour;
+` + lightText + `
+uniform vec4 cut;
+float edgeShare() {
+  vec3 width = fwidth(edge), near = edge / max(width, 1e-4);
+  float share = 1. - smoothstep(.3 + chosen, 1.5 + chosen, min(near.x, min(near.y, near.z)));
+  // none where a face is a few pixels only
+  return share * clamp(.55 / max(max(width.x, width.y), width.z) - 1.2, 0., 1.);
+}
+void main() {
+#ifdef CUT
+  if (dot(cut.xyz, place) > cut.w) discard;
+  if (!gl_FrontFacing) {
+    // the back of a convex grain, seen through the cut, is its cut face
+    vec3 d = place - eye, p = eye + d * ((cut.w - dot(cut.xyz, eye)) / dot(cut.xyz, d));
+    float sunlit = lit(shadowPlace(p + cut.xyz * .004)) * max(dot(cut.xyz, sun), 0.);
+    colour = finished(albedo * (ambient(cut.xyz) + sunlit * sunColour), 1.);
+    return;
+  }
+#endif
+#ifdef GHOST
+  float rim = 1. - abs(dot(facing, normalize(eye - place)));
+  float alpha = .03 + .2 * rim * rim + .12 * edgeShare() + .3 * chosen;
+  colour = finished(mix(albedo, around, .4), alpha);
+#else
+  vec3 c = indirect + direct * lit(inShadow);
+  colour = finished(mix(c, c * .5, edgeShare() * .7), 1.);
+#endif
+}`;
+
+// The number of the grain as a colour: which grains can be seen at all.
+const numberVertex = poseText + `
+layout(location = 0) in vec3 corner;
+layout(location = 1) in uint grain;
+uniform mat4 camera;
+uniform float scale;
+flat out uint number;
+out vec3 place;
+void main() {
+  vec4 p, q;
+  pose(grain, p, q);
+  place = p.xyz + turn(q, corner * scale);
+  number = grain + 1u;
+  gl_Position = camera * vec4(place, 1.);
+}`;
+const numberFragment = `
+flat in uint number;
+in vec3 place;
+uniform vec4 cut;
+out vec4 colour;
+void main() {
+#ifdef CUT
+  if (dot(cut.xyz, place) > cut.w) discard;
+#endif
+  colour = vec4(float(number & 255u), float(number >> 8 & 255u), 0., 255.) / 255.;
+}`;
+
+// A polygon of a wall with a grid that moves with it, or the ground with its shadow.
+const planeVertex = `
+layout(location = 0) in vec3 corner;
+layout(location = 1) in vec2 onPlane;
+uniform mat4 camera;
+out vec3 place;
+out vec2 grid;
+void main() {
+  place = corner;
+  grid = onPlane;
+  gl_Position = camera * vec4(corner, 1.);
+}`;
+const planeFragment = `
+in vec3 place;
+in vec2 grid;
+out vec4 colour;
+` + lightText + `
+uniform vec4 tint, cut;
+uniform vec3 ground;  // centre and radius: the ground fades there
+uniform float cell, free;
+void main() {
+#ifdef CUT
+  if (ground.z == 0. && dot(cut.xyz, place) > cut.w) discard;
+#endif
+  if (ground.z > 0.) {
+    float sunlit = lit(shadowPlace(place + vec3(0., 0., .002))) * max(sun.z, 0.);
+    float light = (sunlit * sunColour.g + ambient(vec3(0., 0., 1.)).g) / free;
+    float fade = 1. - smoothstep(.3, 1., length(place.xy - ground.xy) / ground.z);
+    colour = finished(tint.rgb * mix(1., light, .8), fade);
+    return;
+  }
+  vec2 width = fwidth(grid) / cell, near = abs(fract(grid / cell - .5) - .5) / max(width, 1e-4);
+  float line = (1. - smoothstep(.2, 1.3, min(near.x, near.y))) *
+      clamp(.4 / max(width.x, width.y) - 1., 0., 1.);
+  colour = finished(tint.rgb, clamp(tint.a * (1. + 1.2 * line), 0., .9));
+}`;
+
+// A rod between two balls of any radii: chains, normals, points, edges, arrows. Negative radii are
+// pixels. Drawn as a rectangle that faces the eye.
+const rodVertex = `
+layout(location = 0) in vec2 side;
+layout(location = 1) in vec4 from;
+layout(location = 2) in vec4 to;
+layout(location = 3) in vec4 tint;
+uniform mat4 camera;
+uniform vec2 pixels;
+uniform float lens;
+flat out vec4 ends;
+flat out vec2 radii;
+flat out vec4 hue;
+void main() {
+  vec4 a = camera * vec4(from.xyz, 1.), b = camera * vec4(to.xyz, 1.);
+  vec2 s = (a.xy / a.w * .5 + .5) * pixels, t = (b.xy / b.w * .5 + .5) * pixels;
+  radii = vec2(from.w < 0. ? -from.w : max(from.w * lens / a.w, .6),
+               to.w < 0. ? -to.w : max(to.w * lens / b.w, .6));
+  float reach = max(radii.x, radii.y) + 1.;
+  vec2 along = length(t - s) > 1e-3 ? normalize(t - s) : vec2(1., 0.);
+  vec2 across = vec2(-along.y, along.x);
+  vec2 at = mix(s - along * reach, t + along * reach, side.x) + across * side.y * reach;
+  ends = vec4(s, t);
+  hue = tint;
+  vec4 middle = side.x < .5 ? a : b;
+  gl_Position = a.w <= 0. || b.w <= 0. ? vec4(2., 2., 2., 1.)
+      : vec4((at / pixels * 2. - 1.) * middle.w, middle.z, middle.w);
+}`;
+const rodFragment = `
+flat in vec4 ends;
+flat in vec2 radii;
+flat in vec4 hue;
+out vec4 colour;
+` + lightText + `
+void main() {
+  vec2 d = ends.zw - ends.xy, p = gl_FragCoord.xy - ends.xy;
+  float t = clamp(dot(p, d) / max(dot(d, d), 1e-6), 0., 1.), radius = mix(radii.x, radii.y, t);
+  float away = length(p - d * t);
+  // thin ones fade at their edge; the edge of thick ones is smoothed by the picture at rest
+  float alpha = radius > 1.5 ? step(away, radius) : clamp(radius - away + .5, 0., 1.);
+  if (alpha <= 0.) discard;
+  // round, lit from where the eye is
+  float height = sqrt(max(0., 1. - away * away / (radius * radius)));
+  colour = finished(hue.rgb * (radius < 1.6 ? 1. : .55 + .45 * height), alpha * hue.a);
+}`;
+
+const wholeVertex = `
+void main() {
+  gl_Position = vec4(float(gl_VertexID & 1) * 4. - 1., float(gl_VertexID >> 1) * 4. - 1., 0., 1.);
+}`;
+const copyFragment = `
+uniform highp sampler2D picture;
+uniform float gain;
+uniform bool encode;
+out vec4 colour;
+void main() {
+  vec3 c = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb * gain;
+  if (encode) {
+    c = mix(12.92 * c, 1.055 * pow(max(c, 0.), vec3(1. / 2.4)) - .055, step(.0031308, c));
+    // a little noise hides the steps of 8 bits
+    c += (fract(52.98 * fract(dot(gl_FragCoord.xy, vec2(.0671, .00584)))) - .5) / 255.;
+  }
+  colour = vec4(c, 1.);
+}`;
+
+const programTexts = { grain: [grainVertex, grainFragment], number: [numberVertex, numberFragment],
+  plane: [planeVertex, planeFragment], rod: [rodVertex, rodFragment],
+  copy: [wholeVertex, copyFragment] };

@@ -1,0 +1,104 @@
+// What grains are coloured by: for each choice the ramp, the words of the legend, and the share of
+// the ramp that a grain gets.
+
+const quantile = (values, share) => {
+  const sorted = Float32Array.from(values).filter((v) => Number.isFinite(v)).sort();
+  return sorted.length ? sorted[Math.floor(share * (sorted.length - 1))] : 0;
+};
+
+class Shades {
+  constructor(data) {
+    this.data = data;
+    const { head } = data, last = data.times.length - 1;
+    // tops of the scales: nearly all grains at nearly all times are below
+    const speeds = [], moves = [], turns = [];
+    for (let f = 0; f <= last; f += Math.max(1, Math.floor(last / 20)))
+      for (let g = 0; g < head.grains; ++g) {
+        speeds.push(this.speed(g, f));
+        moves.push(this.moved(g, f));
+        turns.push(this.turnedBy(g, f));
+      }
+    const smallest = Math.min(...data.size), largest = Math.max(...data.size);
+    const top = (values) => quantile(values, 0.999) || 1;
+    const root = { share: (v, most) => Math.sqrt(v / most), ramp: "heat" };
+    const even = { share: (v, most) => v / most, ramp: "heat" };
+    this.choices = {
+      speed: { words: "speed", unit: "m/s", factor: 1, top: top(speeds), ...root,
+        value: (g, f, n, u) => this.speed(g, f) * (1 - u) + this.speed(g, n) * u },
+      displacement: { words: "displacement since the start", unit: "mm", factor: 1e3,
+        top: top(moves), ...even,
+        value: (g, f, n, u) => this.moved(g, f) * (1 - u) + this.moved(g, n) * u },
+      rotation: { words: "rotation since the start", unit: "\u00b0", factor: 180 / Math.PI,
+        top: top(turns), ...even,
+        value: (g, f, n, u) => this.turnedBy(g, f) * (1 - u) + this.turnedBy(g, n) * u },
+      force: { words: "force carried", unit: "N", factor: 1, top: 1, ...root,
+        value: (g) => this.carried ? this.carried[g] : 0 },
+      size: { words: "size class: diameter of the sphere of equal volume", unit: "mm",
+        factor: 1e3, top: largest, bottom: smallest, ramp: "water",
+        share: (v) => largest > smallest ?
+          (Math.min(4, Math.floor(5 * (v - smallest) / (largest - smallest))) + 0.5) / 5 : 0.5,
+        value: (g) => data.size[g] },
+      none: { words: "", ramp: "stone", top: 1, share: (v) => v, value: (g) => (g * 0.618034) % 1 },
+    };
+    if (!data.contactFrames.length) delete this.choices.force;
+    else this.choices.force.top = this.topForce();
+  }
+
+  speed(g, f) {
+    const v = [0, 1, 2].map((k) => this.data.velocityOf(f, g, k));
+    return norm(v);
+  }
+  moved(g, f) {
+    return Math.hypot(...[0, 1, 2].map((k) =>
+      this.data.positionOf(f, g, k) - this.data.positionOf(0, g, k)));
+  }
+  turnedBy(g, f) {
+    const p = this.data.rotationOf(0, g), q = this.data.rotationOf(f, g);
+    const same = Math.abs(p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]);
+    return same > 0.999999 ? 0 : 2 * Math.acos(Math.min(1, same));
+  }
+
+  // The sum of normal forces on each grain, halved: what is handed through it.
+  forcesIn(frame) {
+    const { a, b, force } = this.data.contact, sum = new Float32Array(this.data.grains);
+    for (let c = frame.begin; c < frame.end; ++c) {
+      sum[a[c]] += 0.5 * force[c];
+      if (b[c] < sum.length) sum[b[c]] += 0.5 * force[c];
+    }
+    return sum;
+  }
+  topForce() {
+    const frames = this.data.contactFrames, all = [];
+    for (let k = 0; k < frames.length; k += Math.max(1, Math.floor(frames.length / 12)))
+      all.push(...this.forcesIn(frames[k]));
+    return quantile(all, 0.995) || 1;
+  }
+
+  // Moves the data to a time, coloured by `name`.
+  apply(name, time) {
+    const choice = this.choices[name], { data } = this;
+    if (name === "force") {
+      const frame = data.contactsAt(time);
+      if (this.carriedAt !== frame.frame) this.carried = this.forcesIn(frame);
+      this.carriedAt = frame.frame;
+    }
+    data.moveTo(time, (g, f, n, u) => choice.share(choice.value(g, f, n, u), choice.top));
+    return ramps[choice.ramp];
+  }
+
+  // The places and words of the legend's ticks: [share, text].
+  ticks(name) {
+    const { top, bottom = 0, factor = 1, share } = this.choices[name], ticks = [];
+    if (name === "none") return ticks;
+    if (name === "size")
+      return [0, 1, 2, 3, 4, 5].map((k) =>
+        [k / 5, shown(factor * (bottom + (top - bottom) * k / 5), 3)]);
+    const step = niceStep(factor * top, name === "speed" || name === "force" ? 8 : 5);
+    let before = -1;
+    for (let v = 0; v <= factor * top * 1.0001; v += step) {
+      const at = share(v / factor, top);
+      if (at - before >= 0.13) ticks.push([before = at, shown(v, 3)]);
+    }
+    return ticks;
+  }
+}

@@ -1,0 +1,52 @@
+#pragma once
+// What a page's replay shows, before it is packed: bodies at some moments, contacts, curves.
+
+#include <string>
+#include <vector>
+
+#include "experiments/record/force_log.hpp"
+#include "experiments/record/pose_frame.hpp"
+#include "problems/mechanics/mechanical_system.hpp"
+
+namespace ballast {
+
+/// A quantity over time, in the unit that the reader sees.
+struct ViewSeries {
+  std::string name;    ///< short, for the page's script: "x"
+  std::string symbol;  ///< for the reader: "f_g"
+  std::string meaning;
+  std::string unit;
+  std::string ink;             ///< colour of the page's style: "blue"
+  std::vector<double> values;  ///< one for each entry of ViewData::series_time
+};
+
+/// One plot: the first series is what the others are drawn over.
+struct ViewPlot {
+  std::string title;
+  std::string over;  ///< name of a series; empty: time
+  std::vector<std::string> series;
+};
+
+/// The error of one answer to the problem of a single frame, contact by contact.
+struct ViewErrors {
+  std::string backend;
+  std::vector<int> iterations;             ///< the budgets, growing
+  std::vector<std::vector<double>> error;  ///< [budget][contact], over the velocity scale
+  std::vector<double> rms;                 ///< [budget], over the velocity scale
+};
+
+struct ViewData {
+  std::string title;
+  MechanicalSystem system;
+  std::vector<PoseFrame> frames;  ///< at least one
+  /// Of each frame, those with a force; empty: none are known.
+  std::vector<std::vector<FrameContact>> contacts;
+  double friction = 0.0;
+  int driven_wall = -1;  ///< moves as the series "x" says, outward [mm]; -1: none
+  std::vector<double> series_time;
+  std::vector<ViewSeries> series;
+  std::vector<ViewPlot> plots;
+  std::vector<ViewErrors> errors;  ///< of the contacts of the one frame
+};
+
+}  // namespace ballast

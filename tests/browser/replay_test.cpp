@@ -1,0 +1,227 @@
+// A run's page in a real browser: what the reader does, and what the page then holds and shows.
+
+#include <cmath>
+#include <set>
+
+#include "experiments/record/force_log.hpp"
+#include "experiments/record/recorder.hpp"
+#include "experiments/run/run.hpp"
+#include "experiments/run_page/report.hpp"
+#include "platform/text.hpp"
+#include "tests/support/browser.hpp"
+
+namespace ballast {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = Browser::Json;
+using Catch::Matchers::Contains;
+
+constexpr const char* is_ready = "window.ballastReplay || window.ballastReplayError";
+
+/// A small box that was driven for 20 ms, with its page and its record.
+struct DrivenBox {
+  DrivenBox() {
+    RunOptions options;
+    options.scene = "vibrated_box_small";
+    options.overrides = {"scene.duration=0.02", "record.pose_rate=500", "record.forces=true",
+                         "drive.f_max_over_weight=30"};
+    options.output = place.path() / "run";
+    run(options);
+    write_report(options.output);
+    folder = options.output;
+    frames = read_poses(folder);
+    steps = read_steps(folder);
+  }
+  fs::path page() const { return folder / "report.html"; }
+
+  const TemporaryFolder place;
+  fs::path folder;
+  std::vector<PoseFrame> frames;
+  std::vector<StepRecord> steps;
+};
+
+/// The picture's pixels that `test` (an expression of r, g, b: 0 to 255) holds of: how many, and
+/// between which columns.
+Json pixels(Browser& browser, const std::string& test) {
+  return browser.js(R"((() => {
+    const { width, height, bytes } = ballastReplay.pixels();
+    let count = 0, first = width, last = -1;
+    for (let k = 0; k < bytes.length; k += 4) {
+      const r = bytes[k], g = bytes[k + 1], b = bytes[k + 2];
+      if (!()" + test +
+                    R"()) continue;
+      const x = (k / 4) % width;
+      ++count;
+      first = Math.min(first, x);
+      last = Math.max(last, x);
+    }
+    return { share: count / (width * height), first, last, width, height };
+  })())");
+}
+
+/// A number that is another for every other picture.
+Json picture(Browser& browser) {
+  return browser.js(
+      "ballastReplay.pixels().bytes.reduce((sum, v, k) => (sum + v * (k % 9973)) % 1e9, 0)");
+}
+
+std::string clicked(const std::string& id) {
+  return "document.getElementById('replay-" + id + "').click()";
+}
+
+std::string chosen(const std::string& id, const std::string& value, const std::string& event) {
+  return "(() => { const e = document.getElementById('replay-" + id + "'); e.value = '" + value +
+         "'; e.dispatchEvent(new Event('" + event + "')); })()";
+}
+
+}  // namespace
+
+TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to that moment") {
+  if (Browser::is_missing()) return;
+  const DrivenBox box;
+  Browser browser(1400, 900);
+  browser.open(box.page(), "play=0", is_ready);
+  REQUIRE(browser.js("window.ballastReplayError || ''") == "");
+  REQUIRE(browser.js("ballastReplay.data.times.length") == box.frames.size());
+  const auto time = [&] { return browser.js("ballastReplay.time").get<double>(); };
+  // the poses that the page unpacks are the record's
+  for (const size_t f : {size_t{0}, box.frames.size() - 1}) {
+    const Json state =
+        browser.js(printed("(ballastReplay.data.moveTo(%.17g, () => 0), "
+                           "Array.from(ballastReplay.data.state.subarray(0, 8 * 60)))",
+                           box.frames[f].time));
+    double place = 0.0, turn = 0.0;
+    for (size_t g = 0; g < 60; ++g) {
+      const Pose& pose = box.frames[f].pose[g];
+      const auto at = [&](size_t k) { return state[8 * g + k].get<double>(); };
+      place = std::max(place, (Vec3(at(0), at(1), at(2)) - pose.position).norm());
+      turn = std::max(turn, Quat(at(4), at(5), at(6), at(7)).angularDistance(pose.rotation));
+    }
+    CHECK(place < 1e-5);
+    CHECK(turn < 2e-4);
+  }
+  const Json before = picture(browser);
+  browser.js(clicked("on"));
+  CHECK(std::abs(time() - box.frames[1].time) < 1e-9);
+  CHECK(picture(browser) != before);
+  browser.js(chosen("time", "0.011", "input"));
+  CHECK(std::abs(time() - 0.011) < 1e-6);
+  browser.js(clicked("back"));
+  CHECK(std::abs(time() - 0.010) < 1e-9);
+  // by the keyboard: the picture has the focus
+  browser.js("document.getElementById('replay-canvas').focus()");
+  browser.js("ballastReplay.rate = 0.01");
+  browser.key(" ", " ");
+  CHECK(browser.js("ballastReplay.playing") == true);
+  browser.wait_for("ballastReplay.time > 0.0103");
+  browser.key(" ", " ");
+  CHECK(browser.js("ballastReplay.playing") == false);
+  browser.key(".", ".");
+  CHECK(std::abs(std::remainder(time(), 0.002)) < 1e-9);
+  // the middle of the first plot is the middle of the run
+  browser.js("document.getElementById('replay-plots').scrollIntoView()");
+  const Json spot = browser.js(
+      "(() => { const b = document.getElementById('replay-plots').getBoundingClientRect(), "
+      "p = ballastReplay.plots.panels[0].box; return [b.left + (p.left + p.right) / 2, "
+      "b.top + (p.top + p.bottom) / 2]; })()");
+  browser.click(spot[0], spot[1]);
+  CHECK(std::abs(time() - 0.01) < 2e-4);
+  CHECK(browser.complaints == std::vector<std::string>{});
+}
+
+TEST_CASE("the driven wall stands where steps.csv says, within a pixel's worth") {
+  if (Browser::is_missing()) return;
+  const DrivenBox box;
+  Browser browser(1000, 700);
+  browser.open(box.page(), "play=0&view=y&grains=hidden", is_ready);
+  std::set<int> columns;
+  for (const size_t k : {size_t{9}, box.steps.size() - 1}) {
+    const StepRecord& step = box.steps[k];
+    browser.js(printed("ballastReplay.setTime(%.17g)", step.time));
+    // blue is the wall alone; seen from the side it is a line between its near and its far edge
+    const Json blue = pixels(browser, "b > r + 60 && b > g + 20");
+    const double x = 0.2 + step.wall_x;
+    const Json edges = browser.js(
+        printed("(() => { const s = ballastReplay.stages[0], d = ballastReplay.data, "
+                "m = ballastReplay.camera.matrix(s.aspect); return [d.low[1], d.high[1]].map("
+                "(y) => s.canvas.width * ballastReplay.projected(m, [%.17g, y, 0.1])[0]).sort("
+                "(a, b) => a - b); })()",
+                x));
+    INFO("step " << k << ": " << blue.dump() << " " << edges.dump());
+    CHECK(std::abs(blue["first"].get<double>() + 0.5 - edges[0].get<double>()) < 2.5);
+    CHECK(std::abs(blue["last"].get<double>() + 0.5 - edges[1].get<double>()) < 2.5);
+    columns.insert(blue["last"].get<int>());
+  }
+  CHECK(columns.size() == 2);  // it has moved by more than that
+}
+
+TEST_CASE("colour, cut, chains and a picked grain change what is seen and said") {
+  if (Browser::is_missing()) return;
+  const DrivenBox box;
+  Browser browser(1400, 900);
+  browser.open(box.page(), "play=0&t=0.02", is_ready);
+  const Json whole = pixels(browser, "Math.max(r, g, b) - Math.min(r, g, b) > 40");
+  CHECK(whole["share"] > 0.05);
+  Json last = picture(browser);
+  for (const char* colour : {"displacement", "rotation", "force", "size", "none"}) {
+    INFO(colour);
+    browser.js(chosen("colour", colour, "change"));
+    CHECK(browser.js("ballastReplay.options.colour") == colour);
+    const Json now = picture(browser);
+    CHECK(now != last);
+    last = now;
+  }
+  browser.js(chosen("colour", "displacement", "change"));
+  browser.js(chosen("cut", "y", "change"));
+  CHECK(pixels(browser, "Math.max(r, g, b) - Math.min(r, g, b) > 40")["share"] != whole["share"]);
+  browser.js(chosen("cut", "", "change"));
+  // every pair of bodies that push on each other is a chain
+  std::set<std::pair<int, int>> pairs;
+  for (const FrameContact& contact : read_record_forces(box.folder / "record.h5").back())
+    pairs.emplace(contact.body_a, contact.body_b);
+  browser.js(clicked("chains"));
+  browser.js(chosen("threshold", "0", "input"));
+  picture(browser);
+  CHECK(browser.js("ballastReplay.marks.shownChains") == pairs.size());
+  CHECK(browser.js("ballastReplay.options.grains") == "ghost");
+  browser.js(chosen("threshold", "2", "input"));
+  picture(browser);
+  CHECK(browser.js("ballastReplay.marks.shownChains") < pairs.size() / 2);
+  browser.js(clicked("chains"));
+  // a click on the grain nearest to the eye
+  browser.js("document.getElementById('replay').scrollIntoView()");
+  const Json spot = browser.js(
+      "(() => { const d = ballastReplay.data, s = ballastReplay.stages[0], e = "
+      "ballastReplay.camera.eye; let best = 0, least = Infinity; for (let g = 0; g < d.grains; "
+      "++g) { const p = d.state.subarray(8 * g, 8 * g + 3), away = Math.hypot(p[0] - e[0], "
+      "p[1] - e[1], p[2] - e[2]); if (away < least) [best, least] = [g, away]; } const at = "
+      "ballastReplay.projected(ballastReplay.camera.matrix(s.aspect), "
+      "d.state.subarray(8 * best, 8 * best + 3)), b = s.canvas.getBoundingClientRect(); return "
+      "[best, b.left + at[0] * b.width, b.top + at[1] * b.height]; })()");
+  browser.click(spot[1], spot[2]);
+  CHECK(browser.js("ballastReplay.options.picked") == spot[0]);
+  picture(browser);
+  const std::string facts = browser.js("document.getElementById('replay-facts').innerText");
+  CHECK_THAT(facts, Contains("grain " + spot[0].dump()) && Contains("mass") &&
+                        Contains("velocity") && Contains("touches"));
+  CHECK(browser.complaints == std::vector<std::string>{});
+}
+
+TEST_CASE("narrow, dark, and without 3D") {
+  if (Browser::is_missing()) return;
+  const DrivenBox box;
+  {
+    Browser browser(375, 800, true);
+    browser.open(box.page(), "play=0", is_ready);
+    CHECK(browser.js("document.scrollingElement.scrollWidth") == 375);
+    CHECK(pixels(browser, "r < 40 && g < 40 && b < 45")["share"] > 0.3);
+    CHECK(browser.complaints == std::vector<std::string>{});
+  }
+  Browser browser(1000, 700, false, {"--disable-3d-apis"});
+  browser.open(box.page(), "", is_ready);
+  CHECK_THAT(browser.js("document.getElementById('replay-sentence').innerText").get<std::string>(),
+             Contains("WebGL 2"));
+}
+
+}  // namespace ballast

@@ -1,0 +1,106 @@
+#include "experiments/view/pack_view.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/sample_run.hpp"
+#include "tests/support/unpacked_history.hpp"
+
+namespace ballast {
+namespace {
+
+/// Three grains in a box, `frames` of which none resembles the next; every contact is made up.
+ViewData sample_view(size_t frames) {
+  ViewData view;
+  view.title = "a </script> in words";
+  view.system = sample_system();
+  view.driven_wall = 6;
+  for (size_t f = 0; f < frames; ++f) {
+    const MotionState state = sample_state(view.system, static_cast<long>(50 * f));
+    view.frames.push_back({state.time, state.step, state.pose, state.velocity, state.spin});
+    view.contacts.push_back({{0, 1, state.pose[0].position.cast<float>(), Eigen::Vector3f::UnitX(),
+                              Eigen::Vector3f(4.0f, 1.0f, 0.0f)},
+                             {0, 3, state.pose[0].position.cast<float>(), Eigen::Vector3f::UnitZ(),
+                              Eigen::Vector3f(0.0f, 0.0f, 1.0f)}});
+  }
+  view.series_time = {0.0, 1.0};
+  view.series = {{"x", "x", "displacement", "mm", "blue", {0.0, 2.5}}};
+  view.plots = {{"x(t)", "", {"x"}}};
+  return view;
+}
+
+const std::string& part(const page::Replay& replay, const std::string& name) {
+  for (const auto& [key, bytes] : replay.parts)
+    if (key == name) return bytes;
+  FAIL("no part " << name);
+  return replay.head;
+}
+
+TEST_CASE("packed poses come back: places to a 2^16th of the box, rotations to 1e-4 rad") {
+  const ViewData view = sample_view(7);
+  const page::Replay replay = pack_view(view);
+  const auto head = nlohmann::json::parse(replay.head);
+  const auto places = unpacked_history<std::uint16_t>(part(replay, "positions"), 9, 2);
+  const auto turns = unpacked_history<std::uint16_t>(part(replay, "rotations"), 9, 1);
+  const auto left_out = unpacked_history<std::uint8_t>(part(replay, "left_out"), 3, 1);
+  const auto speeds = unpacked_history<std::uint8_t>(part(replay, "velocities"), 9, 1);
+  REQUIRE(places.size() == 7 * 9);
+  for (size_t f = 0; f < 7; ++f) {
+    CHECK(head["times"][f] == view.frames[f].time);
+    CHECK(head["steps"][f] == view.frames[f].step);
+    for (size_t g = 0; g < 3; ++g) {
+      const Pose& pose = view.frames[f].pose[g];
+      for (size_t k = 0; k < 3; ++k) {
+        const double low = head["low"][k], span = head["span"][k];
+        const auto place = places[9 * f + 3 * g + k];
+        CHECK(std::abs(low + span * place / 65535.0 - pose.position[static_cast<long>(k)]) <=
+              0.501 * span / 65535.0);
+        const double root = (speeds[9 * f + 3 * g + k] - 128) / 127.0;
+        CHECK(std::abs(root * std::abs(root) * double(head["fastest"]) -
+                       view.frames[f].velocity[g][static_cast<long>(k)]) <
+              0.008 * double(head["fastest"]));
+      }
+      CHECK(unpacked_rotation(turns.data() + 9 * f + 3 * g, left_out[3 * f + g])
+                .angularDistance(pose.rotation) < 1e-4);
+    }
+  }
+}
+
+TEST_CASE("shapes, walls, contacts and curves are in the head or in a part of its size") {
+  const ViewData view = sample_view(2);
+  const page::Replay replay = pack_view(view);
+  const auto head = nlohmann::json::parse(replay.head);
+  CHECK((head["grains"] == 3 && head["shapes"] == 2 && head["walls"].size() == 6));
+  CHECK(head["shape_of"] == nlohmann::json({0, 1, 1}));
+  CHECK((head["walls"][3]["name"] == "x_max" && head["walls"][3]["driven"] == true));
+  CHECK(head["walls"][2]["driven"] == false);
+  size_t vertices = 0;
+  for (const auto& shape : view.system.shapes) vertices += shape->vertices().size();
+  CHECK(part(replay, "vertices").size() == 2 * 3 * vertices);
+  CHECK(part(replay, "walls").size() == 4 * 6 * 2 * 6);
+  CHECK(part(replay, "series").size() == 4 * 2 * 2);
+  CHECK(part(replay, "grains").size() == 4 * 2 * 3);
+  // a is a grain: the second contact is turned round. It is a quarter as strong: half the root
+  CHECK(head["contact_counts"] == nlohmann::json({2, 2}));
+  CHECK(head["largest_force"] == 4.0);
+  CHECK(part(replay, "contact_bodies").substr(0, 8) == std::string("\0\0\0\0\1\3\1\3", 8));
+  const std::string& forces = part(replay, "contact_forces");
+  CHECK(static_cast<unsigned char>(forces[0]) + 256 * forces[4] == 4095);
+  CHECK(static_cast<unsigned char>(forces[1]) + 256 * forces[5] == 2048);
+}
+
+TEST_CASE("what would be too much is thinned out, its ends kept") {
+  CHECK(thinned(7, 2) == std::vector<size_t>{0, 2, 4, 6});
+  CHECK(thinned(8, 4) == std::vector<size_t>{0, 4, 7});
+  CHECK(thinned(1, 8) == std::vector<size_t>{0});
+  const ViewData view = sample_view(400);
+  const auto all = nlohmann::json::parse(pack_view(view).head);
+  const auto few = nlohmann::json::parse(pack_view(view, 12000).head);
+  CHECK((all["times"].size() == 400 && all["contact_frames"].size() == 400));
+  CHECK((few["times"].size() < 300 && few["times"].size() > 10));
+  CHECK(few["times"].back() == view.frames.back().time);
+  CHECK(few["contact_frames"].size() <= few["times"].size());
+  CHECK_THROWS_AS(pack_view(ViewData{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ballast

@@ -1,0 +1,32 @@
+#include "platform/deflate.hpp"
+
+#include "platform/error.hpp"
+#include "platform/random.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+TEST_CASE("what was packed comes back, at every level") {
+  std::string noise;
+  Random random(5);
+  for (int k = 0; k < 5000; ++k) noise += static_cast<char>(random.uniform(0.0, 255.99));
+  for (const std::string& bytes :
+       {std::string(), std::string("a"), std::string(1 << 20, 'z'), noise})
+    for (const int level : {1, 6, 9}) CHECK(inflated(deflated(bytes, level)) == bytes);
+  CHECK(deflated(std::string(1 << 20, 'z')).size() < 2000);
+}
+
+TEST_CASE("damaged or endless bytes are refused") {
+  const std::string packed = deflated(std::string(100000, 'q'));
+  CHECK_THROWS_AS(inflated(packed.substr(0, packed.size() - 5)), Error);
+  CHECK_THROWS_AS(inflated("no zlib stream"), Error);
+  CHECK_THROWS_AS(inflated(packed, 1000), Error);
+  std::string damaged = packed;
+  damaged.back() ^= 1;
+  CHECK_THROWS_AS(inflated(damaged), Error);
+}
+
+TEST_CASE("the check sum of PNG files") {
+  CHECK(crc32_of("123456789") == 0xcbf43926u);  // the known value of this polynomial
+  CHECK(crc32_of("IEND") == 0xae426082u);       // as at the end of every PNG
+}

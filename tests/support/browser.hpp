@@ -1,0 +1,186 @@
+#pragma once
+// A browser without a window for tests of pages: Debian's chromium, told what to do in the DevTools
+// protocol over two pipes (its --remote-debugging-pipe: JSON messages that end in a zero byte). No
+// driver, no port. It has no network.
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "platform/child_process.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace ballast {
+
+class Browser {
+ public:
+  using Json = nlohmann::json;
+  static constexpr const char* program = "/usr/bin/chromium";
+
+  /// Without it the tests are skipped: they say so by these words, which ctest knows.
+  static bool is_missing() {
+    if (std::filesystem::exists(program)) return false;
+    WARN("skipped: " << program << " is not installed (apt-packages-browser.txt)");
+    return true;
+  }
+
+  explicit Browser(int width, int height, bool is_dark = false,
+                   std::vector<std::string> switches = {}) {
+    start(std::move(switches));
+    const Json page = call("Target.createTarget", {{"url", "about:blank"}});
+    session_ = call("Target.attachToTarget", {{"targetId", page.at("targetId")}, {"flatten", true}})
+                   .at("sessionId");
+    for (const char* domain : {"Page", "Runtime", "Log", "Network"})
+      call(std::string(domain) + ".enable");
+    call("Network.emulateNetworkConditions",
+         {{"offline", true}, {"latency", 0}, {"downloadThroughput", 0}, {"uploadThroughput", 0}});
+    call("Emulation.setDeviceMetricsOverride",
+         {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+    call("Emulation.setEmulatedMedia",
+         {{"features",
+           {{{"name", "prefers-color-scheme"}, {"value", is_dark ? "dark" : "light"}}}}});
+  }
+  ~Browser() {
+    for (const int end : {write_, read_}) close(end);
+  }
+  Browser(const Browser&) = delete;
+  Browser& operator=(const Browser&) = delete;
+
+  /// Opens a page from disk, `state` behind its "#", and waits until `is_ready` holds there.
+  void open(const std::filesystem::path& page, const std::string& state,
+            const std::string& is_ready) {
+    call("Page.navigate", {{"url", "about:blank"}});
+    call("Page.navigate", {{"url", "file://" + page.string() + "#" + state}});
+    wait_for(is_ready);
+  }
+
+  /// The value of an expression; of a promise what it is kept with.
+  Json js(const std::string& expression) {
+    const Json result =
+        call("Runtime.evaluate",
+             {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
+    if (result.contains("exceptionDetails"))
+      throw std::runtime_error(expression + ": " + result.at("exceptionDetails").dump());
+    return result.at("result").value("value", Json());
+  }
+
+  void wait_for(const std::string& expression) {
+    for (int k = 0; k < 600; ++k) {
+      if (js("!!(" + expression + ")") == true) return;
+      usleep(50000);
+    }
+    throw std::runtime_error("never true: " + expression);
+  }
+
+  /// In the page's pixels, from the window's left upper corner.
+  void click(double x, double y) {
+    for (const char* type : {"mousePressed", "mouseReleased"})
+      call("Input.dispatchMouseEvent",
+           {{"type", type}, {"x", x}, {"y", y}, {"button", "left"}, {"clickCount", 1}});
+  }
+  void key(const std::string& name, const std::string& text = {}) {
+    for (const char* type : {"keyDown", "keyUp"})
+      call("Input.dispatchKeyEvent", {{"type", type}, {"key", name}, {"text", text}});
+  }
+
+  /// What pages wrote to the console as errors or warnings, exceptions, failed requests.
+  std::vector<std::string> complaints;
+
+ private:
+  void start(std::vector<std::string> switches) {
+    std::array<int, 2> to{}, from{};
+    if (pipe2(to.data(), O_CLOEXEC) != 0 || pipe2(from.data(), O_CLOEXEC) != 0)
+      throw std::runtime_error("no pipe");
+    std::vector<std::string> words{program,
+                                   "--headless=new",
+                                   "--no-sandbox",
+                                   "--remote-debugging-pipe",
+                                   "--use-angle=swiftshader",
+                                   "--enable-unsafe-swiftshader",
+                                   "--ignore-gpu-blocklist",
+                                   "--hide-scrollbars",
+                                   "--disable-background-networking",
+                                   "--user-data-dir=" + profile_.path().string()};
+    words.insert(words.end(), switches.begin(), switches.end());
+    child_.emplace([&] {
+      // the browser reads from 3 and writes to 4, wherever the pipes are now
+      const int in = fcntl(to[0], F_DUPFD, 10), out = fcntl(from[1], F_DUPFD, 10);
+      dup2(in, 3);
+      dup2(out, 4);
+      const int nowhere = ::open("/dev/null", O_RDWR);
+      for (const int stream : {0, 1, 2}) dup2(nowhere, stream);
+      std::vector<char*> arguments;
+      for (std::string& word : words) arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      execv(program, arguments.data());
+    });
+    close(to[0]);
+    close(from[1]);
+    write_ = to[1];
+    read_ = from[0];
+  }
+
+  Json call(const std::string& method, const Json& parameters = Json::object()) {
+    Json message{{"id", ++count_}, {"method", method}, {"params", parameters}};
+    if (!session_.empty()) message["sessionId"] = session_;
+    std::string text = message.dump();
+    text += '\0';
+    for (size_t sent = 0; sent < text.size();) {
+      const ssize_t now = write(write_, text.data() + sent, text.size() - sent);
+      if (now <= 0) throw std::runtime_error(method + ": the browser is gone");
+      sent += static_cast<size_t>(now);
+    }
+    for (;;) {
+      const Json answer = Json::parse(next_message(method));
+      if (answer.value("id", 0) == count_) {
+        if (answer.contains("error"))
+          throw std::runtime_error(method + ": " + answer.at("error").dump());
+        return answer.at("result");
+      }
+      note(answer);
+    }
+  }
+
+  std::string next_message(const std::string& method) {
+    for (;;) {
+      const size_t end = received_.find('\0');
+      if (end != std::string::npos) {
+        const std::string message = received_.substr(0, end);
+        received_.erase(0, end + 1);
+        return message;
+      }
+      pollfd ready{read_, POLLIN, 0};
+      std::array<char, 65536> bytes{};
+      if (poll(&ready, 1, 60000) <= 0) throw std::runtime_error(method + ": no answer");
+      const ssize_t got = read(read_, bytes.data(), bytes.size());
+      if (got <= 0) throw std::runtime_error(method + ": the browser has ended");
+      received_.append(bytes.data(), static_cast<size_t>(got));
+    }
+  }
+
+  void note(const Json& event) {
+    const std::string method = event.value("method", "");
+    const bool is_bad =
+        method == "Runtime.exceptionThrown" || method == "Network.loadingFailed" ||
+        (method == "Runtime.consoleAPICalled" && event["params"]["type"] != "log") ||
+        (method == "Log.entryAdded" && event["params"]["entry"]["level"] == "error");
+    if (is_bad) complaints.push_back(event.at("params").dump().substr(0, 500));
+  }
+
+  const TemporaryFolder profile_;
+  std::optional<ChildProcess> child_;
+  int write_ = -1, read_ = -1, count_ = 0;
+  std::string session_, received_;
+};
+
+}  // namespace ballast
