@@ -60,6 +60,7 @@ size_t file_length(const unsigned char* bytes) {
   constexpr size_t end_of_file = 28;
   if (!bytes || std::memcmp(bytes, beginning, sizeof beginning) != 0) return 0;
   size_t length = 0;
+  // Little-endian: from the last byte down.
   for (size_t k = 8; k-- > 0;) length = length << 8 | bytes[end_of_file + k];
   return length;
 }

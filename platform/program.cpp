@@ -105,6 +105,7 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
   Pipe output, errors, failure;  // failure: why the program could not be started
   const Call call(program, arguments, plain_environment());
   const Stopwatch watch;
+  // Where exec succeeds it closes the third pipe itself; where it fails that brings back why.
   ChildProcess child([&] {
     const int error = call.execute(output.write_end(), errors.write_end());
     _exit(write(failure.write_end(), &error, sizeof error) == sizeof error ? 127 : 1);

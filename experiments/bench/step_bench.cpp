@@ -94,6 +94,7 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
                                            int threads) {
   std::vector<const BenchStep*> all, active, passive, jammed;
   double fastest = 0.0;
+  // As the wall's cycles have it: what is slow beside the fastest of these steps is jammed.
   for (const BenchStep& step : steps) fastest = std::max(fastest, std::abs(step.record.wall_v));
   for (const BenchStep& step : steps) {
     all.push_back(&step);
@@ -120,6 +121,7 @@ Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
   figure.title = "Where the time of a step goes";
   figure.height = 620;
   figure.panels.resize(2);
+  // Windows of equal length, each a point of the figure: the median of its steps.
   const size_t length =
       std::max<size_t>(1, steps.size() / static_cast<size_t>(std::max(1, windows)));
   const auto medians = [&](const auto& value) {

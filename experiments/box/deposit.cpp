@@ -52,6 +52,10 @@ class Depositor {
   bool run() {
     // Every stage goes on from the state that the one before has left. A deposit that was
     // stopped goes on within its stage.
+    //
+    //     rain -- at rest --> press -- lid_time --> settle -- settle_time --> packing
+    //
+    // Without a pressure of the lid there is no press.
     if (!continue_part()) start();
     if (stage_ == BoxStage::rain && !rain_to_rest()) return false;
     if (stage_ == BoxStage::press && !press()) return false;

@@ -155,12 +155,14 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
   return system;
 }
 
+/// Root of the grains' mean |v|^2 [m/s].
 double grain_rms_velocity(const MechanicalSystem& system, const MotionState& state) {
   double sum = 0.0;
   for (int b = 0; b < system.grain_count; ++b) sum += state.velocity[b].squaredNorm();
   return std::sqrt(sum / system.grain_count);
 }
 
+/// Height of the highest vertex of any grain [m].
 double packing_top(const MechanicalSystem& system, const MotionState& state) {
   double top = 0.0;
   for (int b = 0; b < system.grain_count; ++b)
@@ -196,6 +198,7 @@ std::string packing_key(const Scene& scene) {
   return content_key(text.str());
 }
 
+/// The box less its margins; the one on top is measured from the packing's own height.
 ControlVolume box_control_volume(const Scene& scene, double top) {
   const ControlVolumeSpec& margin = scene.control_volume;
   return {Vec3(margin.margin_x, margin.margin_y, margin.margin_floor),

@@ -126,6 +126,7 @@ EngineBox engine_box(const MechanicalSystem& system, const MotionState& state,
 void write_engine_grain(AtomicFile& file, const RigidBody& body, const Pose& pose,
                         const Vec3& centre) {
   const Polyhedron& shape = *body.shape.polyhedron;
+  // A polygon of n corners is a fan of n - 2 triangles.
   size_t triangles = 0;
   for (int f = 0; f < shape.face_count(); ++f) triangles += shape.face(f).size() - 2;
   file.print("%d %zu %.17g %.17g", shape.vertex_count(), triangles, shape.circumradius(),

@@ -45,6 +45,7 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
   Compaction compaction;
   compaction.initial = initial;
   compaction.last = steps.back().solid_fraction;
+  // The reference is the solid fraction where the paper's window begins.
   for (const StepRecord& row : steps)
     if (row.time >= paper_window.begin - 0.25 * step) {
       compaction.reference = row.solid_fraction;

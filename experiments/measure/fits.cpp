@@ -114,6 +114,7 @@ Proportion fit_proportion(std::span<const double> x, std::span<const double> y) 
 double PeakedRate::at(double frequency) const { return gain * peaked_shape(frequency, critical); }
 
 PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate) {
+  // Eq. 5: the rate is D nu up to nu_c and D nu_c^2 / nu beyond, D the gain of a period.
   std::vector<double> x, y;
   for (size_t k = 0; k < std::min(frequency.size(), rate.size()); ++k)
     if (std::isfinite(rate[k]) && frequency[k] > 0.0) {

@@ -47,6 +47,7 @@ Observation observe(std::span<const StepRecord> steps, const RunFacts& facts, do
   seen.periods = static_cast<int>(summary.wall.periods.size());
   seen.rise = summary.rise.mean;
   seen.speed_in = summary.speed_in.mean;
+  // Outwards is positive, and the packing contracts inwards: the sign is turned.
   seen.net = -summary.net.mean;
   seen.gain = summary.compaction.gain;
   seen.dissipated = summary.dissipated.mean;

@@ -41,6 +41,7 @@ std::vector<const StepColumn*> match_header(const CsvReader& header,
 void note_non_finite(const std::vector<StepRecord>& steps, std::vector<std::string>& notices) {
   for (const StepColumn& column : step_columns()) {
     size_t count = 0, first = 0;
+    // From the end, so that `first` becomes the first such row.
     for (size_t k = steps.size(); k-- > 0;)
       if (!std::isfinite(steps[k].*column.value)) {
         ++count;

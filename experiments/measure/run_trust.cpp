@@ -80,6 +80,7 @@ RunTrust trust_of(const RunData& data) {
       trust.deepest = step.penetration_max;
       trust.deepest_time = step.time;
     }
+    // What the energy gained is compared with: all works, and the largest kinetic energy.
     works += std::abs(step.work_load + step.work_gravity + step.work_prescribed);
     kinetic = std::fmax(kinetic, step.kinetic_energy);
   }

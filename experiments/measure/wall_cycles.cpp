@@ -142,6 +142,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   const double duration_of_period = 1.0 / frequency;
   // Per step the force is noise of the solver and of single impacts: both curves are smoothed.
   WallCycles cycles;
+  // No wider than a twentieth of a period: the stroke itself must not be smoothed away.
   cycles.smoothing = std::min(settings.smoothing, duration_of_period / 20.0);
   const int width = static_cast<int>(std::lround(cycles.smoothing / h));
   cycles.smoothing_samples = static_cast<size_t>(width);

@@ -60,6 +60,7 @@ class Histogram {
   /// Decay of the tail: P ~ exp(-beta f/<f>) from the mean to six means.
   double beta() const {
     std::vector<double> x, y;
+    // Bins 4 to 23 reach from the mean force to six of them; nearly empty ones say nothing.
     for (size_t k = 4; k < 24; ++k) {
       if (counts_[k] <= 4.0) continue;
       x.push_back(middle(k));

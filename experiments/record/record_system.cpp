@@ -31,6 +31,7 @@ std::vector<std::shared_ptr<const Polyhedron>> read_shapes(const Hdf5Reader& fil
   const auto refuse = [&] {
     throw Error(path.string() + ": the datasets of /shapes do not fit together");
   };
+  // Where each shape begins: from zero, ascending, to the end of entries that come three by three.
   const auto divides = [](const std::vector<int>& begin, size_t entries) {
     return !begin.empty() && begin.front() == 0 && std::is_sorted(begin.begin(), begin.end()) &&
            3 * static_cast<size_t>(begin.back()) == entries;

@@ -93,6 +93,7 @@ bool RunFolder::is_finished(const std::string& key) const {
 void RunFolder::begin(const std::string& scene_text, const Manifest& manifest,
                       bool overwrite) const {
   create_folder(path_);
+  // A folder counts as new that holds nothing but what a run leaves that died while it began.
   const bool is_new = !has_entries_but(path_, beginnings) &&
                       (!fs::exists(this->manifest()) || is_manifest(this->manifest()));
   if (!is_new && !is_of_a_run())

@@ -55,6 +55,8 @@ double ImpactLaw::lowered_to(const FrictionProblem& problem, int island) const {
   // L_0 and L, and along r_0 + t (r - r_0): L(t) = L_0 - slope t - curvature t^2 / 2.
   double inelastic = 0.0, rebounding = 0.0, slope = 0.0, curvature = 0.0, impulse = 0.0;
   int rows = 0;
+  // With delta = r - r_0 and W symmetric, r_0 . W delta = delta . (u_0 - u_f): that is why the
+  // slope needs delta . u_0 alone, and the curvature delta . (u - u_0).
   for_rows(problem, islands_.contacts(island), [&](int row) {
     const double r0 = inelastic_.r[row], r1 = rebounding_.r[row];
     const double u0 = inelastic_.u[row], u1 = rebounding_.u[row];

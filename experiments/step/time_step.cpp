@@ -15,6 +15,7 @@ namespace {
 double reach_of(const RigidBody& body, const MotionState& state, size_t b, double h, double g) {
   if (body.shape.fixed && body.wall.motion != WallMotion::prescribed) return 0.0;
   const double radius = body.shape.polyhedron ? body.shape.polyhedron->circumradius() : 0.0;
+  // No point of the body is faster than |v| + |w| R; gravity and forces like it add 2 g h at most.
   return h * (state.velocity[b].norm() + state.spin[b].norm() * radius + 2.0 * g * h);
 }
 
@@ -37,6 +38,7 @@ Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
   // it keeps the kinetic energy.
   Vec3 next = spin;
   for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few times
+    // w' = w + h I^-1 ((I w_m) x w_m) with w_m = (w + w') / 2.
     const Vec3 mean = 0.5 * (spin + next);
     const Vec3 update =
         spin + h * inertia.cwiseInverse().cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
@@ -92,6 +94,7 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
     const RigidBody& body = system_.bodies[b];
     Vec3 force = body.force.at(mid_time);
     if (body.is_wall()) force = body.wall.load.at(mid_time) * body.wall.normal;
+    // M (v_free - v) = h f(t_mid) + h M g along the free axes; of a wall the load alone, h f.
     for (int d = 0; d < body.freedom.translations; ++d) {
       const Vec3 axis = body.freedom.axes.col(d);
       force_[first + d] = h * axis.dot(force);
@@ -154,6 +157,8 @@ void TimeStepper::account_energy(double mid_time, StepRecord& record) {
   assembler_.prescribed_part(contacts_, mid_time, prescribed_);
   const double wall_power = impulses_.dot(prescribed_);
   record.dissipated = -(contact_power + wall_power);
+  // T' - T = (v' - v) . M v_mean: the work of each impulse of the step is its product with the mean
+  // of the velocities before and after.
   double kinetic_before = 0.0;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
     const RigidBody& body = system_.bodies[b];
@@ -178,6 +183,7 @@ void TimeStepper::account_energy(double mid_time, StepRecord& record) {
 /// -L of impact_law.hpp where that is positive. Without error L = r . W r / 2 - r . u >= 0.
 double TimeStepper::gained_energy(double end_time) {
   assembler_.prescribed_part(contacts_, end_time, prescribed_);
+  // -L = r . (u + u_f) / 2 = H^T r . (v' + v_free) / 2 + r . (velocity of the walls).
   const double given =
       0.5 * runner_.body_impulse().dot(v_after_ + v_free_) + impulses_.dot(prescribed_);
   return std::max(0.0, given);
@@ -194,6 +200,7 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
     const double depth = std::max(0.0, -contact.gap);
     record.penetration_max = std::max(record.penetration_max, depth);
     if (!memory.impulses[c].isZero(0.0)) overlap += depth;
+    // An impulse over h is the mean force of the step.
     if (driven_wall_ >= 0 && (contact.body_a == driven_wall_ || contact.body_b == driven_wall_))
       record.wall_force += std::abs(memory.impulses[c].dot(contact.normal)) / settings_.h;
   }
@@ -220,6 +227,9 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   const double h = settings_.h;
   const double mid_time = state.time + 0.5 * h, end_time = (state.step + 1) * h;
   resting_.begin(memory);
+  // A step of Moreau and Jean, of which this is the first half:
+  //
+  //     q -- h/2 v --> q_m: contacts are found, impulses r and v' follow -- h/2 v' --> q'
   mid_ = state;
   for (size_t b = 0; b < state.pose.size(); ++b)
     if (!resting_.is_asleep(static_cast<int>(b)))

@@ -43,6 +43,11 @@ ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
 
 ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
                          const CollisionShape::Edge& a, const CollisionShape::Edge& b) {
+  // The closest points of the lines, held within the edges; s is negative where the bodies overlap:
+  //
+  //     ----- x_b -----   b's edge, at_b of its length from the tail
+  //            |          s along d
+  //     ----- x_a -----   a's edge, at_a of its length from the tail
   const Vec3 on_a = a.from + std::clamp(axis.at_a, 0.0, 1.0) * a.along;
   const Vec3 on_b = pair.other[0] * (b.from + std::clamp(axis.at_b, 0.0, 1.0) * b.along);
   ClippedPoint place;

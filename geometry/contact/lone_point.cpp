@@ -11,6 +11,8 @@ bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double al
   const double thickness = clipping_thickness(pair.size());
   const double diameter = 2.0 * pair.bounds[1 - axis.feature.reference()]->circumradius;
   const double slope = axis.clearance / diameter;
+  // At the nearest side of the face, `inside` away, the body is at least slope times inside higher
+  // than its support vertex: what the side cuts is out of reach, and so is every other vertex.
   return axis.inside > thickness && axis.separation + slope * axis.inside > alert + thickness &&
          axis.separation + axis.clearance > alert + thickness;
 }

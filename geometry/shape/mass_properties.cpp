@@ -25,6 +25,7 @@ Mat3 principal_axes(const Mat3& inertia) {
     axes.col(k).cwiseAbs().maxCoeff(&largest);
     if (axes(largest, k) < 0.0) axes.col(k) *= -1.0;
   }
+  // Eigenvectors may come as a reflection: the third is made from the other two.
   axes.col(2) = axes.col(0).cross(axes.col(1));
   return axes;
 }

@@ -96,6 +96,7 @@ SparseRows assemble(const FrictionProblem& problem) {
 
 }  // namespace
 
+/// W_cc as it is stored, not symmetrised; zero where the contact has no row or W no entry.
 Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
   Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
   const int first = problem.row_begin[c], rows = problem.contact_rows(c);

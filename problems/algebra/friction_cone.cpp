@@ -14,6 +14,16 @@ Eigen::Vector3d project_dual_cone(const Eigen::Vector3d& x, double mu) {
 }
 
 Eigen::Matrix3d project_cone_jacobian(const Eigen::Vector3d& x, double mu) {
+  // Of x = (x_N, x_T), by its normal part and the length of its tangential one:
+  //
+  //     x_N
+  //      | K  /        in K_mu, |x_T| <= mu x_N:              P(x) = x
+  //      |   /         between:                               P(x) on the side of K_mu
+  //      |  /          in its polar cone, mu |x_T| <= -x_N:   P(x) = 0
+  //      | /
+  //      |/_____ |x_T|
+  //      |\
+  //      | \          the polar cone's side is at right angles to that of K_mu
   const double t = tangential_norm(x);
   if (mu * t <= -x[0]) return Eigen::Matrix3d::Zero();
   if (t <= mu * x[0]) return Eigen::Matrix3d::Identity();

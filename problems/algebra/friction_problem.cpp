@@ -111,6 +111,7 @@ void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<in
   body_to_contact_velocity(dynamics, row_begin, v, 0, static_cast<int>(row_begin.size()) - 1, u);
 }
 
+/// p = H^T r, contact by contact.
 void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                              const Impulses& r, Eigen::VectorXd& p) {
   p.setZero(dynamics.dof_count());
@@ -124,6 +125,7 @@ void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int
   }
 }
 
+/// q of u = W r + q: the contacts' velocities without any impulse.
 void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q) {
   if (problem.has_dynamics)
     body_to_contact_velocity(problem.dynamics, problem.row_begin, problem.dynamics.v_free, q);

@@ -73,6 +73,7 @@ void Islands::number_bodies(const FrictionProblem& problem) {
     if (island_of_[b] >= 0) bodies_[body_begin_[island_of_[b]] + local_[b]] = b;
 }
 
+/// Contacts by island: counted, summed up and filled in, so that those of each ascend.
 void Islands::list_contacts(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   contact_begin_.assign(count() + 1, 0);
@@ -116,6 +117,7 @@ void Islands::extract(const FrictionProblem& problem, int island, FrictionProble
   gather(problem, island, from.bias, to.bias);
 }
 
+/// The rows of an island's contacts, taken out of those of all; scatter() puts them back.
 void Islands::gather(const FrictionProblem& problem, int island, const Impulses& whole,
                      Impulses& result) const {
   int rows = 0;

@@ -42,6 +42,7 @@ void require_finite(const char* array, const double* x, long size) {
   constexpr std::uint64_t magnitude = 0x7fffffffffffffffull;
   constexpr std::uint64_t largest = std::bit_cast<std::uint64_t>(largest_entry);
   std::uint64_t bad = 0;
+  // As integers, `largest` minus anything larger, infinite or NaN is negative: its top bit is set.
   for (long i = 0; i < size; ++i)
     bad |= (largest - (std::bit_cast<std::uint64_t>(x[i]) & magnitude)) >> 63;
   if (!bad) return;
@@ -81,6 +82,7 @@ void validate_contacts(const FrictionProblem& problem) {
 void validate_mass_block(const DynamicsForm& dynamics, int b) {
   const int dofs = dynamics.body_dofs(b), first = dynamics.mass_begin[b];
   const double* block = dynamics.mass.data() + first;
+  // A Cholesky factor exists exactly where the block is positive definite.
   MassRoot root;
   if (!root.factor(block, dofs))
     fail("dynamics.mass[", first, "] = ", block[0], ": the block of body ", b,
@@ -170,6 +172,7 @@ void validate_diagonal_block(const FrictionProblem& problem, int c) {
       if (std::abs(d(i, j) - d(j, i)) > delassus_asymmetry * std::sqrt(product))
         fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), ": the block of contact ",
              c, " is further from symmetric than its diagonal is large");
+      // A semidefinite block has no negative 2 x 2 minor: w_ij^2 <= w_ii w_jj.
       if (even(i, j) * even(i, j) > product * (1.0 + semidefinite_rounding))
         fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), ": the block of contact ",
              c, " is not positive semidefinite");

@@ -59,6 +59,7 @@ void restore_bodies(const SideReader& side, const GlobalProblem& global, Dynamic
     if (begin[b + 1] <= begin[b] || begin[b + 1] > begin[b] + 6) bad();
   for (std::size_t b = 0; b + 1 < begin.size(); ++b) {
     const int d = begin[b + 1] - begin[b];
+    // M is block diagonal: a body's mass is its diagonal block.
     const Eigen::MatrixXd block =
         Eigen::SparseMatrix<double>(global.m.block(begin[b], begin[b], d, d));
     dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + block.size());

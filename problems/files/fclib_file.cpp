@@ -104,6 +104,7 @@ class MatrixReader {
         file_.fail(group_ + "/p[" + std::to_string(line + 1) +
                    "] = " + std::to_string(p_[line + 1]) + " decreases");
     require_entries(p_[lines]);
+    // A line has the entries from p[line] to before p[line + 1]; i says where in it each stands.
     for (int line = 0; line < lines; ++line)
       for (int k = p_[line]; k < p_[line + 1]; ++k)
         by_rows ? add(entries, line, i_[k], k) : add(entries, i_[k], line, k);
@@ -124,6 +125,7 @@ void require_shape(const Hdf5Reader& file, const std::string& group, const Matri
               std::to_string(columns));
 }
 
+/// Plane problems and equality constraints are other problems than ours.
 void require_unilateral_3d(const Hdf5Reader& file, const std::string& root) {
   const int dimension = file.read_int(root + "/spacedim");
   if (dimension != 3)

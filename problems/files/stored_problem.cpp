@@ -44,6 +44,7 @@ class Grouping {
     const int contacts = static_cast<int>(global.mu.size());
     body_a_.assign(contacts, -1);
     body_b_.assign(contacts, -1);
+    // Column 3 c + k of H is row k of contact c; the unknowns in it say which bodies it touches.
     for (int column = 0; column < global.h.outerSize(); ++column) {
       int &a = body_a_[column / 3], &b = body_b_[column / 3];
       for (SparseColumns::InnerIterator entry(global.h, column); entry; ++entry) {
@@ -67,6 +68,7 @@ class Grouping {
 
 void fill_bodies(const GlobalProblem& global, int size, DynamicsForm& dynamics) {
   const int unknowns = static_cast<int>(global.m.rows());
+  // f = M v_free is an impulse: v_free block by block, with the masses' own factors.
   dynamics.v_free = global.f;
   for (int first = 0; first < unknowns; first += size) {
     const Eigen::MatrixXd block = SparseColumns(global.m.block(first, first, size, size));
@@ -87,6 +89,7 @@ void fill_contacts(const GlobalProblem& global, const Grouping& grouping, Dynami
   dynamics.body_b = grouping.body_b();
   const int size = grouping.size();
   for (std::size_t c = 0; c < global.mu.size(); ++c) {
+    // Three columns of H are one contact; transposed, their rows of a body are its block.
     const Eigen::MatrixXd columns = SparseColumns(global.h.middleCols(3 * c, 3));
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
       if (body < 0) continue;
@@ -138,6 +141,7 @@ FrictionProblem to_friction_problem(LocalProblem local) {
 }
 
 FrictionProblem to_friction_problem(const GlobalProblem& global) {
+  // The first grouping into bodies that M and H allow; where none does, W is formed.
   for (const int size : {6, 3}) {  // rigid bodies, or points
     const Grouping grouping(global, size);
     if (!grouping.fits()) continue;
@@ -183,6 +187,7 @@ GlobalProblem to_global_problem(const FrictionProblem& problem) {
   const std::vector<int> rows = file_rows(problem);
   const SparseRows h = sparse_h(problem);
   std::vector<Eigen::Triplet<double>> entries;
+  // The file's H is ours transposed. Tangents that a one-row contact has not are empty columns.
   for (int row = 0; row < problem.row_count(); ++row)
     for (SparseRows::InnerIterator entry(h, row); entry; ++entry)
       entries.emplace_back(static_cast<int>(entry.col()), rows[row], entry.value());

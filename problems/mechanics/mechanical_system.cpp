@@ -29,6 +29,7 @@ int MechanicalSystem::first_driven_wall() const {
   return -1;
 }
 
+/// A wall has one coefficient for all its contacts; between bodies there is the scene's.
 double MechanicalSystem::pair_friction(int a, int b) const {
   if (bodies[a].is_wall()) return bodies[a].wall_friction;
   if (bodies[b].is_wall()) return bodies[b].wall_friction;

@@ -30,6 +30,7 @@ class Adapter final : public Ipopt::TNLP {
                     IndexStyleEnum& style) override {
     n = program_.variables();
     m = program_.constraints();
+    // Ipopt asks for the patterns once: they may not depend on x.
     program_.jacobian(start_, jacobian_);
     program_.hessian(start_, 1.0, VectorXd::Ones(m), hessian_);
     jacobian_entries = static_cast<Index>(jacobian_.value.size());
@@ -111,6 +112,7 @@ void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings) {
   options.SetStringValue("linear_solver", "mumps");
   options.SetStringValue("nlp_scaling_method", "none");  // the program is scaled already
   options.SetNumericValue("bound_relax_factor", 0.0);    // the cone is the cone
+  // No "acceptable" level: a round ends where the program is solved, or at a limit.
   options.SetNumericValue("tol", settings.tolerance);
   options.SetNumericValue("constr_viol_tol", 1e-10);
   options.SetNumericValue("compl_inf_tol", settings.tolerance);

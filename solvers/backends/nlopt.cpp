@@ -94,6 +94,7 @@ class Nlopt final : public Solver {
     }
     answer.x = std::move(x);
     if (row.empty()) return;
+    // The program of the contacts that are left, and what NLopt makes of it.
     program.w = chosen(row);
     program.q = request.q(row);
     VectorXd y = answer.x(row);

@@ -101,6 +101,7 @@ class PyramidLemke final : public Solver {
     //     [ mu        -1 .. -1     0 ]   lambda       mu r_N - sum beta_j
     for (int k = 0; k < contacts; ++k) {
       const int at = begin_[k], size = begin_[k + 1] - at;
+      // E^T q in the rows of r_N and beta; lambda's row has none.
       q_.segment(at, size) =
           e[k].transpose() * moving_.q.segment(moving_.row_begin[k], moving_.rows(k));
       for (int l = 0; l < contacts; ++l)

@@ -177,6 +177,7 @@ class Siconos final : public Solver {
     if (budget.fclib) return budget.fclib->tolerance();
     const double contacts = std::max(1.0, static_cast<double>(blocks_.contacts()));
     const double q = blocks_.q().norm();
+    // Ours is rms over contacts: times the root of their number it is a norm like Siconos'.
     return budget.tolerance * std::sqrt(contacts) / (q > 0.0 ? q : 1.0);
   }
 

@@ -35,6 +35,7 @@ BALLAST_INLINE void relax(const OneRowRecord& k, double& r, BodyVelocity* veloci
   double* va = velocity[k.body[0]].w;
   double* vb = velocity[k.body[1]].w;
   const Vector8 wa = load8(va), wb = load8(vb);
+  // Both sides' products stand in eight lanes: halves are added, and then the four that are left.
   const Vector4 p = halves(load_row(k.rows[0]) * wa + load_row(k.rows[1]) * wb);
   const double candidate = r - ((p[0] + p[1]) + (p[2] + p[3]) + k.bias) * k.inverse_normal;
   const double y = candidate <= 0.0 ? 0.0 : candidate;

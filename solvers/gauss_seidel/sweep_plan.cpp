@@ -70,6 +70,12 @@ int SweepPlan::breadth_first(int root, int level) {
 /// Slabs of about equally many contacts, cut anywhere in the breadth-first order, but three levels
 /// thick where there are more than two: then the interfaces on a slab's two sides share no body.
 void SweepPlan::cut_slabs(const DynamicsForm& dynamics) {
+  // Levels of the search, cut into slabs; interiors are contacts within a slab, and
+  // interface k joins slabs k and k + 1:
+  //
+  //     levels   0 1 2 | 3 4 5 | 6 7 8
+  //     slabs      0       1       2
+  //     interfaces     0       1
   const int bodies = dynamics.body_count();
   const int wanted = std::max(1, bodies / slab_bodies);
   slab_.assign(bodies, 0);

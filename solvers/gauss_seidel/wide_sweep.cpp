@@ -71,6 +71,7 @@ void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
 
 template <typename Number, typename Kernels>
 void WideSweep::sweep_in(State<Number>& state, const Kernels& kernels) {
+  // Of each part first the contacts with friction, then those of one row, then the driven walls'.
   for_parts([&](const Part& part) {
     const auto sweep = [&state](auto& kind, const auto& loops, Range range) {
       loops.sweep(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
@@ -115,6 +116,7 @@ double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, SearchS
     sweep_part(interiors_[slab]);
   });
   team_.run(static_cast<int>(interfaces_.size()), [&](int k) { sweep_part(interfaces_[k]); });
+  // Added up in the order of the parts: the same bits whatever the number of threads.
   double square = 0.0;
   for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
     for (const Part& part : *parts) square += part.change_square;

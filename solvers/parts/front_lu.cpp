@@ -159,6 +159,9 @@ bool FrontLu::factor(const SparseColumns& a) {
       largest = std::max(largest, std::abs(a.valuePtr()[e]));
     largest_[tree_.place[j]] = largest;
   }
+  // A front's boundary is made above those of its children, and then moved down over them:
+  //
+  //     | .. | child 1 | child 2 | own |    ->    | .. | own |
   std::int64_t top = 0;  // of the stack of boundaries
   for (int f = 0; f < static_cast<int>(tree_.fronts.size()); ++f) {
     const Front& front = tree_.fronts[f];

@@ -22,6 +22,7 @@ NewtonIterate RegularNewton::iterate(const Impulses& r) const {
 }
 
 double RegularNewton::settle(NewtonIterate& at) const {
+  // A Newton step may leave the cones; what is judged lies in them.
   contacts_.project(at.r);
   contacts_.body_velocity(at.r, at.x);
   return contacts_.error(at.r, at.x);
@@ -43,6 +44,7 @@ Eigen::Vector3d RegularNewton::velocity(const NewtonIterate& at, int c) const {
 double RegularNewton::residual(const NewtonIterate& at) const {
   double sum = 0.0;
   int counted = 0;
+  // The judge's measure with u~ in place of u.
   for (int c = 0; c < contacts_.contact_count(); ++c) {
     const UnitMassContacts::Contact& k = contacts_[c];
     if (!(k.lambda_max > 0.0)) continue;
@@ -64,6 +66,7 @@ int RegularNewton::linearise(const NewtonIterate& at) {
                          velocity(at, c));
     else  // nothing moves: no impulse
       law.source = -at.r.col(c);
+    // A step is exact for the statuses that it was made for; where many change it means little.
     changed += has_status_ && law.status != status_[c];
     status_[c] = law.status;
     source_.col(c) = law.source;

@@ -12,6 +12,7 @@ void SlipShift::reset(const ContactOperator& w, int memory) {
   last_distance_ = std::numeric_limits<double>::infinity();
 }
 
+/// With this s, u + s n lies in K* exactly where u_N >= 0.
 void SlipShift::follow(const ContactOperator& w, const Eigen::VectorXd& u) {
   for (int c = 0; c < w.contact_count(); ++c) s_[c] = w.friction(c) * tangential_norm(w.at(u, c));
 }

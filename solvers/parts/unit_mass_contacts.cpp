@@ -19,6 +19,7 @@ void UnitMassContacts::prepare(const FrictionProblem& problem) {
   for (int b = 0; b < bodies_; ++b) {
     double* x = free_.data() + width * b;
     std::copy_n(d.v_free.data() + d.dof_begin[b], d.body_dofs(b), x);
+    // x = L^T v: the kinetic energy is |x|^2 / 2.
     roots[b].multiply_upper(x);
   }
   // The blocks of every contact.
