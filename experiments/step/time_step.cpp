@@ -36,12 +36,12 @@ StepSettings step_settings(const Scene& scene) {
 Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
   // Implicit mid-point rule for Euler's equations, I dw/dt = (I w) x w, by fixed-point iteration:
   // it keeps the kinetic energy.
+  const Vec3 inverse = inertia.cwiseInverse();
   Vec3 next = spin;
   for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few times
     // w' = w + h I^-1 ((I w_m) x w_m) with w_m = (w + w') / 2.
     const Vec3 mean = 0.5 * (spin + next);
-    const Vec3 update =
-        spin + h * inertia.cwiseInverse().cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
+    const Vec3 update = spin + h * inverse.cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
     const double change = (update - next).norm();
     next = update;
     if (change <= 1e-16 * spin.norm()) break;

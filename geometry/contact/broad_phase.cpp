@@ -81,21 +81,26 @@ void BroadPhase::find_overlaps() {
   }
   int axis = 0;
   (high - low).maxCoeff(&axis);
-  const int second = (axis + 1) % 3, third = (axis + 2) % 3;
   std::sort(order_.begin(), order_.end(), [&](int i, int j) {
     const double a = boxes_[i].low[axis], b = boxes_[j].low[axis];
     return a < b || (a == b && i < j);
   });
+  // Each box against those after it, read in their order.
+  const int directions[] = {axis, (axis + 1) % 3, (axis + 2) % 3};
+  for (int d = 0; d < 3; ++d) {
+    sorted_[d].clear();
+    for (const int i : order_)
+      sorted_[d].push_back({boxes_[i].low[directions[d]], boxes_[i].high[directions[d]]});
+  }
+  const auto overlaps = [](const Interval& p, const Interval& q) {
+    return (q.low <= p.high) & (q.high >= p.low);
+  };
   found_.clear();
   for (size_t k = 0; k < order_.size(); ++k) {
-    const int i = order_[k];
-    const Box& box = boxes_[i];
-    for (size_t l = k + 1; l < order_.size(); ++l) {
-      const int j = order_[l];
-      const Box& other = boxes_[j];
-      if (other.low[axis] > box.high[axis]) break;
-      if (other.low[second] > box.high[second] || other.high[second] < box.low[second]) continue;
-      if (other.low[third] > box.high[third] || other.high[third] < box.low[third]) continue;
+    const Interval along = sorted_[0][k], second = sorted_[1][k], third = sorted_[2][k];
+    for (size_t l = k + 1; l < order_.size() && sorted_[0][l].low <= along.high; ++l) {
+      if (!(overlaps(second, sorted_[1][l]) & overlaps(third, sorted_[2][l]))) continue;
+      const int i = order_[k], j = order_[l];
       if (bodies_[i].fixed && bodies_[j].fixed) continue;
       found_.emplace_back(std::min(i, j), std::max(i, j));
     }

@@ -80,6 +80,10 @@ class BroadPhase {
       allowance_;           // how far a body's surface may get from there, reach included [m]
   std::vector<Box> boxes_;  // grown by the allowance
   std::vector<int> order_;  // polyhedra, by the low end of their boxes
+  struct Interval {
+    double low, high;
+  };
+  std::vector<Interval> sorted_[3];  // of the boxes in that order, along each direction
   std::vector<std::pair<int, int>> found_;
   std::vector<CandidatePair> pairs_, old_pairs_;
   std::vector<int> first_;

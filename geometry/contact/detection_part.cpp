@@ -105,11 +105,11 @@ void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts)
   const Vec3 normal = contact_normal(bodies_.rotations[plane], bodies_.shapes[plane].plane);
   const Vec3& origin = poses[plane].position;
   for (int b = 0; b < bodies_.count(); ++b) {
-    const CollisionShape* body = bodies_.shape(b);
-    if (!body || (bodies_.shapes[plane].fixed && bodies_.shapes[b].fixed)) continue;
     const double alert = reach[plane] + reach[b];
     const double height = normal.dot(poses[b].position - origin);
     if (height > bodies_.bounds[b].circumradius + alert) continue;
+    const CollisionShape* body = bodies_.shape(b);
+    if (!body || (bodies_.shapes[plane].fixed && bodies_.shapes[b].fixed)) continue;
     body->vertices().evaluate(bodies_.rotations[b].transpose() * normal, heights_.data());
     const size_t before = contacts.size();
     for (int v = 0; v < body->vertices().count(); ++v) {

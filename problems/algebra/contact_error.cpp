@@ -5,17 +5,10 @@
 #include <limits>
 
 #include "problems/algebra/delassus.hpp"
-#include "problems/algebra/friction_cone.hpp"
+#include "problems/algebra/judge_block.hpp"
 
 namespace ballast {
 namespace {
-
-/// Rows of one contact as 3-vector, zero-padded: a one-row contact is a frictionless one without
-/// tangential motion.
-Eigen::Vector3d segment(const Eigen::VectorXd& x, int first, int rows) {
-  return rows == 3 ? Eigen::Vector3d(x[first], x[first + 1], x[first + 2])
-                   : Eigen::Vector3d(x[first], 0.0, 0.0);
-}
 
 ContactError not_finite() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -49,31 +42,18 @@ double momentum_residual(const DynamicsForm& dynamics, const Eigen::VectorXd& v,
 
 }  // namespace
 
-// Smith 1961: with B = (W - mean I) / spread, spread^2 = |W - mean I|^2 / 6, the eigenvalues of B
-// are 2 cos(...), the largest 1 + 2 s w where s^2 = (1 + det B / 2) / 2 and w in [1/2, 1/sqrt(3)]
-// is the root of w^2 (3 + 2 s w) = 1. That equation is well conditioned for every s in [0, 1]: from
-// a cubic fit (error 6e-5) two Newton steps reach rounding, without an arc cosine. Where the two
-// largest eigenvalues coincide (s = 0) the determinant's own rounding leaves 1e-8, relative: enough
-// for a scale.
 double largest_eigenvalue(const Eigen::Matrix3d& block) {
-  const double a = block(1, 0), b = block(2, 0), c = block(2, 1);
-  const double off = a * a + b * b + c * c;
-  if (off == 0.0) return block.diagonal().maxCoeff();
-  const double mean = block.trace() * (1.0 / 3.0);
-  const double x = block(0, 0) - mean, y = block(1, 1) - mean, z = block(2, 2) - mean;
-  const double square = (x * x + y * y + z * z + 2.0 * off) * (1.0 / 6.0);
-  const double spread = std::sqrt(square);
-  const double determinant = x * (y * z - c * c) - a * (a * z - c * b) + b * (a * c - y * b);
-  const double s = std::sqrt(std::clamp(0.5 + 0.25 * determinant / (square * spread), 0.0, 1.0));
-  double w = 0.57729 + s * (-0.10927 + s * (0.04318 - 0.01123 * s));
-  for (int step = 0; step < 2; ++step)
-    w -= (w * w * (3.0 + 2.0 * s * w) - 1.0) / (6.0 * w * (1.0 + s * w));
-  return mean + spread * (1.0 + 2.0 * s * w);
+  return largest_eigenvalue(block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1),
+                            block(2, 2));
 }
 
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r) {
-  factor_masses(dynamics, roots_);
+  if (!masses_.are_of(dynamics)) {
+    masses_ = {};  // factor_masses may throw
+    factor_masses(dynamics, roots_);
+    masses_.keep(dynamics);
+  }
   contact_to_body_impulse(dynamics, row_begin, r, hr_);
   v_ = hr_;
   for (int b = 0; b < dynamics.body_count(); ++b) {
@@ -90,44 +70,58 @@ void ContactJudge::recompute_contacts(const FrictionProblem& problem, int begin,
   body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, begin, end, u_);
 }
 
+/// Contacts begin <= c < end as the first places of a block.
+void ContactJudge::lay_out(const FrictionProblem& problem, const Impulses& r, int begin, int end,
+                           JudgeBlock& block) const {
+  for (int c = begin; c < end; ++c) {
+    const int k = c - begin, first = problem.row_begin[c], rows = problem.contact_rows(c);
+    for (int i = 0; i < 3; ++i) {
+      block.r[i][k] = i < rows ? r[first + i] : 0.0;
+      block.u[i][k] = i < rows ? u_[first + i] : 0.0;
+      block.q[i][k] = i < rows ? q_[first + i] : 0.0;
+    }
+    const Eigen::Matrix3d& w = diagonal_[c];
+    block.nn[k] = w(0, 0);
+    block.tn[k] = w(1, 0);
+    block.sn[k] = w(2, 0);
+    block.tt[k] = w(1, 1);
+    block.st[k] = w(2, 1);
+    block.ss[k] = w(2, 2);
+    block.mu[k] = problem.friction[c];
+  }
+}
+
 ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r,
                                                  int begin, int end) const {
+  JudgeBlock block = {};
+  lay_out(problem, r, begin, end, block);
+  measure(block);
   Share share;
   share.min_normal_velocity = std::numeric_limits<double>::infinity();
-  for (int c = begin; c < end; ++c) {
-    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-    const double mu = problem.friction[c];
-    const Eigen::Vector3d rc = segment(r, first, rows), uc = segment(u_, first, rows);
-    const double lambda_max = largest_eigenvalue(diagonal_[c]);
-    const Eigen::Vector3d modified = modified_velocity(uc, mu);
-    const double impulse = rc.norm(), approach = std::max(0.0, -uc[0]);
-    const double outside = (rc - project_cone(rc, mu)).norm(), work = std::abs(rc.dot(modified));
-    double rho = 0.0;
-    if (lambda_max > 0.0) {
-      rho = 1.0 / lambda_max;
-      const double value = scaled_natural_map(rc, uc, mu, lambda_max);
+  for (int k = 0; k < end - begin; ++k) {
+    const double value = block.scaled_map[k], approach = block.approach[k];
+    const double outside = block.lambda[k] * block.outside[k], unbalanced = block.unbalanced[k];
+    if (block.lambda[k] > 0.0) {
       share.scaled_square += value * value;
       ++share.counted;
       if (share.worst_contact < 0 || value > share.worst) {
         share.worst = value;
-        share.worst_contact = c;
+        share.worst_contact = begin + k;
       }
-      share.impulse_scale = std::max(share.impulse_scale, rho * segment(q_, first, rows).norm());
+      share.impulse_scale = std::max(share.impulse_scale, block.needed[k]);
     } else {
       share.immovable_approach = std::max(share.immovable_approach, approach);
     }
     // The parts of the law, each as a velocity.
-    const double against = impulse + rho * modified.norm();
-    const double unbalanced = against > 0.0 ? work / against : 0.0;
     share.approach_square += approach * approach;
-    share.cone_square += (lambda_max * outside) * (lambda_max * outside);
+    share.cone_square += outside * outside;
     share.complementarity_square += unbalanced * unbalanced;
     // The same in the file's units, and Siconos' measure.
-    share.square += natural_map(rc, uc, mu, 1.0).squaredNorm();
-    share.largest_impulse = std::max(share.largest_impulse, impulse);
-    share.cone_violation = std::max(share.cone_violation, outside);
-    share.min_normal_velocity = std::min(share.min_normal_velocity, uc[0]);
-    share.complementarity = std::max(share.complementarity, work);
+    share.square += block.map_square[k];
+    share.largest_impulse = std::max(share.largest_impulse, block.impulse[k]);
+    share.cone_violation = std::max(share.cone_violation, block.outside[k]);
+    share.min_normal_velocity = std::min(share.min_normal_velocity, block.u[0][k]);
+    share.complementarity = std::max(share.complementarity, block.work[k]);
   }
   return share;
 }

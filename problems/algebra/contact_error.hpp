@@ -5,6 +5,8 @@
 #include "platform/worker_team.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/friction_problem.hpp"
+#include "problems/algebra/judge_block.hpp"
+#include "problems/algebra/known_masses.hpp"
 #include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
@@ -89,23 +91,26 @@ class ContactJudge {
     double cone_violation = 0.0, complementarity = 0.0, min_normal_velocity;
   };
   /// Contacts of a share: their blocks stay in the first cache between the passes.
-  static constexpr int share_contacts = 64;
+  static constexpr int share_contacts = JudgeBlock::size;
 
   void recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                                  const Impulses& r);
   void recompute_contacts(const FrictionProblem& problem, int begin, int end);
+  void lay_out(const FrictionProblem& problem, const Impulses& r, int begin, int end,
+               JudgeBlock& block) const;
   Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end) const;
   ContactError gather(int contacts) const;
 
   WorkerTeam* team_ = nullptr;
   Eigen::VectorXd u_, q_, v_, hr_;
+  KnownMasses masses_;  // of which the roots are
   std::vector<MassRoot> roots_;
   std::vector<Eigen::Matrix3d> diagonal_;
   std::vector<Share> shares_;
 };
 
-/// Largest eigenvalue of a symmetric 3 x 3 block (closed form): 1/rho of the scaled natural map.
-/// The one definition.
+/// Largest eigenvalue of a symmetric 3 x 3 block: 1/rho of the scaled natural map
+/// (judge_block.hpp).
 double largest_eigenvalue(const Eigen::Matrix3d& block);
 
 /// Judge once, for tests and tools.

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "problems/algebra/delassus.hpp"
-#include "problems/algebra/friction_problem.hpp"
+#include "problems/algebra/known_masses.hpp"
 #include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
@@ -102,7 +102,7 @@ void validate_mass_block(const DynamicsForm& dynamics, int b) {
     }
 }
 
-void validate_bodies(const DynamicsForm& dynamics) {
+void validate_masses(const DynamicsForm& dynamics) {
   if (dynamics.dof_begin.empty()) fail("dynamics.dof_begin is empty; no bodies means {0}");
   const int bodies = dynamics.body_count();
   require_begin("dynamics.dof_begin", dynamics.dof_begin, bodies, "dynamics.dof_begin");
@@ -120,14 +120,22 @@ void validate_bodies(const DynamicsForm& dynamics) {
                "mass_begin");
   require_finite("dynamics.mass", dynamics.mass.data(), dynamics.mass_begin.back());
   for (int b = 0; b < bodies; ++b) validate_mass_block(dynamics, b);
+}
+
+/// `valid`: masses that are known; may be null.
+void validate_bodies(const DynamicsForm& dynamics, KnownMasses* valid) {
+  if (!valid || !valid->are_of(dynamics)) {
+    validate_masses(dynamics);
+    if (valid) valid->keep(dynamics);
+  }
   require_size("dynamics.v_free", dynamics.v_free.size(), dynamics.dof_count(),
                "one entry per unknown");
   require_finite("dynamics.v_free", dynamics.v_free.data(), dynamics.v_free.size());
 }
 
-void validate_dynamics(const FrictionProblem& problem) {
+void validate_dynamics(const FrictionProblem& problem, KnownMasses* valid) {
   const DynamicsForm& dynamics = problem.dynamics;
-  validate_bodies(dynamics);
+  validate_bodies(dynamics, valid);
   const int contacts = problem.contact_count(), bodies = dynamics.body_count();
   require_size("dynamics.body_a", static_cast<long>(dynamics.body_a.size()), contacts,
                "one entry per contact");
@@ -209,15 +217,19 @@ void validate_delassus(const FrictionProblem& problem) {
   for (int c = 0; c < problem.contact_count(); ++c) validate_diagonal_block(problem, c);
 }
 
-}  // namespace
-
-void FrictionProblem::validate() const {
-  validate_contacts(*this);
-  if (has_dynamics) validate_dynamics(*this);
-  if (has_delassus) validate_delassus(*this);
-  if (!has_dynamics && !has_delassus && contact_count() > 0)
-    fail("has_dynamics = 0, has_delassus = 0: the problem of ", contact_count(),
+void validate_all(const FrictionProblem& problem, KnownMasses* valid) {
+  validate_contacts(problem);
+  if (problem.has_dynamics) validate_dynamics(problem, valid);
+  if (problem.has_delassus) validate_delassus(problem);
+  if (!problem.has_dynamics && !problem.has_delassus && problem.contact_count() > 0)
+    fail("has_dynamics = 0, has_delassus = 0: the problem of ", problem.contact_count(),
          " contacts has neither form");
 }
+
+}  // namespace
+
+void FrictionProblem::validate() const { validate_all(*this, nullptr); }
+
+void validate(const FrictionProblem& problem, KnownMasses& valid) { validate_all(problem, &valid); }
 
 }  // namespace ballast

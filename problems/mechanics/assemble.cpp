@@ -26,6 +26,10 @@ Vec3 prescribed_velocity(const RigidBody& body, double time) {
 
 ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(system) {
   for (const RigidBody& body : system.bodies) {
+    const bool is_like_last = !sides_.empty() && *sides_.back().freedom == body.freedom;
+    sides_.push_back({Mat3::Identity(), Vec3::Zero(),
+                      is_like_last ? sides_.back().freedom : &body.freedom,
+                      body.is_wall() ? body.wall_friction : -1.0});
     if (body.is_wall() && body.wall.motion == WallMotion::prescribed)
       some_wall_is_prescribed_ = true;
     const int dofs = body.freedom.count();
@@ -72,50 +76,54 @@ void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) cons
   }
 }
 
-/// The part of contact k's rows that `body` has in H, unknown after unknown; of body a with a
-/// minus, since u = velocity of b - velocity of a. Returns where the next block begins.
-double* ProblemAssembler::write_block(const MotionState& state, const ContactPoint& contact, int k,
-                                      int body, double* h) const {
-  if (problem_body_[body] < 0) return h;
-  const Freedom& freedom = system_.bodies[body].freedom;
-  const Mat3& frame = frames_[k];
-  const int rows = row_begin_[k + 1] - row_begin_[k];
-  const double sign = body == contact.body_b ? 1.0 : -1.0;
-  for (int d = 0; d < freedom.translations; ++d)
-    for (int row = 0; row < rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
-  if (!freedom.rotation) return h;
-  // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
-  const Mat3& R_WB = rotation_[body];
-  const Vec3 lever = sign * (R_WB.transpose() * (contact.position - state.pose[body].position));
-  const Mat3 directions = R_WB.transpose() * frame.transpose();
-  Mat3 block;  // row i: direction i
-  for (int row = 0; row < rows; ++row) block.row(row) = lever.cross(Vec3(directions.col(row)));
-  for (int d = 0; d < 3; ++d)
-    for (int row = 0; row < rows; ++row) *h++ = block(row, d);
-  return h;
+/// Writes both bodies' parts of a contact's rows of H, unknown after unknown; of body a with a
+/// minus, since u = velocity of b - velocity of a.
+template <int Rows>
+void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& frame,
+                                     double* h) const {
+  for (const int body : {contact.body_a, contact.body_b}) {
+    const Side& side = sides_[body];
+    const Freedom& freedom = *side.freedom;
+    const double sign = body == contact.body_b ? 1.0 : -1.0;
+    for (int d = 0; d < freedom.translations; ++d)
+      for (int row = 0; row < Rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
+    if (!freedom.rotation) continue;
+    // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
+    const Vec3 lever = sign * (side.rotation.transpose() * (contact.position - side.position));
+    const Mat3 directions = side.rotation.transpose() * frame.transpose();
+    for (int row = 0; row < Rows; ++row) {
+      const Vec3 turning = lever.cross(Vec3(directions.col(row)));
+      for (int d = 0; d < 3; ++d) h[d * Rows + row] = turning[d];
+    }
+    h += 3 * Rows;
+  }
 }
 
 /// Everything but numbers: who touches whom, with how many rows, and where its blocks stand.
 void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem) {
   DynamicsForm& dynamics = problem.dynamics;
   detected_.clear();
+  int row = 0, entry = 0;
   for (size_t c = 0; c < contacts.size(); ++c) {
     const ContactPoint& contact = contacts[c];
     // With restitution only points that touch are contacts: an open one has nothing to reflect.
     if (system_.restitution > 0.0 && contact.gap > 0.0) continue;
     detected_.push_back(static_cast<int>(c));
-    const double mu = system_.pair_friction(contact.body_a, contact.body_b);
+    const Side &a = sides_[contact.body_a], &b = sides_[contact.body_b];
+    const double mu = a.wall_friction >= 0.0   ? a.wall_friction
+                      : b.wall_friction >= 0.0 ? b.wall_friction
+                                               : system_.friction;
     // One row, the normal, without friction; with it two tangents besides.
     const int rows = mu > 0.0 ? 3 : 1;
-    const int dofs = system_.bodies[contact.body_a].freedom.count() +
-                     system_.bodies[contact.body_b].freedom.count();
-    dynamics.h_begin.push_back(dynamics.h_begin.back() + rows * dofs);
+    row += rows;
+    entry += rows * (a.freedom->count() + b.freedom->count());
+    dynamics.h_begin.push_back(entry);
     dynamics.body_a.push_back(problem_body_[contact.body_a]);
     dynamics.body_b.push_back(problem_body_[contact.body_b]);
-    problem.row_begin.push_back(problem.row_begin.back() + rows);
+    problem.row_begin.push_back(row);
     problem.friction.push_back(mu);
   }
-  dynamics.h.resize(dynamics.h_begin.back());
+  dynamics.h.resize(entry);
   frames_.resize(detected_.size());
   row_begin_ = problem.row_begin;
 }
@@ -136,18 +144,25 @@ void ProblemAssembler::assemble(const StepInput& step, FrictionProblem& problem)
 /// to any thread.
 void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& problem) {
   const std::vector<Pose>& pose = step.state.pose;
-  rotation_.resize(pose.size());
-  for (size_t b = 0; b < pose.size(); ++b) rotation_[b] = pose[b].rotation.toRotationMatrix();
+  for (size_t b = 0; b < pose.size(); ++b) {
+    sides_[b].rotation = pose[b].rotation.toRotationMatrix();
+    sides_[b].position = pose[b].position;
+  }
   DynamicsForm& dynamics = problem.dynamics;
   const int count = problem.contact_count();
   constexpr int contacts_of_part = 128;
   run_parts(team_, (count + contacts_of_part - 1) / contacts_of_part, [&](int part) {
     for (int k = part * contacts_of_part; k < std::min(count, (part + 1) * contacts_of_part); ++k) {
       const ContactPoint& contact = step.contacts[detected_[k]];
-      frames_[k] = contact_frame(contact.normal);
+      // The points of a pair have one normal.
+      const bool is_same =
+          k % contacts_of_part > 0 && contact.normal == step.contacts[detected_[k - 1]].normal;
+      frames_[k] = is_same ? frames_[k - 1] : contact_frame(contact.normal);
       double* block = dynamics.h.data() + dynamics.h_begin[k];
-      block = write_block(step.state, contact, k, contact.body_a, block);
-      write_block(step.state, contact, k, contact.body_b, block);
+      if (problem.contact_rows(k) == 3)
+        write_contact<3>(contact, frames_[k], block);
+      else
+        write_contact<1>(contact, frames_[k], block);
     }
   });
 }
@@ -197,8 +212,11 @@ void ProblemAssembler::prescribed_part(std::span<const ContactPoint> contacts, d
 void ProblemAssembler::to_rows(std::span<const Vec3> world, Impulses& r) const {
   r.resize(row_begin_.back());
   for (size_t k = 0; k < detected_.size(); ++k) {
-    const int n = row_begin_[k + 1] - row_begin_[k];
-    r.segment(row_begin_[k], n) = (frames_[k] * world[detected_[k]]).head(n);
+    const Vec3 rows = frames_[k] * world[detected_[k]];
+    if (row_begin_[k + 1] - row_begin_[k] == 3)
+      r.segment<3>(row_begin_[k]) = rows;
+    else
+      r[row_begin_[k]] = rows[0];
   }
 }
 
@@ -206,8 +224,11 @@ void ProblemAssembler::to_world(const Impulses& r, std::span<const ContactPoint>
                                 std::vector<Vec3>& world) const {
   world.assign(contacts.size(), Vec3::Zero());
   for (size_t k = 0; k < detected_.size(); ++k) {
-    const int n = row_begin_[k + 1] - row_begin_[k];
-    world[detected_[k]] = frames_[k].topRows(n).transpose() * r.segment(row_begin_[k], n);
+    Vec3& given = world[detected_[k]];
+    if (row_begin_[k + 1] - row_begin_[k] == 3)
+      given = frames_[k].transpose() * r.segment<3>(row_begin_[k]);
+    else
+      given = frames_[k].row(0).transpose() * r[row_begin_[k]];
   }
 }
 

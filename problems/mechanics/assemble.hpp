@@ -76,18 +76,25 @@ class ProblemAssembler {
  private:
   void lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem);
   void write_rows(const StepInput& step, FrictionProblem& problem);
-  double* write_block(const MotionState& state, const ContactPoint& contact, int k, int body,
-                      double* h) const;
+  template <int Rows>
+  void write_contact(const ContactPoint& contact, const Mat3& frame, double* h) const;
   void write_bias(const StepInput& step, FrictionProblem& problem);
 
   const MechanicalSystem& system_;
   WorkerTeam* team_ = nullptr;
+  /// What a contact's rows need of a body, close together: bodies themselves are large.
+  struct Side {
+    Mat3 rotation;  // R_WB at the assembled poses
+    Vec3 position;
+    const Freedom* freedom;  // the same object for all bodies whose freedom is the same
+    double wall_friction;    // below 0: no wall
+  };
+  std::vector<Side> sides_;
   std::vector<int> problem_body_;  // body -> index among bodies with freedom, or -1
   std::vector<int> dof_begin_{0};
   std::vector<double> mass_;
   DynamicsForm constant_;  // dof_begin, mass_begin, mass: the same in every step
   bool some_wall_is_prescribed_ = false;
-  std::vector<Mat3> rotation_;  // R_WB of every body at the assembled poses
   std::vector<Mat3> frames_;
   std::vector<int> detected_;
   std::vector<int> row_begin_{0};

@@ -16,6 +16,7 @@ struct Freedom {
   Mat3 axes = Mat3::Identity();
   bool rotation = true;
   int count() const { return translations + (rotation ? 3 : 0); }
+  bool operator==(const Freedom&) const = default;
 };
 
 /// The constants of one body. Grains come first, in scene order, then the walls.

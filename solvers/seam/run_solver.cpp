@@ -103,7 +103,7 @@ SolverRun SolverRunner::until_within(Solver& solver, const FrictionProblem& prob
 
 SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start,
                             const Budget& budget) {
-  problem.validate();
+  validate(problem, masses_);
   validate_start(problem, start);
   SolverRun first = guarded(problem, budget, [&](SolverRun& run) {
     Stopwatch watch;

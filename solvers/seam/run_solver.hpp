@@ -50,6 +50,7 @@ class SolverRunner {
                          SolverRun run);
 
   ContactJudge judge_;
+  KnownMasses masses_;  // that were validated
 };
 
 }  // namespace ballast
