@@ -38,6 +38,7 @@ OverlapCorrection::OverlapCorrection(const MechanicalSystem& system, const Corre
   displacement_.setZero(static_cast<Eigen::Index>(inverse_mass_.size()));
 }
 
+/// min 1/2 d.M d subject to next_gap + H_N d >= wanted at every point, d the bodies' displacements.
 double OverlapCorrection::apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
                                 std::span<const ContactPoint> contacts, const Eigen::VectorXd& v,
                                 double h, MotionState& state) {
@@ -69,6 +70,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
       for_normal_row(problem, row.contact, [&](int dof, double coefficient) {
         moved += coefficient * displacement_[dof];
       });
+      // The push with which this row would move just as far as it is asked to, the others held.
       const double push = std::max(0.0, row.push + (row.target - moved) * row.stiffness);
       const double change = push - row.push;
       if (change == 0.0) continue;

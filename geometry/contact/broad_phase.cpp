@@ -7,11 +7,15 @@
 namespace ballast {
 
 Travel step_bound(const Pose& from, const Pose& to) {
+  // Unit quaternions p and q of rotations that differ by phi have |p - q| = 2 sin(phi/4), where q
+  // and -q are one rotation. A point at distance R moves along the chord 2 R sin(phi/2), which is
+  // at most 2 R |p - q|.
   const double same = (to.rotation.coeffs() - from.rotation.coeffs()).squaredNorm();
   const double opposite = (to.rotation.coeffs() + from.rotation.coeffs()).squaredNorm();
   return {(to.position - from.position).norm(), 2.0 * std::sqrt(std::min(same, opposite))};
 }
 
+/// The smallest upright box around the body as it is turned and placed.
 Box bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position) {
   const AffineRows& vertices = shape.vertices();
   Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
@@ -50,6 +54,7 @@ bool BroadPhase::still_valid(std::span<const Pose> poses, std::span<const double
   if (listed_pose_.empty()) return false;
   for (size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].shape) continue;
+    // A list holds while each body, with its reach, is within the box that it was listed with.
     const Travel moved = step_bound(listed_pose_[i], poses[i]);
     if (!(moved.shift + radius_[i] * moved.turn + reach[i] <= allowance_[i])) return false;
   }
@@ -64,6 +69,8 @@ void BroadPhase::grow_boxes(std::span<const Pose> poses, std::span<const Mat3> r
   allowance_.assign(reach.begin(), reach.end());
   for (const int i : order_) {
     const CollisionShape& shape = *bodies_[i].shape;
+    // The margin beyond the reach is what a body may move before the list is made anew: a large one
+    // makes few lists with many pairs, a small one the reverse.
     allowance_[i] += std::max(0.5 * skin_, std::min(8.0 * reach[i], shape.circumradius()));
     boxes_[i] = bounding_box(shape, rotations[i], poses[i].position);
     boxes_[i].low.array() -= allowance_[i];
@@ -96,6 +103,11 @@ void BroadPhase::find_overlaps() {
     return (q.low <= p.high) & (q.high >= p.low);
   };
   found_.clear();
+  // Boxes in the order in which they begin along the axis:
+  //
+  //     i   |---------|
+  //     j        |------|          begins before i ends: compared in the other directions
+  //     k                 |---|    begins behind i's end, and so do all after it: i is done
   for (size_t k = 0; k < order_.size(); ++k) {
     const Interval along = sorted_[0][k], second = sorted_[1][k], third = sorted_[2][k];
     for (size_t l = k + 1; l < order_.size() && sorted_[0][l].low <= along.high; ++l) {

@@ -53,6 +53,7 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(sys
   constant_.dof_begin = dof_begin_;
 }
 
+/// The unknowns, body by body: velocities along the free axes, then the spin in the body frame.
 void ProblemAssembler::pack(const MotionState& state, Eigen::VectorXd& v) const {
   v.resize(dof_count());
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
@@ -65,6 +66,7 @@ void ProblemAssembler::pack(const MotionState& state, Eigen::VectorXd& v) const 
   }
 }
 
+/// The inverse of pack().
 void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) const {
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
     if (problem_body_[b] < 0) continue;
@@ -85,6 +87,8 @@ void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& fr
     const Side& side = sides_[body];
     const Freedom& freedom = *side.freedom;
     const double sign = body == contact.body_b ? 1.0 : -1.0;
+    // The point moves with v + w x s, of which a row takes the part along its direction d: for the
+    // translations d . axis, for the spin the triple product below.
     for (int d = 0; d < freedom.translations; ++d)
       for (int row = 0; row < Rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
     if (!freedom.rotation) continue;
@@ -183,6 +187,7 @@ void ProblemAssembler::write_bias(const StepInput& step, FrictionProblem& proble
   rebound_.assign(problem.contact_count(), 0.0);
   pack(step.state, v_before_);
   prescribed_part(step.contacts, step.state.time, u_before_);
+  // The normal part of H v before the step: the first row of each block, one entry per unknown.
   for (int c = 0; c < problem.contact_count(); ++c) {
     const int rows = problem.contact_rows(c);
     const double* block = dynamics.h.data() + dynamics.h_begin[c];
