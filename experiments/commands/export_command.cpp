@@ -12,6 +12,9 @@
 #include "experiments/record/checkpoint.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
+#include "experiments/view/run_view.hpp"
+#include "experiments/view/still.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 
@@ -24,6 +27,10 @@ struct ExportOptions {
   std::optional<double> time;          ///< [s]
   bool last = false, all = false;
   std::string format_word, time_word;
+  // of pictures
+  int frame = -1;  ///< number of the stored frame; -1: by time, or the last
+  std::string view_word, colour_word;
+  StillOptions still;
 };
 
 std::optional<double> parsed_time(const std::string& word) {
@@ -35,7 +42,7 @@ std::optional<double> parsed_time(const std::string& word) {
 }
 
 std::optional<ExportFormat> parsed_format(const std::string& word) {
-  if (word.empty()) return std::nullopt;
+  if (word.empty() || word == "png") return std::nullopt;
   return export_format(word);
 }
 
@@ -80,7 +87,33 @@ ExitCode export_all(const ExportOptions& options, const MechanicalSystem& system
   return ExitCode::ok;
 }
 
+/// A picture of one stored frame, drawn without a display.
+ExitCode export_picture(const ExportOptions& options) {
+  const std::optional<ViewData> view = view_of_run(read_run_data(options.source));
+  if (!view) throw Error(options.source.string() + ": no poses are stored there");
+  const std::vector<PoseFrame>& frames = view->frames;
+  size_t frame = frames.size() - 1;
+  if (options.frame >= static_cast<int>(frames.size()))
+    throw Error(options.source.string() + ": has frames 0 to " + std::to_string(frame) +
+                ", not --frame " + std::to_string(options.frame));
+  const double time = options.time.value_or(frames.back().time);
+  const auto is_nearer = [&](const PoseFrame& a, const PoseFrame& b) {
+    return std::abs(a.time - time) < std::abs(b.time - time);
+  };
+  frame = options.frame >= 0
+              ? static_cast<size_t>(options.frame)
+              : static_cast<size_t>(std::min_element(frames.begin(), frames.end(), is_nearer) -
+                                    frames.begin());
+  write_whole_file(options.output, still_png(*view, frame, options.still));
+  std::cout << options.output.string() << ": frame " << frame << " at " << frames[frame].time
+            << " s\n";
+  return ExitCode::ok;
+}
+
 ExitCode export_run(const ExportOptions& options) {
+  if (options.format_word == "png" ||
+      (options.format_word.empty() && options.output.extension() == ".png"))
+    return export_picture(options);
   const ExportFormat format =
       options.format ? *options.format : export_format_of_suffix(options.output);
   if (!std::filesystem::exists(options.source))
@@ -108,22 +141,31 @@ ExitCode export_run(const ExportOptions& options) {
 
 Command export_command() {
   const auto options = std::make_shared<ExportOptions>();
-  return {"export",
-          "Writes one state of a run, or all, for other programs",
-          {{"source", &options->source, "A run's folder, or a checkpoint in it", required},
-           {"--format FORMAT", &options->format_word,
-            "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two files for "
-            "other engines' benches (default: what the suffix .obj, .txt or .vtp says)",
-            into(options->format, parsed_format)},
-           {"--output FILE", &options->output, "The file to write", required},
-           {"--time S", &options->time_word, "The stored frame nearest to this time [s]",
-            into(options->time, parsed_time)},
-           {"--last", &options->last, "The latest checkpoint (default)", excludes("--time")},
-           {"--all", &options->all,
-            "Every stored frame: FILE with _<step> before its suffix; with vtp also FILE.pvd, "
-            "which ParaView opens as one series",
-            excludes("--time"), excludes("--last")}},
-          [options] { return export_run(*options); }};
+  return {
+      "export",
+      "Writes one state of a run, or all, for other programs",
+      {{"source", &options->source, "A run's folder, or a checkpoint in it", required},
+       {"--format FORMAT", &options->format_word,
+        "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two files for "
+        "other engines' benches; png: a picture (default: what the suffix .obj, .txt, .vtp or "
+        ".png says)",
+        into(options->format, parsed_format)},
+       {"--output FILE", &options->output, "The file to write", required},
+       {"--time S", &options->time_word, "The stored frame nearest to this time [s]",
+        into(options->time, parsed_time)},
+       {"--frame N", &options->frame, "png: number of the stored frame (the last)"},
+       {"--view FROM", &options->view_word, "png: home, x, -x, y, -y, z, or YAW,PITCH in degrees",
+        parsed([options](const std::string& word) { set_view(options->still, word); })},
+       {"--colour BY", &options->colour_word, "png: speed, displacement, size or none (speed)",
+        parsed([options](const std::string& word) { set_colour(options->still, word); })},
+       {"--width PIXELS", &options->still.width, "png", between(16, 8000), shown},
+       {"--height PIXELS", &options->still.height, "png", between(16, 8000), shown},
+       {"--last", &options->last, "The latest checkpoint (default)", excludes("--time")},
+       {"--all", &options->all,
+        "Every stored frame: FILE with _<step> before its suffix; with vtp also FILE.pvd, "
+        "which ParaView opens as one series",
+        excludes("--time"), excludes("--last")}},
+      [options] { return export_run(*options); }};
 }
 
 }  // namespace ballast

@@ -11,8 +11,8 @@
 #include "experiments/run_page/figures.hpp"
 #include "experiments/run_page/report_origin.hpp"
 #include "experiments/run_page/report_tables.hpp"
-#include "experiments/view/pack_view.hpp"
 #include "experiments/view/run_view.hpp"
+#include "experiments/view/view_page.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
@@ -54,13 +54,12 @@ page::Section pictures(const char* id, const char* heading,
 }
 
 /// The bodies in 3D; empty where no pose is stored, or none that can be read.
-page::Replay replay_of(RunData& data) {
+page::Replay replay_of_run(RunData& data) {
   page::Replay replay;
   try {
     const std::optional<ViewData> view = view_of_run(data);
     if (!view) return {};
-    replay = pack_view(*view);
-    replay.caption = page::words(view->contacts.empty() ? "run.replay.poses" : "run.replay.forces");
+    replay = replay_of(*view);
   } catch (const Error& error) {
     data.notices.push_back(std::string("No replay: ") + error.what());
   }
@@ -73,7 +72,7 @@ void write_report(const std::filesystem::path& folder) {
   RunData data = read_run_data(folder);
   const RunSummary summary = summarise(data.steps, data.facts);
   note_what_cannot_be_said(summary, data);
-  const page::Replay replay = replay_of(data);
+  const page::Replay replay = replay_of_run(data);
   // What must be known first stands first.
   const RunTrust trust = trust_of(data);
   const std::vector<std::string> words = trust_words(trust);

@@ -1,5 +1,6 @@
 // A run's page in a real browser: what the reader does, and what the page then holds and shows.
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -7,7 +8,10 @@
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run_page/report.hpp"
+#include "experiments/view/problem_view.hpp"
+#include "experiments/view/view_page.hpp"
 #include "platform/text.hpp"
+#include "problems/files/captured_problem.hpp"
 #include "tests/support/browser.hpp"
 
 namespace ballast {
@@ -80,8 +84,8 @@ std::string chosen(const std::string& id, const std::string& value, const std::s
 TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to that moment") {
   if (Browser::is_missing()) return;
   const DrivenBox box;
-  Browser browser(1400, 900);
-  browser.open(box.page(), "play=0", is_ready);
+  Browser browser(900, 700);
+  browser.open(box.page(), "play=0&rest=0", is_ready);
   REQUIRE(browser.js("window.ballastReplayError || ''") == "");
   REQUIRE(browser.js("ballastReplay.data.times.length") == box.frames.size());
   const auto time = [&] { return browser.js("ballastReplay.time").get<double>(); };
@@ -133,8 +137,8 @@ TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to t
 TEST_CASE("the driven wall stands where steps.csv says, within a pixel's worth") {
   if (Browser::is_missing()) return;
   const DrivenBox box;
-  Browser browser(1000, 700);
-  browser.open(box.page(), "play=0&view=y&grains=hidden", is_ready);
+  Browser browser(900, 700);
+  browser.open(box.page(), "play=0&rest=0&view=y&grains=hidden", is_ready);
   std::set<int> columns;
   for (const size_t k : {size_t{9}, box.steps.size() - 1}) {
     const StepRecord& step = box.steps[k];
@@ -159,8 +163,8 @@ TEST_CASE("the driven wall stands where steps.csv says, within a pixel's worth")
 TEST_CASE("colour, cut, chains and a picked grain change what is seen and said") {
   if (Browser::is_missing()) return;
   const DrivenBox box;
-  Browser browser(1400, 900);
-  browser.open(box.page(), "play=0&t=0.02", is_ready);
+  Browser browser(900, 700);
+  browser.open(box.page(), "play=0&rest=0&t=0.02", is_ready);
   const Json whole = pixels(browser, "Math.max(r, g, b) - Math.min(r, g, b) > 40");
   CHECK(whole["share"] > 0.05);
   Json last = picture(browser);
@@ -208,17 +212,63 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
   CHECK(browser.complaints == std::vector<std::string>{});
 }
 
+TEST_CASE("two backends' errors stand side by side, and the worst contact is found") {
+  if (Browser::is_missing()) return;
+  const TemporaryFolder place;
+  RunOptions options;
+  options.scene = "settled_rest";
+  options.overrides = {"scene.duration=0.01"};
+  options.output = place.path() / "run";
+  options.capture = "every=5";
+  run(options);
+  fs::path file;
+  for (const auto& entry : fs::recursive_directory_iterator(options.output / "capture"))
+    if (is_captured(entry.path())) file = entry.path();
+  const ViewData view =
+      view_of_problem(file, {.backends = {"pgs", "auto"}, .iterations = {1, 10, 100}});
+  write_view_page(view, place.path() / "errors.html");
+  Browser browser(900, 700);
+  browser.open(place.path() / "errors.html", "rest=0", is_ready);
+  REQUIRE(browser.js("window.ballastReplayError || ''") == "");
+  REQUIRE(browser.js("ballastReplay.stages.length") == 2);
+  for (const int budget : {0, 2})
+    for (const size_t solve : {size_t{0}, size_t{1}}) {
+      browser.js(chosen("budget", std::to_string(budget), "input"));
+      const std::vector<double>& error = view.errors[solve].error[static_cast<size_t>(budget)];
+      const Json said = browser.js(
+          printed("Array.from({ length: %zu }, (_, c) => ballastReplay.errors.errorOf(%zu, c))",
+                  error.size(), solve));
+      for (size_t c = 0; c < error.size(); ++c)
+        CHECK(std::abs(said[c].get<double>() - std::clamp(std::log10(error[c]), -9.0, 2.0)) < 0.03);
+    }
+  browser.js(clicked("worst"));
+  const int worst = browser.js("ballastReplay.errors.worst");
+  const std::vector<double>& last = view.errors[0].error[2];
+  CHECK(last[static_cast<size_t>(worst)] > 0.9 * *std::max_element(last.begin(), last.end()));
+  const Json sharp = browser.js(
+      "ballastReplay.stages.map((s) => { const { bytes } = "
+      "ballastReplay.pixels(s); return new Set(bytes).size; })");
+  CHECK((sharp[0] > 20 && sharp[1] > 20));
+  CHECK(browser.complaints == std::vector<std::string>{});
+}
+
 TEST_CASE("narrow, dark, and without 3D") {
   if (Browser::is_missing()) return;
   const DrivenBox box;
   {
     Browser browser(375, 800, true);
-    browser.open(box.page(), "play=0", is_ready);
+    browser.open(box.page(), "play=0&rest=0", is_ready);
     CHECK(browser.js("document.scrollingElement.scrollWidth") == 375);
     CHECK(pixels(browser, "r < 40 && g < 40 && b < 45")["share"] > 0.3);
     CHECK(browser.complaints == std::vector<std::string>{});
   }
-  Browser browser(1000, 700, false, {"--disable-3d-apis"});
+  {
+    Browser browser(1400, 900);
+    browser.open(box.page(), "play=0&rest=0", is_ready);
+    CHECK(browser.js("document.scrollingElement.scrollWidth") == 1400);
+    CHECK(browser.js("document.getElementById('replay').clientWidth").get<int>() > 1200);
+  }
+  Browser browser(900, 700, false, {"--disable-3d-apis"});
   browser.open(box.page(), "", is_ready);
   CHECK_THAT(browser.js("document.getElementById('replay-sentence').innerText").get<std::string>(),
              Contains("WebGL 2"));

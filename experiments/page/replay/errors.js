@@ -1,3 +1,109 @@
-// The error in space: every contact coloured by how wrong an answer is there.
+// The error in space: every contact of a captured problem coloured by how wrong an answer is there,
+// one picture for each of two backends, one camera, one budget of iterations.
 
-function addErrorPoints() {}
+const errorDecades = [-6, 0];  // what the colours span, over g h
+
+class ErrorView {
+  constructor(data) {
+    this.data = data;
+    this.solves = data.head.errors;
+    this.isOn = this.solves.length > 0;
+    this.budget = this.isOn ? this.solves[0].iterations.length >> 1 : 0;
+    this.shown = [0, Math.min(1, this.solves.length - 1)];  // which solve each picture shows
+    this.worst = -1;
+  }
+
+  // The logarithm of the error of contact c in a picture.
+  errorOf(picture, c) {
+    const budgets = this.solves[0].iterations.length, contacts = this.data.contact.count;
+    const at = (this.shown[picture] * budgets + this.budget) * contacts + c;
+    return this.data.errors[at] / 255 * 11 - 9;
+  }
+  share(picture, c) {
+    return (this.errorOf(picture, c) - errorDecades[0]) / (errorDecades[1] - errorDecades[0]);
+  }
+
+  // Balls at the contacts of a picture, the worst with a long needle.
+  addBalls(rods, picture, marks, cut) {
+    const size = marks.meanReach;
+    for (let c = 0; c < this.data.contact.count; ++c) {
+      const place = this.data.contactPlace(c), share = clamp(this.share(picture, c), 0, 1);
+      if (cut && dot(cut, place) > cut[3]) continue;
+      const radius = size * (0.06 + 0.28 * share * share);
+      addRod(rods, place, radius, place, radius, colourAt(ramps.heat, share));
+      if (c !== this.worst) continue;
+      const n = times(this.data.contactNormal(c), 1.2 * size);
+      addRod(rods, sub(place, n), 0.03 * size, add(place, n), 0.03 * size, [0.02, 0.45, 0.5]);
+    }
+  }
+
+  // The contact where the picture's answer is most wrong.
+  findWorst(picture) {
+    let worst = 0;
+    for (let c = 1; c < this.data.contact.count; ++c)
+      if (this.errorOf(picture, c) > this.errorOf(picture, worst)) worst = c;
+    return worst;
+  }
+
+  // The controls: who is shown where, the budget, the way to the worst contact.
+  build(replay) {
+    if (!this.isOn) return;
+    const place = element("errors"), { iterations } = this.solves[0];
+    const names = this.solves.map((solve, k) => [String(k), solve.backend]);
+    const two = this.solves.length > 1;
+    place.hidden = false;
+    place.replaceChildren(
+      choice("left", two ? "left" : "backend", names, "0"),
+      ...two ? [choice("right", "right", names, "1")] : [],
+      make("label", {}, "iterations", make("input", { id: "replay-budget", type: "range", min: "0",
+        max: String(iterations.length - 1), step: "1", value: String(this.budget),
+        "aria-label": "iterations" })),
+      make("output", { id: "replay-budgettext" }),
+      button("worst", "worst contact", "Look at the most wrong contact of the left picture"));
+    const listen = (id, event, action) => {
+      if (element(id)) element(id).addEventListener(event, () => {
+        action(element(id));
+        this.say();
+        replay.touched();
+      });
+    };
+    listen("left", "change", (select) => { this.shown[0] = +select.value; });
+    listen("right", "change", (select) => { this.shown[1] = +select.value; });
+    listen("budget", "input", (slider_) => { this.budget = +slider_.value; });
+    listen("worst", "click", () => {
+      this.worst = this.findWorst(0);
+      replay.camera.target = this.data.contactPlace(this.worst);
+      replay.camera.distance = 14 * replay.marks.meanReach;
+    });
+    this.say();
+  }
+
+  // The budget and the rms errors in words.
+  say() {
+    const { iterations } = this.solves[0];
+    const number = (v) => v.toExponential(1).replace("-", "\u2212");
+    const pictures = this.solves.length > 1 ? this.shown : this.shown.slice(0, 1);
+    const words = pictures.map((k) =>
+      this.solves[k].backend + ": rms " + number(this.solves[k].rms[this.budget]));
+    if (this.worst >= 0)
+      words.push("worst on the left: " + number(10 ** this.errorOf(0, this.findWorst(0))));
+    pictures.forEach((k, picture) => {
+      if (element("who" + picture)) element("who" + picture).textContent = this.solves[k].backend;
+    });
+    element("budgettext").textContent = iterations[this.budget] + " \u2014 " + words.join(", ");
+  }
+
+  drawLegend() {
+    const legend = element("legend"), bar = make("div", { class: "bar" });
+    bar.style.background = cssGradient(ramps.heat);
+    const [low, high] = errorDecades;
+    const ticks = [low, low + 2, low + 4, high].map((decade) => {
+      const mark = make("span", {}, decade ? "1e\u2212" + -decade : "1");
+      mark.style.left = 100 * (decade - low) / (high - low) + "%";
+      return mark;
+    });
+    legend.hidden = false;
+    legend.replaceChildren(make("b", {}, "error over g h"), bar,
+      make("div", { class: "ticks" }, ...ticks));
+  }
+}

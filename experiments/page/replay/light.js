@@ -3,7 +3,7 @@
 
 const sunTo = unit([0.42, -0.5, 0.76]);
 const sunColour = [0.80, 0.77, 0.71], skyColour = [0.47, 0.495, 0.53];
-const restSamples = 48;
+const restSamples = (software) => software ? 24 : 64;
 
 // What a free level plane gets: the ground is as bright as the page there.
 const freeLight = sunColour[1] * sunTo[2] + skyColour[1] + 0.07;

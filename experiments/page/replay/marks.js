@@ -48,13 +48,14 @@ class Marks {
   }
 
   // Fills in the look's planes and returns its rods. `options`: what the reader has chosen.
-  build(time, look, options, colours) {
+  // `errors`, of which `picture`.
+  build(time, look, options, colours, errors, picture) {
     const rods = [];
     look.planes = [];
     this.addWalls(time, look, rods, colours);
     if (options.chains) this.addChains(time, rods, options, look.cut);
     if (options.points) this.addPoints(time, rods, options, look.cut);
-    if (this.data.head.errors.length) addErrorPoints(this, rods, options, look.cut);
+    if (errors.isOn) errors.addBalls(rods, picture, this, look.cut);
     return rods;
   }
 

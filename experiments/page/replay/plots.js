@@ -40,8 +40,8 @@ class Plots {
     this.colours = colours;
     const pen = this.paper(this.base, width, this.height);
     this.panels = plots.map((plot, k) => {
-      const left = (k % columns) * width / columns + 46, top = Math.floor(k / columns) * high + 26;
-      return this.panel(plot, { left, top, right: left + width / columns - 60,
+      const left = (k % columns) * width / columns + 52, top = Math.floor(k / columns) * high + 26;
+      return this.panel(plot, { left, top, right: left + width / columns - 66,
         bottom: top + high - 58 });
     });
     for (const panel of this.panels) this.drawBase(pen, panel);

@@ -18,15 +18,21 @@ class Replay {
     buildPanel(data, this.shades);
     this.options.colour = element("colour").value;
     this.mesh = new Mesh(data);
-    this.stages = [new Stage(element("canvas"), data, this.mesh)];
+    this.errors = new ErrorView(data);
+    this.errors.build(this);
+    if (this.errors.isOn) Object.assign(this.options, { colour: "none", grains: "ghost" });
+    this.stages = ["canvas", "second"].filter(element).map((id) =>
+      new Stage(element(id), data, this.mesh));
     this.plots = new Plots(element("plots"), data, (time) => {
       this.setPlaying(false);
       this.setTime(time);
     });
     this.readStyle();
     this.readAddress();
-    listenToPointer(element("canvas"), this);
-    listenToKeys(element("canvas"), this);
+    for (const { canvas } of this.stages) {
+      listenToPointer(canvas, this);
+      listenToKeys(canvas, this);
+    }
     listenToPanel(this);
     this.set({});
     const observer = new ResizeObserver(() => {
@@ -39,8 +45,15 @@ class Replay {
       this.plots.layOut(this.colours);
       this.touched();
     });
-    // back to a tab or from a lost context: draw anew
-    element("canvas").addEventListener("webglcontextrestored", () => location.reload());
+    // what nobody sees is not drawn
+    this.isSeen = true;
+    new IntersectionObserver(([entry]) => { this.isSeen = entry.isIntersecting; }).observe(
+      element("stage"));
+    // a graphics card may be taken away and come back: then all begins anew
+    for (const { canvas } of this.stages) {
+      canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+      canvas.addEventListener("webglcontextrestored", () => location.reload());
+    }
   }
 
   readStyle() {
@@ -61,6 +74,8 @@ class Replay {
     }
     if (has("grains")) this.options.grains = said.get("grains");
     if (has("pick")) this.options.picked = +said.get("pick");
+    // for tests: the quick picture alone
+    if (said.get("rest") === "0") for (const stage of this.stages) stage.canRest = false;
     if (has("view")) this.camera.along(said.get("view"));
     for (const name of ["yaw", "pitch"]) if (has(name)) this.camera[name] = +said.get(name);
     if (has("zoom")) this.camera.zoom(1 / +said.get("zoom"));
@@ -80,7 +95,8 @@ class Replay {
     for (const name of ["chains", "points"])
       if (element(name)) element(name).checked = options[name];
     if (element("threshold")) element("threshold").disabled = !options.chains;
-    drawLegend(this.shades, options.colour);
+    if (this.errors.isOn) this.errors.drawLegend();
+    else drawLegend(this.shades, options.colour);
     this.touched();
   }
 
@@ -128,25 +144,26 @@ class Replay {
     this.restFrom = performance.now() + 180;
   }
 
-  // All that the stages draw at this moment.
-  look() {
+  // All that a stage draws at this moment.
+  look(picture) {
     const look = { camera: this.camera, grains: this.options.grains, picked: this.options.picked,
       cut: this.cutPlane(), paper: this.colours.paper.linear };
-    look.rods = this.marks.build(this.time, look, this.options, this.colours);
+    look.rods = this.marks.build(this.time, look, this.options, this.colours, this.errors,
+      picture);
     return look;
   }
 
   // One picture, while things move.
   drawMoving() {
     const ramp = this.shades.apply(this.options.colour, this.time);
-    this.current = this.look();
-    for (const stage of this.stages) {
+    this.stages.forEach((stage, picture) => {
+      stage.look = this.look(picture);
       stage.resize(this.moving && stage.software ? this.quality : 1);
       stage.moved(ramp);
-      stage.rods.set(this.current.rods);
-      if (stage.software || !stage.canRest) drawQuick(stage, this.current, this.moving);
-      else drawResting(stage, this.current, 9);
-    }
+      stage.rods.set(stage.look.rods);
+      if (stage.software || !stage.canRest) drawQuick(stage, stage.look, this.moving);
+      else drawResting(stage, stage.look, 9);
+    });
     element("time").value = this.time;
     element("clock").textContent = this.time.toFixed(3) + " s";
     drawFacts(this.data, this.options.picked, this.time);
@@ -162,7 +179,8 @@ class Replay {
     label.hidden = !load;
     if (!load) return;
     const [left, top] = projected(this.camera.matrix(this.stages[0].aspect), load.tail);
-    label.style.left = 100 * clamp(left, 0.02, 0.86) + "%";
+    label.style.left = 100 * clamp(left, 0.02, 0.98) + "%";
+    label.style.transform = `translate(${left > 0.75 ? -100 : 0}%, -110%)`;
     label.style.top = 100 * clamp(top, 0.05, 0.9) + "%";
     const line = (one, name) => make("span", { class: one.ink },
       one.symbol + " = " + shown(this.data.seriesAt(name, this.time)) + " " + one.unit);
@@ -183,9 +201,10 @@ class Replay {
     this.last = now;
     const wasMoving = this.moving;
     this.moving = this.playing || now < this.restFrom;
-    if (this.playing || this.isStale || (wasMoving && !this.moving)) this.drawMoving();
-    else if (!this.moving)
-      for (const stage of this.stages) drawResting(stage, this.current, stage.software ? 1 : 6);
+    const isDue = this.playing || this.isStale || (wasMoving && !this.moving);
+    if (isDue && this.isSeen) this.drawMoving();
+    else if (!this.moving && this.isSeen)
+      for (const stage of this.stages) drawResting(stage, stage.look, stage.software ? 1 : 6);
     requestAnimationFrame((next) => this.loop(next));
   }
 

@@ -20,8 +20,8 @@ function drawQuick(stage, look, again) {
 // Adds samples to the resting picture and shows it when it is better than the quick one. False:
 // it is as good as it gets.
 function drawResting(stage, look, count) {
-  const { gl, canvas } = stage, { width, height } = canvas;
-  if (!stage.canRest || stage.samples >= restSamples) return false;
+  const { gl, canvas } = stage, { width, height } = canvas, most = restSamples(stage.software);
+  if (!stage.canRest || stage.samples >= most) return false;
   if (!stage.sum) {
     stage.sample = stage.target(width, height, gl.RGBA16F);
     stage.sum = stage.target(width, height, gl.RGBA16F);
@@ -32,7 +32,7 @@ function drawResting(stage, look, count) {
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
   }
-  for (; count > 0 && stage.samples < restSamples; --count) {
+  for (; count > 0 && stage.samples < most; --count) {
     const light = sampleLight(stage.samples), shift = sampleShift(stage.samples++);
     stage.drawShadow(light, look);
     stage.drawAll(light, look, stage.sample, look.camera.matrix(stage.aspect,

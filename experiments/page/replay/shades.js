@@ -96,8 +96,9 @@ class Shades {
     const step = niceStep(factor * top, name === "speed" || name === "force" ? 8 : 5);
     let before = -1;
     for (let v = 0; v <= factor * top * 1.0001; v += step) {
-      const at = share(v / factor, top);
-      if (at - before >= 0.13) ticks.push([before = at, shown(v, 3)]);
+      const at = share(v / factor, top), text = shown(v, 3);
+      // none where its words would run into those before
+      if (at - before >= 0.06 + 0.027 * text.length) ticks.push([before = at, text]);
     }
     return ticks;
   }

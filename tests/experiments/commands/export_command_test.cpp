@@ -72,3 +72,23 @@ TEST_CASE("export takes its format from the suffix, one time, or all") {
   CHECK(fs::exists(folder.path() / "all" / "block_00000500.vtp"));
   CHECK(fs::exists(folder.path() / "all" / "block.pvd"));
 }
+
+TEST_CASE("a picture of a frame, and a page that shows a thing") {
+  const TemporaryFolder folder;
+  const fs::path run = folder.path() / "run", picture = folder.path() / "box.png";
+  REQUIRE(ballast_program({"run", "incline", "--set", "scene.duration=0.02", "--output",
+                           run.string(), "--no-report"})
+              .status == 0);
+  CHECK(exported(run, picture, {"--frame", "1", "--view", "x", "--width", "64"}).status == 0);
+  CHECK(read_whole_file(picture).starts_with("\x89PNG"));
+  check_failure(exported(run, picture, {"--frame", "99"}), ExitCode::failure, {"--frame 99"});
+  check_failure(exported(run, picture, {"--view", "up"}), ExitCode::usage, {"--view", "up"});
+  const ProgramResult view = ballast_program({"view", run.string()});
+  CHECK(view.output == (run / "view.html").string() + "\n");
+  CHECK_THAT(read_whole_file(run / "view.html"), Catch::Contains("id=\"replay-head\""));
+  const fs::path scene = folder.path() / "scene.html";
+  CHECK(ballast_program({"view", "cradle", "--output", scene.string()}).status == 0);
+  CHECK(fs::exists(scene));
+  check_failure(ballast_program({"view", "nothing_of_that_name"}), ExitCode::failure,
+                {"nothing_of_that_name"});
+}
