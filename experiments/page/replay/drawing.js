@@ -191,7 +191,9 @@ class Stage {
 
   // Ground, walls: polygons of look.planes.
   drawPlanes(light, look, camera, encode, isGround) {
-    const gl = this.gl, at = this.use("plane", ...look.cut ? ["CUT"] : []);
+    // where software draws, walls have no grid while things move
+    const switches = [...look.cut ? ["CUT"] : [], ...look.isHasty ? ["PLAIN"] : []];
+    const gl = this.gl, at = this.use("plane", ...switches);
     this.setLight(at, light, look, encode);
     gl.uniformMatrix4fv(at.camera, false, camera);
     gl.uniform1f(at.free, light.around[0] ? sunColour[1] * sunTo[2] + light.around[1] + 0.07 :
@@ -204,8 +206,7 @@ class Stage {
       if (!!plane.ground !== isGround) continue;
       gl.uniform4fv(at.tint, plane.tint);
       gl.uniform3fv(at.ground, plane.ground || [0, 0, 0]);
-      gl.uniform1f(at.cell, look.cell);
-      gl.bufferData(gl.ARRAY_BUFFER, plane.corners, gl.STREAM_DRAW);
+        gl.bufferData(gl.ARRAY_BUFFER, plane.corners, gl.STREAM_DRAW);
       gl.drawArrays(gl.TRIANGLE_FAN, 0, plane.corners.length / 5);
     }
     gl.depthMask(true);

@@ -62,12 +62,14 @@ class Marks {
   addWalls(time, look, rods, colours) {
     const { data } = this, { low, high, centre, radius } = data, ground = [];
     look.cell = niceStep(2 * radius, 8);
+    const reach = (look.isHasty ? 1.4 : 2.7) * radius;
     for (let k = 0; k < 40; ++k) {
-      const angle = 2 * Math.PI * k / 40, r = 2.7 * radius;
-      ground.push(centre[0] + r * Math.cos(angle), centre[1] + r * Math.sin(angle), low[2], 0, 0);
+      const angle = 2 * Math.PI * k / 40;
+      ground.push(centre[0] + reach * Math.cos(angle), centre[1] + reach * Math.sin(angle), low[2],
+        0, 0);
     }
     look.planes.push({ corners: new Float32Array(ground), tint: [...look.paper, 1],
-      ground: [centre[0], centre[1], 2.7 * radius] });
+      ground: [centre[0], centre[1], reach] });
     data.head.walls.forEach((wall, w) => {
       const point = data.wallAt(w, time);
       const { loop, side, other } = planeInBox(point, wall.normal, low, high);

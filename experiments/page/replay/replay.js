@@ -147,7 +147,8 @@ class Replay {
   // All that a stage draws at this moment.
   look(picture) {
     const look = { camera: this.camera, grains: this.options.grains, picked: this.options.picked,
-      cut: this.cutPlane(), paper: this.colours.paper.linear };
+      cut: this.cutPlane(), paper: this.colours.paper.linear,
+      isHasty: this.moving && this.stages[picture].software };
     look.rods = this.marks.build(this.time, look, this.options, this.colours, this.errors,
       picture);
     return look;

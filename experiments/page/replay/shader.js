@@ -160,10 +160,14 @@ void main() {
     colour = finished(tint.rgb * mix(1., light, .8), fade);
     return;
   }
+#ifdef PLAIN
+  colour = finished(tint.rgb, tint.a);
+#else
   vec2 width = fwidth(grid) / cell, near = abs(fract(grid / cell - .5) - .5) / max(width, 1e-4);
   float line = (1. - smoothstep(.2, 1.3, min(near.x, near.y))) *
       clamp(.4 / max(width.x, width.y) - 1., 0., 1.);
   colour = finished(tint.rgb, clamp(tint.a * (1. + 1.2 * line), 0., .9));
+#endif
 }`;
 
 // A rod between two balls of any radii: chains, normals, points, edges, arrows. Negative radii are
