@@ -1,8 +1,11 @@
 #include "solvers/backends/auto.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
+#include <vector>
 
 #include "solvers/backends/anderson_pgs.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
@@ -14,124 +17,220 @@
 namespace ballast {
 namespace {
 
-// What sweeps and factorisations cost [s], for the choice between them: a model in sizes, and no
-// clock, so that the same problem takes the same turns and gives the same bits on every machine.
-// The numbers are rounded times of one thread of the machine on which this backend was written; no
-// record says which machine that was. `ballast bench kernels` measures the like on another. Only
-// their ratios matter.
+// Work is counted, not clocked: the same problem takes the same turns and gives the same bits on
+// every machine and under every load. The unit is one multiplication with its addition.
 
 /// A sweep over bodies, per contact.
-constexpr double body_visit = 3e-8;
-/// A sweep over a stored W, per entry and per contact.
-constexpr double matrix_entry = 1e-9, matrix_visit = 2e-8;
-/// A factorisation in the bodies' unknowns: of a packing of 1200 grains, and how that grows.
-constexpr double packing_factor = 5e-2, packing_unknowns = 7200.0, factor_growth = 1.5;
-/// A factorisation of a stored W, per square of its rows and per row.
-constexpr double matrix_row_square = 1.5e-9, matrix_row = 2e-7;
+constexpr double body_visit = 40.0;
+/// A sweep over a stored W, per entry and per contact: the contact's own solution.
+constexpr double matrix_entry = 1.0, matrix_visit = 60.0;
+/// A Newton step: linearisation and line search per contact; the factorisation over bodies per
+/// unknown.
+constexpr double newton_contact = 300.0, body_unknown = 1000.0;
+/// The same of a stored W (newton_matrix.hpp): dense where rows are few or W is nearly full. A
+/// sparse factorisation is mostly bookkeeping, row by row.
+constexpr double few_rows = 200.0, nearly_full = 0.1;
+constexpr double dense_entry = 15.0, dense_cube = 0.05, sparse_row = 8000.0;
+
+/// How fast one way's error has come down.
+class Pace {
+ public:
+  void begin() { points_.clear(); }
+  void add(int iteration, double error) {
+    if (!points_.empty()) error = std::min(error, points_.back().error);
+    points_.push_back({iteration, error});
+  }
+  double error() const { return points_.empty() ? 1e300 : points_.back().error; }
+  /// ln of the error per iteration, over the later half of the iterations; 0: it stands still.
+  double rate() const {
+    if (points_.empty()) return 0.0;
+    const Point& last = points_.back();
+    size_t k = points_.size() - 1;
+    while (k > 0 && 2 * points_[k].iteration > last.iteration) --k;
+    const double iterations = last.iteration - points_[k].iteration;
+    return iterations > 0.0 && last.error > 0.0
+               ? std::log(points_[k].error / last.error) / iterations
+               : 0.0;
+  }
+  /// Iterations to `aim` at that rate.
+  double left(double aim) const {
+    if (!(error() > aim)) return 0.0;
+    const double pace = rate();
+    return pace > 0.0 && aim > 0.0 ? std::log(error() / aim) / pace : 1e300;
+  }
+
+ private:
+  struct Point {
+    int iteration;
+    double error;
+  };
+  std::vector<Point> points_;
+};
+
+/// One way to the solution, from an iterate of its own: where another way has come to misleads
+/// accelerated sweeps more often than it helps them.
+struct Way {
+  std::unique_ptr<Solver> solver;
+  /// It goes on from the best iterate where that is so much better than its own.
+  double takes_best = 0.0;
+  double least_part = 0.5;  ///< of what is expected: the shortest leg
+  bool is_prepared = false;
+  double work = 0.0;      ///< of an iteration
+  double expected = 0.0;  ///< iterations, as long as it has not shown its pace
+  Pace pace;
+  int iterations = 0, stalls = 0;
+  Impulses at;
+};
 
 class Auto final : public Solver {
  public:
-  Auto()
-      : matrix_opening_(make_anderson_pgs({})),
-        matrix_sweeps_(make_gauss_seidel({})),
-        body_sweeps_(make_nncg()),
-        newton_(make_proximal_newton({.start_sweeps = 0})) {}
+  Auto() {
+    ways_[conjugate].solver = make_nncg();
+    ways_[anderson].solver = make_anderson_pgs({});
+    ways_[newton].solver = make_proximal_newton({.start_sweeps = 0});
+    ways_[interior_point].solver = make_interior_point();
+    for (const Kind kind : {conjugate, anderson}) ways_[kind].takes_best = 0.01;
+    ways_[newton].takes_best = 0.5;
+    for (const Kind kind : {newton, interior_point}) ways_[kind].least_part = 2.5;
+  }
 
   void prepare(const FrictionProblem& problem) override {
-    sweeps_ = problem.has_dynamics ? body_sweeps_.get() : matrix_sweeps_.get();
-    opening_ = problem.has_dynamics ? body_sweeps_.get() : matrix_opening_.get();
-    // Newton is prepared only when its turn comes: ordering costs as much as many sweeps.
-    opening_->prepare(problem);
-    if (opening_ != sweeps_) sweeps_->prepare(problem);
-    newton_is_prepared_ = false;
-    const double rows = problem.row_count();
-    if (problem.has_dynamics) {
-      sweep_cost_ = body_visit * problem.contact_count();
-      factor_cost_ =
-          packing_factor * std::pow(problem.dynamics.dof_count() / packing_unknowns, factor_growth);
-    } else {
-      sweep_cost_ =
-          matrix_entry * problem.delassus.w.nonZeros() + matrix_visit * problem.contact_count();
-      factor_cost_ = matrix_row_square * rows * rows + matrix_row * rows;
-    }
+    for (Way& way : ways_) way.is_prepared = false;
+    // The others are prepared when their turn comes: ordering costs as much as many sweeps.
+    prepared(ways_[conjugate], problem);
+    count_work(problem);
   }
 
   void use_threads(int threads) override {
-    matrix_sweeps_->use_threads(threads);
-    body_sweeps_->use_threads(threads);
-    newton_->use_threads(threads);
+    for (Way& way : ways_) way.solver->use_threads(threads);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    for (Way& way : ways_) {
+      way.pace.begin();
+      way.iterations = way.stalls = 0;
+      way.at = start;
+    }
+    most_promising(budget, 0);
     Relay relay(budget, std::move(start));
-    sweep_while_it_pays(relay, problem, budget);
-    double before = relay.error();
-    int standing_still = 0;
-    for (int steps = 40; !relay.over() && standing_still < patience; steps += steps / 2) {
-      if (!newton_is_prepared_) newton_->prepare(problem);
-      newton_is_prepared_ = true;
-      // Newton's turn, and how fast the error fell in it.
-      const int begin = relay.iterations();
-      const double error = relay.error();
-      relay.run(*newton_, problem, steps);
-      if (relay.over()) break;
-      // What misleads Newton is often local, and sweeps mend it. They get twice Newton's time where
-      // they are the faster of the two.
-      const double newton_cost = (relay.iterations() - begin) * factor_cost_;
-      const double newton_rate = std::log(error / relay.error()) / newton_cost;
-      const double share = newton_rate < sweep_rate_ ? 2.0 : 0.2;
-      sweep(*sweeps_, relay, problem,
-            std::clamp(static_cast<int>(share * newton_cost / sweep_cost_), 50, 20000));
-      standing_still = relay.error() < 0.5 * before ? 0 : standing_still + 1;
-      if (standing_still == from_elsewhere) {
-        const std::unique_ptr<Solver> interior_point = make_interior_point();
-        interior_point->prepare(problem);
-        relay.run(*interior_point, problem, 2000);
-      }
-      before = relay.error();
+    // Always the most promising way; its leg ends where another promises more. Whatever the budget,
+    // the first leg says how good the start is.
+    go(ways_[conjugate], relay, problem, budget);
+    while (!relay.over()) {
+      Way& next = ways_[most_promising(budget, relay.iterations())];
+      if (next.stalls > most_stalls) break;
+      go(next, relay, problem, budget);
     }
     return relay.finish();
   }
 
  private:
-  /// A round of sweeps, and what it brought: ln of the error per second of the model.
-  void sweep(Solver& solver, Relay& relay, const FrictionProblem& problem, int count) {
-    const double before = relay.error();
-    relay.run(solver, problem, count);
-    sweep_rate_ = std::log(before / relay.error()) / (count * sweep_cost_);
+  enum Kind : size_t { conjugate, anderson, newton, interior_point, kinds };
+
+  static Solver& prepared(Way& way, const FrictionProblem& problem) {
+    if (!way.is_prepared) way.solver->prepare(problem);
+    way.is_prepared = true;
+    return *way.solver;
   }
 
-  /// Doubling rounds of sweeps, until the rate of the last one promises less than Newton costs:
-  /// 20-60 factorisations on stored problems of up to 500 contacts, about a hundred on packings of
-  /// 5000.
-  void sweep_while_it_pays(Relay& relay, const FrictionProblem& problem, const Budget& budget) {
-    relay.run(*opening_, problem, 8);
-    for (int round = 8; !relay.over(); round *= 2) {
-      sweep(*opening_, relay, problem, round);
-      const double tolerance = budget.aim();
-      const double needed = tolerance > 0.0 && sweep_rate_ > 0.0
-                                ? std::log(relay.error() / tolerance) / sweep_rate_
-                                : 1e300;
-      const bool far_away = needed > (20.0 + 0.02 * problem.contact_count()) * factor_cost_;
-      const bool fair_share = relay.iterations() * sweep_cost_ > fair_factorisations * factor_cost_;
-      if (far_away && fair_share) return;
+  /// What an iteration of each way costs: of a factorisation, as many operations as of one whose
+  /// bandwidth is the mean filled row's.
+  void count_work(const FrictionProblem& problem) {
+    const double contacts = problem.contact_count();
+    double sweep = 0.0, step = 0.0;
+    if (problem.has_dynamics) {
+      sweep = body_visit * contacts;
+      step = body_unknown * problem.dynamics.dof_count() + newton_contact * contacts;
+    } else {
+      const double rows = problem.row_count();
+      const double entries = static_cast<double>(problem.delassus.w.nonZeros());
+      sweep = matrix_entry * entries + matrix_visit * contacts;
+      const bool is_dense = rows <= few_rows || entries > nearly_full * rows * rows;
+      const double dense = dense_entry * entries + dense_cube * rows * rows * rows;
+      const double sparse = sparse_row * rows;
+      step = newton_contact * contacts + (is_dense ? std::min(dense, sparse) : sparse);
     }
+    ways_[conjugate].work = sweep;
+    ways_[anderson].work = mixing * sweep;
+    ways_[newton].work = step;
+    ways_[interior_point].work = interior_factor * step;
+    ways_[newton].expected = expected_steps + expected_steps_per_contact * contacts;
+    ways_[interior_point].expected = expected_interior;
   }
 
-  /// Rounds of Newton and sweeps without halving the error.
-  static constexpr int patience = 60;
-  /// After so many of them, an interior point looks for another place to begin.
-  static constexpr int from_elsewhere = 4;
-  /// Sweeps first, for as long as this many factorisations take.
-  static constexpr double fair_factorisations = 2.0;
+  /// Work until `way` arrives, as far as one can tell: what its pace says, but not more than twice
+  /// what it has had: nobody knows what comes. So no way falls far behind another.
+  double promise(const Way& way, const Budget& budget, int spent) const {
+    const double rest = budget.max_iterations - spent;
+    if (way.iterations == 0 && way.least_part * way.expected > rest) return never;
+    const double sure = std::max(way.expected, 2.0 * way.iterations);
+    const double needed = way.iterations > 0 ? std::min(sure, way.pace.left(budget.aim())) : sure;
+    return needed * (is_scarce_ ? 1.0 : way.work) * std::pow(4.0, way.stalls);
+  }
 
-  std::unique_ptr<Solver> matrix_opening_, matrix_sweeps_, body_sweeps_, newton_;
-  Solver* opening_ = nullptr;  ///< the first sweeps: accelerated
-  /// Those between Newton's: acceleration has shown by then that it does not help.
-  Solver* sweeps_ = nullptr;
-  bool newton_is_prepared_ = false;
-  double sweep_cost_ = 0.0, factor_cost_ = 0.0;  ///< model [s]
-  double sweep_rate_ = 0.0;                      ///< of the last round [1/s]
+  size_t most_promising(const Budget& budget, int spent) {
+    // Sweeps of either kind are first taken to need what the first kind has had.
+    const int few = std::clamp(budget.max_iterations / 8, 1, few_sweeps);
+    const Way& first = ways_[conjugate];
+    ways_[conjugate].expected = few;
+    ways_[anderson].expected = std::max(1.0 * few, 0.6 * first.iterations);
+    // Iterations may be what is scarce: fewer than fair shares of work would take. Then one is as
+    // dear as another.
+    const Way& steps = ways_[newton];
+    is_scarce_ = 3.0 * steps.expected * steps.work > (budget.max_iterations - spent) * first.work;
+    size_t best = 0;
+    for (size_t k = 1; k < kinds; ++k)
+      if (promise(ways_[k], budget, spent) < promise(ways_[best], budget, spent)) best = k;
+    return best;
+  }
+
+  /// One leg of `way`: until another is the more promising by far.
+  void go(Way& way, Relay& relay, const FrictionProblem& problem, const Budget& budget) {
+    const int before = way.iterations, all_before = relay.iterations();
+    const bool goes_on = &way != &ways_[interior_point];
+    // A leg that is too short shows nothing: Newton's error stands for long before it falls.
+    const double resumed = goes_on ? 0.5 * before : 2.0 * before;
+    const double least = std::max(way.least_part * way.expected, resumed);
+    bool has_left = false;
+    const std::function<bool(int, double)> leave = [&](int iteration, double error) {
+      way.iterations = before + iteration;
+      way.pace.add(way.iterations, error);
+      if (iteration < least) return false;
+      const int spent = all_before + iteration;
+      const Way& other = ways_[most_promising(budget, spent)];
+      has_left = promise(way, budget, spent) > by_far * promise(other, budget, spent);
+      return has_left;
+    };
+    Solver& solver = prepared(way, problem);
+    relay.run([&](Impulses best, Budget left) {
+      left.leave = &leave;
+      const bool is_own =
+          before > 0 ? relay.error() > way.takes_best * way.pace.error() : way.takes_best < 0.1;
+      Solved part = solver.solve(problem, is_own ? way.at : std::move(best), left);
+      way.iterations = before + part.iterations;
+      way.at = part.impulses;
+      if (!has_left) ++way.stalls;
+      return part;
+    });
+  }
+
+  /// Tuned on generated piles (pile:family, seeds 1 to 24), tried on others.
+  static constexpr double never = 1e300;
+  /// Sweeps that are taken to be enough before they have shown their pace.
+  static constexpr int few_sweeps = 64;
+  /// A sweep with Anderson's mixing over one without.
+  static constexpr double mixing = 1.5;
+  /// What Newton is expected to need.
+  static constexpr double expected_steps = 10.0, expected_steps_per_contact = 0.05;
+  /// What an interior point is expected to need, and its step over Newton's.
+  static constexpr double expected_interior = 50.0, interior_factor = 1.5;
+  /// Changing ways costs: the other's promise must be so much better.
+  static constexpr double by_far = 1.5;
+  /// How often every way may end without arriving and by itself.
+  static constexpr int most_stalls = 12;
+
+  std::array<Way, kinds> ways_;
+  bool is_scarce_ = false;
 };
 
 }  // namespace

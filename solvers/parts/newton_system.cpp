@@ -6,6 +6,9 @@
 namespace ballast {
 namespace {
 
+/// |right - A x| over |right|, above which an LU without exchanged rows is not trusted.
+constexpr double most_rest = 1e-8;
+
 int body_of(const DynamicsForm& d, int c, int side) {
   return side == 0 ? d.body_a[c] : d.body_b[c];
 }
@@ -77,6 +80,7 @@ void NewtonSystem::prepare_bodies(const FrictionProblem& problem) {
       }
   mass_offset_.resize(bodies);
   for (int b = 0; b < bodies; ++b) mass_offset_[b] = find(b, b);
+  fronts_.analyse(matrix_, d.dof_begin);
 }
 
 void NewtonSystem::add_block(const FrictionProblem& problem, int c, int p, int q,
@@ -99,6 +103,23 @@ void NewtonSystem::add_block(const FrictionProblem& problem, int c, int p, int q
     for (int i = 0; i < left_dofs; ++i)
       for (int k = 0; k < rows; ++k) column[i] += hp[i * rows + k] * eh[k];
   }
+}
+
+bool NewtonSystem::solve_matrix() {
+  // Rows need not be exchanged nearly always: then the LU over bodies is up to ten times faster.
+  if (fronts_.factor(matrix_)) {
+    fronts_.solve(right_, dv_);
+    // Refined once, as the other way is.
+    rest_ = right_;
+    rest_.noalias() -= matrix_ * dv_;
+    fronts_.solve(rest_, correction_);
+    dv_ += correction_;
+    rest_.noalias() -= matrix_ * correction_;
+    if (rest_.norm() <= most_rest * right_.norm()) return true;
+  }
+  if (!factor_.factor(matrix_)) return false;
+  factor_.solve(matrix_, right_, dv_, 1);
+  return dv_.allFinite();
 }
 
 bool NewtonSystem::solve_bodies(const ContactOperator& w,
@@ -135,9 +156,7 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
   }
   // dv, and from it the impulses that were eliminated.
   contact_to_body_impulse(d, problem.row_begin, dr, right_);
-  if (!factor_.factor(matrix_)) return false;
-  factor_.solve(matrix_, right_, dv_, 1);
-  if (!dv_.allFinite()) return false;
+  if (!solve_matrix()) return false;
   body_to_contact_velocity(d, problem.row_begin, dv_, u_);
   // It adds the bias, which a change of velocity has not.
   u_ -= d.bias;

@@ -13,6 +13,7 @@
 
 #include "solvers/parts/contact_equation.hpp"
 #include "solvers/parts/contact_operator.hpp"
+#include "solvers/parts/front_lu.hpp"
 #include "solvers/parts/newton_matrix.hpp"
 #include "solvers/parts/sparse_factor.hpp"
 
@@ -33,6 +34,8 @@ class NewtonSystem {
   void prepare_bodies(const FrictionProblem& problem);
   bool solve_bodies(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
                     const std::vector<double>& alpha, Impulses& dr);
+  /// dv_ of the matrix and right_. False: singular.
+  bool solve_matrix();
   /// Adds H_p^T e H_q of contact c (sides p, q in 0, 1) to the matrix.
   void add_block(const FrictionProblem& problem, int c, int p, int q, const Eigen::Matrix3d& e);
 
@@ -43,9 +46,10 @@ class NewtonSystem {
   std::vector<int> mass_offset_;
   std::vector<Eigen::Matrix3d> gain_;    ///< E = B^-1 by_u per contact
   std::vector<Eigen::Vector3d> source_;  ///< B^-1 f
-  LuFactor factor_;
+  FrontLu fronts_;
+  LuFactor factor_;           ///< where a pivot of fronts_ is too small
   NewtonMatrix matrix_form_;  ///< where W is stored
-  Eigen::VectorXd right_, dv_, u_;
+  Eigen::VectorXd right_, dv_, u_, rest_, correction_;
 };
 
 }  // namespace ballast

@@ -31,11 +31,12 @@ class FclibStop {
   /// infinite before the first.
   double aim() const { return aim_; }
 
+  /// reached() asks for a hair less than the tolerance, because the judge sums in another order.
+  static constexpr double margin = 1e-3;
+
  private:
   static constexpr int first_looks = 4;
   static constexpr double near_aim = 3.0;
-  /// A hair below the tolerance, because the judge sums in another order.
-  static constexpr double margin = 1e-3;
 
   const FrictionProblem* problem_;
   double tolerance_, aim_ = std::numeric_limits<double>::infinity();

@@ -54,7 +54,8 @@ void Iteration::evaluated(double error, const Impulses& r) {
     reason_ = StopReason::iteration_limit;
   else if (out_of_time_ || now >= budget_.max_seconds)
     reason_ = StopReason::time_limit;
-  else if (count_ - unchanged_since_ >= patience_)
+  else if (count_ - unchanged_since_ >= patience_ ||
+           (budget_.leave && (*budget_.leave)(count_, error)))
     reason_ = StopReason::stalled;
   else
     stopped_ = false;

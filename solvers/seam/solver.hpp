@@ -1,6 +1,7 @@
 #pragma once
 // The seam between problems and algorithms.
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ struct Budget {
   /// Not null: solvers stop on this measure as well (fclib_stop.hpp), wherever they evaluate the
   /// error. One object serves one solve.
   FclibStop* fclib = nullptr;
+  /// Not null: asked with (iterations, error) wherever the error is evaluated; true ends the solve
+  /// as stalled. For who has something better to do with the rest of the budget.
+  const std::function<bool(int, double)>* leave = nullptr;
 
   /// The natural map to plan for [m/s]: the tolerance, or where `fclib` expects its own to be
   /// reached.

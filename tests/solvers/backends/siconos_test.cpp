@@ -7,6 +7,7 @@
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/stress_problems.hpp"
 #include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
@@ -42,6 +43,17 @@ TEST_CASE("Siconos stops on its own measure, where it was asked to") {
   CHECK(loose.error.fclib <= 1e-3);
   CHECK(loose.error.fclib > 1e-6);  // not solved further than asked
   CHECK(loose.solved.iterations < tight.solved.iterations);
+}
+
+TEST_CASE("An answer that Siconos is just content with is not sent back for another round") {
+  if (!has_siconos()) return;
+  // Every sweep takes 1/2000 of the error: it stops within the hair below the tolerance.
+  const FrictionProblem problem = mass_stack({1.0, 2000.0}, 3).problem;
+  const SolverRun run = solved_to(problem, SiconosMethod::nsgs_full, 1e-5),
+                  further = solved_to(problem, SiconosMethod::nsgs_full, 0.9e-5);
+  CHECK(run.success);
+  CHECK(run.solved.iterations > 100);
+  CHECK(run.solved.iterations < further.solved.iterations);
 }
 
 TEST_CASE("In a child that may be lost Siconos is called as it is: the same bits") {

@@ -89,3 +89,31 @@ TEST_CASE("without alpha the stored form takes blocks that the dynamics form can
     CHECK(system.solve(op, stick, none, dr) == !has_dynamics);
   }
 }
+
+TEST_CASE("bodies' matrices whose rows must be exchanged are solved as well", "[factors]") {
+  // Two masses of 1 that one frictionless contact joins: M + E [1 -1; -1 1] with E = -1 has a zero
+  // for its first pivot. E = by_u / (by_r + alpha by_u).
+  FrictionProblem problem;
+  problem.has_dynamics = true;
+  DynamicsForm& d = problem.dynamics;
+  d.mass = {1.0, 1.0};
+  d.dof_begin = d.mass_begin = {0, 1, 2};
+  d.v_free = Eigen::Vector2d::Zero();
+  d.bias = Eigen::VectorXd::Zero(1);
+  d.body_a = {0};
+  d.body_b = {1};
+  d.h = {-1.0, 1.0};
+  d.h_begin = {0, 2};
+  problem.row_begin = {0, 1};
+  problem.friction = {0.0};
+  const std::vector<ContactLinearisation> linear{{Eigen::Vector3d(0.5, 0.0, 0.0),
+                                                  Eigen::Vector3d(-2.0, 1.0, 1.0).asDiagonal(),
+                                                  Eigen::Vector3d(1.0, 0.0, 0.0).asDiagonal()}};
+  ContactOperator op;
+  op.prepare(problem);
+  NewtonSystem system;
+  system.prepare(op);
+  Impulses dr;
+  REQUIRE(system.solve(op, linear, {1.0}, dr));
+  CHECK(dr[0] == Approx(-0.5));  // by_r + by_u (W + alpha) = -2 + 2 + 1
+}

@@ -1,5 +1,6 @@
 #include "solvers/seam/iteration.hpp"
 
+#include <functional>
 #include <limits>
 #include <thread>
 
@@ -92,4 +93,20 @@ TEST_CASE("time runs out") {
                             });
   CHECK(solved.reason == StopReason::time_limit);
   CHECK(solved.iterations > 1);
+}
+
+TEST_CASE("who has something better to do leaves at a look, but not what is solved") {
+  std::vector<int> asked;
+  const std::function<bool(int, double)> leave = [&](int count, double error) {
+    CHECK(error == 1.0 / (count + 1));
+    asked.push_back(count);
+    return count >= 8;
+  };
+  const auto error_at = [](int n) { return 1.0 / (n + 1); };
+  const Solved left = run({.tolerance = 1e-3, .leave = &leave}, {4, 1.5}, error_at);
+  CHECK(left.reason == StopReason::stalled);
+  CHECK(left.iterations == 9);
+  CHECK(asked == std::vector<int>{0, 4, 6, 9});
+  CHECK(run({.tolerance = 0.11, .leave = &leave}, {4, 1.5}, error_at).reason ==
+        StopReason::reached_tolerance);
 }
