@@ -39,12 +39,14 @@ struct SweepWork {
   Impulses start, end;
   BodySweep sweep;
 
-  SweepWork(const KernelProblem& from, int copies, int threads)
+  enum class Precision { in_double, single };
+  /// Single precision where groups are swept (WideSweep::allow_single), refreshed by error().
+  SweepWork(const KernelProblem& from, int copies, Precision precision = Precision::in_double)
       : problem(repeated(from.problem, copies)),
         start(repeated(from.warm, copies)),
         end(start.size()) {
-    sweep.use_threads(threads);
     sweep.prepare(problem);
+    sweep.allow_single(precision == Precision::single);
     sweep.load(problem, start);
     sweep.start_search();
   }
@@ -115,8 +117,10 @@ void add_problem_kernels(const KernelProblem& problem, std::vector<Kernel>& kern
 
 void add_sweep_kernels(const KernelProblem& problem, int streaming_copies,
                        std::vector<Kernel>& kernels) {
-  const auto cached = std::make_shared<SweepWork>(problem, 1, 1),
-             streaming = std::make_shared<SweepWork>(problem, streaming_copies, 1);
+  constexpr auto single = SweepWork::Precision::single;
+  const auto cached = std::make_shared<SweepWork>(problem, 1),
+             streaming = std::make_shared<SweepWork>(problem, streaming_copies),
+             float_lanes = std::make_shared<SweepWork>(problem, 1, single);
   const auto add = [&](const char* name, const std::shared_ptr<SweepWork>& work,
                        std::function<void()> call) {
     kernels.push_back({"sweep", name, "ns/contact",
@@ -130,6 +134,12 @@ void add_sweep_kernels(const KernelProblem& problem, int streaming_copies,
       [cached, step] { cached->sweep.sweep(step); });
   add("sweep along a search, streaming", streaming,
       [streaming, step] { streaming->sweep.sweep(step); });
+  add("sweep in float lanes, the packing alone", float_lanes,
+      [float_lanes] { float_lanes->sweep.sweep(); });
+  add("sweep in float lanes along a search", float_lanes,
+      [float_lanes, step] { float_lanes->sweep.sweep(step); });
+  add("error in float lanes, with the refresh in double", float_lanes,
+      [float_lanes] { float_lanes->sweep.error(); });
   add("error", cached, [cached] { cached->sweep.error(); });
   add("prepare", cached, [cached] { cached->sweep.prepare(cached->problem); });
   add("load", cached, [cached] { cached->sweep.load(cached->problem, cached->start); });

@@ -4,12 +4,16 @@
 #include <memory>
 
 #include "experiments/bench/accuracy_bench.hpp"
+#include "experiments/bench/captured_bench.hpp"
 #include "experiments/bench/kernels.hpp"
 #include "experiments/bench/scaling_bench.hpp"
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/compare_options.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/program.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -128,6 +132,32 @@ ExitCode bench_accuracy(const AccuracyRequest& request) {
   return finish(request, "accuracy", measure_machine(), accuracy_measurements(rows), &figure);
 }
 
+struct CapturedRequest : BenchRequest {
+  std::vector<std::string> files;
+  std::string solvers_text = "nncg,newton_burst", tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6",
+              starts_text = "warm", within_text = "0.25,1,5";
+  CapturedOptions captured;
+};
+
+ExitCode bench_captured(const CapturedRequest& request) {
+  restart_with_one_algebra_thread();
+  CapturedOptions options = request.captured;
+  options.folder = request.output;
+  const auto rows =
+      measure_captured(compare_cases(request.files), options, [](const CapturedRow& r) {
+        say(printed("%-24s %-13s %-4s %-6g %-8s %8.3f s  error %8.2e  velocities %8.2e\n",
+                    r.problem.c_str(), r.solver.c_str(), name_of(r.start), r.tolerance,
+                    r.solved ? "solved" : "unsolved", r.seconds, r.error, r.distance.velocity));
+        return !InterruptGuard::requested();
+      });
+  const auto measurements = captured_measurements(options, rows);
+  create_folder(request.output);
+  write_whole_file(request.output / "captured_rows.csv", captured_csv(rows));
+  const Figure figure = captured_figure(options, rows);
+  return finish(request, "captured", measure_machine(), measurements,
+                figure.panels.empty() ? nullptr : &figure);
+}
+
 /// A subcommand that measures: what all of them have, then `more`.
 template <class Request>
 Command measuring(const char* name, const char* meaning, const std::shared_ptr<Request>& request,
@@ -199,8 +229,35 @@ Command accuracy_command() {
         into(live.tolerances, tolerances_or_none)},
        {"--iterations", &request->iterations_text, "And with so many iterations in every step",
         shown, into(request->accuracy.iterations, counts)},
+       {"--threads", &live.threads, "Of the step and its solver", shown, between(1, 256)},
        {"--from", &live.start, "Simulated time where all begin [s]", shown, at_least(0)},
        {"--duration", &live.duration, "Simulated from there [s]", shown, above(0)}});
+}
+
+Command captured_command() {
+  const auto request = std::make_shared<CapturedRequest>();
+  CapturedOptions& captured = request->captured;
+  return {
+      "captured",
+      "Every measure of an answer's error against its cost, on problems of a run",
+      {{"problems", &request->files, "Files, folders, patterns (ballast run --capture)", required},
+       {"--solvers", &request->solvers_text, "Separated by commas", shown,
+        into(captured.solvers, parse_solvers)},
+       {"--tolerances", &request->tolerances_text, "Solved to these [g h]", shown,
+        into(captured.tolerances, parse_tolerances)},
+       {"--starts", &request->starts_text, "cold, warm or cold,warm", shown,
+        into(captured.starts, parse_starts)},
+       {"--within", &request->within_text, "Solves within so many seconds are counted", shown,
+        into(captured.within, parse_tolerances)},
+       {"--max-seconds", &captured.max_seconds, "Of one solve", shown, above(0)},
+       {"--exact-seconds", &captured.exact_seconds,
+        "Spent on a solution at 1e-9 of each problem, from which distances are measured; 0: "
+        "none",
+        shown, at_least(0)},
+       {"--threads", &captured.threads, "Of a solver", shown, between(1, 256)},
+       {"--output DIR", &request->output, "Folder of the results", shown},
+       {"--no-plot", &request->plot, "No figure"}},
+      [request] { return bench_captured(*request); }};
 }
 
 Command diff_command() {
@@ -221,12 +278,12 @@ Command diff_command() {
 }  // namespace
 
 Command bench_command() {
-  return {
-      "bench",
-      "How fast: kernels, whole steps, scaling, cost against accuracy",
-      {},
-      {},
-      {kernels_command(), step_command(), scaling_command(), accuracy_command(), diff_command()}};
+  return {"bench",
+          "How fast: kernels, whole steps, scaling, cost against accuracy",
+          {},
+          {},
+          {kernels_command(), step_command(), scaling_command(), accuracy_command(),
+           captured_command(), diff_command()}};
 }
 
 }  // namespace ballast

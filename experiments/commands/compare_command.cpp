@@ -96,7 +96,7 @@ ExitCode compare_live(const CompareRequest& options) {
 ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError("compare: expected cases, or --live SCENE");
-  require_own_folder(options.output, {"rows", "trajectories", "start"});
+  require_own_folder(options.output, {"rows", "trajectories", "start", "exact"});
   if (!options.external.empty() && !options.live.scene.empty())
     throw UsageError("compare: --external: not with --live, whose solver works inside the step");
   options.program_limits.memory_MB = options.comparison.limits.memory_MB;
@@ -132,6 +132,7 @@ Command compare_command() {
   const auto options = std::make_shared<CompareRequest>();
   CompareOptions& comparison = options->comparison;
   LiveOptions& live = options->live;
+  comparison.exact_seconds = 5.0;
   return {
       "compare",
       "Backends on identical problems: accuracy against cost, figures, a page",
@@ -153,6 +154,9 @@ Command compare_command() {
         at_least(1)},
        {"--max-seconds", &comparison.max_seconds, "Wall clock of one solve, prepare included",
         shown, above(0)},
+       {"--exact-seconds", &comparison.exact_seconds,
+        "Spent on a solution at 1e-9 of each case, from which distances are measured; 0: none",
+        shown, at_least(0)},
        {"--memory", &comparison.limits.memory_MB, "Address space of one child in MB; 0: no limit",
         shown, at_least(0)},
        {"--reference FILE", &options->reference,

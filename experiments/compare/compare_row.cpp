@@ -59,6 +59,11 @@ void for_members(Row& row, F&& f) {
   f("own_residual", row.own_residual);
   f("worst_contact", row.worst_contact);
   f("worst", row.worst);
+  f("velocity_distance", row.distance.velocity);
+  f("contact_velocity_distance", row.distance.contact_velocity);
+  f("body_impulse_distance", row.distance.body_impulse);
+  f("wall_force_distance", row.distance.wall_force);
+  f("statuses_wrong", row.distance.statuses);
   f("iterations", row.iterations);
   f("runs", row.runs);
   f("prepare_seconds", row.prepare_seconds);
@@ -140,6 +145,17 @@ const std::vector<CompareColumn>& compare_columns() {
       {"own_residual", "the backend's own: no evidence",
        [](R r) { return printed("%.6g", r.own_residual); }},
       {"worst", "contact of natural_map_max", [](R r) { return r.worst; }},
+      {"velocity_distance",
+       "of bodies, from a solution at 1e-9, over the velocity scale; nan: none",
+       [](R r) { return printed("%.6g", r.distance.velocity); }},
+      {"contact_velocity_distance", "of contacts, rms",
+       [](R r) { return printed("%.6g", r.distance.contact_velocity); }},
+      {"body_impulse_distance", "of H^T r, as a part of the solution's",
+       [](R r) { return printed("%.6g", r.distance.body_impulse); }},
+      {"wall_force_distance", "of the force on the driven wall, as a part of the solution's",
+       [](R r) { return printed("%.6g", r.distance.wall_force); }},
+      {"statuses_wrong", "contacts that are open, stick or slip otherwise; -1: no solution known",
+       [](R r) { return std::to_string(r.distance.statuses); }},
       {"peak_memory_MB", "of the child", [](R r) { return printed("%.4g", r.peak_memory_MB); }},
       {"contacts", "", [](R r) { return std::to_string(r.facts.contacts); }},
       {"rows", "", [](R r) { return std::to_string(r.facts.rows); }},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/compare/compare_case.hpp"
+#include "problems/algebra/answer_distance.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
@@ -68,6 +69,9 @@ struct CompareRow {
   double cone_violation = 0.0, min_normal_velocity = 0.0, own_residual = 0.0;
   int worst_contact = -1;
   std::string worst;  ///< the same with its name
+  /// From a solution at 1e-9, velocities over the case's velocity scale; where none is known NaN,
+  /// and statuses -1.
+  AnswerDistance distance;
   int iterations = 0;
   int runs = 0;  ///< solves in the child, of which the fastest is timed here
   double prepare_seconds = 0.0, solve_seconds = 0.0;

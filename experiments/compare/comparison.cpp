@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "experiments/measure/exact_answer.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
@@ -41,10 +42,10 @@ std::string key_of(const CompareOptions& options, const std::string& binary,
                    const CompareCase& tried, const CaseFacts& facts, const Attempt& attempt,
                    int repeat) {
   const std::string numbers =
-      printed("%.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance, options.max_seconds,
-              options.max_iterations, options.limits.memory_MB, options.limits.warm_seconds,
-              options.limits.most_runs, repeat);
-  return content_key("compare row 2|" + binary + '|' + tried.name + '|' + facts.content + '|' +
+      printed("%.17g %.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance, options.max_seconds,
+              options.exact_seconds, options.max_iterations, options.limits.memory_MB,
+              options.limits.warm_seconds, options.limits.most_runs, repeat);
+  return content_key("compare row 3|" + binary + '|' + tried.name + '|' + facts.content + '|' +
                      attempt.solver->name + '|' + attempt.solver->external_key + '|' +
                      name_of(options.measure) + '|' + name_of(attempt.start) + '|' + numbers);
 }
@@ -85,6 +86,7 @@ class Comparison {
       add_unreadable(tried, error.what());
       return;
     }
+    look_for_exact(loaded);
     const std::vector<Attempt> attempts = attempts_of(options_, loaded);
     done_ += planned - attempts.size();
     for (const Attempt& attempt : attempts) {
@@ -99,6 +101,13 @@ class Comparison {
       goes_on_ = progress_(row, was_there, done_, count_);
       rows_.push_back(std::move(row));
     }
+  }
+
+  void look_for_exact(LoadedCase& loaded) const {
+    const ExactSearch search{loaded.facts.velocity_scale, options_.exact_seconds,
+                             options_.folder / "exact", loaded.facts.content};
+    if (auto found = find_exact_answer(loaded.problem, loaded.warm_start, search))
+      loaded.exact = std::move(found->impulses);
   }
 
   /// One row for the case, whatever was to be tried on it. It has no file: the case may be mended.

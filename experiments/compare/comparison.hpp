@@ -32,6 +32,8 @@ struct CompareOptions {
                     ///< are not repeated
   double max_seconds = 60.0;  ///< of one solve, prepare included
   int max_iterations = 1 << 30;
+  /// Spent on a solution of each case to measure distances from; 0: none is looked for.
+  double exact_seconds = 0.0;
   ChildLimits limits;
   std::filesystem::path folder;  ///< rows/<key>.json, results.csv, manifest.json
   std::string command;           ///< for the manifest: how it was called

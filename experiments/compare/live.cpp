@@ -84,6 +84,7 @@ void step_on(const LiveOptions& options, const Scene& scene, Start start,
   settings.solver.tolerance = trajectory.tolerance;
   settings.solver.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1 << 30;
   settings.solver.max_seconds = options.max_seconds;
+  settings.solver.threads = options.threads;
   TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
   const long count = std::max(1L, std::lround(options.duration / settings.h)),
              frame_every = std::max(1L, count / 100);
@@ -131,11 +132,11 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
                          const std::string& binary, const ComparedSolver& solver,
                          double tolerance) {
   const std::string numbers =
-      printed("|%.17g %.17g %.17g %.17g %d", tolerance, options.duration, options.max_seconds,
-              options.trajectory_seconds, options.max_iterations);
+      printed("|%.17g %.17g %.17g %.17g %d %d", tolerance, options.duration, options.max_seconds,
+              options.trajectory_seconds, options.max_iterations, options.threads);
   const fs::path file =
       options.folder / "trajectories" /
-      (content_key("trajectory 3|" + binary + '|' + start.key + '|' + solver.name + numbers) +
+      (content_key("trajectory 4|" + binary + '|' + start.key + '|' + solver.name + numbers) +
        ".bin");
   Trajectory trajectory;
   trajectory.solver = solver.name;

@@ -156,6 +156,8 @@ Finding judge(const LoadedCase& loaded, const Impulses& impulses, StopReason rea
   row.min_normal_velocity = error.min_normal_velocity;
   row.worst_contact = error.worst_contact;
   row.worst = loaded.describe_contact(error.worst_contact);
+  row.distance =
+      answer_distance(loaded.problem, impulses, loaded.exact, loaded.facts.velocity_scale);
   row.error = row.measure == Measure::fclib ? error.fclib
                                             : error.natural_map_rms / loaded.facts.velocity_scale;
   const double tolerance = row.tolerance * loaded.facts.velocity_scale;

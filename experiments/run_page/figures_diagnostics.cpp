@@ -32,6 +32,7 @@ page::Picture error_figure(const RunData& data, const RunSummary& summary) {
                          {{"scale", page::quantity(scale, "m/s")},
                           {"mean", page::number(summary.error_mean_relative)},
                           {"max", page::number(summary.error_max_relative)}});
+  if (is_relative && has_bounds) caption += page::words("run.error.box");
   return run_picture("error", 420, {panel}, caption);
 }
 

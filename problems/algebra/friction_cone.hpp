@@ -8,6 +8,9 @@
 
 namespace ballast {
 
+/// What a contact does, by Coulomb's law.
+enum class ContactStatus { open, stick, slip };
+
 /// |x_T|
 inline double tangential_norm(const Eigen::Vector3d& x) {
   return std::sqrt(x[1] * x[1] + x[2] * x[2]);

@@ -8,9 +8,9 @@
 
 #include <Eigen/Dense>
 
-namespace ballast {
+#include "problems/algebra/friction_cone.hpp"
 
-enum class ContactStatus { open, stick, slip };
+namespace ballast {
 
 /// W of one contact in the coordinates in which it is diagonal. With c = W_TN / W_NN, the Schur
 /// complement S = W_TT - c W_TN^T, the tangents turned to the principal axes of S, and y = r_N + c

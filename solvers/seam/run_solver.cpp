@@ -32,6 +32,7 @@ void validate_start(const FrictionProblem& problem, Impulses& start) {
 template <typename Work>
 SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& budget, Work&& work) {
   SolverRun run;
+  const double begin = processor_seconds();
   try {
     work(run);
   } catch (const UnsupportedProblem&) {
@@ -43,6 +44,7 @@ SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& bu
     run.solved.reason = StopReason::numerical_failure;
     run.failure = error.what();
   }
+  run.processor_seconds = processor_seconds() - begin;
   // A backend that failed may return nothing; no impulses is then what is judged.
   if (run.solved.impulses.size() != problem.row_count()) {
     run.solved.impulses.setZero(problem.row_count());
@@ -96,6 +98,7 @@ SolverRun SolverRunner::until_within(Solver& solver, const FrictionProblem& prob
     next.solve_seconds += run.solve_seconds;
     next.prepare_seconds = run.prepare_seconds;
     next.startup_seconds += run.startup_seconds;
+    next.processor_seconds += run.processor_seconds;
     run = std::move(next);
   }
   return run;

@@ -13,7 +13,8 @@ struct SolverRun {
   ContactError error;          ///< the judge's, never the backend's
   double prepare_seconds = 0;  ///< wall clock of prepare() and solve() alone
   double solve_seconds = 0;
-  double startup_seconds = 0;  ///< of solve(), and not in solve_seconds: Solved::startup_seconds
+  double startup_seconds = 0;    ///< of solve(), and not in solve_seconds: Solved::startup_seconds
+  double processor_seconds = 0;  ///< of this process in prepare() and solve(), start-up included
   Verdict verdict = Verdict::unsolved;
   bool success = false;  ///< verdict == solved
   std::string failure;   ///< what() of the exception that a backend threw; empty: none

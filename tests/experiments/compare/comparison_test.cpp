@@ -107,6 +107,7 @@ TEST_CASE("Every case is tried by every solver to every tolerance, and the table
   CompareOptions options = options_in(folder.path(), parse_solvers("pgs,nncg"));
   options.tolerances = {1e-2, 1e-4};
   options.starts = {StartKind::cold, StartKind::warm};  // made cases have no warm start
+  options.exact_seconds = 5.0;
   size_t last = 0;
   const std::vector<CompareRow> rows =
       run_comparison(compare_cases({"known:contacts=12,bodies=6,count=2"}), options,
@@ -123,6 +124,9 @@ TEST_CASE("Every case is tried by every solver to every tolerance, and the table
   CHECK(rows[1].tolerance == 1e-2);
   CHECK(rows[2].tolerance == 1e-4);
   CHECK(rows[4].case_name != rows[0].case_name);
+  CHECK(rows[0].distance.velocity > 0.0);
+  CHECK(rows[2].distance.velocity < 0.1 * rows[0].distance.velocity);
+  CHECK(rows[2].distance.statuses >= 0);
   const std::string csv = read_whole_file(folder.path() / "results.csv");
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 9);
   const std::string manifest = read_whole_file(folder.path() / "manifest.json");

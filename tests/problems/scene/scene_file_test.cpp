@@ -23,7 +23,9 @@ TEST_CASE("every scene of the folder is read, and its resolved text says the sam
   }
 }
 
-TEST_CASE("the vibrated box names the paper's values, and its chosen ones are the defaults") {
+TEST_CASE(
+    "the vibrated box names the paper's values, and its chosen ones are the defaults "
+    "but the solver's limits") {
   const Scene scene = read_scene(find_scene("vibrated_box"));
   REQUIRE(scene.grains);
   CHECK(scene.grains->count == 1200);
@@ -46,8 +48,11 @@ TEST_CASE("the vibrated box names the paper's values, and its chosen ones are th
   const TemporaryFolder folder;
   const auto bare = folder.write("vibrated_box.toml",
                                  "[grains]\ncount = 1200\n[box]\nlength = 0.54\nwidth = 0.54\n");
-  const std::vector<std::string> same_title = {"scene.title=\"" + scene.title + "\""};
-  CHECK(resolved_scene_text(bare, same_title) == resolved_scene_text(find_scene("vibrated_box")));
+  CHECK(scene.solver.tolerance == 1e-2);
+  CHECK(scene.solver.max_iterations == 1000);
+  const std::vector<std::string> named = {"scene.title=\"" + scene.title + "\"",
+                                          "solver.tolerance=1e-2", "solver.max_iterations=1000"};
+  CHECK(resolved_scene_text(bare, named) == resolved_scene_text(find_scene("vibrated_box")));
 }
 
 TEST_CASE(
