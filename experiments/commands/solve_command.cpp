@@ -10,8 +10,11 @@
 
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/compare_options.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
+#include "problems/files/solution_file.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -27,6 +30,8 @@ struct SolveOptions {
   int max_iterations = 10000;
   double max_seconds = 1e30;
   bool json = false;
+  /// Of answers to write and to start from: a file, or a folder with one for each problem.
+  std::filesystem::path output, start;
 };
 
 struct SolvedFile {
@@ -74,6 +79,31 @@ const Measure measures[] = {
     {"startup_s", "startup_seconds", &SolverRun::startup_seconds},
 };
 
+/// Where the answer to a problem is: the path itself if that is an HDF5 file, which holds one.
+std::filesystem::path answer_of(const std::string& file, const std::filesystem::path& where) {
+  const std::string extension = where.extension().string();
+  if (extension == ".hdf5" || extension == ".h5") return where;
+  return where / std::filesystem::path(file).filename().replace_extension(".hdf5");
+}
+
+void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
+                 const SolveOptions& options) {
+  StoredSolution stored{
+      .r = solved.run.solved.impulses,
+      .numbers = {{"tolerance", solved.tolerance}, {"iterations", solved.run.solved.iterations}},
+      .texts = {{"problem", solved.file},
+                {"solver", options.solver},
+                {"reason", name_of(solved.run.solved.reason)},
+                {"verdict", name_of(solved.found.verdict)}}};
+  for (const Measure& m : measures) stored.numbers.emplace_back(m.name, m.value(solved));
+  const std::filesystem::path file = answer_of(solved.file, options.output);
+  std::error_code error;
+  if (std::filesystem::equivalent(file, solved.file, error))
+    throw Error(file.string() + ": would be written over the problem");
+  if (file.has_parent_path()) create_folder(file.parent_path());
+  write_solution(file, problem, stored);
+}
+
 SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner) {
   const FrictionProblem problem = read_problem(file);
   SolvedFile solved;
@@ -88,10 +118,13 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
     solved.tolerance *= scale;
   }
   const auto solver = options.make();  // a new one for each: nothing is carried over
-  solved.run = runner.run(*solver, problem, {},
+  const Impulses start =
+      options.start.empty() ? Impulses() : read_solution(answer_of(file, options.start), problem);
+  solved.run = runner.run(*solver, problem, start,
                           {solved.tolerance, options.max_iterations, options.max_seconds, false});
   solved.found = finding_on(problem, solved.run.solved.impulses, solved.run.solved.reason,
                             solved.run.error, solved.tolerance);
+  if (!options.output.empty()) keep_answer(problem, solved, options);
   return solved;
 }
 
@@ -196,6 +229,10 @@ ExitCode solve(SolveOptions& options) {
   options.make = maker_of(options);
   if (std::isinf(options.tolerance))
     throw UsageError("solve: --tolerance: expected a finite number");
+  for (const std::filesystem::path& where : {options.output, options.start})
+    if (options.files.size() > 1 && answer_of("", where) == where && !where.empty())
+      throw UsageError("solve: " + where.string() +
+                       ": is one file; several problems need a folder for their answers");
   int width = 7;
   for (const std::string& file : options.files)
     width =
@@ -235,6 +272,9 @@ Command solve_command() {
        {"--max-iterations", &options->max_iterations, "Sweeps, Newton steps, ...", shown,
         at_least(1)},
        {"--max-seconds", &options->max_seconds, "Wall clock per problem", above(0)},
+       {"--output PATH", &options->output,
+        "Keep r, u and the measures: a file .hdf5, or a folder with one for each problem"},
+       {"--start PATH", &options->start, "Begin with the r of such a file or folder"},
        {"--json", &options->json, "Rows as JSON instead of a table"}},
       [options] { return solve(*options); }};
 }

@@ -1,7 +1,5 @@
 #include "experiments/compare/compare_case.hpp"
 
-#include <glob.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -15,11 +13,6 @@ namespace ballast {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_problem_file(const fs::path& file) {
-  const std::string extension = file.extension().string();
-  return extension == ".hdf5" || extension == ".h5" || extension == ".dat";
-}
 
 LoadedCase load_captured(const fs::path& file) {
   const auto captured = std::make_shared<CapturedProblem>(read_captured(file));
@@ -69,43 +62,10 @@ CompareCase file_case(const fs::path& file) {
   return stored_case(file);
 }
 
-std::vector<fs::path> matches(const std::string& pattern) {
-  glob_t found{};
-  std::vector<fs::path> files;
-  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
-    for (size_t k = 0; k < found.gl_pathc; ++k) files.emplace_back(found.gl_pathv[k]);
-  globfree(&found);
-  return files;
-}
-
-void add_files(const fs::path& path, std::vector<fs::path>& files) {
-  if (!fs::is_directory(path)) {
-    files.push_back(path);
-    return;
-  }
-  const size_t before = files.size();
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path))
-    if (entry.is_regular_file() && is_problem_file(entry.path())) files.push_back(entry.path());
-  if (files.size() == before)
-    throw Error(path.string() + ": no problem file (.hdf5, .h5, .dat) in this folder");
-  std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
-}
-
 void add_file_cases(const std::string& word, std::vector<CompareCase>& cases) {
   std::vector<fs::path> files;
-  const bool is_pattern = word.find_first_of("*?[") != std::string::npos;
-  if (fs::exists(word) || (!is_pattern && is_problem_file(word))) {
-    add_files(word, files);
-  } else {
-    for (const fs::path& match : matches(word)) add_files(match, files);
-    if (files.empty())
-      throw Error(
-          word +
-          ": no such file, folder or pattern; made cases begin with known:, pile: or stress:");
-  }
+  for (const FoundProblem& found : find_problems(word)) files.push_back(found.file);
   for (const fs::path& file : files) {
-    if (!is_problem_file(file))
-      throw Error(file.string() + ": is no problem file (.hdf5, .h5, .dat)");
     cases.push_back(file_case(file));
   }
 }

@@ -5,7 +5,6 @@
 
 #include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
-#include "problems/algebra/delassus.hpp"
 #include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
@@ -249,13 +248,7 @@ void write_fclib(const std::filesystem::path& path,
 void write_problem_forms(const std::filesystem::path& file, const FrictionProblem& problem,
                          const std::function<void(Hdf5Writer&)>& add) {
   problem.validate();
-  FrictionProblem stored;
-  stored.row_begin = problem.row_begin;
-  stored.friction = problem.friction;
-  stored.has_delassus = true;
-  stored.delassus.w = delassus_matrix(problem);
-  free_contact_velocity(problem, stored.delassus.q);
-  const LocalProblem local = to_local_problem(stored);
+  const LocalProblem local = condensed(problem);
   if (!problem.has_dynamics) return write_fclib(file, local, add);
   write_fclib(file, to_global_problem(problem), [&](Hdf5Writer& opened) {
     add_fclib(opened, local);

@@ -3,6 +3,8 @@
 // Siconos' text format read.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/files/fclib_file.hpp"
@@ -15,5 +17,15 @@ namespace ballast {
 /// diagonal by bodies and a contact touches at most two of them; otherwise W is formed. What a run
 /// captured comes back in the form in which it was written.
 FrictionProblem read_problem(const std::filesystem::path& file);
+
+/// One of a collection.
+struct FoundProblem {
+  std::filesystem::path file;
+  std::filesystem::path name;  ///< from the folder that was given on; else the file's name
+};
+
+/// The problems that a word names: a file (that may be missing), a folder (all in and below it,
+/// sorted), a pattern with * ? [ ]. Throws Error for a word that names none, and for other files.
+std::vector<FoundProblem> find_problems(const std::string& word);
 
 }  // namespace ballast

@@ -1,10 +1,10 @@
 #include "problems/files/stored_problem.hpp"
-
 #include <string>
 #include <utility>
 
 #include <Eigen/SparseLU>
 
+#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
@@ -199,6 +199,16 @@ GlobalProblem to_global_problem(const FrictionProblem& problem) {
   global.w = three_rows(problem, problem.dynamics.bias);
   global.mu = problem.friction;
   return global;
+}
+
+LocalProblem condensed(const FrictionProblem& problem) {
+  FrictionProblem stored;
+  stored.row_begin = problem.row_begin;
+  stored.friction = problem.friction;
+  stored.has_delassus = true;
+  stored.delassus.w = delassus_matrix(problem);
+  free_contact_velocity(problem, stored.delassus.q);
+  return to_local_problem(stored);
 }
 
 }  // namespace ballast

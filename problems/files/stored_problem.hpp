@@ -44,4 +44,7 @@ Eigen::VectorXd own_rows(const FrictionProblem& problem, const Eigen::VectorXd& 
 LocalProblem to_local_problem(const FrictionProblem& problem);
 GlobalProblem to_global_problem(const FrictionProblem& problem);
 
+/// The local form of any problem: W is built where only bodies are known.
+LocalProblem condensed(const FrictionProblem& problem);
+
 }  // namespace ballast

@@ -1,0 +1,61 @@
+// find_problems: from the words of a command line to problem files.
+
+#include <glob.h>
+
+#include <algorithm>
+
+#include "platform/error.hpp"
+#include "problems/files/problem_file.hpp"
+
+namespace ballast {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_problem_file(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  return extension == ".hdf5" || extension == ".h5" || extension == ".dat";
+}
+
+std::vector<fs::path> matches(const std::string& pattern) {
+  glob_t found{};
+  std::vector<fs::path> files;
+  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+    for (size_t k = 0; k < found.gl_pathc; ++k) files.emplace_back(found.gl_pathv[k]);
+  globfree(&found);
+  return files;
+}
+
+void add_problems(const fs::path& path, std::vector<FoundProblem>& problems) {
+  if (!fs::is_directory(path)) {
+    if (!is_problem_file(path))
+      throw Error(path.string() + ": is no problem file (.hdf5, .h5, .dat)");
+    problems.push_back({path, path.filename()});
+    return;
+  }
+  const auto before = static_cast<std::ptrdiff_t>(problems.size());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path))
+    if (entry.is_regular_file() && is_problem_file(entry.path()))
+      problems.push_back({entry.path(), entry.path().lexically_relative(path)});
+  if (problems.size() == static_cast<size_t>(before))
+    throw Error(path.string() + ": no problem file (.hdf5, .h5, .dat) in this folder");
+  std::sort(problems.begin() + before, problems.end(),
+            [](const FoundProblem& a, const FoundProblem& b) { return a.file < b.file; });
+}
+
+}  // namespace
+
+std::vector<FoundProblem> find_problems(const std::string& word) {
+  std::vector<FoundProblem> problems;
+  const bool is_pattern = word.find_first_of("*?[") != std::string::npos;
+  if (fs::exists(word) || (!is_pattern && is_problem_file(word))) {
+    add_problems(word, problems);
+    return problems;
+  }
+  for (const fs::path& match : matches(word)) add_problems(match, problems);
+  if (problems.empty())
+    throw Error(
+        word + ": no such file, folder or pattern; made cases begin with known:, pile: or stress:");
+  return problems;
+}
+
+}  // namespace ballast

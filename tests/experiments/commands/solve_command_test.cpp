@@ -1,0 +1,55 @@
+// The answers that `ballast solve` keeps and starts from.
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/files/problem_file.hpp"
+#include "problems/files/solution_file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder "in" with two problems, one of them deeper.
+struct Collection {
+  TemporaryFolder folder;
+  KnownSolution known = make_known_solution({.bodies = 6, .contacts = 12});
+  fs::path in = folder.path() / "in", out = folder.path() / "out";
+  Collection() {
+    fs::create_directories(in / "deep");
+    write_problem(in / "a.hdf5", known.problem);
+    write_problem(in / "deep" / "b.hdf5", known.problem);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("solve keeps its answer and starts from it") {
+  const Collection c;
+  const std::string problem = (c.in / "a.hdf5").string();
+  const fs::path answer = c.folder.path() / "answer.hdf5";
+  const ProgramResult first = ballast_program({"solve", problem, "--output", answer.string()});
+  INFO(first.errors);
+  REQUIRE(first.status == 0);
+  const FrictionProblem read = read_problem(problem);
+  CHECK(contact_error(read, read_solution(answer, read)).natural_map_rms < 1e-7);
+  // Solved before it begins.
+  const ProgramResult again =
+      ballast_program({"solve", problem, "--start", answer.string(), "--json"});
+  CHECK_THAT(again.output, Catch::Contains("\"iterations\": 0"));
+  // Several problems have their answers in a folder.
+  const std::vector<std::string> both = {"solve", problem, (c.in / "deep" / "b.hdf5").string(),
+                                         "--output"};
+  std::vector<std::string> words = both;
+  words.push_back(c.out.string());
+  REQUIRE(ballast_program(words).status == 0);
+  CHECK(fs::exists(c.out / "b.hdf5"));
+  words.back() = answer.string();
+  check_failure(ballast_program(words), ExitCode::usage, {"several problems need a folder"});
+  check_failure(ballast_program({"solve", problem, "--output", problem}), ExitCode::failure,
+                {"written over the problem"});
+  check_failure(ballast_program({"solve", problem, "--start", problem}), ExitCode::failure,
+                {"/solution/r: no such dataset"});
+}
