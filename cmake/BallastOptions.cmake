@@ -1,19 +1,24 @@
 # Compile options shared by every target: one interface library, one place.
 add_library(ballast_options INTERFACE)
-target_include_directories(ballast_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(ballast_options INTERFACE
+  $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include/ballast>)
+target_compile_features(ballast_options INTERFACE cxx_std_20)
 # Same bits on every machine: no fused multiply-add chosen by the compiler, no reassociation.
 # Nobody reads errno after std::sqrt; without this each root is a branch and no loop with one is
 # vectorised.
 target_compile_options(ballast_options INTERFACE
-  -ffp-contract=off -fno-math-errno -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+  -ffp-contract=off -fno-math-errno
+  $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wshadow>
+  $<BUILD_INTERFACE:-Wnon-virtual-dtor>)
 # GCC 12 warns of std::string's own copying wherever texts are joined (its bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(ballast_options INTERFACE -Wno-stringop-overflow -Wno-array-bounds)
 endif()
 # Eigen's asserts stay out of release builds; -O3 vectorises the sweep.
-target_compile_options(ballast_options INTERFACE $<$<CONFIG:Release>:-O3>)
+target_compile_options(ballast_options INTERFACE
+  $<BUILD_INTERFACE:$<$<CONFIG:Release>:-O3>>)
 if(BALLAST_WARNINGS_AS_ERRORS)
-  target_compile_options(ballast_options INTERFACE -Werror)
+  target_compile_options(ballast_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 if(BALLAST_NATIVE)
   target_compile_options(ballast_options INTERFACE -march=native)

@@ -1,0 +1,133 @@
+// Scenes of single bodies and walls, stepped from Python with their state as arrays.
+
+#include <memory>
+
+#include "experiments/step/time_step.hpp"
+#include "problems/scene/scene_file.hpp"
+#include "python/binding.hpp"
+
+namespace ballast::python {
+namespace {
+
+/// A scene under way. What Python sees of its state is the memory that is stepped.
+class SteppedScene {
+ public:
+  SteppedScene(const std::string& name, const std::vector<std::string>& overrides)
+      : scene_(read_scene(find_scene(name), overrides)) {
+    if (scene_.grains)
+      throw std::invalid_argument(name + ": has grains that must be deposited first: ballast run");
+    system_ = make_system(scene_, state_);
+    stepper_ =
+        std::make_unique<TimeStepper>(system_, step_settings(scene_), system_.first_driven_wall());
+  }
+
+  /// Steps `count` times; calls back after each, and stops where that returns False.
+  py::dict step(long count, const py::object& callback, const py::object& self) {
+    StepRecord record;
+    bool goes_on = true;
+    for (long k = 0; k < count && goes_on; ++k) {
+      {
+        const py::gil_scoped_release released;
+        record = stepper_->step(state_, memory_);
+      }
+      if (callback.is_none()) {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      } else {
+        goes_on = !callback(self, as_dict(record)).is(py::bool_(false));
+      }
+    }
+    return as_dict(record);
+  }
+
+  py::array positions(const py::object& self) {
+    return view(state_.pose[0].position.data(), bodies(), 3, sizeof(Pose), self);
+  }
+  /// As x, y, z, w.
+  py::array rotations(const py::object& self) {
+    return view(state_.pose[0].rotation.coeffs().data(), bodies(), 4, sizeof(Pose), self);
+  }
+  py::array velocities(const py::object& self) {
+    return view(state_.velocity[0].data(), bodies(), 3, sizeof(Vec3), self);
+  }
+  py::array spins(const py::object& self) {
+    return view(state_.spin[0].data(), bodies(), 3, sizeof(Vec3), self);
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const RigidBody& body : system_.bodies) names.push_back(body.name);
+    return names;
+  }
+  double time() const { return state_.time; }
+  double h() const { return step_settings(scene_).h; }
+  FrictionProblem problem() const { return stepper_->problem(); }
+  py::array impulses() const {
+    return in_threes(three_rows(stepper_->problem(), stepper_->impulses()));
+  }
+
+  /// From now on, until it is set again [N].
+  void set_force(const std::string& name, const Doubles& force) {
+    const Eigen::VectorXd f = vector_of(force, 3, "force");
+    if (!f.allFinite()) throw std::invalid_argument("force is not finite");
+    for (RigidBody& body : system_.bodies) {
+      if (body.name != name) continue;
+      body.force = {.constant = f};
+      // What a driven wall is pushed with, along its normal.
+      if (body.is_wall()) body.wall.load = constant_load(f.dot(body.wall.normal));
+      return;
+    }
+    throw std::invalid_argument(name + ": no body or wall has this name");
+  }
+
+ private:
+  static HarmonicLoad constant_load(double newtons);
+  static py::dict as_dict(const StepRecord& record) {
+    py::dict d;
+    for (const StepColumn& column : step_columns()) d[column.name] = record.*column.value;
+    return d;
+  }
+  py::ssize_t bodies() const { return static_cast<py::ssize_t>(system_.bodies.size()); }
+
+  Scene scene_;
+  MechanicalSystem system_;
+  MotionState state_;
+  StepMemory memory_;
+  std::unique_ptr<TimeStepper> stepper_;
+};
+
+HarmonicLoad SteppedScene::constant_load(double newtons) {
+  return {.f_min = newtons, .f_max = newtons};
+}
+
+}  // namespace
+
+void add_scenes(py::module_& module) {
+  using py::arg;
+  py::class_<SteppedScene>(module, "Scene")
+      .def(py::init<const std::string&, const std::vector<std::string>&>())
+      .def("step",
+           [](const py::object& self, long count, const py::object& callback) {
+             return self.cast<SteppedScene&>().step(count, callback, self);
+           })
+      .def_property_readonly(
+          "positions", [](const py::object& s) { return s.cast<SteppedScene&>().positions(s); })
+      .def_property_readonly(
+          "rotations", [](const py::object& s) { return s.cast<SteppedScene&>().rotations(s); })
+      .def_property_readonly(
+          "velocities", [](const py::object& s) { return s.cast<SteppedScene&>().velocities(s); })
+      .def_property_readonly("spins",
+                             [](const py::object& s) { return s.cast<SteppedScene&>().spins(s); })
+      .def_property_readonly("names", &SteppedScene::names)
+      .def_property_readonly("time", &SteppedScene::time)
+      .def_property_readonly("h", &SteppedScene::h)
+      .def_property_readonly("impulses", &SteppedScene::impulses)
+      .def("problem", &SteppedScene::problem)
+      .def("set_force", &SteppedScene::set_force);
+  module.def("scenes", [] {
+    std::vector<std::string> names;
+    for (const auto& [name, title] : list_scenes()) names.push_back(name);
+    return names;
+  });
+}
+
+}  // namespace ballast::python

@@ -1,0 +1,149 @@
+"""The module as its users call it. Run: python3 -m unittest, with PYTHONPATH=<build>/python."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+import scipy.sparse as sparse
+
+import ballast
+
+program = os.environ.get("BALLAST_PROGRAM", "")
+examples = pathlib.Path(__file__).resolve().parent.parent / "examples"
+
+
+def chain(n, seed=1):
+    """n points of 1 kg in a row between walls: M, H, mu, v_free; W has rank 3n of 3n + 3."""
+    H = sparse.lil_matrix((3 * n + 3, 3 * n))
+    for c in range(n + 1):
+        for k in range(3):
+            if c < n:
+                H[3 * c + k, 3 * c + k] = 1.0
+            if c > 0:
+                H[3 * c + k, 3 * c - 3 + k] = -1.0
+    v = np.random.default_rng(seed).normal(size=3 * n)
+    return sparse.identity(3 * n), H.tocsr(), np.full(n + 1, 0.4), v
+
+
+class Problems(unittest.TestCase):
+    def test_both_forms_are_the_same_problem(self):
+        M, H, mu, v = chain(12)
+        bodies = ballast.Problem.from_bodies(M, H, mu, v_free=v)
+        W = (H @ H.T).tocsr()
+        stored = ballast.Problem.from_delassus(W, H @ v, mu)
+        self.assertTrue(bodies.has_bodies)
+        self.assertFalse(stored.has_bodies)
+        np.testing.assert_allclose(bodies.W.toarray(), W.toarray(), atol=1e-14)
+        np.testing.assert_allclose(bodies.q.ravel(), H @ v, atol=1e-14)
+        answer = ballast.solve(bodies, tolerance=1e-10)
+        self.assertTrue(answer.solved, answer.words)
+        self.assertLess(ballast.judge(stored, answer.impulses)["natural_map_rms"], 1e-8)
+        np.testing.assert_allclose(answer.body_velocities,
+                                   v + H.T @ answer.impulses.ravel(), atol=1e-12)
+        np.testing.assert_allclose(answer.velocities.ravel(), H @ answer.body_velocities,
+                                   atol=1e-12)
+        self.assertEqual(answer.history.shape[1], 3)
+
+    def test_known_answer(self):
+        q = [[-1, 0, 0], [-1, 2, 0]]
+        problem = ballast.Problem.from_delassus(np.eye(6), np.array(q, dtype=int), [0.5, 0.5])
+        answer = ballast.solve(problem, "pgs", tolerance=1e-12)
+        np.testing.assert_allclose(answer.impulses, [[1, 0, 0], [1, -0.5, 0]], atol=1e-10)
+        again = ballast.solve(problem, "pgs", tolerance=1e-12, start=answer.impulses)
+        self.assertEqual(again.iterations, 0)
+
+    def test_bad_input_is_an_exception_of_one_line(self):
+        make = ballast.Problem.from_delassus
+        eye, q = np.eye(3), np.array([-1.0, 0, 0])
+        cases = [
+            (ValueError, "q has 3 entries, must have 6", lambda: make(np.eye(6), q, [0.5, 0.5])),
+            (ValueError, "W: has 6 rows", lambda: make(np.eye(6), q, [0.5])),
+            (ballast.InvalidProblem, "nan", lambda: make(eye, q * np.nan, [0.5])),
+            (ballast.InvalidProblem, "", lambda: make(eye, q, [-0.5])),
+            (ballast.InvalidProblem, "", lambda: make(-eye, q, [0.5])),
+            (ballast.InvalidProblem, "", lambda: ballast.Problem.from_bodies(
+                -np.eye(3), np.eye(3), [0.5], v_free=q)),
+            (ValueError, "expected one of", lambda: ballast.Problem.from_bodies(eye, eye, [0.5])),
+            (ballast.Error, "no such file", lambda: ballast.Problem.read("nothing.hdf5")),
+            (ballast.UnknownSolver, "no solver is called",
+             lambda: ballast.solve(make(eye, q, [0.5]), "psg")),
+            (ValueError, "r has 4 entries", lambda: ballast.judge(make(eye, q, [0.5]), np.ones(4))),
+            (ballast.Error, "no scene of this name", lambda: ballast.Scene("zeno_bal")),
+        ]
+        for kind, words, call in cases:
+            with self.subTest(words), self.assertRaises(kind) as caught:
+                call()
+            self.assertIn(words.lower(), str(caught.exception).lower())
+            self.assertNotIn("\n", str(caught.exception))
+
+    def test_other_threads_run_while_it_solves(self):
+        M, H, mu, v = chain(3000)
+        problem = ballast.Problem.from_bodies(M, H, mu, v_free=v)
+        worker = threading.Thread(target=lambda: ballast.solve(problem, "jacobi", tolerance=0.0,
+                                                               max_seconds=1.0,
+                                                               max_iterations=10**9))
+        worker.start()
+        turns = 0
+        while worker.is_alive() and turns < 1000:
+            worker.join(0.001)
+            turns += 1
+        self.assertGreater(turns, 50)
+        worker.join()
+
+    @unittest.skipUnless(program, "BALLAST_PROGRAM is not set")
+    def test_same_bits_as_the_program(self):
+        M, H, mu, v = chain(20)
+        with tempfile.TemporaryDirectory() as folder:
+            file, out = folder + "/p.hdf5", folder + "/r.hdf5"
+            ballast.Problem.from_bodies(M, H, mu, v_free=v).write(file)
+            subprocess.run([program, "solve", file, "--solver", "pgs", "--tolerance", "1e-8",
+                            "--output", out], check=True, stdout=subprocess.DEVNULL)
+            answer = ballast.solve(ballast.Problem.read(file), "pgs", tolerance=1e-8)
+            try:
+                import h5py
+            except ImportError:
+                self.skipTest("h5py is not there")
+            with h5py.File(out) as stored:
+                self.assertEqual(stored["solution/r"][:].tobytes(), answer.impulses.tobytes())
+
+
+class Scenes(unittest.TestCase):
+    def test_state_is_a_view_and_steps(self):
+        scene = ballast.Scene("sliding_cube")
+        x, v = scene.positions, scene.velocities
+        before = x.copy()
+        record = scene.step(10)
+        self.assertAlmostEqual(scene.time, 10 * scene.h)
+        self.assertTrue(np.any(x != before))
+        self.assertTrue(np.shares_memory(x, scene.positions))
+        v[0] = [0.5, 0.0, 0.0]
+        self.assertEqual(scene.velocities[0, 0], 0.5)
+        self.assertIn("contacts", record)
+        self.assertEqual(len(scene.problem), len(scene.impulses))
+        del scene
+        self.assertTrue(np.all(np.isfinite(x)))  # the array keeps the scene
+
+    def test_callback_ends_the_stepping(self):
+        scene, times = ballast.Scene("sliding_cube"), []
+        scene.step(100, lambda s, record: times.append(s.time) or len(times) < 7)
+        self.assertEqual(len(times), 7)
+        with self.assertRaises(ZeroDivisionError):
+            scene.step(3, lambda s, record: 1 / 0)
+
+
+class Examples(unittest.TestCase):
+    def test_examples_run(self):
+        for name, words in [("own_problem", "solved [[1.0"), ("error_against_time", "solved"),
+                            ("controlled_force", "0.2")]:
+            with self.subTest(name):
+                said = subprocess.run([sys.executable, str(examples / (name + ".py"))], check=True,
+                                      capture_output=True, text=True).stdout
+                self.assertIn(words, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
