@@ -67,6 +67,7 @@ void add_file_cases(const std::string& word, std::vector<CompareCase>& cases) {
   for (const FoundProblem& found : find_problems(word)) files.push_back(found.file);
   for (const fs::path& file : files) {
     cases.push_back(file_case(file));
+    cases.back().word = file.string();
   }
 }
 

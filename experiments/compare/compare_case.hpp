@@ -41,6 +41,7 @@ struct CompareCase {
                        ///< of a captured one
   /// Throws what is wrong with it: Error, InvalidProblem, std::bad_alloc.
   std::function<LoadedCase()> load;
+  std::string word = {};  ///< of `ballast compare`, for this case; for one of stress:all, that
 };
 
 /// Each word is one of

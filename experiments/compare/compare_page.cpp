@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "experiments/compare/backend_summary.hpp"
+#include "experiments/compare/compare_answers.hpp"
 #include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/outcome_tables.hpp"
 #include "experiments/compare/page_origin.hpp"
+#include "experiments/page/html.hpp"
 #include "experiments/page/page.hpp"
 #include "platform/text.hpp"
 
@@ -157,6 +159,12 @@ page::Text lede(std::span<const CompareRow> rows) {
                       {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
 }
 
+/// Where the page draws a case by itself, a link to the file is enough.
+page::Picture linked_if_answered(page::Picture picture) {
+  picture.is_linked = page::can_answer();
+  return picture;
+}
+
 page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
                         std::span<const CompareRow> unreadable,
                         std::span<const ReferenceTimes> reference) {
@@ -188,7 +196,7 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
     for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.family; }))
       families.add(family_figure(rows, name, start));
     for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.case_name; }))
-      case_figures.add(work_precision_figure(rows, name, start));
+      case_figures.add(linked_if_answered(work_precision_figure(rows, name, start)));
   }
   page::Page page{.title = "Solvers of frictional contact, compared", .lede = {lede(rows)}};
   if (!reference.empty() && !rows.empty() && rows[0].measure != Measure::fclib)
@@ -201,6 +209,7 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
   for (const page::Section& section : {matrix, profiles, families, costs, cases, case_figures})
     page.add(section);
   page.add({"options", "Options", {options_table(data)}});
+  if (!rows.empty()) page.answers = comparison_answers(data, rows, limit);
   return page;
 }
 

@@ -49,6 +49,7 @@ struct HistoryRow {
 struct CompareRow {
   // what was tried
   std::string key, case_name, family, solver, law;
+  std::string word;  ///< of the command line, for the case alone; in no file
   Measure measure = Measure::natural_map;
   double tolerance = 0.0;
   StartKind start = StartKind::cold;

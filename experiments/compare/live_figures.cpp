@@ -12,7 +12,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// A backend's colour, thinner for looser tolerances.
+/// A backend's colour; the tightest tolerance is a whole line, looser ones have shorter dashes.
 Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& trajectory) {
   std::vector<std::string> solvers;
   std::vector<double> tolerances;
@@ -22,18 +22,14 @@ Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& traje
     if (std::find(tolerances.begin(), tolerances.end(), t.tolerance) == tolerances.end())
       tolerances.push_back(t.tolerance);
   }
-  std::sort(tolerances.rbegin(), tolerances.rend());
+  std::sort(tolerances.begin(), tolerances.end());
   const auto place = [](const auto& values, const auto& value) {
-    return std::find(values.begin(), values.end(), value) - values.begin();
+    return static_cast<size_t>(std::find(values.begin(), values.end(), value) - values.begin());
   };
-  Curve curve =
-      backend_curve(static_cast<size_t>(place(solvers, trajectory.solver)), trajectory.label());
-  const double tightness = tolerances.size() < 2
-                               ? 1.0
-                               : static_cast<double>(place(tolerances, trajectory.tolerance)) /
-                                     static_cast<double>(tolerances.size() - 1);
-  curve.width = 0.7 + 1.3 * tightness;
-  curve.opacity = 0.5 + 0.5 * tightness;
+  Curve curve = backend_curve(place(solvers, trajectory.solver), trajectory.label());
+  const size_t looseness = place(tolerances, trajectory.tolerance);
+  curve.dash = static_cast<int>(std::min<size_t>(looseness, 3));
+  curve.width = looseness == 0 ? 2.0 : 1.6;
   return curve;
 }
 

@@ -46,6 +46,8 @@ class MadeWord {
   int take_count(const char* name, int otherwise, int least) {
     return static_cast<int>(std::lround(take(name, otherwise, least)));
   }
+  /// Of the first case; the others follow one by one.
+  std::uint64_t take_seed() { return static_cast<std::uint64_t>(take_count("seed", 1, 0)); }
 
   void finish() const {
     if (!values_.empty())
@@ -76,7 +78,7 @@ void add_known_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   settings.slip_fraction = word.take("slip", settings.slip_fraction);
   settings.frictionless_fraction = word.take("frictionless", settings.frictionless_fraction);
   settings.copies = word.take_count("copies", settings.copies, 1);
-  settings.seed = static_cast<std::uint64_t>(word.take_count("seed", 1, 0));
+  settings.seed = word.take_seed();
   const int count = word.take_count("count", 1, 1);
   word.finish();
   for (int k = 0; k < count; ++k, ++settings.seed) {
@@ -104,7 +106,7 @@ void add_pile(const PileSettings& settings, std::vector<CompareCase>& cases) {
 /// pile: with every setting given. pile:family: all drawn from seeds one after the other.
 void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
   PileSettings settings;
-  settings.seed = static_cast<std::uint64_t>(word.take_count("seed", 1, 0));
+  settings.seed = word.take_seed();
   const int count = word.take_count("count", 1, 1);
   const bool is_family = word.what() == "family";
   if (is_family) {
@@ -198,12 +200,20 @@ bool is_made_case(const std::string& word) {
 
 void add_made_cases(const std::string& word, std::vector<CompareCase>& cases) {
   MadeWord made(word);
+  const size_t before = cases.size();
   if (begins_with(word, "known:"))
     add_known_cases(made, cases);
   else if (begins_with(word, "pile:"))
     add_piles(made, cases);
   else
     add_stress_cases(made, cases);
+  // of settings that stand twice the later one holds
+  const bool has_seeds = !begins_with(word, "stress:");
+  std::uint64_t seed = has_seeds ? MadeWord(word).take_seed() : 0;
+  for (size_t k = before; k < cases.size(); ++k, ++seed)
+    cases[k].word =
+        has_seeds ? word + (word.ends_with(':') ? "" : ",") + "count=1,seed=" + std::to_string(seed)
+                  : word;
 }
 
 }  // namespace ballast

@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/page/drawing.hpp"
 #include "experiments/page/page_style.hpp"
 
 namespace ballast::page {
 namespace {
+
+/// Tables of more columns may be wider than the text.
+constexpr size_t widest_in_text = 8;
+/// Cells of more letters must not become towers of single words.
+constexpr size_t longest_in_narrow_cell = 40;
 
 struct Tag {
   std::string open, close;
@@ -42,7 +48,12 @@ std::string row_of(const Table& table, const std::vector<Text>& cells, const std
   std::string html = "<tr>";
   for (size_t c = 0; c < cells.size(); ++c) {
     const bool is_number = c < table.is_number.size() && table.is_number[c];
-    html += '<' + tag + (is_number ? " class=\"n\">" : ">") + html_of(cells[c]) + "</" + tag + '>';
+    const bool is_long = !is_number && plain_words(cells[c]).size() > longest_in_narrow_cell;
+    html += '<' + tag +
+            (is_number ? " class=\"n\">"
+             : is_long ? " class=\"long\">"
+                       : ">") +
+            html_of(cells[c]) + "</" + tag + '>';
   }
   return html + "</tr>\n";
 }
@@ -62,7 +73,8 @@ struct HtmlBlocks {
   std::string operator()(const List& list) const { return items_of(list.items) + '\n'; }
   std::string operator()(const Table& table) const {
     std::string html = table.caption.empty() ? "" : (*this)(table.caption);
-    html += std::string("<div class=\"scroll\"><table") +
+    const bool is_wide = table.head.size() > widest_in_text;
+    html += std::string("<div class=\"scroll") + (is_wide ? " wide" : "") + "\"><table" +
             (table.is_facts ? " class=\"facts\">\n" : ">\n");
     if (!table.head.empty()) html += "<thead>" + row_of(table, table.head, "th") + "</thead>\n";
     html += "<tbody>\n";
@@ -70,6 +82,10 @@ struct HtmlBlocks {
     return html + "</tbody></table></div>\n";
   }
   std::string operator()(const Picture& picture) const {
+    if (picture.is_linked)
+      return "<p class=\"linked\"><a href=\"" + std::string(picture_folder) + '/' +
+             escaped_html(picture.plot.name) + ".svg\">" + escaped_html(picture.plot.title) +
+             "</a></p>\n";
     std::string html = "<figure id=\"" + escaped_html(picture.plot.name) + "\">\n" +
                        inline_svg(picture.svg, picture.plot.name, picture.plot.title) +
                        "<figcaption>";
@@ -157,8 +173,10 @@ std::string html_of(const Page& page) {
       escaped_html(page.title) + "</title>\n<style>\n" + style_sheet() +
       "</style>\n</head>\n<body>\n<main>\n" + header_of(page) + html_of(Block(page.notices));
   for (const Section& section : page.sections) html += section_of(section);
+  if (page.answers.are_given && !can_answer())
+    html += "<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n";
   if (!page.end.empty()) html += "<footer>" + html_of(page.end) + "</footer>\n";
-  return html + "</main>\n</body>\n</html>\n";
+  return html + "</main>\n" + answers_html(page) + "</body>\n</html>\n";
 }
 
 }  // namespace ballast::page

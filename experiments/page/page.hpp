@@ -44,8 +44,9 @@ struct Table {
 struct Picture {
   Figure plot = {};
   std::vector<Text> caption = {};  ///< one line each
-  Text files = {};       ///< links to its files, for pages that don't hold the picture themselves
-  std::string svg = {};  ///< filled by draw_pictures
+  Text files = {};         ///< links to its files, for pages that don't hold the picture themselves
+  std::string svg = {};    ///< filled by draw_pictures
+  bool is_linked = false;  ///< HTML links to the picture's file instead of holding it
 };
 
 /// What is missing or wrong, loudly.
@@ -91,12 +92,22 @@ struct Section {
   bool is_empty() const;
 };
 
+/// What a page's script is given, so that its tables sort and its figures tell their values
+/// (experiments/page/answers). Only HTML has a script.
+struct Answers {
+  bool are_given = false;
+  bool with_curves = false;  ///< charts stand in for the figures, whose curves are in the page
+  std::string data = {};     ///< a JSON object for the page's own modules; empty: none
+  std::vector<std::string> modules = {};  ///< JavaScript of the page's room, run after the common
+};
+
 struct Page {
   std::string title = {};
   std::vector<Text> lede = {};  ///< lines under the title
   Notices notices = {};         ///< stand before everything else
   std::vector<Section> sections = {};
   Text end = {};  ///< last line; empty: none
+  Answers answers = {};
 
   void add(Section section) { sections.push_back(std::move(section)); }
 };

@@ -30,7 +30,7 @@ struct Curve {
   Ink ink = Ink::blue;
   Mark mark = Mark::line;
   double width = 1.6;  ///< of the line, or size of the points
-  bool dashed = false;
+  int dash = 0;        ///< 0: a whole line; 1 to 3: ever shorter dashes
   double opacity = 1.0;
   std::vector<double> y_error = {};  ///< points: half length of the bars
   std::vector<double> y_low = {};    ///< area: lower bound

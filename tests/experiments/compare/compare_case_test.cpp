@@ -24,6 +24,7 @@ TEST_CASE("Cases from files: families, names, and what is refused") {
   REQUIRE(cases.size() == 4);
   CHECK(cases[0].name == "a.dat");
   CHECK(cases[2].name == "a.dat (2)");
+  CHECK(cases[1].word == (folder.path() / "b.dat").string());
 }
 
 TEST_CASE("Folders are searched to the bottom, and only for problems") {

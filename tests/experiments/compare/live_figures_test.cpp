@@ -27,7 +27,8 @@ TEST_CASE("Every trajectory with something to show is a line") {
   CHECK(curves[0].title == "pgs 0.1");
   CHECK(curves[0].y == std::vector<double>{1.0, 2.0});  // mm
   CHECK(curves[1].ink != curves[0].ink);
-  CHECK(curves[1].width > curves[0].width);  // tighter
+  CHECK(curves[1].dash < curves[0].dash);  // tighter
+  CHECK(curves[0].opacity == 1.0);
   const page::Picture* cost = find_figure(figures, "live_cost");
   REQUIRE(cost);
   CHECK(cost->plot.panels[0].curves[0].y[1] == Approx(3e-3));  // summed up

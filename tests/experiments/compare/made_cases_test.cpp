@@ -37,6 +37,18 @@ TEST_CASE("Settings of a made case are in its name, and in the problem") {
   CHECK(compare_cases({"stress:table,copies=2"})[0].load().facts.contacts == 8);
 }
 
+TEST_CASE("A made case has a word that makes it alone") {
+  for (const char* words : {"known:", "known:count=3,seed=7,bodies=5", "pile:family,count=2",
+                            "pile:contacts=30,count=2,seed=3", "stress:chain,grains=4"})
+    for (const CompareCase& made : compare_cases({words})) {
+      INFO(made.word);
+      const std::vector<CompareCase> again = compare_cases({made.word});
+      REQUIRE(again.size() == 1);
+      CHECK(again[0].name == made.name);
+      CHECK(again[0].load().facts.content == made.load().facts.content);
+    }
+}
+
 TEST_CASE("Words that make no case are refused by name") {
   for (const std::string word :
        {"known:bodies=x", "known:colour=3", "known:contacts=0", "known:bodies", "known:bodies=-1",

@@ -1,0 +1,57 @@
+// The page of a comparison: what is asked for stands first, and each section answers it in the
+// place of its tables and figures for every tolerance and start.
+
+const sections = [["backends", backends_view], ["matrix", matrix_view], ["profiles", profiles_view],
+                  ["families", family_view], ["cost", cost_view], ["cases", cases_view],
+                  ["case-figures", case_view]];
+
+/// A section's holder of what is made; what was written for all tolerances stays for print.
+function holder_of(id) {
+  const section = document.getElementById(id);
+  if (!section) return null;
+  for (const block of section.querySelectorAll(":scope > :is(h3, .scroll, figure, ul)"))
+    block.classList.add("still");
+  const holder = element("div", { class: "live" });
+  section.append(holder);
+  return holder;
+}
+
+/// Rows of "What must not happen" whose case or backend is not chosen are hidden.
+function filter_failures() {
+  for (const line of document.querySelectorAll("#failures tbody tr")) {
+    const [name, solver] = [...line.cells].map((cell) => cell.textContent);
+    const row = rows.find((one) => one.case === name && one.solver === solver);
+    line.hidden = row !== undefined && !chosen.has(row);
+  }
+}
+
+const bar = asks(), opened = details(), holders = new Map();
+document.querySelector("#backends").before(bar.element);
+document.body.append(opened.element);
+for (const [id] of sections) holders.set(id, holder_of(id));
+
+let drawn = null;
+const shown = new Map();
+function refresh_all() {
+  opened.refresh();
+  const asked = ["tolerance", "start", "from", "to", "find", "against", "family", "case", "without",
+                 "without_family"].map((name) => choice.list(name).join("|")).join("&");
+  if (asked === drawn) return;
+  drawn = asked;
+  bar.refresh();
+  filter_failures();
+  const selected = selection();
+  const focus = document.activeElement?.name;
+  for (const [id, view] of sections) {
+    const holder = holders.get(id);
+    if (!holder) continue;
+    for (const chart of shown.get(id) ?? []) chart.gone();
+    const parts = view(selected).filter(Boolean);
+    holder.replaceChildren(...parts.map((part) => part.element ?? part));
+    shown.set(id, parts.filter((part) => part.draw));
+    shown.get(id).forEach((chart) => chart.draw());
+  }
+  if (focus) document.querySelector(`.live [name="${focus}"]`)?.focus();
+}
+refresh_all();
+choice.changed(refresh_all);

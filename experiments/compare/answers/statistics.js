@@ -1,0 +1,106 @@
+// Medians, means and profiles of a selection of rows: the same as compare_table.cpp and
+// backend_summary.cpp compute for all cases.
+
+/// One case by one backend, over its repeats. Times are infinite where it isn't solved.
+function cell_of(repeats) {
+  if (!repeats.length) return { row: null, solved: false, median: Infinity, spread: 0 };
+  const solved = repeats.every((row) => row.is_solved);
+  const best = repeats.filter((row) => row.is_solved).sort((a, b) => a.seconds - b.seconds)[0];
+  const cell = { row: best ?? repeats[0], solved, median: Infinity, spread: 0 };
+  if (!solved) return cell;
+  const times = repeats.map((row) => row.seconds).sort((a, b) => a - b), n = times.length;
+  cell.median = n % 2 ? times[(n - 1) / 2] : 0.5 * (times[n / 2 - 1] + times[n / 2]);
+  cell.spread = cell.median > 0 ? (times[n - 1] - times[0]) / cell.median : 0;
+  return cell;
+}
+
+/// The chosen rows of the chosen tolerance and start as {solvers, cases: [{name, row, cells,
+/// fastest}]}.
+function selection() {
+  const mine = rows.filter((row) => chosen.has(row) && row.start === chosen.start &&
+                                    row.tolerance_text === chosen.tolerance);
+  const solvers = all_solvers.filter((name) => mine.some((row) => row.solver === name));
+  const cases = unique(mine.map((row) => row.case)).map((name) => {
+    const of_case = mine.filter((row) => row.case === name);
+    const cells = solvers.map((s) => cell_of(of_case.filter((row) => row.solver === s)));
+    return { name, cells, row: of_case[0], fastest: Math.min(...cells.map((c) => c.median)) };
+  });
+  return { solvers, cases };
+}
+
+/// exp(mean(log(x + shift))) - shift, over x or x/y.
+const log_mean = (values) => Math.exp(values.reduce((a, b) => a + b, 0) / values.length);
+const shifted_mean = (times) =>
+  log_mean(times.map((t) => Math.log(t + page_data.shift))) - page_data.shift;
+const shifted_ratio = (times, best) =>
+  log_mean(times.map((t, k) => Math.log((t + page_data.shift) / (best[k] + page_data.shift))));
+
+/// One line for each backend: most solved first, then fastest.
+function summaries({ solvers, cases }) {
+  const lines = solvers.map((solver, s) => {
+    const tried = cases.filter((c) => c.cells[s].row), cells = tried.map((c) => c.cells[s]);
+    const count = (test) => cells.filter((cell) => test(cell.row)).length;
+    const of = (outcomes) => count((row) => outcomes.includes(row.outcome));
+    const times = cells.map((cell) => Math.min(cell.median, page_data.limit));
+    const beaten = tried.map((c, k) => k).filter((k) => Number.isFinite(tried[k].fastest));
+    const solved = cells.filter((cell) => cell.solved).length;
+    return {
+      solver, law: cells[0]?.row.law ?? "", solved, unsolved: cells.length - solved,
+      timeouts: of(["timeout"]), crashes: of(["crashed", "out_of_memory"]),
+      unsupported: of(["unsupported"]), no_solutions: of(["no_solution"]),
+      denied: count((row) => row.is_denied), mean: shifted_mean(times),
+      ratio: beaten.length ? shifted_ratio(beaten.map((k) => times[k]),
+                                           beaten.map((k) => tried[k].fastest)) : NaN,
+      spread: Math.max(0, ...cells.map((cell) => cell.spread)),
+    };
+  });
+  return lines.sort((a, b) => b.solved - a.solved || a.mean - b.mean);
+}
+
+/// The fraction of cases with a value up to x, as steps from `first` to `last`; a step's point
+/// knows the case that it is.
+function counted_steps(values, cases, first, last) {
+  const order = values.map((value, k) => k).sort((a, b) => values[a] - values[b]);
+  const points = [{ x: first, y: 0 }];
+  order.forEach((k, place) => {
+    if (!(values[k] <= last)) return;
+    const y = (place + 1) / values.length;
+    points.push({ x: Math.max(first, values[k]), y, row: cases[k] });
+  });
+  return [...points, { x: last, y: points.at(-1).y }];
+}
+
+const decade_above = (value) => 10 ** Math.ceil(Math.log10(value) - 1e-9);
+const decade_below = (value) => 10 ** Math.floor(Math.log10(value) + 1e-9);
+
+/// Dolan and Moré: time over the fastest backend's time.
+function performance_profiles({ solvers, cases }) {
+  const ratios = solvers.map((solver, s) => cases.map(({ cells, fastest }) =>
+    !Number.isFinite(cells[s].median) ? Infinity : fastest > 0 ? cells[s].median / fastest : 1));
+  const last = Math.max(10, decade_above(Math.max(1, ...ratios.flat().filter(Number.isFinite))));
+  return { first: 1, last, curves: ratios.map((values, s) =>
+    counted_steps(values, cases.map((c) => c.cells[s].row), 1, last)) };
+}
+
+/// Moré and Wild, with time per contact as the unit of cost.
+function data_profiles({ solvers, cases }) {
+  const costs = solvers.map((solver, s) => cases.map(({ cells, row }) =>
+    cells[s].median / Math.max(1, row.contacts)));
+  const known = costs.flat().filter((cost) => Number.isFinite(cost) && cost > 0);
+  const first = known.length ? decade_below(Math.min(...known)) : 1e-6;
+  const last = Math.max(10 * first, known.length ? decade_above(Math.max(...known)) : 1);
+  return { first, last, curves: costs.map((values, s) =>
+    counted_steps(values, cases.map((c) => c.cells[s].row), first, last)) };
+}
+
+/// Geometric mean over histories of the least error by then, at `count` times.
+function mean_history(histories, count) {
+  const times = histories.flat().map((p) => p.x).filter((x) => x > 0);
+  const first = Math.min(...times), last = Math.max(...times);
+  if (!(last > first)) return [];
+  return Array.from({ length: count + 1 }, (_, k) => {
+    const x = first * (last / first) ** (k / count);
+    const errors = histories.map((points) => (points.findLast((p) => p.x <= x) ?? points[0]).y);
+    return { x, y: log_mean(errors.map((e) => Math.log(Math.max(e, 1e-16)))) };
+  });
+}

@@ -1,0 +1,151 @@
+// One chart: Chart.js draws, and this tells it what, reads out values and listens to keys.
+//
+// A figure is {title, x, y, curves, lines}. Axes: {label, log, min, max}; a label is HTML of the
+// page's own. Curves: {title, ink, dash, width, mark: "line" | "points", stepped, points}, where a
+// point is {x, y, ...} with what `told(curve, point)` and `opened(point)` need. Lines: {value,
+// vertical}. Curves of one title are switched together by the legend.
+
+const charts = new Set();
+
+const axis_of = (axis) => ({
+  type: axis.log ? "logarithmic" : "linear",
+  min: axis.min,
+  max: axis.max,
+  border: { color: variable("grey") },
+  // a logarithmic axis has more ticks than numbers: lines stand at numbers only
+  grid: { color: ({ tick }) => (tick?.label ? variable("grid") : "transparent"), drawTicks: false,
+          borderColor: variable("grey") },
+  ticks: {
+    color: variable("ink"),
+    padding: 6,
+    autoSkipPadding: 12,
+    maxRotation: 0,
+    callback(value) {
+      if (!axis.log) return minus(String(Number(value.toPrecision(6))));
+      const power = Math.log10(value), places = Math.log10(this.max / this.min);
+      if (Number.isInteger(Math.round(power * 1e9) / 1e9)) return "10" + raised(Math.round(power));
+      const first = Math.round(value / 10 ** Math.floor(power));
+      return places < 1.5 && [2, 5].includes(first) ? number(value, 1) : "";
+    },
+  },
+});
+
+function dataset_of(curve) {
+  const colour = variable(curve.ink), is_points = curve.mark === "points";
+  return {
+    label: curve.title,
+    data: curve.points,
+    showLine: !is_points,
+    stepped: curve.stepped ? "before" : false,
+    borderColor: colour,
+    backgroundColor: colour,
+    borderWidth: curve.width ?? 2,
+    borderDash: dashes[curve.dash ?? 0],
+    borderJoinStyle: "round",
+    clip: 5,
+    pointRadius: is_points ? 4 : 0,
+    pointStyle: curve.dash ? "rectRot" : "circle",
+    pointHoverRadius: 6,
+    pointHoverBackgroundColor: colour,
+    pointHoverBorderColor: variable("paper"),
+    pointHitRadius: 8,
+  };
+}
+
+/// A dashed line across, without a name.
+function line_of(line, chart_points) {
+  const along = line.vertical ? "y" : "x", across = line.vertical ? "x" : "y";
+  const places = chart_points.map((point) => point[along]);
+  return {
+    label: "", is_line: true, showLine: true,
+    pointRadius: 0, pointHitRadius: 0, pointHoverRadius: 0,
+    data: [Math.min(...places), Math.max(...places)].map((place) => (
+      { [along]: place, [across]: line.value })),
+    borderColor: variable("grey"), borderWidth: 1.2, borderDash: [3, 4],
+  };
+}
+
+/// The chart as an element. `told` gives the words of a point; `opened`, if there is one, is called
+/// for a point that is clicked. `hidden` is the name of the list in the address bar that holds the
+/// titles switched off.
+function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
+  const canvas = element("canvas", { tabindex: 0, role: "img", "aria-label": figure.title +
+    ". Arrow keys go along the curves" + (opened ? ", Enter opens a point." : ".") });
+  const said = element("p", { class: "said", "aria-live": "polite" }, "\u00a0");
+  const say = (words) => { said.textContent = words || "\u00a0"; };
+  const is_shown = (curve) => !choice.has(hidden, curve.title);
+  const all = figure.curves.flatMap((curve) => curve.points);
+  let chart = null;
+  const point_of = (at) => at && { curve: figure.curves[at.datasetIndex],
+                                   point: figure.curves[at.datasetIndex]?.points[at.index] };
+  const words_of = ({ datasetIndex, dataIndex }) => {
+    const { curve, point } = point_of({ datasetIndex, index: dataIndex });
+    return told(curve, point).split("; ").filter(Boolean);
+  };
+  const options = () => ({
+    animation: false, responsive: true, maintainAspectRatio: false, parsing: false,
+    interaction: { mode: "nearest", axis: "xy", intersect: false },
+    layout: { padding: { right: 12, top: 8 } },
+    scales: { x: { ...axis_of(figure.x), bounds: figure.x.log ? "ticks" : "data" },
+              y: axis_of(figure.y) },
+    onHover: (event, [at]) => {
+      const found = point_of(at);
+      say(found?.point && told(found.curve, found.point));
+      canvas.style.cursor = opened && found?.point ? "pointer" : "default";
+    },
+    onClick: (event, [at]) => { if (opened && point_of(at)?.point) opened(point_of(at).point); },
+    plugins: {
+      legend: { display: false },
+      tooltip: {
+        backgroundColor: variable("text"), bodyColor: variable("paper"), displayColors: false,
+        filter: (item) => !item.dataset.is_line,
+        callbacks: { title: () => "", label: words_of },
+      },
+    },
+  });
+  const draw = () => {
+    chart?.destroy();
+    Chart.defaults.font.family = getComputedStyle(said).fontFamily;
+    Chart.defaults.font.size = 13;
+    Chart.defaults.color = variable("ink");
+    const sets = figure.curves.map((curve) => ({ ...dataset_of(curve), hidden: !is_shown(curve) }));
+    if (all.length) sets.push(...(figure.lines ?? []).map((line) => line_of(line, all)));
+    chart = new Chart(canvas, { type: "line", data: { datasets: sets }, options: options() });
+  };
+  const keys = key_walk(figure, is_shown, (at) => {
+    const found = point_of(at);
+    chart.setActiveElements([at]);
+    const { x, y } = chart.getDatasetMeta(at.datasetIndex).data[at.index];
+    chart.tooltip.setActiveElements([at], { x, y });
+    chart.update("none");
+    say(told(found.curve, found.point));
+  }, (at) => opened?.(point_of(at).point));
+  canvas.addEventListener("keydown", keys);
+  const legend = legend_of(figure, is_shown, hidden);
+  const holder = element("div", { class: "chart" }, legend,
+    element("div", { class: "axis" }), element("div", { class: "ground" }, canvas),
+    element("div", { class: "axis x" }), said);
+  const [up, along] = holder.querySelectorAll(".axis");
+  up.innerHTML = figure.y.label;
+  along.innerHTML = figure.x.label;
+  const refresh = () => {
+    figure.curves.forEach((curve, k) => chart?.setDatasetVisibility(k, is_shown(curve)));
+    chart?.update("none");
+    for (const one of legend.children)
+      one.setAttribute("aria-pressed", String(!choice.has(hidden, one.dataset.title)));
+  };
+  const gone = () => {
+    chart?.destroy();
+    charts.delete(place);
+  };
+  const place = { element: holder, draw, refresh, gone };
+  charts.add(place);
+  return place;
+}
+
+choice.changed(() => {
+  for (const chart of charts) chart.refresh();
+});
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  for (const chart of charts) chart.draw();
+});

@@ -1,0 +1,47 @@
+// Elements of the page, made in one line each.
+
+/// An element with attributes and children (elements or strings; null is left out). `on...`
+/// attributes are listeners.
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
+    else made.setAttribute(name, value === true ? "" : value);
+  }
+  made.append(...children.filter((child) => child !== null && child !== undefined));
+  return made;
+}
+
+/// A button; `attributes` as above.
+function button(words, pressed, attributes = {}) {
+  return element("button", { type: "button", onclick: pressed, ...attributes }, words);
+}
+
+/// Lets the reader keep `text` as a file.
+function download(name, text) {
+  const address = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+  const link = element("a", { href: address, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  URL.revokeObjectURL(address);
+}
+
+/// Puts `text` on the clipboard, and says so on the button that was pressed. Pages opened from disk
+/// have no clipboard interface in some browsers: then the old way, through a field.
+async function copy(text, pressed) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const field = element("textarea", { class: "unseen" }, text);
+    document.body.append(field);
+    field.select();
+    document.execCommand("copy");
+    field.remove();
+    pressed.focus();
+  }
+  const words = pressed.textContent;
+  pressed.textContent = "copied";
+  setTimeout(() => { pressed.textContent = words; }, 1500);
+}

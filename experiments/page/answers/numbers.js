@@ -1,0 +1,41 @@
+// Numbers as the page writes them (experiments/page/number.cpp), and back.
+
+const narrow_space = "\u202f", dash = "\u2013";
+
+/// Three significant digits; powers of ten below 1e-3 and from 1e6 on; a dash for what is none.
+function number(value, digits = 3) {
+  if (!Number.isFinite(value)) return dash;
+  const size = Math.abs(value);
+  if (size === 0) return "0";
+  if (size >= 1e-3 && size < 1e6) {
+    const text = value.toPrecision(digits);
+    return minus(text.includes("e") ? String(Number(text)) : text);
+  }
+  const [head, power] = value.toExponential(digits - 1).split("e");
+  return minus(head) + "×10" + raised(Number(power));
+}
+const minus = (text) => text.replace("-", "−");
+const raised = (power) =>
+  [...String(power)].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("");
+
+/// A duration in seconds or milliseconds.
+function time_words(seconds) {
+  if (!Number.isFinite(seconds)) return dash;
+  return seconds < 1 ? number(1e3 * seconds) + narrow_space + "ms"
+                     : number(seconds) + narrow_space + "s";
+}
+
+/// The value of a cell's text: "2.00×10−4 ms", "3 of 4"; NaN for words.
+function value_of(text) {
+  const plain = text.replaceAll("−", "-").trim();
+  const found = /^([-+]?[\d.]+(?:e[-+]?\d+)?)(?:×10([-⁻]?[\d⁰¹²³⁴-⁹]+))?\s*(\S*)/.exec(plain);
+  if (!found) return NaN;
+  const power = (found[2] ?? "0").replace("⁻", "-")
+    .replace(/[⁰¹²³⁴-⁹]/g, (c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c));
+  const unit = { ms: 1e-3, "µs": 1e-6, min: 60, h: 3600 }[found[3]] ?? 1;
+  return Number(found[1]) * 10 ** Number(power) * unit;
+}
+
+/// One line of a CSV file.
+const csv_line = (cells) =>
+  cells.map((cell) => (/[",\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell)).join(",");

@@ -1,0 +1,40 @@
+// Figures that were drawn by gnuplot become charts: the same curves, whose numbers stand in the
+// page. In print the drawn ones stay.
+
+/// A panel's curves from the page's data: x and y are lists there.
+function panel_figure(picture, panel) {
+  const curve_of = (curve) => ({
+    ...curve,
+    points: curve.x.map((x, k) => ({ x, y: curve.y[k] })).filter(({ x, y }) =>
+      y !== null && x !== null && (!panel.y.log || y > 0) && (!panel.x.log || x > 0)),
+  });
+  return { title: picture.title, x: panel.x, y: panel.y, lines: panel.lines,
+           curves: panel.curves.map(curve_of) };
+}
+
+const plain = (html) => new DOMParser().parseFromString(html, "text/html").body.textContent;
+
+function picture_charts(picture) {
+  return picture.panels.map((panel) => {
+    const quantity = (label, value) => {
+      const words = plain(label).trim(), unit = /\s*\(([^()]*)\)$/.exec(words);
+      const name = unit ? words.slice(0, unit.index) : words;
+      return `${name} ${number(value, 5)}${unit ? narrow_space + unit[1] : ""}`;
+    };
+    return chart_of(panel_figure(picture, panel), {
+      told: (curve, { x, y }) =>
+        `${curve.title}; ${quantity(panel.x.label, x)}; ${quantity(panel.y.label, y)}`,
+    });
+  });
+}
+
+function draw_pictures(pictures) {
+  for (const picture of pictures) {
+    const drawn = document.getElementById(picture.name)?.querySelector("svg");
+    if (!drawn) continue;
+    drawn.classList.add("still");
+    const made = picture_charts(picture);
+    drawn.after(...made.map((chart) => chart.element));
+    made.forEach((chart) => chart.draw());
+  }
+}

@@ -1,0 +1,69 @@
+// Tables that sort: a click on a head, or Enter on it, sorts by that column; once more turns it
+// round. Cells sort by data-value where they have one, else by the number or the words in them.
+
+function sort_key(cell) {
+  if (!cell) return NaN;
+  if (cell.dataset.value !== undefined) return Number(cell.dataset.value);
+  const text = cell.textContent.trim(), value = value_of(text);
+  return Number.isNaN(value) ? text : value;
+}
+
+/// Numbers before words; what is missing comes last, whichever way round.
+function compare_keys(a, b, way) {
+  const is_missing = (key) => key === "" || key === dash || Number.isNaN(key);
+  if (is_missing(a) || is_missing(b)) return is_missing(a) - is_missing(b);
+  if (typeof a !== typeof b) return typeof a === "number" ? -1 : 1;
+  return way * (typeof a === "number" ? a - b : a.localeCompare(b, "en", { numeric: true }));
+}
+
+function sort_table(table, column, way) {
+  const body = table.tBodies[0];
+  const keyed = [...body.rows].map((row) => [sort_key(row.cells[column]), row]);
+  keyed.sort(([a], [b]) => compare_keys(a, b, way));
+  body.append(...keyed.map(([, row]) => row));
+  [...table.tHead.rows[0].cells].forEach((head, k) => {
+    if (k === column) head.setAttribute("aria-sort", way > 0 ? "ascending" : "descending");
+    else head.removeAttribute("aria-sort");
+  });
+}
+
+/// Makes the heads of a table buttons. `sorted(column, way)` hears of it.
+function make_sortable(table, sorted = () => {}) {
+  if (!table.tHead || table.tBodies[0].rows.length < 2) return;
+  [...table.tHead.rows[0].cells].forEach((head, column) => {
+    const sort = () => {
+      const way = head.getAttribute("aria-sort") === "ascending" ? -1 : 1;
+      sort_table(table, column, way);
+      sorted(column, way);
+    };
+    const words = [...head.childNodes];
+    const press = button("", sort, { class: "sort" });
+    press.append(...words);
+    head.append(press);
+  });
+}
+
+/// The order that a table was given last, by its name: a table that is made anew keeps it.
+const orders = {};
+
+/// A table. Columns: {title, number}. Rows are lists of cells: a string, or {text, value, kind,
+/// open}; `kind` is a class, `open` makes a button of the cell.
+function table_of(name, columns, rows) {
+  const cell_of = (cell, k) => {
+    const { text, value, kind, open } = typeof cell === "string" ? { text: cell } : cell;
+    const long = text.length > 40 ? " long" : "";
+    const words = kind ? element("span", { class: kind }, text) : text;
+    return element("td", { class: ((columns[k].number ? "n" : "") + long).trim() || null,
+                           "data-value": value ?? null },
+                   open ? button(words, open, { class: "cell" }) : words);
+  };
+  const table = element("table", { "data-name": name },
+    element("thead", {}, element("tr", {}, ...columns.map((column) =>
+      element("th", { class: column.number ? "n" : null }, column.title)))),
+    element("tbody", {}, ...rows.map((cells) => element("tr", {}, ...cells.map(cell_of)))));
+  make_sortable(table, (column, way) => { orders[name] = [column, way]; });
+  if (orders[name] && rows.length > 1) sort_table(table, ...orders[name]);
+  const wide = columns.length > 8 ? " wide" : "";
+  return element("div", { class: "scroll" + wide, tabindex: 0, role: "region",
+                          "aria-label": name }, table);
+}

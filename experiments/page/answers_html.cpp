@@ -1,0 +1,165 @@
+// answers_html of html.hpp: the script of a page whose tables sort and whose figures answer, with
+// its data and the library that draws.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/page/html.hpp"
+#include "platform/text.hpp"
+
+namespace ballast {
+
+std::string answers_file(const std::string& name);  // of experiments/page/answers
+std::string chart_library();                        // Chart.js; empty: not found when configured
+
+namespace page {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The modules in the order in which they build upon each other.
+constexpr std::array modules = {"elements.js", "choice.js",   "numbers.js",
+                                "tables.js",   "palette.js",  "legends.js",
+                                "charts.js",   "pictures.js", "answers.js"};
+
+/// Five digits are more than a chart shows; JSON has no NaN.
+Json short_number(double value) {
+  return std::isfinite(value) ? Json(parsed_number(printed("%.5g", value)).value_or(0.0)) : Json();
+}
+
+Json short_numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(short_number(value));
+  return list;
+}
+
+Json axis_json(const std::string& label, bool is_log, const std::optional<double>& low,
+               const std::optional<double>& high) {
+  Json axis = {{"label", label_html(label)}, {"log", is_log}};
+  if (low) axis["min"] = *low;
+  if (high) axis["max"] = *high;
+  return axis;
+}
+
+/// The ink's variable in the style sheet.
+const char* variable_of(Ink ink) {
+  // in the order of Ink
+  constexpr const char* names[] = {"ink", "blue",   "vermilion", "green", "orange",
+                                   "sky", "purple", "yellow",    "grey",  "light"};
+  return names[static_cast<size_t>(ink)];
+}
+
+/// A title without the backslashes of plain_text.
+std::string unescaped(const std::string& text) {
+  std::string plain;
+  for (size_t at = 0; at < text.size(); ++at)
+    if (text[at] != '\\' || ++at < text.size()) plain += text[at];
+  return plain;
+}
+
+Json curve_json(const Curve& curve) {
+  return {{"title", unescaped(curve.title)},
+          {"ink", variable_of(curve.ink)},
+          {"dash", curve.dash},
+          {"width", curve.width},
+          {"mark", curve.mark == Mark::points ? "points" : "line"},
+          {"x", short_numbers(curve.x)},
+          {"y", short_numbers(curve.y)}};
+}
+
+/// Bars of errors and areas are not drawn by charts: such a figure stays as it is.
+bool is_of_lines(const Panel& panel) {
+  return std::all_of(panel.curves.begin(), panel.curves.end(), [](const Curve& curve) {
+    return curve.mark != Mark::area && curve.y_error.empty();
+  });
+}
+
+Json picture_json(const Figure& figure) {
+  Json panels = Json::array();
+  for (const Panel& panel : figure.panels) {
+    Json curves = Json::array(), lines = Json::array();
+    for (const Curve& curve : panel.curves) curves.push_back(curve_json(curve));
+    for (const ReferenceLine& line : panel.lines)
+      lines.push_back({{"value", line.value}, {"vertical", line.vertical}});
+    panels.push_back({{"x", axis_json(panel.x_label, panel.log_x, panel.x_min, panel.x_max)},
+                      {"y", axis_json(panel.y_label, panel.log_y, panel.y_min, panel.y_max)},
+                      {"curves", curves},
+                      {"lines", lines}});
+  }
+  return {{"name", figure.name}, {"title", figure.title}, {"panels", panels}};
+}
+
+/// The page's own data, and the curves of its figures as "pictures".
+std::string data_of(const Page& page) {
+  Json data = page.answers.data.empty() ? Json::object() : Json::parse(page.answers.data);
+  if (page.answers.with_curves) {
+    Json& pictures = data["pictures"] = Json::array();
+    for (const Section& section : page.sections)
+      for (const Block& block : section.blocks)
+        if (const auto* picture = std::get_if<Picture>(&block);
+            picture &&
+            std::all_of(picture->plot.panels.begin(), picture->plot.panels.end(), is_of_lines))
+          pictures.push_back(picture_json(picture->plot));
+  }
+  // no "<" can end the element or begin a comment in it
+  std::string json;
+  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
+    json += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return json;
+}
+
+/// Reads a label from left to right.
+struct LabelReader {
+  std::string_view text;
+  size_t at = 0;
+
+  std::string until(char end) {
+    std::string html;
+    while (at < text.size() && text[at] != end) html += next();
+    ++at;
+    return html;
+  }
+
+  std::string next() {
+    const char c = text[at++];
+    if (c == '\\' && at < text.size()) return escaped_html(text.substr(at++, 1));
+    if ((c == '_' || c == '^') && at < text.size()) {
+      const std::string tag = c == '_' ? "sub>" : "sup>";
+      return '<' + tag + next() + "</" + tag;
+    }
+    if (c == '{') {
+      const bool is_italic = text.substr(at).starts_with("/:Italic ");
+      if (is_italic) at = text.find(' ', at) + 1;
+      const std::string inner = until('}');
+      return is_italic ? "<i>" + inner + "</i>" : inner;
+    }
+    // a letter with all its bytes; a second blank would be lost
+    const size_t begin = at - 1;
+    while (at < text.size() && (text[at] & 0xC0) == 0x80) ++at;
+    if (c == ' ' && at < text.size() && text[at] == ' ') return "&nbsp;";
+    return escaped_html(text.substr(begin, at - begin));
+  }
+};
+
+}  // namespace
+
+bool can_answer() { return !chart_library().empty(); }
+
+std::string label_html(std::string_view enhanced) { return LabelReader{enhanced}.until('\0'); }
+
+std::string answers_html(const Page& page) {
+  if (!page.answers.are_given || !can_answer()) return {};
+  std::string code = "(() => {\n\"use strict\";\n";
+  for (const char* name : modules) code += answers_file(name);
+  for (const std::string& module : page.answers.modules) code += module;
+  return "<style>\n" + answers_file("answers.css") +
+         "</style>\n<script type=\"application/json\" id=\"page-data\">" + data_of(page) +
+         "</script>\n<script>\n" + chart_library() + "</script>\n<script>\n" + code +
+         "})();\n</script>\n";
+}
+
+}  // namespace page
+}  // namespace ballast
