@@ -23,15 +23,21 @@ StatusLine::Style StatusLine::style_of_stderr() {
   return isatty(STDERR_FILENO) ? Style::bar : Style::lines;
 }
 
+size_t StatusLine::columns() const {
+  if (columns_ > 0) return columns_;
+  return &out_ == &std::cerr ? terminal_columns() : std::string::npos;
+}
+
 void StatusLine::write(std::string text) {
   if (style_ == Style::quiet) return;
   if (style_ == Style::bar) {
-    if (&out_ == &std::cerr) text = text.substr(0, terminal_columns());
+    text = cut_to(text, columns());
+    const size_t length = columns_of(text);
     // Back to the first column; blanks cover what the longer line before has left.
     out_ << '\r' << text;
-    if (text.size() < length_) out_ << std::string(length_ - text.size(), ' ');
+    if (length < length_) out_ << std::string(length_ - length, ' ');
     open_ = true;
-    length_ = text.size();
+    length_ = length;
   } else {
     out_ << text << '\n';
   }
@@ -42,6 +48,18 @@ void StatusLine::end() {
   if (open_) out_ << '\n' << std::flush;
   open_ = false;
   length_ = 0;
+}
+
+size_t columns_of(const std::string& text) {
+  return static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string cut_to(const std::string& text, size_t columns) {
+  size_t end = 0, count = 0;
+  for (; end < text.size(); ++end)
+    if ((text[end] & 0xC0) != 0x80 && count++ == columns) break;
+  return text.substr(0, end);
 }
 
 std::string bar_text(double fraction) {

@@ -36,15 +36,16 @@ install_packages() {
 # show_progress LOG: copies the build's output into LOG and says how far it is, on a terminal on one
 # line that rewrites itself, elsewhere a line for every tenth.
 show_progress() {
-  local line done_count all last=0
+  local line done_count all left last=0 begin=$SECONDS
   while IFS= read -r line; do
     printf '%s\n' "$line" >>"$1"
     [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
     done_count=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+    left=$(((SECONDS - begin) * (all - done_count) / done_count))
     if [ -t 1 ]; then
-      printf '\r   %d of %d' "$done_count" "$all"
+      printf '\r   %d of %d, about %d s left\033[K' "$done_count" "$all" "$left"
     elif [ $((10 * done_count / all)) -gt "$last" ]; then
-      printf '   %d of %d\n' "$done_count" "$all"
+      printf '   %d of %d, about %d s left\n' "$done_count" "$all" "$left"
     fi
     last=$((10 * done_count / all))
   done

@@ -14,16 +14,20 @@ namespace ballast {
 namespace fs = std::filesystem;
 namespace {
 
-bool find_packing(const fs::path& file, const std::string& key, Packing& packing) {
+void say(Telling telling, const std::string& words) {
+  if (telling == Telling::reader) std::cout << words << std::endl;
+}
+
+bool find_packing(const fs::path& file, const std::string& key, Telling telling, Packing& packing) {
   if (!read_packing(file, key, packing)) return false;
-  std::cout << "packing from the cache: " << file.string() << std::endl;
+  say(telling, "packing from the cache: " + file.string());
   return true;
 }
 
 /// deposit() with a line that says how far it is.
 bool deposit_visibly(const Scene& scene, const Rain& rain, const fs::path& part,
-                     const std::function<bool()>& goes_on, Packing& packing) {
-  Progress progress;
+                     const PackingOrder& order, Packing& packing) {
+  Progress progress(order.telling);
   BoxStage last = BoxStage::rain;
   RestForecast rest(scene.deposit.rest_velocity,
                     std::sqrt(2.0 * rain.height / deposit_gravity(scene).norm()));
@@ -35,7 +39,7 @@ bool deposit_visibly(const Scene& scene, const Rain& rain, const fs::path& part,
     const double end[] = {std::min(rest.end(), scene.deposit.max_time), scene.deposit.lid_time,
                           scene.deposit.settle_time};
     progress.show(name_of(stage), time, end[static_cast<int>(stage)], record, velocity);
-    return goes_on();
+    return order.goes_on();
   };
   const bool is_done = deposit(scene, rain, part, show, packing);
   progress.finish();
@@ -53,12 +57,11 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   const std::string key = packing_key(scene);
   const fs::path file = packing_file(order.cache, key), part = file.string() + ".part";
   // without the lock: a packing that is there is whole
-  if (!order.anew && find_packing(file, key, packing)) return true;
+  if (!order.anew && find_packing(file, key, order.telling, packing)) return true;
   create_folder(order.cache);
   // one process deposits, the others wait for it
   const FileLock lock(file.string() + ".lock", [&](double waited) {
-    if (waited == 0.0)
-      std::cout << "waiting for the packing that another run deposits" << std::endl;
+    if (waited == 0.0) say(order.telling, "waiting for the packing that another run deposits");
     return order.goes_on();
   });
   if (!lock.is_held()) return false;
@@ -66,11 +69,12 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
     fs::remove(file);
     fs::remove(part);
   }
-  if (find_packing(file, key, packing)) return true;  // made by whoever held the lock
-  std::cout << "depositing " << rain.grains.size() << " grains (kept in " << file.string() << ")"
-            << std::endl;
+  if (find_packing(file, key, order.telling, packing))
+    return true;  // made by whoever held the lock
+  say(order.telling, "depositing " + std::to_string(rain.grains.size()) + " grains (kept in " +
+                         file.string() + ")");
   const Stopwatch watch;
-  if (!deposit_visibly(scene, rain, part, order.goes_on, packing)) return false;
+  if (!deposit_visibly(scene, rain, part, order, packing)) return false;
   write_packing(file, key, packing);
   fs::remove(part);
   deposit_seconds = watch.seconds();

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "experiments/box/deposit.hpp"
+#include "experiments/record/progress.hpp"
 
 namespace ballast {
 
@@ -17,6 +18,7 @@ struct PackingOrder {
   bool anew = false;              ///< deposit again even if it is there
   std::function<bool()> goes_on;  ///< asked once per step, and while waiting; false stops, to be
                                   ///< continued another time
+  Telling telling = Telling::reader;
 };
 
 /// The scene's packing from the cache; where it is missing it is deposited, or waited for when

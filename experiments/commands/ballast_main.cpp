@@ -33,12 +33,9 @@ void print_failure(std::ostream& err, const std::string& what) {
   err << "ballast: " << line << std::endl;
 }
 
-/// "--output" of "--output DIR".
-std::string name_of(const Word& word) { return word.name.substr(0, word.name.find(' ')); }
-
 /// Tells CLI11 of one word.
 void add_word(CLI::App& app, const Word& word) {
-  const std::string name = name_of(word);
+  const std::string name = option_name(word);
   CLI::Option* option = std::visit(
       [&](auto* value) {
         if constexpr (std::is_same_v<decltype(value), bool*>) {
@@ -84,7 +81,7 @@ void add_command(CLI::App& app, const Command& command, const Command*& chosen) 
 /// The rules that CLI11 does not see to. Throws UsageError "<command>: <word>: ...".
 void check_word(const std::string& command, const Word& word) {
   const auto refuse = [&](const std::string& what) {
-    throw UsageError(command + ": " + name_of(word) + ": " + what);
+    throw UsageError(command + ": " + option_name(word) + ": " + what);
   };
   double number = std::nan("");
   if (const auto* value = std::get_if<double*>(&word.value)) number = **value;
@@ -114,7 +111,7 @@ std::string unknown_word(const std::vector<Command>& all, int argc, const char* 
     if (word.starts_with("--") && word.size() > 2) {
       names = {"--help", "--version"};
       for (const Word& known : at ? at->words : std::vector<Word>{})
-        names.push_back(name_of(known));
+        names.push_back(option_name(known));
       const std::string given = word.substr(0, word.find('='));
       if (std::find(names.begin(), names.end(), given) == names.end())
         return in + ": no option " + given + did_you_mean(given, names);
@@ -132,6 +129,8 @@ std::string unknown_word(const std::vector<Command>& all, int argc, const char* 
 }
 
 }  // namespace
+
+std::string option_name(const Word& word) { return word.name.substr(0, word.name.find(' ')); }
 
 std::string own_command() {
   std::vector<std::string> words = own_words();

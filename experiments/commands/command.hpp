@@ -58,6 +58,9 @@ struct Word {
   std::function<void(const std::string& text)> parse;
 };
 
+/// "--output" of "--output DIR".
+std::string option_name(const Word& word);
+
 // The rules, as they stand in the rows of a table of words.
 inline const Rule required = [](Word& word) { word.is_required = true; };
 inline const Rule shown = [](Word& word) { word.shows_default = true; };

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/compare_options.hpp"
@@ -28,8 +30,27 @@ struct CompareRequest {
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
   std::filesystem::path output = "results/compare", reference;
   CompareOptions comparison;
-  bool report = true;
+  bool report = true, is_quiet = false, is_json = false;
+
+  Telling telling() const {
+    return is_json ? Telling::program : is_quiet ? Telling::nobody : Telling::reader;
+  }
 };
+
+using Json = nlohmann::ordered_json;
+
+void tell(const Json& line) {
+  std::cout << line.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+}
+
+/// A row for a program: as its file has it, without the history.
+bool tell_row(const CompareRow& row, bool was_there, size_t done, size_t count) {
+  Json line = {{"event", "row"}, {"done", done}, {"count", count}, {"was_there", was_there}};
+  line.update(Json::parse(to_json(row)));
+  line.erase("history");
+  tell(line);
+  return !InterruptGuard::requested();
+}
 
 bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
   if (row.outcome == Outcome::unreadable) {
@@ -80,12 +101,26 @@ ExitCode compare_live(const CompareRequest& options) {
   live.tolerances = options.comparison.tolerances;
   live.max_seconds = options.comparison.max_seconds;
   live.folder = options.output;
-  const LiveComparison comparison = run_live(live, show_trajectory);
+  live.telling = options.telling();
+  const auto told = [&](const Trajectory& trajectory) {
+    if (live.telling == Telling::reader) return show_trajectory(trajectory);
+    if (live.telling == Telling::program)
+      tell({{"event", "trajectory"},
+            {"solver", trajectory.solver},
+            {"tolerance", trajectory.tolerance},
+            {"steps", trajectory.steps.size()},
+            {"ended", trajectory.ended}});
+    return !InterruptGuard::requested();
+  };
+  const LiveComparison comparison = run_live(live, told);
   if (InterruptGuard::requested()) return interrupted();
   Manifest manifest("compare --live " + live.scene, {options.comparison.command}, binary_key());
   manifest.summary("blas", loaded_blas());
   manifest.write(options.output / "manifest.json");
   write_live_page(options.output, comparison);
+  if (live.telling == Telling::program)
+    tell({{"event", "end"}, {"folder", options.output.string()}, {"exit_code", 0}});
+  if (live.telling != Telling::reader) return ExitCode::ok;
   std::cout << "\nresults in " << options.output.string()
             << "\n  live.html   figures and the table: open it in a browser\n"
             << "  live.csv    one row per trajectory; steps-*.csv: every step's scalars"
@@ -114,16 +149,26 @@ ExitCode compare(CompareRequest& options) {
   if (!options.reference.empty()) reference = read_reference_times(options.reference);
   const std::vector<CompareCase> cases = compare_cases(options.cases);
   InterruptGuard guard;
-  const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, show);
+  const auto told = [&](const CompareRow& row, bool was_there, size_t done, size_t count) {
+    if (options.is_json) return tell_row(row, was_there, done, count);
+    return options.is_quiet ? !InterruptGuard::requested() : show(row, was_there, done, count);
+  };
+  const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
   if (InterruptGuard::requested()) return interrupted();
   if (options.report) write_compare_page(options.output, rows, reference);
+  const ExitCode code = verdict_on_cases(rows, cases.size());
+  if (options.is_json)
+    tell({{"event", "end"},
+          {"folder", options.output.string()},
+          {"exit_code", static_cast<int>(code)}});
+  if (options.telling() != Telling::reader) return code;
   std::cout << '\n'
             << compare_summary(rows, reference) << "\nresults in " << options.output.string()
             << "\n"
             << (options.report ? "  compare.html  figures and tables: open it in a browser\n" : "")
             << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
             << "  manifest.json program, machine, BLAS, options" << std::endl;
-  return verdict_on_cases(rows, cases.size());
+  return code;
 }
 
 }  // namespace
@@ -163,6 +208,10 @@ Command compare_command() {
         "CSV of others' times: problem,ms_1e-4,solver_1e-4,..."},
        {"--output DIR", &options->output, "Folder of the results", shown},
        {"--no-report", &options->report, "No figures and no page"},
+       {"--quiet", &options->is_quiet, "Says nothing but failures"},
+       {"--json", &options->is_json,
+        "Every solve for programs: one JSON object a line on stdout, nothing else",
+        excludes("--quiet")},
        {"--live SCENE", &live.scene,
         "Instead of cases: a scene's closed loop from one start under each backend and tolerance"},
        {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value"},

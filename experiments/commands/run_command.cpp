@@ -2,6 +2,8 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/commands/command.hpp"
 #include "experiments/measure/run_trust.hpp"
 #include "experiments/run/capture.hpp"
@@ -18,6 +20,7 @@ namespace {
 struct RunRequest {
   RunOptions run;
   bool with_page = true, strict = false;
+  bool is_quiet = false, is_json = false;
 };
 
 /// This command line, so that it goes on with the run that it has begun: from the folder where it
@@ -52,7 +55,7 @@ void limit_threads(RunOptions& options) {
 void show_results(const RunEnd& end, const RunOptions& options, bool with_page) {
   const bool has_page = std::filesystem::exists(end.folder / "report.html");
   if (with_page && (!end.was_finished || !has_page)) write_report(end.folder);
-  if (end.was_finished) return;
+  if (end.was_finished || options.telling != Telling::reader) return;
   std::cout << "\nresults in " << end.folder.string() << "\n";
   if (with_page)
     std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
@@ -65,29 +68,49 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
 }
 
 /// What the user must know of a run that is finished. Strict: only a clean one is a success.
-ExitCode tell_trust(const RunEnd& end, const RunRequest& request) {
+ExitCode tell_trust(const RunEnd& end, const RunRequest& request,
+                    std::vector<std::string>& to_be_known) {
   const RunTrust trust = trust_of(read_run_data(end.folder));
-  std::cout << "\nto be known\n";
-  for (const std::string& words : trust_words(trust)) std::cout << "  " << words << '\n';
-  std::cout << std::flush;
+  to_be_known = trust_words(trust);
+  if (request.run.telling == Telling::reader) {
+    std::cout << "\nto be known\n";
+    for (const std::string& words : to_be_known) std::cout << "  " << words << '\n';
+    std::cout << std::flush;
+  }
   if (!request.strict || trust.is_clean()) return ExitCode::ok;
   std::cerr << "ballast: " << request.run.scene << ": --strict: finished, with what is said above"
             << std::endl;
   return ExitCode::failure;
 }
 
+/// The last line for a program.
+void tell_end(const RunEnd& end, ExitCode code, const std::vector<std::string>& to_be_known) {
+  const nlohmann::ordered_json line = {{"event", "end"},
+                                       {"folder", end.folder.string()},
+                                       {"exit_code", static_cast<int>(code)},
+                                       {"was_finished", end.was_finished},
+                                       {"to_be_known", to_be_known}};
+  std::cout << line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+            << std::endl;
+}
+
 ExitCode run_scene(RunRequest& request) {
   request.run.again = command_that_goes_on();
+  request.run.telling = request.is_json    ? Telling::program
+                        : request.is_quiet ? Telling::nobody
+                                           : Telling::reader;
   limit_threads(request.run);
   const RunEnd end = run(request.run);
-  if (end.has_record) {
-    show_results(end, request.run, request.with_page);
-    if (end.code == ExitCode::ok && !request.run.deposit_only) return tell_trust(end, request);
-  }
+  ExitCode code = end.code;
+  std::vector<std::string> to_be_known;
+  if (end.has_record) show_results(end, request.run, request.with_page);
+  if (end.has_record && code == ExitCode::ok && !request.run.deposit_only)
+    code = tell_trust(end, request, to_be_known);
+  if (request.is_json) tell_end(end, code, to_be_known);
   if (end.code != ExitCode::ok)
     std::cerr << "ballast: " << request.run.scene
               << ": stopped before its end; --continue goes on with it" << std::endl;
-  return end.code;
+  return code;
 }
 
 }  // namespace
@@ -125,6 +148,10 @@ Command run_command() {
         "Wall clock after which to write a checkpoint and exit with 3", above(0)},
        {"--strict", &request->strict,
         "Exit code 1 when steps missed their tolerance, overlaps can be seen or energy was gained"},
+       {"--quiet", &request->is_quiet, "Says nothing but failures"},
+       {"--json", &request->is_json,
+        "Progress and end for programs: one JSON object a line on stdout, nothing else",
+        excludes("--quiet")},
        {"--no-report", &request->with_page, "No figures and no page at the end"}},
       [request] { return run_scene(*request); }};
 }

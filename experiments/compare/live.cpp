@@ -48,6 +48,7 @@ void make_start(const LiveOptions& options, const Scene& scene) {
   run_options.output = options.folder / "start";
   run_options.packing_cache =
       options.packing_cache.empty() ? options.folder / "packings" : options.packing_cache;
+  run_options.telling = options.telling;
   run_options.resume = RunFolder(run_options.output).has_run();
   if (run(run_options).code != ExitCode::ok)
     throw Error(run_options.output.string() + ": the start was not reached");

@@ -9,6 +9,7 @@
 
 #include "experiments/compare/comparison.hpp"
 #include "experiments/compare/trajectory.hpp"
+#include "experiments/record/progress.hpp"
 #include "problems/scene/scene.hpp"
 
 namespace ballast {
@@ -27,6 +28,7 @@ struct LiveOptions {
   int threads = 1;                      ///< of the step and its solver: the same bits
   double trajectory_seconds = 600.0;    ///< wall clock of one trajectory
   std::filesystem::path packing_cache;  ///< empty: <folder>/packings
+  Telling telling = Telling::reader;    ///< of the start
   std::filesystem::path folder;  ///< start/ (a run), trajectories/<key>.bin, live.csv, live.html
 };
 

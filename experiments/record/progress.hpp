@@ -1,6 +1,6 @@
 #pragma once
 // How far a run is: one line that rewrites itself on a terminal, a line every ten seconds
-// elsewhere, nothing when quiet.
+// elsewhere, nothing when quiet, JSON for programs.
 
 #include <functional>
 #include <iosfwd>
@@ -8,19 +8,27 @@
 #include <string>
 #include <string_view>
 
+#include "experiments/record/trace.hpp"
 #include "experiments/step/step_record.hpp"
 #include "platform/status_line.hpp"
 
 namespace ballast {
 
+/// To whom a run tells how far it is.
+enum class Telling {
+  reader,   ///< words on stdout, a line on stderr
+  nobody,   ///< failures alone
+  program,  ///< one JSON object a line on stdout, nothing else
+};
+
 class Progress {
  public:
   using Style = StatusLine::Style;
 
-  /// To stderr: a bar if that is a terminal, else lines.
-  explicit Progress(bool quiet = false);
-  /// `clock`: seconds from anywhere, increasing.
-  Progress(Style style, std::ostream& out, std::function<double()> clock);
+  /// To stderr: a bar if that is a terminal, else lines. To stdout: JSON.
+  explicit Progress(Telling telling = Telling::reader);
+  /// `clock`: seconds from anywhere, increasing. `columns`: 0: as many as the terminal has.
+  Progress(Style style, std::ostream& out, std::function<double()> clock, size_t columns = 0);
 
   /// After each step: `time` of `total` [s], NaN where that is not known, in the phase `label`.
   /// Steps are counted by the calls; rate and time left are those since the first call.
@@ -36,7 +44,9 @@ class Progress {
   void restart();
 
  private:
+  double seconds_left(double now) const;
   std::string line(double now) const;
+  std::string json(double now) const;
   void write(double now);
 
   StatusLine line_;
@@ -49,7 +59,8 @@ class Progress {
   bool stale_ = false;         // shown later than written
   // what was shown last
   std::string label_;
-  double time_ = 0.0, total_ = 0.0, error_ = 0.0, contacts_ = 0.0, velocity_ = 0.0;
+  double time_ = 0.0, total_ = 0.0, error_ = 0.0, contacts_ = 0.0, velocity_ = 0.0, x_ = 0.0;
+  Trace x_trace_, error_trace_{true};  // of the phase
 };
 
 }  // namespace ballast

@@ -35,7 +35,8 @@ class Drive {
         stepper_(run.system, settings, run.driven_wall),
         recorder_(order.folder.path(), run.system, run.state.step, scene_.record.forces),
         pose_every_(steps_between(scene_.record.pose_rate, h_)),
-        state_every_(steps_between(scene_.record.state_rate, h_)) {
+        state_every_(steps_between(scene_.record.state_rate, h_)),
+        progress_(order.telling) {
     if (scene_.record.paraview) paraview_.emplace(order.folder.path(), run.system, run.state.step);
     if (!order.capture.empty())
       capture_.emplace(CaptureSettings::parse(order.capture), order.folder.capture(), h_,

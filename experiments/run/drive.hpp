@@ -16,6 +16,7 @@ struct DriveOrder {
   RunFolder folder;           ///< where records and checkpoints go
   std::string capture;        ///< which steps to keep (CaptureSettings::parse); empty: none
   double max_seconds = 1e30;  ///< wall clock of the loop
+  Telling telling = Telling::reader;
 };
 
 /// Steps from run.state to the end of the scene; `run` is then where it ended. A checkpoint is

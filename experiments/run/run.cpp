@@ -40,7 +40,7 @@ class Run {
     } else if (!prepare()) {
       end.code = stopped(why_stopped());
     } else {
-      const DriveOrder order{folder_, options_.capture, seconds_left()};
+      const DriveOrder order{folder_, options_.capture, seconds_left(), options_.telling};
       const DriveEnd why = drive(resolved_, order, run_, manifest_);
       manifest_.write(folder_.manifest());
       end.has_record = why == DriveEnd::finished;
@@ -64,7 +64,8 @@ class Run {
     if (!lock_->is_held())
       throw Error(folder_.path().string() + ": " + lock_->holder() + " is working there");
     if (options_.begin_or_resume && folder_.is_finished(resolved_.key)) {
-      std::cout << folder_.path().string() << ": finished already" << std::endl;
+      if (options_.telling == Telling::reader)
+        std::cout << folder_.path().string() << ": finished already" << std::endl;
       return false;
     }
     // from here on a run that is to be begun or resumed is one or the other
@@ -87,6 +88,7 @@ class Run {
     order.cache = options_.packing_cache.empty() ? folder_.path() / ".." / "packings"
                                                  : options_.packing_cache;
     order.anew = options_.new_packing && !options_.resume;
+    order.telling = options_.telling;
     order.goes_on = [this] { return !InterruptGuard::requested() && seconds_left() > 0.0; };
     return order;
   }
@@ -117,11 +119,13 @@ class Run {
 
   /// What a stopped run tells its user: how to go on.
   ExitCode stopped(DriveEnd end) const {
+    const ExitCode code = end == DriveEnd::time_limit ? ExitCode::time_limit : ExitCode::failure;
+    if (options_.telling != Telling::reader) return code;
     const std::string why = end == DriveEnd::time_limit ? "time limit reached" : "interrupted";
     std::cout << why << " at t = " << run_.state.time << " s; nothing is lost.";
     if (!options_.again.empty()) std::cout << " Continue with:\n  " << options_.again;
     std::cout << std::endl;
-    return end == DriveEnd::time_limit ? ExitCode::time_limit : ExitCode::failure;
+    return code;
   }
 
   RunOptions options_;

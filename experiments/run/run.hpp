@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/record/progress.hpp"
 #include "platform/exit_code.hpp"
 
 namespace ballast {
@@ -29,6 +30,7 @@ struct RunOptions {
   std::string again;  ///< the command that goes on with this run, for a shell in any folder; empty:
                       ///< none is told
   double max_seconds = 1e30;  ///< wall clock: checkpoint and exit code 3 after this
+  Telling telling = Telling::reader;
 };
 
 /// How a run ended.

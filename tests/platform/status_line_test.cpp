@@ -41,6 +41,17 @@ TEST_CASE("a line on a terminal comes more often") {
         0.1 * StatusLine(StatusLine::Style::lines, out).interval());
 }
 
+TEST_CASE("columns are letters, not bytes") {
+  CHECK(columns_of("a▁µ") == 3);
+  CHECK(cut_to("a▁µ", 2) == "a▁");
+  CHECK(cut_to("ab", 5) == "ab");
+  std::ostringstream out;
+  StatusLine line(StatusLine::Style::bar, out, 3);
+  line.write("▁▂▃▄");
+  line.write("▁");
+  CHECK(out.str() == "\r▁▂▃\r▁  ");
+}
+
 TEST_CASE("bars have one length") {
   CHECK(bar_text(0.0) == "[............] ");
   CHECK(bar_text(0.5) == "[######......] ");

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "platform/atomic_file.hpp"
+#include "platform/text.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -37,6 +40,33 @@ TEST_CASE("a comparison leaves its table and its page, and the same command goes
   CHECK(second.status == 0);
   CHECK_THAT(second.output, Catch::Contains("(was there)") && !Catch::Contains("compare.html"));
   CHECK_FALSE(std::filesystem::exists(output / "compare.html"));
+}
+
+TEST_CASE("a comparison for programs is one object a line, and a quiet one nothing") {
+  const TemporaryFolder folder;
+  std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
+                                    "--solvers",    "pgs,nncg",
+                                    "--tolerances", "1e-2",
+                                    "--memory",     "0",
+                                    "--output",     (folder.path() / "compared").string(),
+                                    "--no-report",  "--json"};
+  const ProgramResult told = ballast_program(words);
+  CHECK(told.status == 0);
+  std::vector<nlohmann::json> lines;
+  for (const std::string& line : split(told.output.substr(0, told.output.size() - 1), '\n'))
+    lines.push_back(nlohmann::json::parse(line));
+  REQUIRE(lines.size() == 3);
+  CHECK(lines[1]["event"] == "row");
+  CHECK(lines[1]["done"] == 2);
+  CHECK(lines[1]["count"] == 2);
+  CHECK(lines[1]["solver"] == "nncg");
+  CHECK(lines[1]["outcome"] == "solved");
+  CHECK_FALSE(lines[1].contains("history"));
+  CHECK(lines[2]["event"] == "end");
+  words.back() = "--quiet";
+  const ProgramResult quiet = ballast_program(words);
+  CHECK(quiet.status == 0);
+  CHECK(quiet.output.empty());
 }
 
 TEST_CASE("a comparison that cannot be had is one line") {

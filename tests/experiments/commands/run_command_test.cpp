@@ -1,7 +1,10 @@
 // What a run says at its end, through the program itself.
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/commands/command.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/text.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -69,4 +72,22 @@ TEST_CASE("the page of such a run begins with it") {
   const size_t told = page.find("did not reach the tolerance");
   CHECK(told != std::string::npos);
   CHECK(told < page.find("The run in numbers"));
+}
+
+TEST_CASE("quiet is quiet, and for programs every line is an object") {
+  const ProgramResult quiet = run_heavy({"--quiet"});
+  CHECK(quiet.status == 0);
+  CHECK(quiet.output.empty());
+  CHECK(quiet.errors.empty());
+  const ProgramResult told = run_heavy({"--json"});
+  CHECK(told.status == 0);
+  CHECK(told.errors.empty());
+  nlohmann::json last;
+  for (const std::string& line : split(told.output.substr(0, told.output.size() - 1), '\n'))
+    last = nlohmann::json::parse(line);
+  CHECK(last["event"] == "end");
+  CHECK(last["exit_code"] == 0);
+  CHECK_THAT(last["to_be_known"][0].get<std::string>(), Catch::Contains("reached the tolerance"));
+  check_failure(ballast_program({"run", "zeno_ball", "--quiet", "--json"}), ExitCode::usage,
+                {"--quiet"});
 }

@@ -1,7 +1,10 @@
 #include "experiments/record/progress.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/catch.hpp"
 
@@ -100,4 +103,46 @@ TEST_CASE("where the end is not known, neither part nor time left is made up") {
     progress.show("rain", 1e-3 * step, std::nan(""), record, 0.5);
   progress.finish();
   CHECK_THAT(out.str(), Contains("rain   ? %  0.009 s") && !Contains("left") && !Contains("nan"));
+}
+
+TEST_CASE("in a wide terminal the wall's way stands for the bar, in a narrow one not") {
+  setenv("LC_ALL", "C.UTF-8", 1);
+  const auto line = [](size_t columns) {
+    std::ostringstream out;
+    double now = 0.0;
+    Progress progress(
+        Progress::Style::bar, out, [&] { return now; }, columns);
+    StepRecord record;
+    for (int step = 1; step <= 100; ++step) {
+      now += 0.2;
+      record.wall_x = 1e-3 * step;
+      record.error_rms = 1e-6 * step;
+      progress.show("drive", 0.01 * step, 1.0, record);
+    }
+    progress.finish();
+    const std::string text = out.str();
+    return text.substr(text.rfind('\r') + 1);
+  };
+  CHECK_THAT(line(120), Contains("x ▁▂▂▃▄▄▅▆▆▇██") && !Contains("[#"));
+  CHECK_THAT(line(120), Contains("▅▆▆▇▇▇██"));  // the error's, logarithmic
+  CHECK_THAT(line(90), Contains("[####") && !Contains("▁"));
+  setenv("LC_ALL", "C", 1);
+  CHECK_THAT(line(120), Contains("[####") && !Contains("▁"));
+  unsetenv("LC_ALL");
+}
+
+TEST_CASE("for programs every line is an object with units in its names") {
+  const std::string text = told(Progress::Style::json, 100, 0.1);  // 10 s
+  std::istringstream lines(text);
+  std::string line;
+  int count = 0;
+  while (std::getline(lines, line)) {
+    const nlohmann::json object = nlohmann::json::parse(line);
+    CHECK(object["event"] == "progress");
+    CHECK(object["phase"] == "drive");
+    CHECK(object["ms_per_step"] == Approx(100.0));
+    CHECK(object["rms_velocity_m_s"].is_null());
+    ++count;
+  }
+  CHECK((count >= 9 && count <= 11));  // one a second
 }
