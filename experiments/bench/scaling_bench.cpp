@@ -202,7 +202,7 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
       }
     curve.title = title + (threads == 1 ? "" : ", " + std::to_string(threads) + " threads");
     curve.ink = ink;
-    curve.dash = threads != 1;
+    curve.dashed = threads != 1;
     panel.curves.push_back(std::move(curve));
   };
   for (const int threads : options.threads)

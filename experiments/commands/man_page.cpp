@@ -60,10 +60,7 @@ std::string man_page() {
                      "Every command prints its options with\n.BR \\-\\-help .\n" +
                      notes("ballast") + ".SH COMMANDS\n";
   for (const Command& command : commands()) text += section_of(command.name, command);
-  return text + ".SH EXIT STATUS\n" + entry("0", "Done.") +
-         entry("1", "Failed; one line says why.") + entry("2", "The command line is wrong.") +
-         entry("3", "The time limit is reached: the same command goes on.") +
-         entry("4", "The backend is not built in.");
+  return text;
 }
 
 }  // namespace ballast

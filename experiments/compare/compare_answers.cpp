@@ -23,7 +23,7 @@ constexpr std::array modules = {"rows.js",      "statistics.js", "asks.js",     
                                 "histories.js", "details.js",    "comparison.js"};
 
 /// Points of all histories together: what a page can hold.
-constexpr size_t most_points = 60000;
+constexpr size_t most_points = 25000;
 
 /// Of a row, as far as the options of the comparison are known; names in braces are filled in by
 /// the page.

@@ -94,7 +94,7 @@ Curve backend_curve(size_t k, const std::string& title) {
   Curve curve;
   curve.title = plain_text(title);
   curve.ink = inks[k % count];
-  curve.dash = (k / count) % 2 == 1;
+  curve.dashed = (k / count) % 2 == 1;
   curve.width = k < 2 * count ? 1.8 : 0.9;
   return curve;
 }
@@ -145,7 +145,7 @@ std::vector<page::Picture> cost_figures(const CompareTable& table) {
     for (size_t s = 0; s < table.solvers.size(); ++s) {
       Curve curve = backend_curve(s, table.solvers[s]);
       curve.mark = Mark::points;
-      curve.width = curve.dash ? 1.5 : 2.4;
+      curve.width = curve.dashed ? 1.5 : 2.4;
       curve.opacity = 0.8;
       for (size_t c = 0; c < table.cases.size(); ++c) {
         const double x = axis.value(facts_of(table, c)), y = table.cells[c][s].median;

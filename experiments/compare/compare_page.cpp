@@ -159,10 +159,10 @@ page::Text lede(std::span<const CompareRow> rows) {
                       {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
 }
 
-/// Where the page draws a case by itself, a link to the file is enough.
-page::Picture linked_if_answered(page::Picture picture) {
+/// Where the page draws a figure by itself, a link to its file is enough.
+void add_or_link(page::Picture picture, page::Section& section) {
   picture.is_linked = page::can_answer();
-  return picture;
+  section.add(std::move(picture));
 }
 
 page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
@@ -188,15 +188,15 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
     cases.add(page::Subheading{heading_of(table)});
     cases.add(cases_table(table));
     profiles.add(profile_figures(table));
-    costs.add(cost_figures(table));
+    for (page::Picture& figure : cost_figures(table)) add_or_link(std::move(figure), costs);
   }
   for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
     add_reference(comparison, limit, references);
   for (const StartKind start : starts_in(rows)) {
     for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.family; }))
-      families.add(family_figure(rows, name, start));
+      add_or_link(family_figure(rows, name, start), families);
     for (const std::string& name : names_in(rows, [](const CompareRow& r) { return r.case_name; }))
-      case_figures.add(linked_if_answered(work_precision_figure(rows, name, start)));
+      add_or_link(work_precision_figure(rows, name, start), case_figures);
   }
   page::Page page{.title = "Solvers of frictional contact, compared", .lede = {lede(rows)}};
   if (!reference.empty() && !rows.empty() && rows[0].measure != Measure::fclib)

@@ -28,7 +28,8 @@ Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& traje
   };
   Curve curve = backend_curve(place(solvers, trajectory.solver), trajectory.label());
   const size_t looseness = place(tolerances, trajectory.tolerance);
-  curve.dash = static_cast<int>(std::min<size_t>(looseness, 3));
+  curve.dashed = looseness > 0;
+  curve.fineness = static_cast<int>(std::clamp<size_t>(looseness, 1, 3)) - 1;
   curve.width = looseness == 0 ? 2.0 : 1.6;
   return curve;
 }

@@ -21,9 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The modules in the order in which they build upon each other.
-constexpr std::array modules = {"elements.js", "choice.js",   "numbers.js",
-                                "tables.js",   "palette.js",  "legends.js",
-                                "charts.js",   "pictures.js", "answers.js"};
+constexpr std::array common_modules = {"elements.js", "choice.js",   "numbers.js",
+                                       "tables.js",   "palette.js",  "legends.js",
+                                       "charts.js",   "pictures.js", "answers.js"};
 
 /// Five digits are more than a chart shows; JSON has no NaN.
 Json short_number(double value) {
@@ -63,7 +63,7 @@ std::string unescaped(const std::string& text) {
 Json curve_json(const Curve& curve) {
   return {{"title", unescaped(curve.title)},
           {"ink", variable_of(curve.ink)},
-          {"dash", curve.dash},
+          {"dash", curve.dashed ? 1 + curve.fineness : 0},
           {"width", curve.width},
           {"mark", curve.mark == Mark::points ? "points" : "line"},
           {"x", short_numbers(curve.x)},
@@ -152,12 +152,12 @@ std::string label_html(std::string_view enhanced) { return LabelReader{enhanced}
 
 std::string answers_html(const Page& page) {
   if (!page.answers.are_given || !can_answer()) return {};
-  std::string code = "(() => {\n\"use strict\";\n";
-  for (const char* name : modules) code += answers_file(name);
-  for (const std::string& module : page.answers.modules) code += module;
+  std::string whole = "(() => {\n\"use strict\";\n";
+  for (const char* name : common_modules) whole += answers_file(name);
+  for (const std::string& module : page.answers.modules) whole += module;
   return "<style>\n" + answers_file("answers.css") +
          "</style>\n<script type=\"application/json\" id=\"page-data\">" + data_of(page) +
-         "</script>\n<script>\n" + chart_library() + "</script>\n<script>\n" + code +
+         "</script>\n<script>\n" + chart_library() + "</script>\n<script>\n" + whole +
          "})();\n</script>\n";
 }
 

@@ -30,7 +30,8 @@ struct Curve {
   Ink ink = Ink::blue;
   Mark mark = Mark::line;
   double width = 1.6;  ///< of the line, or size of the points
-  int dash = 0;        ///< 0: a whole line; 1 to 3: ever shorter dashes
+  bool dashed = false;
+  int fineness = 0;  ///< of dashes, 0 to 2: ever shorter ones
   double opacity = 1.0;
   std::vector<double> y_error = {};  ///< points: half length of the bars
   std::vector<double> y_low = {};    ///< area: lower bound

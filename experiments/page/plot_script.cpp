@@ -43,13 +43,13 @@ std::string colour(Ink ink, double opacity) {
 }
 
 std::string plot_command(const std::string& block, const Curve& curve) {
-  constexpr const char* dashes[] = {"", " dt (8,5)", " dt (4,3)", " dt (1.5,3)"};
+  constexpr const char* dashes[] = {" dt (8,5)", " dt (4,3)", " dt (1.5,3)"};
   std::string text = block;
   const std::string ink = colour(curve.ink, curve.opacity);
   switch (curve.mark) {
     case Mark::line:
       text += printed(" using 1:2 with lines lc rgb %s lw %.3g%s", ink.c_str(), curve.width,
-                      dashes[std::clamp(curve.dash, 0, 3)]);
+                      curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
       break;
     case Mark::points:
       text += curve.y_error.empty() ? printed(" using 1:2 with points pt 7 ps %.3g lc rgb %s",

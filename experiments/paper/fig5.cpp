@@ -66,7 +66,8 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
   const ForceUnit unit = force_unit(run.summary.facts.f_max);
   const WallPeriod& period = run.summary.wall.periods.back();
   std::vector<double> time, x, model_x;
-  Curve loop{.title = "simulation"}, model_loop{.title = "model", .ink = Ink::black, .dash = 1};
+  Curve loop{.title = "simulation"},
+      model_loop{.title = "model", .ink = Ink::black, .dashed = true};
   for (size_t k = period.first; k < period.last; ++k) {
     time.push_back(run.data.steps[k].time - period.begin);
     x.push_back(1e3 * (run.data.steps[k].wall_x - period.x_before));
@@ -80,7 +81,7 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
     model_loop.y.push_back(unit.factor * model.force[k]);
   }
   Curve motion = line_of(model.time, model_x, "model", Ink::black, 2.0);
-  motion.dash = 1;
+  motion.dashed = true;
   return {.height = 760,
           .panels = {{.x_label = "{/:Italic t} in the period  (s)",
                       .y_label = "{/:Italic x} − {/:Italic x}_{jam}  (mm)",

@@ -68,7 +68,7 @@ Panel portrait(const std::vector<Orbit>& orbits, const std::string& x_label,
                             .y = shown.v,
                             .title = plot_label(page::number(frequencies[k], 2) + " Hz"),
                             .ink = k == 0 ? Ink::blue : Ink::vermilion,
-                            .dash = k == 1});
+                            .dashed = k == 1});
   }
   return panel;
 }

@@ -71,7 +71,7 @@ namespace ballast {
 template <class Function>
 Curve curve_of(const Function& function, const Drawn& range, const std::string& title, Ink ink,
                bool dashed) {
-  Curve curve{.title = title, .ink = ink, .dash = dashed};
+  Curve curve{.title = title, .ink = ink, .dashed = dashed};
   constexpr int parts = 200;
   for (int k = 0; k <= parts; ++k) {
     const double s = static_cast<double>(k) / parts;

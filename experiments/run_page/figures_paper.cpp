@@ -27,7 +27,7 @@ Curve loop_curve(const RunData& data, const WallCycles& cycles, const std::vecto
 
 /// The fits, drawn along every stroke of the loop from its own jamming position.
 Curve fit_curve(const RunSummary& summary, double factor) {
-  Curve curve{.title = "fits", .ink = Ink::black, .width = 1.3, .dash = 1};
+  Curve curve{.title = "fits", .ink = Ink::black, .width = 1.3, .dashed = true};
   constexpr int parts = 32;
   const auto add = [&](double jam, double stroke, const auto& law) {
     for (int k = 0; k <= parts; ++k) {
@@ -169,7 +169,7 @@ page::Picture figure_12(const RunData& data, const RunSummary& summary) {
          .title = "gain per period " + plot_label(page::number(compaction.gain)),
          .ink = Ink::vermilion,
          .width = 1.8,
-         .dash = 1});
+         .dashed = true});
     caption += page::words("run.fig12.trend", {{"slope", page::number(compaction.gain)},
                                                {"gain", page::number(compaction.relative_gain)}});
   }

@@ -58,9 +58,11 @@ TEST_CASE("no file is too long and no line too wide") {
 }
 
 TEST_CASE("the scripts of pages are as short as the sources") {
-  for (const auto& entry : std::filesystem::directory_iterator(root() / "experiments/page/replay"))
-    for (const std::string& breach : breaches(entry.path().filename(), content(entry.path())))
-      FAIL_CHECK(breach);
+  for (const char* folder :
+       {"experiments/page/replay", "experiments/page/answers", "experiments/compare/answers"})
+    for (const auto& entry : std::filesystem::directory_iterator(root() / folder))
+      for (const std::string& breach : breaches(entry.path().filename(), content(entry.path())))
+        FAIL_CHECK(breach);
 }
 
 TEST_CASE("what is too long or too wide is seen") {

@@ -9,7 +9,7 @@ const sections = [["backends", backends_view], ["matrix", matrix_view], ["profil
 function holder_of(id) {
   const section = document.getElementById(id);
   if (!section) return null;
-  for (const block of section.querySelectorAll(":scope > :is(h3, .scroll, figure, ul)"))
+  for (const block of section.querySelectorAll(":scope > :is(h3, .scroll, figure, .linked)"))
     block.classList.add("still");
   const holder = element("div", { class: "live" });
   section.append(holder);

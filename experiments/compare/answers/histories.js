@@ -9,7 +9,8 @@ const longest_history = (mine, solver) =>
 
 /// A history as a line that ends where the backend did.
 function history_curve(row) {
-  const points = history_of(row).filter((p) => p.x > 0 && p.y > 0), last = points.at(-1);
+  const points = history_of(row).filter((p) => p.x > 0 && p.y > 0);
+  const last = points.at(-1);
   if (last && row.seconds > last.x) points.push({ ...last, x: row.seconds });
   return { title: row.solver, ...style_of(row.solver), stepped: true, points };
 }
@@ -43,15 +44,15 @@ function case_view() {
 }
 
 function family_view() {
-  const mine = rows.filter(first_repeat);
-  const cases_of = (family) =>
-    unique(mine.filter((row) => row.family === family).map((row) => row.case));
-  const large = unique(mine.map((row) => row.family)).filter((f) => cases_of(f).length > 1);
+  const families = grouped(rows.filter(first_repeat), "family");
+  const large = [...families.keys()].filter((family) =>
+    families.get(family).some((row) => row.case !== families.get(family)[0].case));
   if (!large.length) return [];
-  const [family, line] = chooser("family", "family", large), cases = cases_of(family);
+  const [family, line] = chooser("family", "family", large), mine = families.get(family);
+  const cases = [...grouped(mine, "case").values()];
   const curve_of = (solver) => {
-    const histories = cases.map((name) => longest_history(mine.filter((row) => row.case === name),
-                                                          solver)).filter(Boolean).map(history_of);
+    const histories = cases.map((of_case) => longest_history(of_case, solver)).filter(Boolean)
+      .map(history_of);
     // a mean over other cases would not compare
     const points = histories.length < cases.length ? [] : mean_history(histories, 160);
     return { title: solver, ...style_of(solver), points };

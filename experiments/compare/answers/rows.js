@@ -56,7 +56,16 @@ const command_of = (row) => page_data.again
 /// Errors of a row's history as what was reached by then: {x: seconds, y: error}.
 function history_of(row) {
   const flat = page_data.histories[row.key] ?? [];
-  const points = [];
-  for (let k = 0; k < flat.length; k += 2) points.push({ x: flat[k], y: flat[k + 1], row });
-  return points;
+  row.history ??= flat.flatMap((x, k) => (k % 2 ? [] : [{ x, y: flat[k + 1], row }]));
+  return row.history;
+}
+
+/// Rows by the value of a column, in the order of their first ones.
+function grouped(list, column) {
+  const groups = new Map();
+  for (const row of list) {
+    if (!groups.has(row[column])) groups.set(row[column], []);
+    groups.get(row[column]).push(row);
+  }
+  return groups;
 }

@@ -107,7 +107,9 @@ function cost_view({ solvers, cases }) {
   const figure = { title: "Cost against " + name, x, y: seconds_axis,
     curves: solvers.map((solver, s) => ({ title: solver, ...style_of(solver), mark: "points",
       points: points_of(s) })) };
-  const words = "Time of prepare and solve; only what was solved is drawn. A point opens its solve.";
-  return [chooser_line, caption("Cost.", words), chart_of(figure, { opened: open_row, told: (curve, point) =>
-    `${curve.title}; ${name} ${number(point.x)}; ${told_row(point.row)}` })];
+  const words = "Time of prepare and solve; only what was solved is drawn. A point opens its " +
+    "solve.";
+  const told = (curve, point) =>
+    `${curve.title}; ${name} ${number(point.x)}; ${told_row(point.row)}`;
+  return [chooser_line, caption("Cost.", words), chart_of(figure, { opened: open_row, told })];
 }

@@ -18,6 +18,12 @@ const minus = (text) => text.replace("-", "−");
 const raised = (power) =>
   [...String(power)].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("");
 
+/// The same without zeros at its end: what is read off an axis.
+function short_number(value) {
+  const text = number(value, 5);
+  return text.includes(".") ? text.replace(/\.?0+(?=×|$)/, "") : text;
+}
+
 /// A duration in seconds or milliseconds.
 function time_words(seconds) {
   if (!Number.isFinite(seconds)) return dash;

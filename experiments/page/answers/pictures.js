@@ -19,7 +19,7 @@ function picture_charts(picture) {
     const quantity = (label, value) => {
       const words = plain(label).trim(), unit = /\s*\(([^()]*)\)$/.exec(words);
       const name = unit ? words.slice(0, unit.index) : words;
-      return `${name} ${number(value, 5)}${unit ? narrow_space + unit[1] : ""}`;
+      return `${name} ${short_number(value)}${unit ? narrow_space + unit[1] : ""}`;
     };
     return chart_of(panel_figure(picture, panel), {
       told: (curve, { x, y }) =>

@@ -51,7 +51,7 @@ const orders = {};
 function table_of(name, columns, rows) {
   const cell_of = (cell, k) => {
     const { text, value, kind, open } = typeof cell === "string" ? { text: cell } : cell;
-    const long = text.length > 40 ? " long" : "";
+    const long = text.length > 24 ? " long" : "";
     const words = kind ? element("span", { class: kind }, text) : text;
     return element("td", { class: ((columns[k].number ? "n" : "") + long).trim() || null,
                            "data-value": value ?? null },

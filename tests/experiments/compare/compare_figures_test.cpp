@@ -17,7 +17,7 @@ TEST_CASE("No two of twenty-four backends look alike") {
   for (size_t a = 0; a < 24; ++a)
     for (size_t b = 0; b < a; ++b) {
       const Curve p = backend_curve(a, "p"), q = backend_curve(b, "q");
-      CHECK((p.ink != q.ink || p.dash != q.dash || p.width != q.width));
+      CHECK((p.ink != q.ink || p.dashed != q.dashed || p.width != q.width));
     }
   CHECK(figure_name("pgs 1e-4/x.dat") == "pgs_1e-4_x_dat");
   CHECK(height_for(9) > height_for(2));

@@ -27,7 +27,7 @@ TEST_CASE("Every trajectory with something to show is a line") {
   CHECK(curves[0].title == "pgs 0.1");
   CHECK(curves[0].y == std::vector<double>{1.0, 2.0});  // mm
   CHECK(curves[1].ink != curves[0].ink);
-  CHECK(curves[1].dash < curves[0].dash);  // tighter
+  CHECK(curves[1].fineness < curves[0].fineness);  // tighter
   CHECK(curves[0].opacity == 1.0);
   const page::Picture* cost = find_figure(figures, "live_cost");
   REQUIRE(cost);

@@ -1,0 +1,39 @@
+// The page of a closed loop in a real browser: charts in the place of the drawn figures.
+
+#include "experiments/compare/live_page.hpp"
+#include "experiments/page/html.hpp"
+#include "experiments/page/plot.hpp"
+#include "experiments/run/manifest.hpp"
+#include "tests/experiments/compare/hand_made_live.hpp"
+#include "tests/support/browser.hpp"
+
+namespace ballast {
+
+TEST_CASE("every figure of a closed loop tells its values and has a legend that switches") {
+  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
+  const TemporaryFolder folder;
+  Manifest("compare --live x", {}, "key").write(folder.path() / "manifest.json");
+  write_live_page(folder.path(), hand_made_live());
+  Browser browser(1400, 900);
+  browser.open(folder.path() / "live.html", "", "document.querySelector('.chart canvas')");
+  // the drawn ones stay for print
+  CHECK(browser.js("document.querySelectorAll('figure svg').length") ==
+        browser.js("document.querySelectorAll('figure canvas').length"));
+  CHECK(browser.js("[...document.querySelectorAll('figure svg')].every((s) => "
+                   "getComputedStyle(s).display === 'none')") == true);
+  // the second point of the second trajectory, by the keyboard
+  browser.js("document.querySelector('#live_wall canvas').focus()");
+  for (const char* key : {"ArrowRight", "ArrowRight", "ArrowDown"}) browser.key(key);
+  CHECK(browser.js("document.querySelector('#live_wall .said').textContent") ==
+        "nncg 0.015; t 0.002\u202fs; wall x 2.003\u202fmm");
+  browser.js("document.querySelector('#live_wall [data-title=\"pgs 0.1\"]').click()");
+  CHECK(browser.js("['live_wall', 'live_error'].map((n) => Chart.getChart(document.querySelector("
+                   "'#' + n + ' canvas')).isDatasetVisible(0))") == Browser::Json{false, false});
+  // its fourteen columns are all to be seen
+  CHECK(browser.js("(() => { const t = document.querySelector('.scroll'); return t.scrollWidth <= "
+                   "t.clientWidth; })()") == true);
+  CHECK(browser.js("document.documentElement.scrollWidth <= innerWidth") == true);
+  CHECK(browser.complaints == std::vector<std::string>{});
+}
+
+}  // namespace ballast
