@@ -19,10 +19,10 @@ size_t first_after(std::span<const StepRecord> steps, double t, double h) {
 /// Largest rise above the running minimum, and where the wall comes back to. NaN samples are passed
 /// over.
 void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
-  // One period of x, outwards drawn upwards; rise = x_peak - x_before:
+  // One period of x, outwards drawn upwards:
   //
   //     \          __ x_peak
-  //      \        /  \
+  //      \        /  \      rise = x_peak - x_before
   //       \      /    \___ x_after
   //        \____/
   //          x_before, the least x so far

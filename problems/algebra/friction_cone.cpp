@@ -22,8 +22,8 @@ Eigen::Matrix3d project_cone_jacobian(const Eigen::Vector3d& x, double mu) {
   //      |  /          in its polar cone, mu |x_T| <= -x_N:   P(x) = 0
   //      | /
   //      |/_____ |x_T|
-  //      |\
-  //      | \          the polar cone's side is at right angles to that of K_mu
+  //      |\           the polar cone's side is at
+  //      | \          right angles to that of K_mu
   const double t = tangential_norm(x);
   if (mu * t <= -x[0]) return Eigen::Matrix3d::Zero();
   if (t <= mu * x[0]) return Eigen::Matrix3d::Identity();
