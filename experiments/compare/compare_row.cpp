@@ -96,6 +96,27 @@ void take(const Json& json, Value& value) {
   value = json.get<Value>();
 }
 
+std::string six_digits(double value) { return printed("%.6g", value); }
+
+/// The last columns: what the problem is.
+std::vector<CompareColumn> problem_columns() {
+  using R = const CompareRow&;
+  return {
+      {"peak_memory_MB", "of the child", [](R r) { return printed("%.4g", r.peak_memory_MB); }},
+      {"contacts", "", [](R r) { return std::to_string(r.facts.contacts); }},
+      {"rows", "", [](R r) { return std::to_string(r.facts.rows); }},
+      {"dofs", "unknowns of bodies in contact; 0: only W is known",
+       [](R r) { return std::to_string(r.facts.dofs); }},
+      {"rank_deficiency", "1 - rank(W)/rows",
+       [](R r) { return printed("%.4g", r.facts.rank_deficiency); }},
+      {"mass_ratio", "of bodies in contact; where only W is known, of lambda_max(W_cc)",
+       [](R r) { return printed("%.4g", r.facts.mass_ratio); }},
+      {"velocity_scale", "[m/s]", [](R r) { return six_digits(r.facts.velocity_scale); }},
+      {"note", "", [](R r) { return r.note; }},
+      {"key", "of problem, backend, options and binary", [](R r) { return r.key; }},
+  };
+}
+
 }  // namespace
 
 const char* name_of(Measure measure) { return measure_names[static_cast<size_t>(measure)]; }
@@ -110,7 +131,7 @@ StartKind start_of(const std::string& name) {
 
 const std::vector<CompareColumn>& compare_columns() {
   using R = const CompareRow&;
-  static const std::vector<CompareColumn> columns = {
+  static const std::vector<CompareColumn> answer = {
       {"case", "problem", [](R r) { return r.case_name; }},
       {"family", "problems of one kind", [](R r) { return r.family; }},
       {"solver", "backend", [](R r) { return r.solver; }},
@@ -126,49 +147,43 @@ const std::vector<CompareColumn>& compare_columns() {
       {"claimed", "1: the backend says that it is done",
        [](R r) { return std::to_string(r.claimed); }},
       {"judged", "1: the judge finds it so", [](R r) { return std::to_string(r.judged); }},
-      {"error", "in the measure", [](R r) { return printed("%.6g", r.error); }},
+      {"error", "in the measure", [](R r) { return six_digits(r.error); }},
       {"seconds", "prepare and solve, fastest run in the child",
-       [](R r) { return printed("%.6g", r.seconds()); }},
-      {"prepare_seconds", "", [](R r) { return printed("%.6g", r.prepare_seconds); }},
-      {"solve_seconds", "", [](R r) { return printed("%.6g", r.solve_seconds); }},
+       [](R r) { return six_digits(r.seconds()); }},
+      {"prepare_seconds", "", [](R r) { return six_digits(r.prepare_seconds); }},
+      {"solve_seconds", "", [](R r) { return six_digits(r.solve_seconds); }},
       {"startup_seconds", "making the solver, processes, a foreign library's form: in no other",
-       [](R r) { return printed("%.6g", r.startup_seconds); }},
+       [](R r) { return six_digits(r.startup_seconds); }},
       {"first_seconds", "of the child's first run",
-       [](R r) { return printed("%.6g", r.first_seconds); }},
+       [](R r) { return six_digits(r.first_seconds); }},
       {"runs", "solves in the child", [](R r) { return std::to_string(r.runs); }},
       {"iterations", "", [](R r) { return std::to_string(r.iterations); }},
-      {"natural_map_rms", "[m/s]", [](R r) { return printed("%.6g", r.natural_map_rms); }},
-      {"natural_map_max", "[m/s]", [](R r) { return printed("%.6g", r.natural_map_max); }},
-      {"fclib", "what Siconos prints", [](R r) { return printed("%.6g", r.fclib); }},
-      {"cone_violation", "[N s]", [](R r) { return printed("%.6g", r.cone_violation); }},
-      {"min_normal_velocity", "[m/s]", [](R r) { return printed("%.6g", r.min_normal_velocity); }},
+      {"natural_map_rms", "[m/s]", [](R r) { return six_digits(r.natural_map_rms); }},
+      {"natural_map_max", "[m/s]", [](R r) { return six_digits(r.natural_map_max); }},
+      {"fclib", "what Siconos prints", [](R r) { return six_digits(r.fclib); }},
+      {"cone_violation", "[N s]", [](R r) { return six_digits(r.cone_violation); }},
+      {"min_normal_velocity", "[m/s]", [](R r) { return six_digits(r.min_normal_velocity); }},
       {"own_residual", "the backend's own: no evidence",
-       [](R r) { return printed("%.6g", r.own_residual); }},
+       [](R r) { return six_digits(r.own_residual); }},
       {"worst", "contact of natural_map_max", [](R r) { return r.worst; }},
       {"velocity_distance",
        "of bodies, from a solution at 1e-9, over the velocity scale; nan: none",
-       [](R r) { return printed("%.6g", r.distance.velocity); }},
+       [](R r) { return six_digits(r.distance.velocity); }},
       {"contact_velocity_distance", "of contacts, rms",
-       [](R r) { return printed("%.6g", r.distance.contact_velocity); }},
+       [](R r) { return six_digits(r.distance.contact_velocity); }},
       {"body_impulse_distance", "of H^T r, as a part of the solution's",
-       [](R r) { return printed("%.6g", r.distance.body_impulse); }},
+       [](R r) { return six_digits(r.distance.body_impulse); }},
       {"wall_force_distance", "of the force on the driven wall, as a part of the solution's",
-       [](R r) { return printed("%.6g", r.distance.wall_force); }},
+       [](R r) { return six_digits(r.distance.wall_force); }},
       {"statuses_wrong", "contacts that are open, stick or slip otherwise; -1: no solution known",
        [](R r) { return std::to_string(r.distance.statuses); }},
-      {"peak_memory_MB", "of the child", [](R r) { return printed("%.4g", r.peak_memory_MB); }},
-      {"contacts", "", [](R r) { return std::to_string(r.facts.contacts); }},
-      {"rows", "", [](R r) { return std::to_string(r.facts.rows); }},
-      {"dofs", "unknowns of bodies in contact; 0: only W is known",
-       [](R r) { return std::to_string(r.facts.dofs); }},
-      {"rank_deficiency", "1 - rank(W)/rows",
-       [](R r) { return printed("%.4g", r.facts.rank_deficiency); }},
-      {"mass_ratio", "of bodies in contact; where only W is known, of lambda_max(W_cc)",
-       [](R r) { return printed("%.4g", r.facts.mass_ratio); }},
-      {"velocity_scale", "[m/s]", [](R r) { return printed("%.6g", r.facts.velocity_scale); }},
-      {"note", "", [](R r) { return r.note; }},
-      {"key", "of problem, backend, options and binary", [](R r) { return r.key; }},
   };
+  static const std::vector<CompareColumn> columns = [&] {
+    std::vector<CompareColumn> all = answer;
+    const std::vector<CompareColumn> rest = problem_columns();
+    all.insert(all.end(), rest.begin(), rest.end());
+    return all;
+  }();
   return columns;
 }
 

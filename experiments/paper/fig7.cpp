@@ -29,7 +29,7 @@ Panel chains(const StoredState& state, const std::string& title) {
   std::array<Curve, classes> curves;
   for (const PairForce& pair : pairs) {
     if (std::abs(pair.position.y() - state.middle()) > half_section_of_contacts) continue;
-    const double relative = pair.normal_force() / mean;  // the thickness grows up to 4 means
+    const double relative = pair.normal_force() / mean;  // in 8 classes of half a mean
     Curve& curve = curves[static_cast<size_t>(std::min(classes - 1.0, std::floor(2.0 * relative)))];
     for (const Vec3& end : {centre(pair.body_a, pair), centre(pair.body_b, pair)}) {
       curve.x.push_back(end.x());

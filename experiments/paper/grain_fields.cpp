@@ -45,7 +45,10 @@ void count_contacts(const MechanicalSystem& system, std::span<const PairForce> p
   for (bool found = true; found;) {
     found = false;
     for (size_t k = 0; k < grains; ++k)
-      if (!out[k] && counts[k] < 2) out[k] = found = true, ++removed;
+      if (!out[k] && counts[k] < 2) {
+        out[k] = found = true;
+        ++removed;
+      }
     if (found) counts = contact_counts(system, pairs, out);
   }
   if (removed < grains) {
@@ -76,7 +79,10 @@ Fabric fabric_of(const MechanicalSystem& system, std::span<const PairForce> pair
     sum.force += pair.normal_force();
   }
   if (sum.contacts > 0.0) sum.contact /= sum.contacts;
-  if (sum.force > 0.0) sum.normal /= sum.force, sum.full /= sum.force;
+  if (sum.force > 0.0) {
+    sum.normal /= sum.force;
+    sum.full /= sum.force;
+  }
   return sum;
 }
 

@@ -71,8 +71,10 @@ ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& s
     // one step on; where the velocity changes its sign the wall stops, and where it comes back to
     // its jamming position it stays
     wall = advanced(model, phase, wall, t, dt);
-    if (phase == ModelPhase::out && wall.v <= 0.0) phase = ModelPhase::turning, wall.v = 0.0;
-    if (phase == ModelPhase::in && wall.v >= 0.0) phase = ModelPhase::turning, wall.v = 0.0;
+    if ((phase == ModelPhase::out && wall.v <= 0.0) || (phase == ModelPhase::in && wall.v >= 0.0)) {
+      phase = ModelPhase::turning;
+      wall.v = 0.0;
+    }
     if (phase == ModelPhase::in && wall.x <= -model.contraction) {
       wall = {-model.contraction, 0.0};
       phase = ModelPhase::jammed_after;

@@ -10,10 +10,10 @@ namespace ballast {
 
 struct KnownSolutionSettings {
   int bodies = 20;
-  int contacts = 40;  ///< more than 2 bodies: W is rank deficient
+  int contacts = 40;  ///< more than twice the bodies: W is rank deficient
   double friction_min = 0.0, friction_max = 1.0;
   double mass_ratio = 1.0;      ///< masses log-uniform in [1, mass_ratio] kg
-  double open_fraction = 0.25;  ///< contacts with r = 0, u inside K*
+  double open_fraction = 0.25;  ///< contacts with r = 0, u_N > 0
   double slip_fraction =
       0.35;  ///< contacts with r on the cone's side, u_T opposite; the rest stick
   double frictionless_fraction = 0.1;  ///< one-row contacts

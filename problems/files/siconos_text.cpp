@@ -1,7 +1,9 @@
 #include "problems/files/siconos_text.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -42,6 +44,19 @@ class Words {
     while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
     if (begin == at_) fail_here(std::string("the file ends within ") + of);
     return std::string_view(text_).substr(begin, at_ - begin);
+  }
+
+  /// Whether the next words are these numbers; they are not taken.
+  bool next_are(std::initializer_list<int> numbers) {
+    const std::size_t at = at_;
+    const int line = line_;
+    const bool equal = std::all_of(numbers.begin(), numbers.end(), [&](int wanted) {
+      while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+      return at_ < text_.size() && parsed<int>(next("a number")) == wanted;
+    });
+    at_ = at;
+    line_ = line;
+    return equal;
   }
 
   void skip_line() {
@@ -235,9 +250,12 @@ std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesyste
   const int contacts = words.backed_count("the number of contacts");
   const TextMatrix first = read_matrix(words);
   words.require(first.rows == first.columns, "the first matrix is not square");
-  // Nothing in the file says which form it has. A first matrix with three rows a contact is taken
-  // for W, any other for M with H behind it.
-  if (first.rows == 3 * contacts) {
+  // Nothing in the file says which form it has. A first matrix with three rows a contact is W, with
+  // q behind it, unless the head of H follows: storage, rows and columns, whole numbers all.
+  bool h_follows = first.rows != 3 * contacts;
+  for (int storage = 0; storage <= 2; ++storage)
+    h_follows = h_follows || words.next_are({storage, first.rows, 3 * contacts});
+  if (!h_follows) {
     LocalProblem local;
     assign(local.w, first);
     local.q = as_eigen(read_reals(words, first.rows, "q"));

@@ -63,7 +63,7 @@ const SceneKeys<ShapeText>& shape_keys(const std::string& shape) {
   static const SceneKeys<ShapeText> sphere{
       {"radius", number(&ShapeText::radius, positive, "m"),
        "sphere: circumradius of the polyhedron", Presence::required},
-      {"subdivisions", whole(&ShapeText::subdivisions, 0, 6), "sphere: 20 · 4ⁿ faces"},
+      {"subdivisions", whole(&ShapeText::subdivisions, 0, 5), "sphere: 20 · 4ⁿ faces"},
   };
   static const SceneKeys<ShapeText> grain{
       {"radius", number(&ShapeText::radius, positive, "m"),

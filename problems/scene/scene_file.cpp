@@ -74,6 +74,8 @@ void check_grain_shape(const TomlTable& table, const GrainShapeSettings& shape) 
     table.fail("elongation_min", "larger than elongation_max");
   if (shape.flatness_min > shape.flatness_max)
     table.fail("flatness_min", "larger than flatness_max");
+  if (shape.flatness_min > shape.elongation_min)
+    table.fail("flatness_min", "larger than elongation_min, expected at most that");
 }
 
 GrainsSpec read_grains(TomlTable table, const std::filesystem::path& folder) {

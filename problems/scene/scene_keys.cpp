@@ -5,7 +5,7 @@ namespace {
 
 constexpr NumberRange fill_range{"a number > 0 and <= 0.5", 0.0, 0.5, false, true};
 constexpr NumberRange axis_ratio{"an axis ratio > 0.1 and <= 1", 0.1, 1.0, false, true};
-constexpr NumberRange roughness_range{"a number from 0 to 0.2", 0.0, 0.2, true, true};
+constexpr NumberRange roughness_range{"a number from 0 to below 0.15", 0.0, 0.15, true, false};
 
 }  // namespace
 

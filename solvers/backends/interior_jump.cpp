@@ -21,7 +21,7 @@ void InteriorJump::prepare(const UnitMassContacts& contacts, UnitMassSystem& sys
 }
 
 double InteriorJump::run(Course& course, ContactColumns& r, int number, double scale, double near) {
-  /// How far from the boundary it begins, in units of `scale`.
+  // How far from the boundary it begins, in units of `scale`.
   static constexpr double distances[] = {10.0, 20.0, 5.0, 40.0, 14.0, 7.0, 30.0};
   constexpr double to_boundary = 0.9, short_step = 0.05;
   constexpr int most_steps = 60, most_short_steps = 3, most_slow_steps = 10;

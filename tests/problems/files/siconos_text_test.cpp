@@ -112,6 +112,23 @@ TEST_CASE("a global problem is told by its first matrix") {
   CHECK((q - Eigen::Vector3d(-1.5, 1, 0)).norm() < 1e-15);
 }
 
+TEST_CASE("a global problem with as many unknowns as contact rows is not taken for a local one") {
+  // One body with six unknowns and two contacts: M and H are 6 x 6, as W would be.
+  const auto diagonal = [](const char* value) {
+    std::string text;
+    for (int k = 0; k < 36; ++k) text += k % 7 == 0 ? std::string(value) + " " : "0.0 ";
+    return text + "\n";
+  };
+  const std::string head = "3\n2\n0\n6\n6\n6 6\n" + diagonal("2.0");
+  const TextFile file(head + "0\n6\n6\n6 6\n" + diagonal("1.0") +
+                      "-1 -1 -1 -1 -1 -1\n0 0 0 0 0 0\n0.3 0.4\n");
+  const auto read = read_siconos_text(file.path);
+  REQUIRE(std::holds_alternative<GlobalProblem>(read));
+  CHECK(std::get<GlobalProblem>(read).mu == std::vector<double>{0.3, 0.4});
+  // The same matrix with a q that begins with 0 is W.
+  CHECK(read_local(head + "0.0 6.0 6.0 0 0 0\n0.3 0.4\n").q[1] == 6.0);
+}
+
 TEST_CASE("each broken text is refused, with its line") {
   const std::string sound = "3\n1\n0\n3\n3\n3 3\n2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n";
   CHECK(complaint_of_text(sound) == "");
