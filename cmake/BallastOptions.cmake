@@ -12,7 +12,8 @@ target_compile_options(ballast_options INTERFACE
   $<BUILD_INTERFACE:-Wnon-virtual-dtor>)
 # GCC 12 warns of std::string's own copying wherever texts are joined (its bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(ballast_options INTERFACE -Wno-stringop-overflow -Wno-array-bounds)
+  target_compile_options(ballast_options INTERFACE
+    -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-restrict)
 endif()
 # Eigen's asserts stay out of release builds; -O3 vectorises the sweep.
 target_compile_options(ballast_options INTERFACE
