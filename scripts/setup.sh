@@ -39,7 +39,7 @@ show_progress() {
   local line done_count all left last=0 begin=$SECONDS
   while IFS= read -r line; do
     printf '%s\n' "$line" >>"$1"
-    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    [[ $line =~ ^\[([1-9][0-9]*)/([0-9]+)\] ]] || continue  # [0/2] comes first: nothing done yet
     done_count=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
     left=$(((SECONDS - begin) * (all - done_count) / done_count))
     if [ -t 1 ]; then
