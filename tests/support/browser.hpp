@@ -104,6 +104,7 @@ class Browser {
     std::vector<std::string> words{program,
                                    "--headless=new",
                                    "--no-sandbox",
+                                   "--disable-dev-shm-usage",  // it is small in a container
                                    "--remote-debugging-pipe",
                                    "--use-angle=swiftshader",
                                    "--enable-unsafe-swiftshader",
