@@ -6,7 +6,8 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Ballast)
 
-# Rooms of the library, from the ground up; where a component has the name of a room, it is that one.
+# Rooms of the library, from the ground up; where a component has the name of a room, it is that
+# one.
 set(library_rooms platform algebra solver_seam solver_parts gauss_seidel solver_backends solvers)
 set(header_folders platform problems/algebra solvers)
 if(BALLAST_HDF5)
