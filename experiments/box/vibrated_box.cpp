@@ -23,10 +23,7 @@ std::vector<PrincipalShape> grains_from_meshes(const GrainsSpec& spec) {
     const double scale = sized[k].shape.circumradius() / mesh.circumradius();
     std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
     for (Vec3& vertex : vertices) vertex *= scale;
-    std::vector<std::vector<int>> faces;
-    for (int f = 0; f < mesh.face_count(); ++f)
-      faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
-    grains.push_back(to_principal_frame(Polyhedron(std::move(vertices), faces)));
+    grains.push_back(to_principal_frame(mesh.with_vertices(std::move(vertices))));
   }
   return grains;
 }

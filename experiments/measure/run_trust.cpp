@@ -69,12 +69,16 @@ RunTrust trust_of(const RunData& data) {
   }
   // The rows together. A record without the column `solved` has the error alone to judge by.
   trust.steps = static_cast<long>(data.steps.size());
+  long judged = 0;
   double error = 0.0, works = 0.0, kinetic = 0.0;
   for (const StepRecord& step : data.steps) {
-    const bool by_error = step.error_rms > trust.tolerance * scale;
+    const bool by_error = !(step.error_rms <= trust.tolerance * scale);
     if (trust.tolerance > 0.0 && (std::isnan(step.solved) ? by_error : step.solved == 0.0))
       ++trust.missed;
-    error += step.error_rms / scale;
+    if (std::isfinite(step.error_rms)) {
+      error += step.error_rms / scale;
+      ++judged;
+    }
     trust.error_worst = std::fmax(trust.error_worst, step.error_rms / scale);
     if (!(step.penetration_max <= trust.deepest)) {
       trust.deepest = step.penetration_max;
@@ -84,7 +88,7 @@ RunTrust trust_of(const RunData& data) {
     works += std::abs(step.work_load + step.work_gravity + step.work_prescribed);
     kinetic = std::fmax(kinetic, step.kinetic_energy);
   }
-  if (trust.steps > 0) trust.error_mean = error / static_cast<double>(trust.steps);
+  if (judged > 0) trust.error_mean = error / static_cast<double>(judged);
   trust.moved = works + kinetic;
   trust.gained = 0.0;
   for (const StepRecord& step : data.steps) trust.gained += step.energy_gained;

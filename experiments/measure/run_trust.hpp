@@ -11,11 +11,12 @@ namespace ballast {
 
 struct RunTrust {
   long steps = 0, missed = 0;  ///< missed: the judge does not call them solved
-  double error_mean = not_known, error_worst = not_known;  ///< rms natural map, in error_unit
-  double tolerance = not_known;                            ///< in error_unit
-  std::string error_unit;                                  ///< "g h", or "m/s" without gravity
-  double deepest = not_known;                              ///< overlap [m]
-  double deepest_time = not_known;                         ///< [s]
+  /// Rms natural map over the steps whose error is known, in error_unit.
+  double error_mean = not_known, error_worst = not_known;
+  double tolerance = not_known;        ///< in error_unit
+  std::string error_unit;              ///< "g h", or "m/s" without gravity
+  double deepest = not_known;          ///< overlap [m]
+  double deepest_time = not_known;     ///< [s]
   double smallest_radius = not_known;  ///< circumradius of the smallest body [m]
   double gained = not_known;           ///< sum of energy_gained [J]
   double moved = not_known;            ///< |works|, summed, and the largest kinetic energy [J]

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/shape/area_vector.hpp"
+
 namespace ballast {
 namespace {
 
@@ -32,14 +34,6 @@ std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<i
     loop.push_back(std::lower_bound(next.begin(), next.end(), std::pair(loop.back(), -1))->second);
   }
   return loop;
-}
-
-Vec3 newell_normal(const Polyhedron& polyhedron, std::span<const int> loop) {
-  const Vec3& first = polyhedron.vertex(loop[0]);
-  Vec3 area2 = Vec3::Zero();
-  for (size_t k = 2; k < loop.size(); ++k)
-    area2 += (polyhedron.vertex(loop[k - 1]) - first).cross(polyhedron.vertex(loop[k]) - first);
-  return area2.normalized();
 }
 
 }  // namespace
@@ -124,7 +118,7 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
     Vec3 normal = polyhedron.normal(seed[p]);
     if (members[p] > 1) {
       loop = boundary_loop(polyhedron, patch, p);
-      normal = newell_normal(polyhedron, loop);
+      normal = area_vector(loop, polyhedron.vertices()).normalized();
     }
     // Through the highest vertex and not the mean of the corners: no
     // vertex is in front of its face.

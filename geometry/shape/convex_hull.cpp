@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "geometry/shape/area_vector.hpp"
 #include "geometry/shape/close_pairs.hpp"
 #include "geometry/shape/qhull_loops.hpp"
 
@@ -82,14 +83,6 @@ std::vector<int> distinct(const std::vector<Vec3>& points) {
     if (first[i] == static_cast<int>(i)) kept.push_back(static_cast<int>(i));
   }
   return kept;
-}
-
-/// Twice the loop's area times its unit normal, right-handed about the loop: a fan of triangles.
-Vec3 area_vector(const std::vector<int>& loop, const std::vector<Vec3>& points) {
-  Vec3 sum = Vec3::Zero();
-  for (size_t k = 2; k < loop.size(); ++k)
-    sum += (points[loop[k - 1]] - points[loop[0]]).cross(points[loop[k]] - points[loop[0]]);
-  return sum;
 }
 
 /// The flattest corner of each face where it is flatter than kCorner, straight or re-entrant:

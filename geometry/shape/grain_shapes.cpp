@@ -72,10 +72,7 @@ std::optional<Polyhedron> try_grain(const GrainShapeSettings& s, Random& random)
 Polyhedron scaled(const Polyhedron& shape, double factor) {
   std::vector<Vec3> vertices;
   for (const Vec3& p : shape.vertices()) vertices.push_back(factor * p);
-  std::vector<std::vector<int>> faces;
-  for (int f = 0; f < shape.face_count(); ++f)
-    faces.emplace_back(shape.face(f).begin(), shape.face(f).end());
-  return Polyhedron(std::move(vertices), faces);
+  return shape.with_vertices(std::move(vertices));
 }
 
 /// Numbers per class: whole parts first, the rest to the largest remainders (the earlier class

@@ -35,12 +35,9 @@ Mat3 principal_axes(const Mat3& inertia) {
 Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& origin) {
   std::vector<Vec3> vertices;
   for (const Vec3& p : polyhedron.vertices()) vertices.push_back(axes.transpose() * (p - origin));
-  std::vector<std::vector<int>> faces;
-  for (int f = 0; f < polyhedron.face_count(); ++f)
-    faces.emplace_back(polyhedron.face(f).begin(), polyhedron.face(f).end());
-  // twice the constructor's tolerance: a motion adds its rounding to faces that were just flat
-  // enough
-  return Polyhedron(std::move(vertices), faces, 2e-9);
+  // Twice the constructor's tolerance: a motion adds its rounding to faces that were just flat
+  // enough.
+  return polyhedron.with_vertices(std::move(vertices), 2e-9);
 }
 
 }  // namespace

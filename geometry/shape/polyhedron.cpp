@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/shape/area_vector.hpp"
 #include "geometry/shape/mesh_checks.hpp"
 
 namespace ballast {
@@ -45,6 +46,12 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   check_one_piece();
   const std::vector<double> thinness = build_planes(tolerance);
   check_convex(tolerance, thinness);
+}
+
+Polyhedron Polyhedron::with_vertices(std::vector<Vec3> vertices, double tolerance) const {
+  std::vector<std::vector<int>> faces;
+  for (int f = 0; f < face_count(); ++f) faces.emplace_back(face(f).begin(), face(f).end());
+  return Polyhedron(std::move(vertices), faces, tolerance);
 }
 
 /// All loops in one array: face f has those from face_begin_[f] to before face_begin_[f + 1].
@@ -155,14 +162,11 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
   double volume6 = 0.0, surface2 = 0.0;
   const Vec3 inside = mean(vertices_);
   for (int f = 0; f < face_count(); ++f) {
-    // Newell's normal: twice the area vector, about the first vertex against cancellation.
-    Vec3 area2 = Vec3::Zero(), centre = Vec3::Zero();
     const std::span<const int> loop = face(f);
+    const Vec3 area2 = area_vector(loop, vertices_);
     const Vec3& first = vertices_[loop[0]];
-    for (size_t k = 0; k < loop.size(); ++k) {
-      if (k >= 2) area2 += (vertices_[loop[k - 1]] - first).cross(vertices_[loop[k]] - first);
-      centre += vertices_[loop[k]] - first;
-    }
+    Vec3 centre = Vec3::Zero();
+    for (const int v : loop) centre += vertices_[v] - first;
     centre = first + centre / static_cast<double>(loop.size());
     const double length = area2.norm();
     // A face has no area when its height over its longest extent vanishes, whatever its shape.

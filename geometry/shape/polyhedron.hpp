@@ -35,6 +35,10 @@ class Polyhedron {
   Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
              double tolerance = 1e-9);
 
+  /// The same faces about other vertices, one for each of this one's, in its order [m]. Throws as
+  /// the constructor.
+  Polyhedron with_vertices(std::vector<Vec3> vertices, double tolerance = 1e-9) const;
+
   int vertex_count() const { return static_cast<int>(vertices_.size()); }
   int face_count() const { return static_cast<int>(normals_.size()); }
   int edge_count() const { return static_cast<int>(edges_.size()); }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/shape/area_vector.hpp"
 #include "geometry/shape/convex_hull.hpp"
 
 namespace ballast {
@@ -20,14 +21,8 @@ struct Plane {
 /// the planes of small ones are the least certain.
 std::vector<int> group_faces(const Polyhedron& hull, double reach, int& groups) {
   std::vector<double> area;
-  for (int f = 0; f < hull.face_count(); ++f) {
-    const std::span<const int> loop = hull.face(f);
-    Vec3 twice = Vec3::Zero();
-    for (size_t k = 2; k < loop.size(); ++k)
-      twice += (hull.vertex(loop[k - 1]) - hull.vertex(loop[0]))
-                   .cross(hull.vertex(loop[k]) - hull.vertex(loop[0]));
-    area.push_back(twice.norm());
-  }
+  for (int f = 0; f < hull.face_count(); ++f)
+    area.push_back(area_vector(hull.face(f), hull.vertices()).norm());
   std::vector<int> order(area.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {

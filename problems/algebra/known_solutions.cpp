@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "platform/random.hpp"
+#include "problems/algebra/contact_frame.hpp"
 
 namespace ballast {
 namespace {
@@ -21,17 +22,7 @@ Eigen::Matrix3d random_frame(ProblemRandom& random) {
   const Eigen::Vector3d n = random_direction(random);
   Eigen::Vector3d other = random_direction(random);
   while (std::abs(n.dot(other)) > 0.9) other = random_direction(random);
-  const Eigen::Vector3d t1 = n.cross(other).normalized();
-  Eigen::Matrix3d frame;
-  frame << n.transpose(), t1.transpose(), n.cross(t1).transpose();
-  return frame;
-}
-
-/// The matrix of x cross.
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& x) {
-  Eigen::Matrix3d cross;
-  cross << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
-  return cross;
+  return contact_frame(n, other);
 }
 
 /// A rigid body of about unit size: mass m, inertia about m/10, turned, so that its block is not

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "platform/random.hpp"
+#include "problems/algebra/contact_frame.hpp"
 #include "problems/algebra/delassus.hpp"
 
 namespace ballast {
@@ -21,20 +22,9 @@ Vector3d in_cube(ProblemRandom& random, double half) {
   return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
 }
 
-/// The matrix of x cross.
-Matrix3d lever_of(const Vector3d& x) {
-  Matrix3d cross;
-  cross << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
-  return cross;
-}
-
 /// Rows n, t1, t2.
 Matrix3d frame_of(const Vector3d& n) {
-  const Vector3d other = std::abs(n[0]) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY();
-  const Vector3d t1 = n.cross(other).normalized();
-  Matrix3d frame;
-  frame << n.transpose(), t1.transpose(), n.cross(t1).transpose();
-  return frame;
+  return contact_frame(n, std::abs(n[0]) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY());
 }
 
 /// Bodies that touch: a = -1 is the ground, below b.
@@ -168,7 +158,7 @@ class Pile {
       if (bodies[s] < 0) continue;
       const Vector3d arm = point - centre_[static_cast<size_t>(bodies[s])];
       Eigen::Matrix<double, 3, 6> side;
-      side << frame, -frame * lever_of(arm);
+      side << frame, -frame * cross_matrix(arm);
       if (s == 0) side = -side;
       dynamics.h.insert(dynamics.h.end(), side.data(), side.data() + 18);
       free += side * dynamics.v_free.segment<6>(6 * static_cast<Eigen::Index>(bodies[s]));

@@ -5,6 +5,7 @@
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
+#include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
 
@@ -115,8 +116,7 @@ void DelassusSweep::sweep(const SweepVariant& variant, const std::vector<int>& c
 }
 
 double DelassusSweep::error() const {
-  double sum = 0.0;
-  int counted = 0;
+  RootMeanSquare mean;
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const Contact& contact = contacts_[c];
     if (!(contact.lambda_max > 0.0)) continue;
@@ -125,10 +125,9 @@ double DelassusSweep::error() const {
     const Eigen::Vector3d r(r_[3 * c], r_[3 * c + 1], r_[3 * c + 2]);
     const double value =
         ContactJudge::scaled_natural_map(r, u, contact.local.mu, contact.lambda_max);
-    sum += value * value;
-    ++counted;
+    mean.add(value);
   }
-  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  return mean.value();
 }
 
 /// The impulses are the whole iterate: velocities follow from them.

@@ -57,8 +57,8 @@ void ScalarSweep::prepare_ranges(const FrictionProblem& problem) {
   const auto number = [&](const std::vector<SweepPlan::Part>& parts, std::vector<Range>& ranges) {
     ranges.clear();
     for (const SweepPlan::Part& part : parts) {
-      ranges.push_back({friction, part.friction_end - part.begin, one_row,
-                        part.end - part.friction_end, 0.0, 0.0, 0});
+      ranges.push_back(
+          {friction, part.friction_end - part.begin, one_row, part.end - part.friction_end});
       for (int i = part.begin; i < part.end; ++i) {
         const int c = plan_.contacts()[i];
         nowhere_[c] = nowhere;
@@ -211,35 +211,27 @@ void ScalarSweep::sweep(const SweepVariant& variant, const std::vector<int>& con
 double ScalarSweep::error() {
   // The same sums in the same order, whoever made them.
   for_parts([this](Range& range) {
-    double sum = 0.0;
-    int counted = 0;
+    RootMeanSquare mean;
     // As the judge does: contacts that nothing moves are left out.
     for (int k = range.friction; k < range.friction + range.friction_count; ++k) {
       if (!(lambda_max_[k] > 0.0)) continue;
       const double value =
           natural_map(friction_[k], friction_impulse_[k], lambda_max_[k], velocity_.data());
-      sum += value * value;
-      ++counted;
+      mean.add(value);
     }
     for (int k = range.one_row; k < range.one_row + range.one_row_count; ++k) {
       if (!(one_row_lambda_max_[k] > 0.0)) continue;
       const double value =
           natural_map(one_row_[k], one_row_impulse_[k], one_row_lambda_max_[k], velocity_.data());
-      sum += value * value;
-      ++counted;
+      mean.add(value);
     }
-    range.error_square = sum;
-    range.judged = counted;
+    range.error = mean;
   });
   // The parts' sums, always in the same order.
-  double sum = 0.0;
-  int counted = 0;
+  RootMeanSquare mean;
   for (const std::vector<Range>* ranges : {&interiors_, &interfaces_})
-    for (const Range& range : *ranges) {
-      sum += range.error_square;
-      counted += range.judged;
-    }
-  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+    for (const Range& range : *ranges) mean.add(range.error);
+  return mean.value();
 }
 
 void ScalarSweep::save(Eigen::VectorXd& state) const {

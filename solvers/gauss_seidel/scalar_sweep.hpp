@@ -9,6 +9,7 @@
 #include "platform/worker_team.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/algebra/mass_root.hpp"
+#include "problems/algebra/root_mean_square.hpp"
 #include "solvers/gauss_seidel/sweep_kernels.hpp"
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 #include "solvers/gauss_seidel/sweep_variant.hpp"
@@ -39,8 +40,7 @@ class ScalarSweep {
   struct Range {
     int friction, friction_count, one_row, one_row_count;
     double change_square = 0.0;  ///< of the last sweep along a search
-    double error_square = 0.0;   ///< of error(): the part's sum, and over how many contacts
-    int judged = 0;
+    RootMeanSquare error = {};   ///< of error(): the part's
   };
   /// Calls task(range) for the interiors, then for the interfaces; those of a kind at the same
   /// time.

@@ -1,9 +1,8 @@
 #include "solvers/parts/contact_operator.hpp"
 
-#include <cmath>
-
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
+#include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
 
@@ -70,17 +69,15 @@ double ContactOperator::scaled_dot(const Eigen::VectorXd& x, const Eigen::Vector
 }
 
 double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const {
-  double sum = 0.0;
-  int counted = 0;
+  RootMeanSquare mean;
   // The judge's measure: contacts that nothing moves are left out.
   for (int c = 0; c < contact_count(); ++c) {
     if (!(rho_[c] > 0.0)) continue;
     const double value =
         ContactJudge::scaled_natural_map(at(r, c), at(u, c), friction(c), 1.0 / rho_[c]);
-    sum += value * value;
-    ++counted;
+    mean.add(value);
   }
-  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  return mean.value();
 }
 
 double largest_scaled_eigenvalue(ContactOperator& w) {

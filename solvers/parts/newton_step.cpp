@@ -1,8 +1,9 @@
 #include "solvers/parts/newton_step.hpp"
 
-#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
 
@@ -40,17 +41,15 @@ Eigen::Vector3d NewtonStep::proximal_velocity(const Impulses& r, const Eigen::Ve
 }
 
 double NewtonStep::residual_of(const Impulses& r, const Eigen::VectorXd& u) const {
-  double sum = 0.0;
-  int counted = 0;
+  RootMeanSquare mean;
   for (int c = 0; c < w_.contact_count(); ++c) {
     if (!(w_.rho()[c] > 0.0)) continue;
     const double rho = rho_factor_ * w_.rho()[c];
-    sum += contact_equation(equation_, w_.at(r, c), proximal_velocity(r, u, c), w_.friction(c), rho)
-               .squaredNorm() /
-           (rho * rho);
-    ++counted;
+    const Eigen::Vector3d missed =
+        contact_equation(equation_, w_.at(r, c), proximal_velocity(r, u, c), w_.friction(c), rho);
+    mean.add_square(missed.squaredNorm() / (rho * rho));
   }
-  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  return mean.value();
 }
 
 bool NewtonStep::newton(int halvings) {

@@ -1,8 +1,7 @@
 #include "solvers/parts/regular_newton.hpp"
 
-#include <cmath>
-
 #include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
 
@@ -42,18 +41,16 @@ Eigen::Vector3d RegularNewton::velocity(const NewtonIterate& at, int c) const {
 }
 
 double RegularNewton::residual(const NewtonIterate& at) const {
-  double sum = 0.0;
-  int counted = 0;
+  RootMeanSquare mean;
   // The judge's measure with u~ in place of u.
   for (int c = 0; c < contacts_.contact_count(); ++c) {
     const UnitMassContacts::Contact& k = contacts_[c];
     if (!(k.lambda_max > 0.0)) continue;
     const double value =
         ContactJudge::scaled_natural_map(at.r.col(c), velocity(at, c), k.friction, k.lambda_max);
-    sum += value * value;
-    ++counted;
+    mean.add(value);
   }
-  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  return mean.value();
 }
 
 int RegularNewton::linearise(const NewtonIterate& at) {

@@ -1,7 +1,8 @@
 #include "solvers/parts/slip_shift.hpp"
 
-#include <cmath>
 #include <limits>
+
+#include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
 
@@ -18,28 +19,24 @@ void SlipShift::follow(const ContactOperator& w, const Eigen::VectorXd& u) {
 }
 
 double SlipShift::distance(const ContactOperator& w, const Eigen::VectorXd& u) const {
-  double sum = 0.0;
-  for (int c = 0; c < w.contact_count(); ++c) {
-    const double gap = s_[c] - w.friction(c) * tangential_norm(w.at(u, c));
-    sum += gap * gap;
-  }
-  return w.contact_count() > 0 ? std::sqrt(sum / w.contact_count()) : 0.0;
+  RootMeanSquare mean;
+  for (int c = 0; c < w.contact_count(); ++c)
+    mean.add(s_[c] - w.friction(c) * tangential_norm(w.at(u, c)));
+  return mean.value();
 }
 
 double SlipShift::convex_error(const ContactOperator& w, const Impulses& r,
                                const Eigen::VectorXd& u) const {
-  double sum = 0.0;
-  int counted = 0;
+  RootMeanSquare mean;
   for (int c = 0; c < w.contact_count(); ++c) {
     const double rho = w.rho()[c];
     if (!(rho > 0.0)) continue;
     const Eigen::Vector3d rc = w.at(r, c);
     // One projected gradient step of the convex problem, as a velocity.
-    sum +=
-        (rc - project_cone(rc - rho * shifted(w, u, c), w.friction(c))).squaredNorm() / (rho * rho);
-    ++counted;
+    const Eigen::Vector3d step = rc - project_cone(rc - rho * shifted(w, u, c), w.friction(c));
+    mean.add_square(step.squaredNorm() / (rho * rho));
   }
-  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  return mean.value();
 }
 
 double SlipShift::improve(const ContactOperator& w, const Eigen::VectorXd& u) {

@@ -1,10 +1,9 @@
 #include "solvers/parts/unit_mass_contacts.hpp"
 
-#include <cmath>
-
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/friction_cone.hpp"
+#include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
 
@@ -79,17 +78,15 @@ void UnitMassContacts::body_velocity(const ContactColumns& r, Eigen::VectorXd& x
 }
 
 double UnitMassContacts::error(const ContactColumns& r, const Eigen::VectorXd& x) const {
-  double sum = 0.0;
-  int counted = 0;
+  RootMeanSquare mean;
   for (int c = 0; c < contact_count(); ++c) {
     const Contact& k = contacts_[c];
     if (!(k.lambda_max > 0.0)) continue;
     const double value = ContactJudge::scaled_natural_map(r.col(c), relative(x, c) + k.bias,
                                                           k.friction, k.lambda_max);
-    sum += value * value;
-    ++counted;
+    mean.add(value);
   }
-  return counted > 0 ? std::sqrt(sum / counted) : 0.0;
+  return mean.value();
 }
 
 }  // namespace ballast

@@ -62,6 +62,15 @@ TEST_CASE("steps that missed their tolerance are counted, and more iterations na
   CHECK(trust_of(data).missed == 0);
 }
 
+TEST_CASE("a step whose error is not known is missed, and left out of the mean") {
+  RunData data = clean_run();
+  data.steps[4].error_rms = data.steps[4].solved = std::nan("");
+  const RunTrust trust = trust_of(data);
+  CHECK(trust.missed == 1);
+  CHECK(trust.error_mean == Approx(1e-4));
+  CHECK(trust.error_worst == Approx(1e-4));
+}
+
 TEST_CASE("overlaps that can be seen are said with their time and size") {
   RunData data = clean_run();
   data.steps[4].penetration_max = 0.031;
