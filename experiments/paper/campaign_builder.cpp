@@ -123,6 +123,7 @@ std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) con
   if (s.deposit_friction != base_friction)
     add("deposit.friction", campaign_number(s.deposit_friction));
   add("record.pose_rate", s.states ? "100" : "1");
+  add("record.forces", "false");
   if (s.states) add("record.state_rate", "100");
   return set;
 }

@@ -144,6 +144,8 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
   Json frames = Json::array(), counts = Json::array();
   for (const size_t k : kept) {
     const size_t f = chosen[k];
+    // before its first step a run knows no forces: those of the next frame stand for them
+    if (view.frames[f].step == 0 && view.contacts[f].empty()) continue;
     frames.push_back(k);
     counts.push_back(view.contacts[f].size());
     int last = 0;

@@ -21,8 +21,8 @@ inline constexpr NumberRange friction_range{"a number from 0 to 1e4 (which holds
 enum class Presence {
   optional,  ///< absent: the member's default
   required,
-  /// Absent: not read, and not in the resolved text. A scene.toml from before the key was there
-  /// keeps its bytes, and so its run keeps its key.
+  /// Absent, or what it is by default: not in the resolved text. A scene.toml from before the key
+  /// was there keeps its bytes, and so its run keeps its key.
   only_where_given
 };
 
@@ -157,8 +157,12 @@ template <class Spec>
 void read_keys(TomlTable& table, const SceneKeys<Spec>& keys, Spec& spec) {
   for (const SceneKey<Spec>& key : keys) {
     table.know(key.name);
-    if (key.presence != Presence::only_where_given || table.has(key.name))
-      table.read(key.name, key.value.rule, key.presence == Presence::required, key.value.in(spec));
+    const bool is_quiet = key.presence == Presence::only_where_given;
+    if (is_quiet && !table.has(key.name)) continue;
+    const ValuePlace place = key.value.in(spec);
+    const std::string by_default = kept_text(place);
+    table.read(key.name, key.value.rule, key.presence == Presence::required, place);
+    if (is_quiet && kept_text(place) == by_default) table.leave_unsaid(key.name);
   }
 }
 

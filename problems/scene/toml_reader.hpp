@@ -88,6 +88,9 @@ class TomlTable {
   /// What the resolved table shall say instead of what was read (a path made absolute).
   void replace_resolved(std::string_view key, const toml::node& value);
 
+  /// The resolved table is to say nothing of a key that was read.
+  void leave_unsaid(std::string_view key) { resolved_->erase(key); }
+
   /// Every key must have been asked for. Throws SceneFileError with the nearest known key.
   void finish() const;
 

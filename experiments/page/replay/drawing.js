@@ -175,7 +175,9 @@ class Stage {
   drawGrains(light, look, camera, encode) {
     if (look.grains === "hidden") return;
     const gl = this.gl, ghost = look.grains === "ghost";
-    const switches = [...look.cut ? ["CUT"] : [], ...ghost ? ["GHOST"] : []];
+    const plain = look.isHasty && !look.cut && encode;
+    const switches = [...look.cut ? ["CUT"] : [], ...ghost ? ["GHOST"] : [],
+      ...plain ? ["PLAIN"] : []];
     const at = this.use("grain", ...switches);
     this.setLight(at, light, look, encode);
     gl.uniformMatrix4fv(at.camera, false, camera);
@@ -223,7 +225,8 @@ class Stage {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const solid = look.grains === "solid";
-    this.drawPlanes(light, look, camera, encode, true);
+    // the ground has the paper's colour where there is no shadow
+    if (solid || !look.isHasty) this.drawPlanes(light, look, camera, encode, true);
     if (solid) this.drawGrains(light, look, camera, encode);
     this.rods.draw(light, look, camera, encode, width, height);
     if (!solid) this.drawGrains(light, look, camera, encode);

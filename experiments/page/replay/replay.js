@@ -188,14 +188,22 @@ class Replay {
     label.replaceChildren(line(f, "f"), line(x, "x"));
   }
 
+  // Where software draws, fewer pixels keep the motion smooth. Another size costs as much as some
+  // frames: it is chosen once a second at most, and a size that was too slow isn't tried again.
+  chooseQuality(now) {
+    if (now < (this.qualityFrom || 0)) return;
+    if (this.pace > 75 && this.quality > 0.65) this.quality -= 0.2;
+    else return;
+    this.qualityFrom = now + 1000;
+    this.pace = 0;
+  }
+
   // Every frame of the browser.
   loop(now) {
     if (this.playing && this.last) {
       const passed = now - this.last;
       this.pace = this.pace ? 0.85 * this.pace + 0.15 * passed : 60;
-      // where software draws, fewer pixels keep the motion smooth
-      if (this.pace > 80) this.quality = Math.max(0.6, this.quality - 0.01);
-      if (this.pace < 60) this.quality = Math.min(1, this.quality + 0.01);
+      this.chooseQuality(now);
       const time = this.time + Math.min(passed, 120) / 1000 * this.rate;
       this.time = time > this.data.end ? this.data.begin : time;
     }

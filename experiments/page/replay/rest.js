@@ -2,16 +2,17 @@
 
 // Draws at once. `again`: in motion shadows and the list of seen grains may be some frames old.
 function drawQuick(stage, look, again) {
-  const light = quickLight(), { software } = stage;
-  stage.age = again && software && stage.seen && !look.cut && look.grains === "solid" ?
-    (stage.age || 0) + 1 : 0;
-  if (!again || !software) stage.seen = null;
+  const light = quickLight(), isSolid = look.grains === "solid";
+  const isHasty = again && stage.software && !look.cut;
+  stage.age = isHasty && stage.wasSolid === isSolid ? (stage.age || 0) + 1 : 0;
+  stage.wasSolid = isSolid;
+  // behind glass grains are seen, too, and they throw no shadow
   if (stage.age % 8 === 0) {
     stage.seen = null;
     stage.listVisible(look, null);
-    if (again && software && !look.cut) stage.findSeen(look);
+    if (isHasty && isSolid) stage.findSeen(look);
   }
-  if (stage.age === 0 || stage.age % 8 === 4) stage.drawShadow(light, look);
+  if (stage.age === 0 || (isSolid && stage.age % 8 === 4)) stage.drawShadow(light, look);
   stage.listVisible(look, stage.seen);
   stage.drawAll(light, look, null, look.camera.matrix(stage.aspect), true);
   stage.samples = 0;

@@ -44,7 +44,7 @@ uniform int picked;
 out vec3 place, edge;
 flat out vec3 albedo, direct, indirect, facing;
 out vec3 inShadow;
-flat out float chosen;
+flat out float chosen, veil;
 void main() {
   vec4 p, q;
   pose(grain, p, q);
@@ -64,6 +64,18 @@ void main() {
   direct = albedo * edgewise * max(dot(n, sun), 0.) * sunColour;
   indirect = albedo * (edgewise * ambient(n) + .08 * rim);
   inShadow = shadowPlace(place + n * scale * .02);
+#ifdef PLAIN
+#ifdef GHOST
+  float away = 1. - abs(dot(n, normalize(eye - place)));
+  veil = .03 + .2 * away * away + .3 * chosen;
+  indirect = srgb(mix(albedo, around, .4));
+#else
+  // as the eye sees them, in shade and what the sun adds
+  direct = srgb(indirect + direct);
+  indirect = srgb(indirect);
+  direct -= indirect;
+#endif
+#endif
   gl_Position = camera * vec4(place, 1.);
 }`;
 
@@ -71,7 +83,7 @@ const grainFragment = `
 in vec3 place, edge;
 flat in vec3 albedo, direct, indirect, facing;
 in vec3 inShadow;
-flat in float chosen;
+flat in float chosen, veil;
 out vec4 colour;
 ` + lightText + `
 uniform vec4 cut;
@@ -92,7 +104,13 @@ void main() {
     return;
   }
 #endif
+#ifdef PLAIN
 #ifdef GHOST
+  colour = vec4(indirect, 1.) * veil;
+#else
+  colour = vec4((indirect + direct * lit(inShadow)) * (1. - .2 * edgeShare()), 1.);
+#endif
+#elif defined(GHOST)
   float rim = 1. - abs(dot(facing, normalize(eye - place)));
   float alpha = .03 + .2 * rim * rim + .12 * edgeShare() + .3 * chosen;
   colour = finished(mix(albedo, around, .4), alpha);
@@ -130,13 +148,16 @@ void main() {
 }`;
 
 // A polygon of a wall with a grid that moves with it, or the ground with its shadow.
-const planeVertex = `
+const planeVertex = lightText + `
 layout(location = 0) in vec3 corner;
 layout(location = 1) in vec2 onPlane;
 uniform mat4 camera;
+uniform vec4 tint;
 out vec3 place;
 out vec2 grid;
+flat out vec4 plain;
 void main() {
+  plain = finished(tint.rgb, tint.a);
   place = corner;
   grid = onPlane;
   gl_Position = camera * vec4(corner, 1.);
@@ -144,6 +165,7 @@ void main() {
 const planeFragment = `
 in vec3 place;
 in vec2 grid;
+flat in vec4 plain;
 out vec4 colour;
 ` + lightText + `
 uniform vec4 tint, cut;
@@ -161,7 +183,7 @@ void main() {
     return;
   }
 #ifdef PLAIN
-  colour = finished(tint.rgb, tint.a);
+  colour = plain;
 #else
   vec2 width = fwidth(grid) / cell, near = abs(fract(grid / cell - .5) - .5) / max(width, 1e-4);
   float line = (1. - smoothstep(.2, 1.3, min(near.x, near.y))) *
@@ -180,9 +202,11 @@ layout(location = 3) in vec4 tint;
 uniform mat4 camera;
 uniform vec2 pixels;
 uniform float lens;
-flat out vec4 ends;
+flat out float span;
 flat out vec2 radii;
 flat out vec4 hue;
+out vec2 spot;  // along the rod from its first end and across it [pixels]
+` + lightText + `
 void main() {
   vec4 a = camera * vec4(from.xyz, 1.), b = camera * vec4(to.xyz, 1.);
   vec2 s = (a.xy / a.w * .5 + .5) * pixels, t = (b.xy / b.w * .5 + .5) * pixels;
@@ -191,29 +215,31 @@ void main() {
   float reach = max(radii.x, radii.y) + 1.;
   vec2 along = length(t - s) > 1e-3 ? normalize(t - s) : vec2(1., 0.);
   vec2 across = vec2(-along.y, along.x);
-  vec2 at = mix(s - along * reach, t + along * reach, side.x) + across * side.y * reach;
-  ends = vec4(s, t);
-  hue = tint;
+  span = length(t - s);
+  spot = vec2(mix(-reach, span + reach, side.x), side.y * reach);
+  hue = encode ? vec4(srgb(tint.rgb), tint.a) : tint;
   vec4 middle = side.x < .5 ? a : b;
+  // without perspective, so that spot is linear in the picture
   gl_Position = a.w <= 0. || b.w <= 0. ? vec4(2., 2., 2., 1.)
-      : vec4((at / pixels * 2. - 1.) * middle.w, middle.z, middle.w);
+      : vec4((s + along * spot.x + across * spot.y) / pixels * 2. - 1., middle.z / middle.w, 1.);
 }`;
 const rodFragment = `
-flat in vec4 ends;
+flat in float span;
 flat in vec2 radii;
 flat in vec4 hue;
+in vec2 spot;
 out vec4 colour;
-` + lightText + `
+uniform bool encode;
 void main() {
-  vec2 d = ends.zw - ends.xy, p = gl_FragCoord.xy - ends.xy;
-  float t = clamp(dot(p, d) / max(dot(d, d), 1e-6), 0., 1.), radius = mix(radii.x, radii.y, t);
-  float away = length(p - d * t);
+  float on = clamp(spot.x, 0., span), radius = mix(radii.x, radii.y, on / max(span, 1e-3));
+  float away = length(vec2(spot.x - on, spot.y));
   // thin ones fade at their edge; the edge of thick ones is smoothed by the picture at rest
   float alpha = radius > 1.5 ? step(away, radius) : clamp(radius - away + .5, 0., 1.);
   if (alpha <= 0.) discard;
-  // round, lit from where the eye is
-  float height = sqrt(max(0., 1. - away * away / (radius * radius)));
-  colour = finished(hue.rgb * (radius < 1.6 ? 1. : .55 + .45 * height), alpha * hue.a);
+  // round, lit from where the eye is; the eye takes a root of light
+  float light = .55 + .45 * sqrt(max(0., 1. - away * away / (radius * radius)));
+  float shade = radius < 1.6 ? 1. : encode ? sqrt(light) : light;
+  colour = vec4(hue.rgb * shade, 1.) * (alpha * hue.a);
 }`;
 
 const wholeVertex = `

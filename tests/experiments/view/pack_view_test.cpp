@@ -90,6 +90,18 @@ TEST_CASE("shapes, walls, contacts and curves are in the head or in a part of it
   CHECK(static_cast<unsigned char>(forces[1]) + 256 * forces[5] == 2048);
 }
 
+TEST_CASE("before the first step no forces are known: the next frame's stand for them") {
+  ViewData view = sample_view(3);
+  const auto frames_of = [](const ViewData& of) {
+    return nlohmann::json::parse(pack_view(of).head)["contact_frames"];
+  };
+  CHECK(frames_of(view) == nlohmann::json({0, 1, 2}));
+  view.contacts[0].clear();
+  view.contacts[2].clear();  // bodies in flight: that is known
+  REQUIRE(view.frames[0].step == 0);
+  CHECK(frames_of(view) == nlohmann::json({1, 2}));
+}
+
 TEST_CASE("what would be too much is thinned out, its ends kept") {
   CHECK(thinned(7, 2) == std::vector<size_t>{0, 2, 4, 6});
   CHECK(thinned(8, 4) == std::vector<size_t>{0, 4, 7});

@@ -25,7 +25,7 @@ TEST_CASE("every scene of the folder is read, and its resolved text says the sam
 
 TEST_CASE(
     "the vibrated box names the paper's values, and its chosen ones are the defaults "
-    "but the solver's limits") {
+    "but the solver's limits and the stored forces") {
   const Scene scene = read_scene(find_scene("vibrated_box"));
   REQUIRE(scene.grains);
   CHECK(scene.grains->count == 1200);
@@ -51,7 +51,8 @@ TEST_CASE(
   CHECK(scene.solver.tolerance == 1e-2);
   CHECK(scene.solver.max_iterations == 1000);
   const std::vector<std::string> named = {"scene.title=\"" + scene.title + "\"",
-                                          "solver.tolerance=1e-2", "solver.max_iterations=1000"};
+                                          "solver.tolerance=1e-2", "solver.max_iterations=1000",
+                                          "record.forces=true"};
   CHECK(resolved_scene_text(bare, named) == resolved_scene_text(find_scene("vibrated_box")));
 }
 

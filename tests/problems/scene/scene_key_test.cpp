@@ -40,6 +40,15 @@ TEST_CASE("without meshes a scene's key is that of its resolved text, as it alwa
   }
 }
 
+TEST_CASE("a key that came later, given as it is by default, leaves a scene's key as it was") {
+  const auto key = [](const std::vector<std::string>& overrides) {
+    return resolve_scene(find_scene("incline"), overrides).key;
+  };
+  const std::vector<std::string> without{"record.forces=false"}, with{"record.forces=true"};
+  CHECK(key(without) == key({}));
+  CHECK(key(with) != key({}));
+}
+
 TEST_CASE("an edited mesh makes another scene; its time stamp and comments do not") {
   const TemporaryFolder folder;
   const fs::path mesh = folder.path() / "stone.obj";
