@@ -72,8 +72,11 @@ void add_command(CLI::App& app, const Command& command, const Command*& chosen) 
   if (const std::string text = help_text(command.name); !text.empty()) added->footer(text);
   for (const Word& word : command.words) add_word(*added, word);
   for (const Command& part : command.parts) add_command(*added, part, chosen);
-  if (command.parts.empty())
-    added->callback([&command, &chosen] { chosen = &command; });
+  // A subcommand is called back before the command above it, which then has nothing to do.
+  if (command.act)
+    added->require_subcommand(0, 1)->callback([&command, &chosen] {
+      if (!chosen) chosen = &command;
+    });
   else
     added->require_subcommand(1);
 }
@@ -120,6 +123,7 @@ std::string unknown_word(const std::vector<Command>& all, int argc, const char* 
         return command.name == word || command.alias == word;
       });
       for (const Command& command : below) names.push_back(command.name);
+      if (found == below.end() && at && at->act) continue;  // its own argument
       if (found == below.end())
         return in + ": no command '" + word + "'" + did_you_mean(word, names);
       at = &*found;

@@ -95,7 +95,8 @@ struct Command {
   std::vector<Word> words;
   /// Keeps alive what the values of `words` are in.
   Action act;
-  std::vector<Command> parts = {};  ///< its subcommands, one of which must be named
+  /// Its subcommands, one of which must be named where there is no `act`.
+  std::vector<Command> parts = {};
   std::string alias = {};
 };
 

@@ -20,6 +20,9 @@
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
+
+Command compare_diff_command();  // of compare_diff_command.cpp
+
 namespace {
 
 /// The words of the command line, and what is made of them.
@@ -223,7 +226,8 @@ Command compare_command() {
         above(0)},
        {"--packing-cache DIR", &live.packing_cache,
         "Where deposited packings are kept (<output>/packings)"}},
-      [options] { return compare(*options); }};
+      [options] { return compare(*options); },
+      {compare_diff_command()}};
 }
 
 }  // namespace ballast

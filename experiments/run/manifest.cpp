@@ -14,6 +14,7 @@
 #include "experiments/run/build_info.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 
@@ -127,6 +128,16 @@ std::string Manifest::commit() const {
   const Json& ballast = json_->at("ballast");
   return ballast.value("commit", "") + (ballast.value("modified", false) ? "-dirty" : "");
 }
+
+std::string Manifest::machine() const {
+  const Json& machine = json_->at("machine");
+  if (!machine.contains("cpu") || !machine["cpu"].is_string()) return "unknown";
+  std::string text = machine["cpu"].get<std::string>();
+  if (machine.contains("cores")) text += ", " + machine["cores"].dump() + " cores";
+  return one_line(text, ' ');
+}
+
+std::string Manifest::started() const { return json_->at("started").get<std::string>(); }
 
 double Manifest::summary_number(const std::string& name) const {
   const Json& summary = json_->at("summary");

@@ -47,6 +47,9 @@ class Manifest {
   std::string key() const;
   /// Of the program that began the run; "-dirty" when it was not quite that.
   std::string commit() const;
+  /// Processor and number of cores; "unknown" where it is not told.
+  std::string machine() const;
+  std::string started() const;  ///< UTC, "2026-11-22T09:30:00Z"
   /// NaN when there is no such number.
   double summary_number(const std::string& name) const;
 

@@ -11,6 +11,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
+namespace fs = std::filesystem;
 
 TEST_CASE("a comparison leaves its table and its page, and the same command goes on") {
   const TemporaryFolder folder;
@@ -67,6 +68,43 @@ TEST_CASE("a comparison for programs is one object a line, and a quiet one nothi
   const ProgramResult quiet = ballast_program(words);
   CHECK(quiet.status == 0);
   CHECK(quiet.output.empty());
+}
+
+TEST_CASE("what became of a comparison is told, with an exit code") {
+  const TemporaryFolder folder;
+  const auto compared = [&](const char* name, const char* iterations) {
+    const fs::path output = folder.path() / name;
+    const ProgramResult result = ballast_program(
+        {"compare", "known:contacts=6,bodies=4", "--solvers", "pgs,jacobi", "--tolerances",
+         iterations, "--memory", "0", "--no-report", "--output", output.string()});
+    INFO(result.errors);
+    REQUIRE(result.status == 0);
+    return output.string();
+  };
+  const std::string before = compared("before", "1e-2"), other = compared("other", "1e-3");
+  const ProgramResult same = ballast_program({"compare", "diff", before, before, "--all"});
+  CHECK(same.status == 0);
+  CHECK_THAT(same.output, Catch::Contains("known-b4-c6x1-R1-s1") && Catch::Contains(": 2 same"));
+  // One row is lost by hand.
+  const fs::path after = folder.path() / "after";
+  fs::copy(before, after, fs::copy_options::recursive);
+  for (const auto& entry : fs::directory_iterator(after / "rows")) {
+    auto json = nlohmann::json::parse(read_whole_file(entry.path()));
+    if (json["solver"] == "pgs") json["outcome"] = "timeout";
+    write_whole_file(entry.path(), json.dump());
+  }
+  const std::vector<std::string> words = {"compare", "diff", before, after.string()};
+  check_failure(ballast_program(words), ExitCode::failure,
+                {"compare diff: 1 solves are lost and 0 slower"});
+  CHECK_THAT(ballast_program(words).output, Catch::Contains("lost\n"));
+  check_failure(ballast_program({"compare", "diff", before, other}), ExitCode::failure,
+                {"no solve in common"});
+  check_failure(ballast_program({"compare", "diff", before, folder.path().string()}),
+                ExitCode::failure, {"no folder of a comparison"});
+  check_failure(ballast_program({"compare", "diff", before, "--lest", "2"}), ExitCode::usage,
+                {"--lest, did you mean \"--least\""});
+  check_failure(ballast_program({"compare", "known:", "--solver", "pgs"}), ExitCode::usage,
+                {"--solver, did you mean"});
 }
 
 TEST_CASE("a comparison that cannot be had is one line") {

@@ -1,0 +1,65 @@
+// `ballast convert` as it is called.
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/files/problem_file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder "in" with two problems, one of them deeper.
+struct Collection {
+  TemporaryFolder folder;
+  KnownSolution known = make_known_solution({.bodies = 6, .contacts = 12});
+  fs::path in = folder.path() / "in", out = folder.path() / "out";
+  Collection() {
+    fs::create_directories(in / "deep");
+    write_problem(in / "a.hdf5", known.problem);
+    write_problem(in / "deep" / "b.hdf5", known.problem);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a collection goes from format to format and stays the same problem") {
+  const Collection c;
+  for (const std::string to : {"local", "global", "both", "siconos"}) {
+    const auto target = c.out / to;
+    const ProgramResult result =
+        ballast_program({"convert", c.in.string(), "--to", to, "--output", target.string()});
+    INFO(result.errors);
+    REQUIRE(result.status == 0);
+    const auto converted = find_problems(target.string());
+    REQUIRE(converted.size() == 2);
+    CHECK(converted[1].name.parent_path() == "deep");
+    const FrictionProblem problem = read_problem(converted[0].file);
+    CHECK(problem.has_dynamics == (to == "global" || to == "both"));
+    // The known solution, with three rows at every contact.
+    CHECK(contact_error(problem, three_rows(c.known.problem, c.known.r)).natural_map_max < 1e-12);
+  }
+}
+
+TEST_CASE("what cannot be converted is said, and the others are") {
+  const Collection c;
+  c.folder.write("in/broken.dat", "3 x");
+  check_failure(
+      ballast_program({"convert", c.in.string(), "--to", "siconos", "--output", c.out.string()}),
+      ExitCode::failure, {"1 of 3 problems are not converted", "broken.dat: line 1"});
+  CHECK(find_problems(c.out.string()).size() == 2);
+  const fs::path local = c.out / "a.dat";
+  check_failure(ballast_program({"convert", local.string(), "--to", "global", "--output",
+                                 (c.out / "global").string()}),
+                ExitCode::failure, {"a.dat: only W is known"});
+  check_failure(ballast_program({"convert", c.in.string(), "--output", c.in.string()}),
+                ExitCode::failure, {"written over what is read"});
+  // Two problems of one name would be one file.
+  check_failure(ballast_program({"convert", (c.in / "a.hdf5").string(), (c.out / "a.dat").string(),
+                                 "--output", (c.out / "both").string()}),
+                ExitCode::failure, {"1 of 2 problems", "a.hdf5: holds"});
+  check_failure(ballast_program({"convert", c.in.string(), "--to", "json", "--output", "x"}),
+                ExitCode::usage, {"--to", "expected one of local, global, both, siconos"});
+}
