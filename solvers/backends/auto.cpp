@@ -11,6 +11,7 @@
 #include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/backends/interior_point.hpp"
 #include "solvers/backends/newton.hpp"
+#include "solvers/backends/newton_burst.hpp"
 #include "solvers/backends/nncg.hpp"
 #include "solvers/seam/relay.hpp"
 
@@ -25,8 +26,10 @@ constexpr double body_visit = 40.0;
 /// A sweep over a stored W, per entry and per contact: the contact's own solution.
 constexpr double matrix_entry = 1.0, matrix_visit = 60.0;
 /// A Newton step: linearisation and line search per contact; the factorisation over bodies per
-/// unknown.
-constexpr double newton_contact = 300.0, body_unknown = 1000.0;
+/// unknown, twice that where there are so many that the fill tells.
+constexpr double newton_contact = 300.0, body_unknown = 1000.0, filled_unknowns = 1500.0;
+/// Newton's part in an iteration of `burst`, which counts its sweeps and its steps alike.
+constexpr double burst_steps = 0.05;
 /// The same of a stored W (newton_matrix.hpp): dense where rows are few or W is nearly full. A
 /// sparse factorisation is mostly bookkeeping, row by row.
 constexpr double few_rows = 200.0, nearly_full = 0.1;
@@ -87,10 +90,12 @@ class Auto final : public Solver {
   Auto() {
     ways_[conjugate].solver = make_nncg();
     ways_[anderson].solver = make_anderson_pgs({});
-    ways_[newton].solver = make_proximal_newton({.start_sweeps = 0});
+    ways_[newton].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 1e-4});
+    ways_[burst].solver = make_newton_burst({.start_sweeps = 0, .burst = 50, .endgame = 1e-2});
     ways_[interior_point].solver = make_interior_point();
     for (const Kind kind : {conjugate, anderson}) ways_[kind].takes_best = 0.01;
-    ways_[newton].takes_best = 0.5;
+    for (const Kind kind : {newton, burst}) ways_[kind].takes_best = 0.5;
+    ways_[burst].least_part = 5.0;
     for (const Kind kind : {newton, interior_point}) ways_[kind].least_part = 2.5;
   }
 
@@ -125,7 +130,7 @@ class Auto final : public Solver {
   }
 
  private:
-  enum Kind : size_t { conjugate, anderson, newton, interior_point, kinds };
+  enum Kind : size_t { conjugate, anderson, newton, burst, interior_point, kinds };
 
   static Solver& prepared(Way& way, const FrictionProblem& problem) {
     if (!way.is_prepared) way.solver->prepare(problem);
@@ -140,7 +145,9 @@ class Auto final : public Solver {
     double sweep = 0.0, step = 0.0;
     if (problem.has_dynamics) {
       sweep = body_visit * contacts;
-      step = body_unknown * problem.dynamics.dof_count() + newton_contact * contacts;
+      const double unknowns = problem.dynamics.dof_count();
+      step = body_unknown * unknowns * (1.0 + unknowns / filled_unknowns);
+      step += newton_contact * contacts;
     } else {
       const double rows = problem.row_count();
       const double entries = static_cast<double>(problem.delassus.w.nonZeros());
@@ -153,8 +160,10 @@ class Auto final : public Solver {
     ways_[conjugate].work = sweep;
     ways_[anderson].work = mixing * sweep;
     ways_[newton].work = step;
+    ways_[burst].work = sweep + burst_steps * step;
     ways_[interior_point].work = interior_factor * step;
     ways_[newton].expected = expected_steps + expected_steps_per_contact * contacts;
+    ways_[burst].expected = problem.has_dynamics ? expected_burst : never;
     ways_[interior_point].expected = expected_interior;
   }
 
@@ -214,7 +223,8 @@ class Auto final : public Solver {
     });
   }
 
-  /// Tuned on generated piles (pile:family, seeds 1 to 24), tried on others.
+  /// Tuned on generated piles (pile:family, seeds 1 to 40) and on captured stacks, walls, pyramids
+  /// and heaps of boxes; tried on others.
   static constexpr double never = 1e300;
   /// Sweeps that are taken to be enough before they have shown their pace.
   static constexpr int few_sweeps = 64;
@@ -222,6 +232,8 @@ class Auto final : public Solver {
   static constexpr double mixing = 1.5;
   /// What Newton is expected to need.
   static constexpr double expected_steps = 10.0, expected_steps_per_contact = 0.05;
+  /// What Newton with bursts of sweeps is taken to need at least.
+  static constexpr double expected_burst = 20.0;
   /// What an interior point is expected to need, and its step over Newton's.
   static constexpr double expected_interior = 50.0, interior_factor = 1.5;
   /// Changing ways costs: the other's promise must be so much better.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -28,8 +29,13 @@ struct SiconosRecipe {
   int solver;
   double contact_visits;  ///< iterations times contacts of the first round; every round that runs
                           ///< out of them doubles the next
-  bool factorises;        ///< wants W by columns
   void (*adjust)(SolverOptions&);
+  bool factorises = true;  ///< wants W by columns
+  /// Contacts up to which W is dense: there LAPACK is up to 90 times faster than sparse columns.
+  int most_dense = 60;
+  /// Iterations with a dense W, after which it goes on by columns: LAPACK's LU of a singular matrix
+  /// may lead a Newton method astray where the sparse LU brings it home.
+  int most_dense_iterations = std::numeric_limits<int>::max();
 };
 
 /// W by 3 x 3 blocks. A one-row contact gets two more rows with W_NN on the diagonal, q = 0 and mu
@@ -37,7 +43,7 @@ struct SiconosRecipe {
 class BlockProblem {
  public:
   void take(const MovingContacts& moving) {
-    siconos_ = nullptr;
+    by_blocks_ = dense_problem_ = nullptr;
     block_.clear();
     block_end_.clear();
     values_.clear();
@@ -56,13 +62,14 @@ class BlockProblem {
     for (int k = 0; k < contacts; ++k) add_block_row(moving, k);
   }
 
-  /// Siconos' own structures over our storage, made once. Nothing is ever freed: only processes
-  /// that soon end come here.
+  /// Siconos' own structures over our storage, each made once. Nothing is ever freed: only
+  /// processes that soon end come here.
   FrictionContactProblem* siconos(bool is_dense) {
-    if (siconos_) return siconos_;
+    FrictionContactProblem*& made = is_dense ? dense_problem_ : by_blocks_;
+    if (made) return made;
     NumericsMatrix* w = is_dense ? dense_matrix() : block_matrix();
-    siconos_ = frictionContactProblem_new_with_data(3, contacts_, w, q_.data(), friction_.data());
-    return siconos_;
+    made = frictionContactProblem_new_with_data(3, contacts_, w, q_.data(), friction_.data());
+    return made;
   }
 
   Eigen::VectorXd pad(const Eigen::VectorXd& x) const {
@@ -128,7 +135,7 @@ class BlockProblem {
   std::vector<double*> block_;
   std::vector<unsigned> block_end_;
   Eigen::MatrixXd dense_;
-  FrictionContactProblem* siconos_ = nullptr;
+  FrictionContactProblem *by_blocks_ = nullptr, *dense_problem_ = nullptr;
 };
 
 class Siconos final : public Solver {
@@ -149,14 +156,19 @@ class Siconos final : public Solver {
     const double conversion = watch.seconds();
     double tolerance = first_tolerance(budget);
     int chunk = first_chunk();
+    is_dense_ = recipe_.factorises && blocks_.contacts() <= recipe_.most_dense;
     constexpr int patience = 3;
     Solved solved = solve_in_rounds(
         problem, moving_, std::move(start), budget, patience,
         [&](const RoundRequest& request, RoundAnswer& answer) {
-          const int limit = std::min(chunk, request.left.max_iterations);
+          const int most = is_dense_ ? recipe_.most_dense_iterations : chunk;
+          const int limit = std::min({chunk, most, request.left.max_iterations});
           const bool whole = run(request, tolerance, limit, answer);
           answer.finished = !whole || answer.iterations < limit;
-          if (!answer.finished)
+          // What dense steps have not brought home goes on by columns.
+          if (is_dense_ && limit == recipe_.most_dense_iterations)
+            is_dense_ = false;
+          else if (!answer.finished)
             chunk = chunk > (1 << 28) ? chunk : 2 * chunk;
           else
             tolerance *= std::clamp(0.5 * budget.aim() / request.last_error, 1e-3, 0.5);
@@ -221,11 +233,9 @@ class Siconos final : public Solver {
   /// The clock runs in fc3d_driver alone, as in a program of Siconos' own.
   Answer call(const Eigen::VectorXd& start, double tolerance, int limit) {
     numerics_set_verbose(0);
-    // What factorises is the faster of the two for small problems with a dense W (LAPACK); the
-    // columns of a sparse one are kept in the matrix: made once, not timed.
-    const bool is_dense = recipe_.factorises && blocks_.contacts() <= most_dense_contacts;
-    FrictionContactProblem* problem = blocks_.siconos(is_dense);
-    if (recipe_.factorises && !is_dense) NM_csc(problem->M);
+    FrictionContactProblem* problem = blocks_.siconos(is_dense_);
+    // The columns of a sparse W are kept in the matrix: made once, not timed.
+    if (recipe_.factorises && !is_dense_) NM_csc(problem->M);
     SolverOptions* options = solver_options_create(recipe_.solver);
     recipe_.adjust(*options);
     options->dparam[SICONOS_DPARAM_TOL] = tolerance;
@@ -242,12 +252,10 @@ class Siconos final : public Solver {
     return answer;
   }
 
-  static constexpr int most_dense_contacts = 60;
-
   const SiconosRecipe& recipe_;
   MovingContacts moving_;
   BlockProblem blocks_;
-  bool is_taken_ = false;
+  bool is_taken_ = false, is_dense_ = false;
 };
 
 void use_hybrid_newton(SolverOptions& options) {
@@ -256,23 +264,22 @@ void use_hybrid_newton(SolverOptions& options) {
       SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_NSN_AND_PLI_NSN_LOOP;
 }
 
-const SiconosRecipe nsgs{"siconos_nsgs", SICONOS_FRICTION_3D_NSGS, 2e6, false, use_hybrid_newton};
+const SiconosRecipe nsgs{"siconos_nsgs", SICONOS_FRICTION_3D_NSGS, 2e6, use_hybrid_newton, false};
 // Siconos' own measure of a sweep is what it moved: it goes on long after the error is small.
-const SiconosRecipe nsgs_full{"siconos_nsgs_full", SICONOS_FRICTION_3D_NSGS, 2e6, false,
+const SiconosRecipe nsgs_full{"siconos_nsgs_full", SICONOS_FRICTION_3D_NSGS, 2e6,
                               [](SolverOptions& options) {
                                 use_hybrid_newton(options);
                                 options.iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION] =
                                     SICONOS_FRICTION_3D_NSGS_ERROR_EVALUATION_FULL;
-                              }};
-const SiconosRecipe prox{"siconos_prox", SICONOS_FRICTION_3D_PROX, 1e5, true,
-                         [](SolverOptions&) {}};
-const SiconosRecipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2e6, true,
-                         [](SolverOptions& options) {
+                              },
+                              false};
+const SiconosRecipe prox{"siconos_prox", SICONOS_FRICTION_3D_PROX, 1e5, [](SolverOptions&) {}};
+const SiconosRecipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2e6, [](SolverOptions& options) {
                            options.iparam[SICONOS_FRICTION_3D_ADMM_IPARAM_RHO_STRATEGY] =
                                SICONOS_FRICTION_3D_ADMM_RHO_STRATEGY_RESIDUAL_BALANCING;
                          }};
-const SiconosRecipe nsn_ac{"siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 1e5, true,
-                           [](SolverOptions&) {}};
+const SiconosRecipe nsn_ac{
+    "siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 1e5, [](SolverOptions&) {}, true, 45, 200};
 
 }  // namespace
 

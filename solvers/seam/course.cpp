@@ -24,6 +24,7 @@ void Course::offer(const Impulses& r, double error) {
   }
   is_enough_ = is_enough_ || is_enough;
   remember();
+  if (budget_.leave && !reached() && (*budget_.leave)(iterations_, error_)) leaves_ = true;
 }
 
 /// One point per count of iterations, the last one that was true of it.
@@ -38,11 +39,15 @@ bool Course::reached() const {
 }
 
 bool Course::over() const {
-  return reached() || !std::isfinite(error_) || iterations_ >= budget_.max_iterations ||
+  return reached() || leaves_ || !std::isfinite(error_) || iterations_ >= budget_.max_iterations ||
          watch_.seconds() >= budget_.max_seconds;
 }
 
-Budget Course::rest() const { return rest_of(budget_, iterations_, watch_.seconds()); }
+Budget Course::rest() const {
+  Budget rest = rest_of(budget_, iterations_, watch_.seconds());
+  rest.leave = nullptr;  // it counts the iterations of the whole course
+  return rest;
+}
 
 Solved Course::finish() {
   remember();

@@ -23,9 +23,10 @@ class Course {
 
   const Impulses& best() const { return best_; }
   double error() const { return error_; }  ///< of the best [m/s]
-  /// The best is small enough to stop, or nothing is left of the budget.
+  /// The best is small enough to stop, nothing is left of the budget, or whoever gave it has
+  /// something better to do with the rest (Budget::leave).
   bool over() const;
-  /// What is left.
+  /// What is left, without Budget::leave: that is asked here.
   Budget rest() const;
 
   /// The best iterate with counts and history; `stalled` where neither the tolerance nor a limit
@@ -41,6 +42,7 @@ class Course {
   int iterations_ = 0;
   double error_;
   bool is_enough_ = false;  ///< the best satisfies the budget's other measure
+  bool leaves_ = false;     ///< Budget::leave said so
   Impulses best_;
   std::vector<HistoryPoint> history_;  ///< of the best error
 };

@@ -7,6 +7,7 @@
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/pile_problems.hpp"
 #include "problems/algebra/stress_problems.hpp"
 #include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/run_solver.hpp"
@@ -74,4 +75,14 @@ TEST_CASE("In a child that may be lost Siconos is called as it is: the same bits
     CHECK(there == here.solved.impulses);
     CHECK(here.startup_seconds > 0.0);  // W in its form, a process, the judge
   }
+}
+
+TEST_CASE("Siconos' Newton goes on with a sparse W where it circles with a dense one") {
+  if (!has_siconos()) return;
+  // 41 contacts: a dense W is the faster, but thousands of steps with it do not end.
+  const FrictionProblem problem = make_pile(random_pile(304, 60));
+  FclibStop stop(problem, 1e-4);
+  Budget budget{.tolerance = 0.0, .max_iterations = 4000};
+  budget.fclib = &stop;
+  CHECK(SolverRunner().run(*make_siconos(SiconosMethod::nsn_ac), problem, {}, budget).success);
 }

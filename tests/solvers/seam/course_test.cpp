@@ -64,6 +64,24 @@ TEST_CASE("a course is over at the tolerance, at a limit, or where nothing is fi
   CHECK(broken.finish().reason == StopReason::numerical_failure);
 }
 
+TEST_CASE("who gave the budget may call a course off, and is asked with all its iterations") {
+  std::vector<int> asked;
+  const std::function<bool(int, double)> leave = [&](int iterations, double error) {
+    asked.push_back(iterations);
+    return error < 0.3;
+  };
+  Course course({.tolerance = 1e-9, .leave = &leave}, Impulses::Zero(1), 1.0);
+  course.spend(7);
+  course.offer(Impulses::Ones(1), 0.5);
+  CHECK_FALSE(course.over());
+  CHECK(course.rest().leave == nullptr);  // a part counts from 0 again
+  course.spend(5);
+  course.offer(Impulses::Ones(1), 0.2);
+  CHECK(asked == std::vector{7, 12});
+  CHECK(course.over());
+  CHECK(course.finish().reason == StopReason::stalled);
+}
+
 TEST_CASE("a course that is asked for Siconos' measure ends with the iterate that satisfies it") {
   const KnownSolution known = make_known_solution({});
   FclibStop fclib(known.problem, 1e-6);
