@@ -69,13 +69,15 @@ void WorkerTeam::start(int parts, Call call, const void* context) {
   // A share's upper half is the number of the round, its lower half how many of the member's parts
   // are taken. A thread that is still in an earlier round finds another number there, and leaves.
   const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
-  parts_.store(parts, std::memory_order_relaxed);
+  // The shares come before all else of the new round. A thread may have read an earlier round's
+  // share and then stop: it can take a part by it no more, even if it now finds the new `parts_`.
+  for (int member = 0; member < members_; ++member)
+    shares_[static_cast<size_t>(member)].taken.store(std::uint64_t{round} << 32,
+                                                     std::memory_order_relaxed);
+  parts_.store(parts, std::memory_order_release);
   call_ = call;
   context_ = context;
   left_.store(parts, std::memory_order_relaxed);
-  for (int member = 0; member < members_; ++member)
-    shares_[static_cast<size_t>(member)].taken.store(std::uint64_t{round} << 32,
-                                                     std::memory_order_release);
   round_.store(round, std::memory_order_release);
   round_.notify_all();
   // The caller's own parts, then those that the others have not begun.
@@ -96,7 +98,7 @@ bool WorkerTeam::do_parts(int member, std::uint32_t round) {
     // The member's parts are member, member + members, member + 2 members and so on:
     // the same parts whoever does them.
     const std::int64_t part = member + static_cast<std::int64_t>(now & 0xffffffffu) * members_;
-    if (part >= parts_.load(std::memory_order_relaxed)) return true;
+    if (part >= parts_.load(std::memory_order_acquire)) return true;
     if (!taken.compare_exchange_weak(now, now + 1, std::memory_order_acq_rel)) continue;
     // As long as this part is not done the round goes on: its task is there.
     call_(context_, static_cast<int>(part));
