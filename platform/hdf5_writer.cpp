@@ -12,7 +12,7 @@ namespace ballast {
 
 namespace {
 
-constexpr size_t memory_increment = size_t{4} << 20;  // by which the file in memory grows
+constexpr size_t memory_increment = size_t{1} << 18;  // by which the file in memory grows; zeroed
 constexpr hsize_t chunk_bytes = 1 << 16;  // of compressed data; a sixteenth is stored as it is
 constexpr unsigned deflate_level = 4;
 

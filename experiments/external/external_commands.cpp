@@ -27,6 +27,14 @@ std::vector<ExternalCommand> read_list(const fs::path& file) {
     command.name = entry.text("name");
     command.command = entry.text("command");
     entry.read("serve", {}, false, &command.is_served);
+    std::string forms = "both";
+    entry.read("forms", {}, false, &forms);
+    try {
+      command.forms = asked_forms_of(forms);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(file.string() + ": " + command.name +
+                                  ": forms = " + error.what());
+    }
     command.folder = folder.string();
     entry.finish();
     commands.push_back(std::move(command));
@@ -63,6 +71,8 @@ std::vector<ExternalCommand> external_commands(const std::vector<std::string>& w
 
 std::string key_of(const ExternalCommand& command) {
   std::string known = command.command + '|' + command.folder + (command.is_served ? "|served" : "");
+  if (command.forms != AskedForms::both)
+    known += "|forms " + std::to_string(static_cast<int>(command.forms));
   std::istringstream words(command.command);
   for (std::string word; words >> word;) {
     std::erase_if(word, [](char c) { return c == '\'' || c == '"'; });

@@ -1,10 +1,12 @@
 #include "experiments/external/external_files.hpp"
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
+#include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/files/stored_problem.hpp"
 
@@ -73,8 +75,16 @@ ExternalStatus read_status(const Hdf5Reader& file) {
 
 }  // namespace
 
-void write_request(const std::filesystem::path& path, const ExternalRequest& request) {
-  write_problem_forms(path, request.problem, [&](Hdf5Writer& file) {
+AskedForms asked_forms_of(const std::string& name) {
+  constexpr const char* names[] = {"both", "bodies", "delassus"};
+  for (std::size_t k = 0; k < std::size(names); ++k)
+    if (name == names[k]) return static_cast<AskedForms>(k);
+  throw std::invalid_argument("'" + name + "': expected one of " + joined(names));
+}
+
+void write_request(const std::filesystem::path& path, const ExternalRequest& request,
+                   AskedForms forms) {
+  const auto add = [&](Hdf5Writer& file) {
     file.add_group("/ballast_request");
     add_number(file, asked + "protocol", external_protocol);
     add_number(file, asked + "id", request.id);
@@ -83,7 +93,15 @@ void write_request(const std::filesystem::path& path, const ExternalRequest& req
     add_number(file, asked + "max_iterations", request.max_iterations);
     add_number(file, asked + "max_seconds", request.max_seconds);
     file.add(asked + "start", as_vector(three_rows(request.problem, request.start)));
-  });
+  };
+  if (forms == AskedForms::delassus) {
+    request.problem.validate();
+    write_fclib(path, condensed(request.problem), add);
+  } else if (forms == AskedForms::bodies && request.problem.has_dynamics) {
+    write_problem(path, request.problem, add);
+  } else {
+    write_problem_forms(path, request.problem, add);
+  }
 }
 
 ExternalRequest read_request(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 // (docs/manual/external.md): the problem with what is asked, and the answer.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "solvers/seam/solver.hpp"
@@ -11,6 +12,11 @@ namespace ballast {
 
 /// Written into both files. Another one is refused.
 constexpr int external_protocol = 1;
+
+/// Which forms of the problem a program reads; the other one need not be written.
+enum class AskedForms { both, bodies, delassus };
+/// "both", "bodies", "delassus". Throws std::invalid_argument.
+AskedForms asked_forms_of(const std::string& name);
 
 struct ExternalRequest {
   FrictionProblem problem;
@@ -42,8 +48,10 @@ struct ExternalAnswer {
   std::vector<HistoryPoint> history;
 };
 
-/// The problem in the forms W, q and, where it has one, M, H. Throw Error naming the file.
-void write_request(const std::filesystem::path& file, const ExternalRequest& request);
+/// The problem in the forms W, q and, where it has one, M, H; where only W is known, in that. Throw
+/// Error naming the file.
+void write_request(const std::filesystem::path& file, const ExternalRequest& request,
+                   AskedForms forms = AskedForms::both);
 /// In the dynamics form where the file has it; contacts without friction have three rows.
 ExternalRequest read_request(const std::filesystem::path& file);
 

@@ -62,7 +62,8 @@ class ExternalProgram {
     const fs::path problem = folder_.path() / ("problem" + number + ".hdf5"),
                    answer = folder_.path() / ("answer" + number + ".hdf5");
     request.id = count_;
-    write_request(problem, request);
+    if (command_.is_served) see_to_served();
+    write_request(problem, request, forms_);
     // Backends look at the clock between iterations: some grace before it is killed.
     const double seconds = 1.25 * request.max_seconds + 2.0;
     if (command_.is_served)
@@ -97,26 +98,40 @@ class ExternalProgram {
     if (program.status() != 0) lost(program);
   }
 
-  /// One line for the process that is kept.
-  void tell(const fs::path& problem, const fs::path& answer, double seconds) {
-    if (!served_) {
-      served_ = std::make_unique<SupervisedProgram>(
-          command_.command, std::vector<std::string>{"--serve"}, limits_of_program());
-      await("ready", limits_.startup_seconds);
+  /// The process that is kept, ready. "ready bodies" says which forms it reads.
+  void see_to_served() {
+    if (served_) return;
+    served_ = std::make_unique<SupervisedProgram>(
+        command_.command, std::vector<std::string>{"--serve"}, limits_of_program());
+    const std::string said = await("ready", limits_.startup_seconds);
+    if (said.starts_with("failed")) {
+      served_.reset();
+      throw Error(command_.name + ": " + said);
     }
+    forms_ = said == "ready" ? command_.forms : asked_forms_of(said.substr(said.find(' ') + 1));
+  }
+
+  /// One line for it.
+  void tell(const fs::path& problem, const fs::path& answer, double seconds) {
     served_->write_line(problem.string() + '\t' + answer.string());
     const std::string reply = await("done", seconds);
     if (reply != "done") throw Error(command_.name + ": " + reply);
   }
 
-  /// The next line that is this word or begins with "failed"; others are its own business.
+  /// Whether a line is this word, with what "ready" may tell, or begins with "failed".
+  static bool is_reply(const std::string& line, const std::string& word) {
+    return line == word || line.starts_with("failed") ||
+           (word == "ready" && (line == "ready bodies" || line == "ready delassus"));
+  }
+
+  /// The next line that is a reply; others are the program's own business.
   std::string await(const std::string& word, double seconds) {
     const Stopwatch watch;
     for (std::string line;;) {
       const double left = seconds - watch.seconds();
       const auto heard = served_->read_line(line, left);
       if (heard == SupervisedProgram::Heard::line) {
-        if (line == word || line.starts_with("failed")) return line;
+        if (is_reply(line, word)) return line;
         if (left > 0.0) continue;
       }
       // The next request finds a new one.
@@ -141,6 +156,7 @@ class ExternalProgram {
   const ExternalCommand command_;
   const ExternalLimits limits_;
   const WorkFolder folder_;
+  AskedForms forms_ = command_.forms;
   int count_ = 0;
   std::unique_ptr<SupervisedProgram> served_;
 };

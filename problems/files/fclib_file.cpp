@@ -1,6 +1,8 @@
 #include "problems/files/fclib_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "platform/hdf5_reader.hpp"
@@ -55,17 +57,32 @@ class MatrixReader {
   int rows() const { return rows_; }
   int columns() const { return columns_; }
 
-  Triplets entries() const {
+  /// Rows or columns that are stored as the matrix keeps them are copied.
+  template <typename Matrix>
+  Matrix matrix() const {
+    constexpr int own = Matrix::IsRowMajor ? compressed_rows : compressed_columns;
     Triplets entries;
+    bool is_sorted = false;
     if (nz_ >= 0)
       read_triplets(entries);
     else
-      read_compressed(entries);
-    return entries;
+      is_sorted = read_compressed(nz_ == own ? nullptr : &entries);
+    if (nz_ == own && !is_sorted) read_compressed(&entries);
+    Matrix matrix(rows_, columns_);
+    if (nz_ != own || !is_sorted) {
+      matrix.setFromTriplets(entries.begin(), entries.end());
+      return matrix;
+    }
+    const int count = p_.back();
+    matrix.resizeNonZeros(count);
+    std::copy(p_.begin(), p_.end(), matrix.outerIndexPtr());
+    std::copy_n(i_.begin(), count, matrix.innerIndexPtr());
+    std::copy_n(x_.begin(), count, matrix.valuePtr());
+    return matrix;
   }
 
  private:
-  void add(Triplets& entries, int row, int column, int k) const {
+  void require_entry(int row, int column, int k) const {
     if (row < 0 || row >= rows_ || column < 0 || column >= columns_)
       file_.fail(group_ + ": entry " + std::to_string(k) + " at (" + std::to_string(row) + ", " +
                  std::to_string(column) + ") is outside " + std::to_string(rows_) + " x " +
@@ -73,7 +90,6 @@ class MatrixReader {
     if (!std::isfinite(x_[k]))
       file_.fail(group_ + "/x[" + std::to_string(k) + "] = " + std::to_string(x_[k]) +
                  " is not finite");
-    entries.emplace_back(row, column, x_[k]);
   }
 
   void require_entries(int count) const {
@@ -90,10 +106,14 @@ class MatrixReader {
     if (p_.size() < static_cast<std::size_t>(nz_))
       file_.fail(group_ + "/p has " + std::to_string(p_.size()) + " entries, must have " +
                  std::to_string(nz_));
-    for (int k = 0; k < nz_; ++k) add(entries, i_[k], p_[k], k);
+    for (int k = 0; k < nz_; ++k) {
+      require_entry(i_[k], p_[k], k);
+      entries.emplace_back(i_[k], p_[k], x_[k]);
+    }
   }
 
-  void read_compressed(Triplets& entries) const {
+  /// Whether the entries of every line ascend; they are added to `entries` unless that is null.
+  bool read_compressed(Triplets* entries) const {
     const bool by_rows = nz_ == compressed_rows;
     const int lines = by_rows ? rows_ : columns_;
     require_size(file_, group_ + "/p", p_.size(), static_cast<std::size_t>(lines) + 1);
@@ -103,10 +123,16 @@ class MatrixReader {
         file_.fail(group_ + "/p[" + std::to_string(line + 1) +
                    "] = " + std::to_string(p_[line + 1]) + " decreases");
     require_entries(p_[lines]);
+    bool is_sorted = true;
     // A line has the entries from p[line] to before p[line + 1]; i says where in it each stands.
     for (int line = 0; line < lines; ++line)
-      for (int k = p_[line]; k < p_[line + 1]; ++k)
-        by_rows ? add(entries, line, i_[k], k) : add(entries, i_[k], line, k);
+      for (int k = p_[line]; k < p_[line + 1]; ++k) {
+        const int row = by_rows ? line : i_[k], column = by_rows ? i_[k] : line;
+        require_entry(row, column, k);
+        is_sorted = is_sorted && (k == p_[line] || i_[k] > i_[k - 1]);
+        if (entries) entries->emplace_back(row, column, x_[k]);
+      }
+    return is_sorted;
   }
 
   const Hdf5Reader& file_;
@@ -151,9 +177,7 @@ LocalProblem read_local(const Hdf5Reader& file) {
   // The vectors first: the sizes of the matrices are theirs, and not only what a header claims.
   local.q = as_eigen(read_vector(file, root + "/vectors/q", w.rows()));
   local.mu = read_vector(file, root + "/vectors/mu", contacts);
-  const Triplets entries = w.entries();
-  local.w.resize(w.rows(), w.columns());
-  local.w.setFromTriplets(entries.begin(), entries.end());
+  local.w = w.matrix<SparseRows>();
   return local;
 }
 
@@ -170,30 +194,33 @@ GlobalProblem read_global(const Hdf5Reader& file) {
   global.f = as_eigen(read_vector(file, root + "/vectors/f", m.rows()));
   global.w = as_eigen(read_vector(file, root + "/vectors/w", 3 * contacts));
   global.mu = read_vector(file, root + "/vectors/mu", contacts);
-  const Triplets mass = m.entries(), directions = h.entries();
-  global.m.resize(m.rows(), m.columns());
-  global.m.setFromTriplets(mass.begin(), mass.end());
-  global.h.resize(h.rows(), h.columns());
-  global.h.setFromTriplets(directions.begin(), directions.end());
+  global.m = m.matrix<Eigen::SparseMatrix<double>>();
+  global.h = h.matrix<Eigen::SparseMatrix<double>>();
   return global;
 }
 
 /// Compressed: unlike triplets, the order of whose index arrays the format leaves open.
 template <typename Matrix>
-void write_matrix(Hdf5Writer& file, const std::string& group, Matrix matrix) {
-  matrix.makeCompressed();
+void write_matrix(Hdf5Writer& file, const std::string& group, const Matrix& matrix) {
+  if (!matrix.isCompressed()) {
+    Matrix copy = matrix;
+    copy.makeCompressed();
+    return write_matrix(file, group, copy);
+  }
   const int entries = static_cast<int>(matrix.nonZeros());
+  const auto add = [&](const std::string& name, const auto* values, Eigen::Index size) {
+    const auto count = static_cast<std::size_t>(size);
+    file.add(group + name, std::span(values, count), {count});
+  };
   file.add_group(group);
   file.add(group + "/m", std::vector<int>{static_cast<int>(matrix.rows())});
   file.add(group + "/n", std::vector<int>{static_cast<int>(matrix.cols())});
   file.add(group + "/nz",
            std::vector<int>{Matrix::IsRowMajor ? compressed_rows : compressed_columns});
   file.add(group + "/nzmax", std::vector<int>{entries});
-  file.add(group + "/p", std::vector<int>(matrix.outerIndexPtr(),
-                                          matrix.outerIndexPtr() + matrix.outerSize() + 1));
-  file.add(group + "/i",
-           std::vector<int>(matrix.innerIndexPtr(), matrix.innerIndexPtr() + entries));
-  file.add(group + "/x", std::vector<double>(matrix.valuePtr(), matrix.valuePtr() + entries));
+  add("/p", matrix.outerIndexPtr(), matrix.outerSize() + 1);
+  add("/i", matrix.innerIndexPtr(), entries);
+  add("/x", matrix.valuePtr(), entries);
 }
 
 void write_head(Hdf5Writer& file, const std::string& root) {

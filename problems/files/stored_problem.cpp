@@ -71,7 +71,10 @@ void fill_bodies(const GlobalProblem& global, int size, DynamicsForm& dynamics) 
   // f = M v_free is an impulse: v_free block by block, with the masses' own factors.
   dynamics.v_free = global.f;
   for (int first = 0; first < unknowns; first += size) {
-    const Eigen::MatrixXd block = SparseColumns(global.m.block(first, first, size, size));
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+    for (int column = 0; column < size; ++column)
+      for (SparseColumns::InnerIterator entry(global.m, first + column); entry; ++entry)
+        if (entry.row() / size == first / size) block(entry.row() - first, column) = entry.value();
     dynamics.dof_begin.push_back(first + size);
     dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + block.size());
     dynamics.mass_begin.push_back(static_cast<int>(dynamics.mass.size()));
@@ -88,13 +91,16 @@ void fill_contacts(const GlobalProblem& global, const Grouping& grouping, Dynami
   dynamics.body_a = grouping.body_a();
   dynamics.body_b = grouping.body_b();
   const int size = grouping.size();
-  for (std::size_t c = 0; c < global.mu.size(); ++c) {
+  for (int c = 0; c < static_cast<int>(global.mu.size()); ++c) {
     // Three columns of H are one contact; transposed, their rows of a body are its block.
-    const Eigen::MatrixXd columns = SparseColumns(global.h.middleCols(3 * c, 3));
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
       if (body < 0) continue;
-      const Eigen::MatrixXd block = columns.middleRows(body * size, size).transpose();
-      dynamics.h.insert(dynamics.h.end(), block.data(), block.data() + block.size());
+      const std::size_t begin = dynamics.h.size();
+      dynamics.h.resize(begin + 3 * static_cast<std::size_t>(size));
+      for (int i = 0; i < 3; ++i)
+        for (SparseColumns::InnerIterator entry(global.h, 3 * c + i); entry; ++entry)
+          if (entry.row() / size == body)
+            dynamics.h[begin + 3 * (entry.row() - body * size) + i] = entry.value();
     }
     dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
   }
@@ -126,6 +132,33 @@ std::vector<int> file_rows(const FrictionProblem& problem) {
     for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
       rows[row] = file_row(problem, c, row);
   return rows;
+}
+
+/// The file's H: ours transposed. Tangents that a one-row contact has not are empty columns.
+SparseColumns transposed_h(const FrictionProblem& problem) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  SparseColumns h(dynamics.dof_count(), 3 * problem.contact_count());
+  h.reserve(static_cast<Eigen::Index>(dynamics.h.size()));
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int rows = problem.contact_rows(c), a = dynamics.body_a[c], b = dynamics.body_b[c];
+    const double* of_a = dynamics.h.data() + dynamics.h_begin[c];
+    const double* of_b = of_a + rows * dynamics.body_dofs(a);
+    for (int i = 0; i < 3; ++i) {
+      const int column = 3 * c + i;
+      h.startVec(column);
+      if (i >= rows) continue;
+      const auto add = [&](int body, const double* block) {
+        for (int k = 0; k < dynamics.body_dofs(body); ++k)
+          h.insertBack(dynamics.dof_begin[body] + k, column) = block[k * rows + i];
+      };
+      // Rows of a column ascend.
+      if (a < b) add(a, of_a);
+      add(b, of_b);
+      if (a > b) add(a, of_a);
+    }
+  }
+  h.finalize();
+  return h;
 }
 
 }  // namespace
@@ -170,6 +203,8 @@ Eigen::VectorXd own_rows(const FrictionProblem& problem, const Eigen::VectorXd& 
 }
 
 LocalProblem to_local_problem(const FrictionProblem& problem) {
+  if (problem.row_count() == 3 * problem.contact_count())
+    return {problem.delassus.w, problem.delassus.q, problem.friction};
   const std::vector<int> rows = file_rows(problem);
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < problem.row_count(); ++row)
@@ -184,16 +219,8 @@ LocalProblem to_local_problem(const FrictionProblem& problem) {
 }
 
 GlobalProblem to_global_problem(const FrictionProblem& problem) {
-  const std::vector<int> rows = file_rows(problem);
-  const SparseRows h = sparse_h(problem);
-  std::vector<Eigen::Triplet<double>> entries;
-  // The file's H is ours transposed. Tangents that a one-row contact has not are empty columns.
-  for (int row = 0; row < problem.row_count(); ++row)
-    for (SparseRows::InnerIterator entry(h, row); entry; ++entry)
-      entries.emplace_back(static_cast<int>(entry.col()), rows[row], entry.value());
   GlobalProblem global;
-  global.h.resize(problem.dynamics.dof_count(), 3 * problem.contact_count());
-  global.h.setFromTriplets(entries.begin(), entries.end());
+  global.h = transposed_h(problem);
   global.m = sparse_mass(problem.dynamics);
   global.f = global.m * problem.dynamics.v_free;
   global.w = three_rows(problem, problem.dynamics.bias);
@@ -202,6 +229,11 @@ GlobalProblem to_global_problem(const FrictionProblem& problem) {
 }
 
 LocalProblem condensed(const FrictionProblem& problem) {
+  if (problem.row_count() == 3 * problem.contact_count()) {
+    LocalProblem local{delassus_matrix(problem), {}, problem.friction};
+    free_contact_velocity(problem, local.q);
+    return local;
+  }
   FrictionProblem stored;
   stored.row_begin = problem.row_begin;
   stored.friction = problem.friction;

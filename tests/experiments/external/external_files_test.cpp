@@ -12,6 +12,7 @@
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
+#include "problems/files/stored_problem.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -50,6 +51,27 @@ struct Asked {
 };
 
 }  // namespace
+
+TEST_CASE("A request holds the forms that are asked for, and is the same problem in each") {
+  const Asked a;
+  const double error = contact_error(a.known.problem, 2.0 * a.known.r).natural_map_max;
+  for (const AskedForms forms : {AskedForms::both, AskedForms::bodies, AskedForms::delassus}) {
+    write_request(a.file, a.request, forms);
+    const Hdf5Reader file(a.file);
+    CHECK(file.has("/fclib_local") == (forms != AskedForms::bodies));
+    CHECK(file.has("/fclib_global") == (forms != AskedForms::delassus));
+    const ExternalRequest read = read_request(a.file);
+    CHECK(read.problem.has_dynamics == (forms != AskedForms::delassus));
+    const Impulses wide = 2.0 * three_rows(a.known.problem, a.known.r);
+    CHECK(contact_error(read.problem, wide).natural_map_max == Approx(error));
+  }
+  // Where only W is known, it is what bodies' readers get.
+  Asked stored;
+  stored.request.problem = to_friction_problem(condensed(a.known.problem));
+  stored.request.start = three_rows(a.known.problem, a.known.r);
+  write_request(stored.file, stored.request, AskedForms::bodies);
+  CHECK_FALSE(read_request(stored.file).problem.has_dynamics);
+}
 
 TEST_CASE("A request comes back as the same problem, in both forms") {
   const Asked a;

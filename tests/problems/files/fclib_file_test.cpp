@@ -113,6 +113,23 @@ TEST_CASE("indices out of range are refused") {
   CHECK(complaint(file).rfind("/fclib_local/W/p[3] = -4 decreases", 0) == 0);
 }
 
+TEST_CASE("the entries of a row may stand in any order") {
+  const Folder folder;
+  const fs::path file = folder / "turned.hdf5";
+  const FrictionProblem problem = only_delassus(small().problem);
+  write_problem(file, problem);
+  std::vector<int> i = Hdf5Reader(file).read_ints("/fclib_local/W/i");
+  std::vector<double> x = Hdf5Reader(file).read_doubles("/fclib_local/W/x");
+  REQUIRE(Hdf5Reader(file).read_ints("/fclib_local/W/p")[1] >= 2);
+  std::swap(i[0], i[1]);
+  std::swap(x[0], x[1]);
+  replace(file, "/fclib_local/W/i", i);
+  replace(file, "/fclib_local/W/x", x);
+  const SparseRows w = read_problem(file).delassus.w;
+  CHECK(w.isCompressed());
+  CHECK((Eigen::MatrixXd(w) - Eigen::MatrixXd(problem.delassus.w)).norm() == 0.0);
+}
+
 TEST_CASE("each broken global file is refused") {
   const Folder folder;
   const fs::path file = folder / "global.hdf5";
