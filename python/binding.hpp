@@ -9,6 +9,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "problems/files/stored_problem.hpp"
@@ -29,10 +30,35 @@ inline Eigen::VectorXd vector_of(const Doubles& values, py::ssize_t size, const 
   return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
 }
 
-/// A copy as a new array, (size) or (size / 3, 3).
-inline py::array flat(const Eigen::VectorXd& x) { return Doubles(x.size(), x.data()); }
-inline py::array in_threes(const Eigen::VectorXd& x) {
-  return Doubles({x.size() / 3, py::ssize_t{3}}, x.data());
+/// The array is the vector's own memory, which it takes over.
+template <class Vector>
+py::array_t<typename Vector::value_type> owned(Vector values, std::vector<py::ssize_t> shape) {
+  auto* kept = new Vector(std::move(values));
+  const py::capsule owner(kept, [](void* memory) { delete static_cast<Vector*>(memory); });
+  return py::array_t<typename Vector::value_type>(std::move(shape), kept->data(), owner);
+}
+
+inline py::array in_threes(Eigen::VectorXd x) {
+  const py::ssize_t contacts = x.size() / 3;
+  return owned(std::move(x), {contacts, 3});
+}
+
+/// Data, indices and pointers of a compressed matrix, as SciPy takes them: memory of `owner`.
+template <class Matrix>
+py::tuple parts_of(const Matrix& matrix, const py::handle& owner) {
+  const auto entries = static_cast<py::ssize_t>(matrix.nonZeros());
+  const auto lines = static_cast<py::ssize_t>(matrix.outerSize()) + 1;
+  return py::make_tuple(Doubles({entries}, matrix.valuePtr(), owner),
+                        Ints({entries}, matrix.innerIndexPtr(), owner),
+                        Ints({lines}, matrix.outerIndexPtr(), owner));
+}
+/// The same of a matrix that the arrays take over.
+template <class Matrix>
+py::tuple owned_parts(Matrix matrix) {
+  matrix.makeCompressed();
+  auto* kept = new Matrix(std::move(matrix));
+  return parts_of(*kept,
+                  py::capsule(kept, [](void* memory) { delete static_cast<Matrix*>(memory); }));
 }
 
 /// The array is this memory, which lives as long as `owner`: nothing is copied. `stride` [bytes].
@@ -44,5 +70,8 @@ inline py::array view(double* first, py::ssize_t rows, py::ssize_t columns, py::
 
 void add_problems(py::module_& module);
 void add_scenes(py::module_& module);
+void add_files(py::module_& module);
+
+Impulses impulses_of(const FrictionProblem& problem, const Doubles& r);
 
 }  // namespace ballast::python

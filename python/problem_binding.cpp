@@ -1,7 +1,6 @@
 // Problems, their solution and their judge for Python; what users see is ballast/__init__.py.
 
 #include "problems/algebra/contact_error.hpp"
-#include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"
 #include "python/binding.hpp"
 #include "solvers/seam/run_solver.hpp"
@@ -83,13 +82,23 @@ FrictionProblem from_bodies(const py::tuple& m, const py::tuple& h, const Double
   return checked(to_friction_problem(global));
 }
 
-/// W by rows as SciPy takes it: data, indices, pointers.
-py::tuple delassus(const FrictionProblem& problem) {
-  const LocalProblem local = condensed(problem);
-  const auto entries = static_cast<py::ssize_t>(local.w.nonZeros());
-  return py::make_tuple(Doubles(entries, local.w.valuePtr()),
-                        Ints(entries, local.w.innerIndexPtr()),
-                        Ints(local.w.outerSize() + 1, local.w.outerIndexPtr()));
+/// W by rows: the problem's own memory where W is stored with three rows per contact, else built.
+py::tuple delassus(const py::object& self) {
+  const auto& problem = self.cast<const FrictionProblem&>();
+  const bool is_stored = problem.has_delassus && problem.row_count() == 3 * problem.contact_count();
+  if (!is_stored) return owned_parts(condensed(problem).w);
+  const py::tuple parts = parts_of(problem.delassus.w, self);
+  for (const py::handle& part : parts) part.attr("setflags")(py::arg("write") = false);
+  return parts;
+}
+
+/// M and H' by columns, and f.
+py::tuple bodies(const FrictionProblem& problem) {
+  if (!problem.has_dynamics) throw std::invalid_argument("only W is known: there are no bodies");
+  GlobalProblem global = to_global_problem(problem);
+  const py::ssize_t unknowns = global.f.size();
+  return py::make_tuple(owned_parts(std::move(global.m)), owned_parts(std::move(global.h)),
+                        owned(std::move(global.f), {unknowns}));
 }
 
 py::dict measures(const ContactError& error) {
@@ -111,12 +120,22 @@ py::dict measures(const ContactError& error) {
   return d;
 }
 
-Impulses impulses_of(const FrictionProblem& problem, const Doubles& r) {
-  return own_rows(problem, vector_of(r, 3 * problem.contact_count(), "r"));
-}
-
 py::dict judge(const FrictionProblem& problem, const Doubles& r) {
   return measures(contact_error(problem, impulses_of(problem, r)));
+}
+
+py::array velocities(const FrictionProblem& problem, const Doubles& r) {
+  Eigen::VectorXd u;
+  contact_velocity(problem, impulses_of(problem, r), u);
+  return in_threes(three_rows(problem, u));
+}
+
+py::array body_velocities(const FrictionProblem& problem, const Doubles& r) {
+  Eigen::VectorXd v;
+  if (problem.has_dynamics)
+    body_velocity(problem.dynamics, problem.row_begin, impulses_of(problem, r), v);
+  const py::ssize_t unknowns = v.size();
+  return owned(std::move(v), {unknowns});
 }
 
 double scale_of(const FrictionProblem& problem) {
@@ -130,7 +149,6 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   const auto solver = make_solver(name);
   SolverRun run;
   Finding found;
-  Eigen::VectorXd u, v;
   {
     // Other threads of Python go on.
     const py::gil_scoped_release released;
@@ -138,14 +156,9 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
     run =
         SolverRunner().run(*solver, problem, from, {tolerance, max_iterations, max_seconds, true});
     found = finding_on(problem, run.solved.impulses, run.solved.reason, run.error, tolerance);
-    contact_velocity(problem, run.solved.impulses, u);
-    if (problem.has_dynamics)
-      body_velocity(problem.dynamics, problem.row_begin, run.solved.impulses, v);
   }
   py::dict d;
   d["impulses"] = in_threes(three_rows(problem, run.solved.impulses));
-  d["velocities"] = in_threes(three_rows(problem, u));
-  d["body_velocities"] = flat(v);
   d["verdict"] = name_of(found.verdict);
   d["words"] = run.failure.empty() ? found.words : run.failure;
   d["reason"] = name_of(run.solved.reason);
@@ -180,6 +193,10 @@ Eigen::VectorXd free_velocity(const FrictionProblem& problem) {
 
 }  // namespace
 
+Impulses impulses_of(const FrictionProblem& problem, const Doubles& r) {
+  return own_rows(problem, vector_of(r, 3 * problem.contact_count(), "r"));
+}
+
 void add_problems(py::module_& module) {
   py::class_<FrictionProblem>(module, "Problem")
       .def_static("from_delassus", from_delassus)
@@ -196,14 +213,13 @@ void add_problems(py::module_& module) {
                              })
       .def_property_readonly(
           "q", [](const FrictionProblem& p) { return in_threes(three_rows(p, free_velocity(p))); })
-      .def("delassus", delassus);
+      .def("delassus", delassus)
+      .def("bodies", bodies);
   module.def("solve", solve);
   module.def("judge", judge);
+  module.def("velocities", velocities);
+  module.def("body_velocities", body_velocities);
   module.def("solvers", solver_names);
-  module.def("warm_start", [](const std::filesystem::path& file) {
-    const CapturedProblem captured = read_captured(file);
-    return in_threes(three_rows(captured.problem, captured.start));
-  });
 }
 
 }  // namespace ballast::python
@@ -219,4 +235,5 @@ PYBIND11_MODULE(_ballast, module) {
   py::register_exception<ballast::MissingSolver>(module, "MissingSolver", PyExc_ValueError);
   ballast::python::add_problems(module);
   ballast::python::add_scenes(module);
+  ballast::python::add_files(module);
 }

@@ -1,8 +1,10 @@
-// Scenes of single bodies and walls, stepped from Python with their state as arrays.
+// Scenes, stepped from Python with their state as arrays.
 
 #include <memory>
 
+#include "experiments/run/prepared_run.hpp"
 #include "experiments/step/time_step.hpp"
+#include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "python/binding.hpp"
 
@@ -12,13 +14,22 @@ namespace {
 /// A scene under way. What Python sees of its state is the memory that is stepped.
 class SteppedScene {
  public:
-  SteppedScene(const std::string& name, const std::vector<std::string>& overrides)
+  /// Grains are deposited first, or taken from the packings that are kept in that folder.
+  SteppedScene(const std::string& name, const std::vector<std::string>& overrides,
+               const std::filesystem::path& packings)
       : scene_(read_scene(find_scene(name), overrides)) {
-    if (scene_.grains)
-      throw std::invalid_argument(name + ": has grains that must be deposited first: ballast run");
-    system_ = make_system(scene_, state_);
-    stepper_ =
-        std::make_unique<TimeStepper>(system_, step_settings(scene_), system_.first_driven_wall());
+    bool is_interrupted = false;
+    const auto goes_on = [&] {
+      const py::gil_scoped_acquire held;
+      return !(is_interrupted = PyErr_CheckSignals() != 0);
+    };
+    {
+      const py::gil_scoped_release released;
+      Manifest manifest(name, overrides, "");
+      prepare_run(scene_, {packings, false, goes_on, Telling::nobody}, manifest, run_);
+    }
+    if (is_interrupted) throw py::error_already_set();
+    stepper_ = std::make_unique<TimeStepper>(run_.system, step_settings(scene_), run_.driven_wall);
   }
 
   /// Steps `count` times; calls back after each, and stops where that returns False.
@@ -28,7 +39,7 @@ class SteppedScene {
     for (long k = 0; k < count && goes_on; ++k) {
       {
         const py::gil_scoped_release released;
-        record = stepper_->step(state_, memory_);
+        record = stepper_->step(run_.state, run_.memory);
       }
       if (callback.is_none()) {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -40,25 +51,25 @@ class SteppedScene {
   }
 
   py::array positions(const py::object& self) {
-    return view(state_.pose[0].position.data(), bodies(), 3, sizeof(Pose), self);
+    return view(run_.state.pose[0].position.data(), bodies(), 3, sizeof(Pose), self);
   }
   /// As x, y, z, w.
   py::array rotations(const py::object& self) {
-    return view(state_.pose[0].rotation.coeffs().data(), bodies(), 4, sizeof(Pose), self);
+    return view(run_.state.pose[0].rotation.coeffs().data(), bodies(), 4, sizeof(Pose), self);
   }
   py::array velocities(const py::object& self) {
-    return view(state_.velocity[0].data(), bodies(), 3, sizeof(Vec3), self);
+    return view(run_.state.velocity[0].data(), bodies(), 3, sizeof(Vec3), self);
   }
   py::array spins(const py::object& self) {
-    return view(state_.spin[0].data(), bodies(), 3, sizeof(Vec3), self);
+    return view(run_.state.spin[0].data(), bodies(), 3, sizeof(Vec3), self);
   }
 
   std::vector<std::string> names() const {
     std::vector<std::string> names;
-    for (const RigidBody& body : system_.bodies) names.push_back(body.name);
+    for (const RigidBody& body : run_.system.bodies) names.push_back(body.name);
     return names;
   }
-  double time() const { return state_.time; }
+  double time() const { return run_.state.time; }
   double h() const { return step_settings(scene_).h; }
   FrictionProblem problem() const { return stepper_->problem(); }
   py::array impulses() const {
@@ -69,7 +80,7 @@ class SteppedScene {
   void set_force(const std::string& name, const Doubles& force) {
     const Eigen::VectorXd f = vector_of(force, 3, "force");
     if (!f.allFinite()) throw std::invalid_argument("force is not finite");
-    for (RigidBody& body : system_.bodies) {
+    for (RigidBody& body : run_.system.bodies) {
       if (body.name != name) continue;
       body.force = {.constant = f};
       // What a driven wall is pushed with, along its normal.
@@ -86,12 +97,10 @@ class SteppedScene {
     for (const StepColumn& column : step_columns()) d[column.name] = record.*column.value;
     return d;
   }
-  py::ssize_t bodies() const { return static_cast<py::ssize_t>(system_.bodies.size()); }
+  py::ssize_t bodies() const { return static_cast<py::ssize_t>(run_.system.bodies.size()); }
 
   Scene scene_;
-  MechanicalSystem system_;
-  MotionState state_;
-  StepMemory memory_;
+  PreparedRun run_;
   std::unique_ptr<TimeStepper> stepper_;
 };
 
@@ -104,7 +113,8 @@ HarmonicLoad SteppedScene::constant_load(double newtons) {
 void add_scenes(py::module_& module) {
   using py::arg;
   py::class_<SteppedScene>(module, "Scene")
-      .def(py::init<const std::string&, const std::vector<std::string>&>())
+      .def(py::init<const std::string&, const std::vector<std::string>&,
+                    const std::filesystem::path&>())
       .def("step",
            [](const py::object& self, long count, const py::object& callback) {
              return self.cast<SteppedScene&>().step(count, callback, self);

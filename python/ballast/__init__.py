@@ -12,7 +12,9 @@ impulse [N s] on the second body, u its relative velocity [m/s]; u_N > 0 opens.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import os
+import pathlib
 from typing import Any, Callable, Optional, Sequence, Union
 
 import numpy as np
@@ -22,84 +24,26 @@ from . import _ballast
 from ._ballast import (Error, InvalidProblem, MissingSolver, Scene as _Scene, UnknownSolver,
                        UnsupportedProblem, scenes, solvers)
 
-__all__ = ["Problem", "Answer", "Scene", "solve", "judge", "solvers", "scenes", "Error",
-           "InvalidProblem", "MissingSolver", "UnknownSolver", "UnsupportedProblem"]
+from ._files import Captured, Record, rows
+from ._problem import Path, Problem
+from ._serve import Request, serve
 
-Path = Union[str, "os.PathLike[str]"]
+__all__ = ["Problem", "Answer", "Scene", "Captured", "Record", "Request", "solve", "judge", "rows",
+           "serve", "solvers", "scenes", "Error", "InvalidProblem", "MissingSolver",
+           "UnknownSolver", "UnsupportedProblem"]
 
-
-class Problem:
-    """A friction problem. Made by from_delassus, from_bodies or read; it does not change."""
-
-    def __init__(self, core: _ballast.Problem):
-        self._core = core
-
-    @classmethod
-    def from_delassus(cls, W: Any, q: np.ndarray, mu: np.ndarray) -> "Problem":
-        """From W [1/kg], dense or sparse, (3n, 3n), positive semidefinite; q [m/s], (3n) or (n, 3);
-        mu, (n). Raises ValueError and InvalidProblem, which names the entry."""
-        W = sparse.csr_matrix(W)
-        W.sum_duplicates()
-        return cls(_ballast.Problem.from_delassus(W.data, W.indices, W.indptr, q, mu))
-
-    @classmethod
-    def from_bodies(cls, M: Any, H: Any, mu: np.ndarray, v_free: Optional[np.ndarray] = None,
-                    f: Optional[np.ndarray] = None, w: Optional[np.ndarray] = None) -> "Problem":
-        """From M [kg, kg m^2], (d, d), symmetric positive definite; H, (3n, d), with u = H v + w;
-        mu, (n); v_free [m/s, rad/s], (d), or f = M v_free; w [m/s], (3n), zero if left out."""
-        M = sparse.csc_matrix(M)
-        transposed = sparse.csc_matrix(sparse.csr_matrix(H).T)
-        if (v_free is None) == (f is None):
-            raise ValueError("expected one of v_free and f")
-        if v_free is not None:
-            f = M @ np.asarray(v_free, dtype=float).ravel()
-        if w is None:
-            w = np.zeros(3 * len(mu))
-        parts = [(a.data, a.indices, a.indptr) for a in (M, transposed)]
-        return cls(_ballast.Problem.from_bodies(*parts, f, w, mu))
-
-    @classmethod
-    def read(cls, file: Path) -> "Problem":
-        """A stored problem: FCLIB .hdf5, Siconos .dat, captured by a run."""
-        return cls(_ballast.Problem.read(os.fspath(file)))
-
-    def write(self, file: Path) -> None:
-        """As FCLIB's HDF5: by its bodies where these are known, else W and q."""
-        self._core.write(os.fspath(file))
-
-    @property
-    def W(self) -> sparse.csr_matrix:
-        """The Delassus matrix [1/kg], (3n, 3n): built where only bodies are known."""
-        data, indices, pointers = self._core.delassus()
-        size = len(pointers) - 1
-        return sparse.csr_matrix((data, indices, pointers), (size, size))
-
-    @property
-    def q(self) -> np.ndarray:
-        """Relative velocities without impulses [m/s], (n, 3)."""
-        return self._core.q
-
-    @property
-    def mu(self) -> np.ndarray:
-        """Friction coefficients, (n)."""
-        return self._core.mu
-
-    @property
-    def has_bodies(self) -> bool:
-        """M and H are known, not only W."""
-        return self._core.has_bodies
-
-    def __len__(self) -> int:
-        return self._core.contact_count
+# An installed module brings the scenes along.
+_scene_folder = pathlib.Path(__file__).parent / "scenes"
+if _scene_folder.is_dir():
+    os.environ.setdefault("BALLAST_SCENES", str(_scene_folder))
 
 
 @dataclasses.dataclass(frozen=True)
 class Answer:
     """What a solver made of a problem, and what the judge found."""
 
+    problem: Problem
     impulses: np.ndarray  #: r [N s], (n, 3)
-    velocities: np.ndarray  #: u [m/s], (n, 3)
-    body_velocities: np.ndarray  #: v [m/s, rad/s], (d); empty without bodies
     history: np.ndarray  #: iteration, seconds, scaled natural map rms [m/s]; (k, 3)
     verdict: str  #: "solved", "unsolved", "denied" or "no_solution"
     words: str  #: the verdict in one line
@@ -114,6 +58,16 @@ class Answer:
         """The solver says so and the judge agrees on every part of the law."""
         return self.verdict == "solved"
 
+    @functools.cached_property
+    def velocities(self) -> np.ndarray:
+        """u [m/s], (n, 3)."""
+        return _ballast.velocities(self.problem._core, self.impulses)
+
+    @functools.cached_property
+    def body_velocities(self) -> np.ndarray:
+        """v [m/s, rad/s], (d); empty without bodies."""
+        return _ballast.body_velocities(self.problem._core, self.impulses)
+
 
 def solve(problem: Problem, solver: str = "auto", *, tolerance: float = 1e-8,
           absolute: bool = False, start: Optional[np.ndarray] = None,
@@ -121,8 +75,8 @@ def solve(problem: Problem, solver: str = "auto", *, tolerance: float = 1e-8,
     """Solves with one of solvers(). The tolerance is on the scaled natural map, rms over contacts,
     over the rms of q; with absolute=True it is in m/s. start: r [N s], (n, 3) or (3n). Other
     threads run meanwhile."""
-    return Answer(**_ballast.solve(problem._core, solver, float(tolerance), absolute, start,
-                                   max_iterations, float(max_seconds)))
+    return Answer(problem, **_ballast.solve(problem._core, solver, float(tolerance), absolute,
+                                            start, max_iterations, float(max_seconds)))
 
 
 def judge(problem: Problem, r: np.ndarray) -> dict:
@@ -133,13 +87,16 @@ def judge(problem: Problem, r: np.ndarray) -> dict:
 
 
 class Scene:
-    """A scene of bodies and walls under way: a name of scenes(), or a TOML file.
+    """A scene of bodies and walls under way: a name of scenes(), or a TOML file. Grains are
+    deposited first, which may take minutes, or taken from the folder `packings`, where they are
+    kept: the same that `ballast run` keeps beside its results.
 
     positions, velocities (n, 3), rotations (n, 4: x, y, z, w) and spins (n, 3, body frame) are the
     memory that is stepped: nothing is copied, and what is written there is the state."""
 
-    def __init__(self, name: Path, overrides: Sequence[str] = ()):
-        self._core = _Scene(os.fspath(name), list(overrides))
+    def __init__(self, name: Path, overrides: Sequence[str] = (),
+                 packings: Path = "results/packings"):
+        self._core = _Scene(os.fspath(name), list(overrides), os.fspath(packings))
 
     def step(self, count: int = 1,
              callback: Optional[Callable[["Scene", dict], Any]] = None) -> dict:

@@ -13,7 +13,17 @@ import scipy.sparse as sparse
 import ballast
 
 program = os.environ.get("BALLAST_PROGRAM", "")
+if not os.path.exists(program):
+    program = ""
+needs_program = unittest.skipUnless(program, "BALLAST_PROGRAM names no program")
 examples = pathlib.Path(__file__).resolve().parent.parent / "examples"
+
+
+def run(*words):
+    """The program; its words are in the exception when it fails."""
+    done = subprocess.run([program, *words], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise AssertionError(done.stderr)
 
 
 def chain(n, seed=1):
@@ -94,21 +104,34 @@ class Problems(unittest.TestCase):
         self.assertGreater(turns, 50)
         worker.join()
 
-    @unittest.skipUnless(program, "BALLAST_PROGRAM is not set")
+    def test_large_arrays_are_not_copied(self):
+        M, H, mu, v = chain(12)
+        stored = ballast.Problem.from_delassus((H @ H.T).tocsr(), H @ v, mu)
+        first, again = stored.W, stored.W
+        self.assertTrue(np.shares_memory(first.data, again.data))
+        with self.assertRaises(ValueError):
+            first.data[0] = 7.0
+        del stored, again
+        self.assertTrue(np.all(np.isfinite(first.data)))  # the matrix keeps the problem
+        bodies = ballast.Problem.from_bodies(2 * M, H, mu, v_free=v)
+        np.testing.assert_array_equal(bodies.M.toarray(), 2 * M.toarray())
+        np.testing.assert_array_equal(bodies.H.toarray(), H.toarray())
+        np.testing.assert_allclose(bodies.f, 2 * v, rtol=1e-15)
+        with self.assertRaisesRegex(ValueError, "there are no bodies"):
+            ballast.Problem.from_delassus(np.eye(3), [0, 0, 0], [0.1]).M
+
+    @needs_program
     def test_same_bits_as_the_program(self):
         M, H, mu, v = chain(20)
         with tempfile.TemporaryDirectory() as folder:
             file, out = folder + "/p.hdf5", folder + "/r.hdf5"
             ballast.Problem.from_bodies(M, H, mu, v_free=v).write(file)
-            subprocess.run([program, "solve", file, "--solver", "pgs", "--tolerance", "1e-8",
-                            "--output", out], check=True, stdout=subprocess.DEVNULL)
-            answer = ballast.solve(ballast.Problem.read(file), "pgs", tolerance=1e-8)
-            try:
-                import h5py
-            except ImportError:
-                self.skipTest("h5py is not there")
-            with h5py.File(out) as stored:
-                self.assertEqual(stored["solution/r"][:].tobytes(), answer.impulses.tobytes())
+            for solver in ["pgs", "nncg", "newton_ac", "auto"]:
+                with self.subTest(solver):
+                    run("solve", file, "--solver", solver, "--tolerance", "1e-8", "--output", out)
+                    answer = ballast.solve(ballast.Problem.read(file), solver, tolerance=1e-8)
+                    stored = ballast._ballast.dataset(out, "/solution/r")
+                    self.assertEqual(stored.tobytes(), answer.impulses.tobytes())
 
 
 class Scenes(unittest.TestCase):
@@ -133,6 +156,68 @@ class Scenes(unittest.TestCase):
         self.assertEqual(len(times), 7)
         with self.assertRaises(ZeroDivisionError):
             scene.step(3, lambda s, record: 1 / 0)
+
+
+    def test_grains_have_the_bits_of_a_run(self):
+        """Also what a run leaves: its record and its captured problems."""
+        words = ["grains.count=12", "scene.duration=0.01", "record.pose_rate=1000"]
+        with tempfile.TemporaryDirectory() as folder:
+            packings, output = folder + "/packings", folder + "/run"
+            scene = ballast.Scene("vibrated_box_small", words, packings=packings)
+            if not program:
+                self.skipTest("BALLAST_PROGRAM names no program")
+            run("run", "vibrated_box_small", "--output", output, "--packing-cache", packings,
+                "--quiet", "--no-report", "--capture", "from=2,to=3",
+                *[word for setting in words for word in ("--set", setting)])
+            record = ballast.Record(output)
+            self.assertEqual(record.bodies, scene.names)
+            steps = record.steps
+            for k in range(len(steps["time"])):
+                made = scene.step()
+                for column in ["wall_x", "contacts", "natural_map_rms"]:
+                    if column in made:
+                        self.assertEqual(made[column], steps[column][k])
+            self.assertEqual(record["poses/position"].shape[1:], scene.positions.shape)
+            self.assertEqual(record["poses/position"][-1].tobytes(), scene.positions.tobytes())
+            captured = [ballast.Captured.read(file)
+                        for file in sorted(pathlib.Path(output, "capture").iterdir())]
+            self.assertEqual([c.step for c in captured], [2, 3])
+            n = len(captured[1].problem)
+            self.assertEqual(captured[1].frame.shape, (n, 3, 3))
+            self.assertEqual(captured[1].bodies.shape, (n, 2))
+            self.assertLess(ballast.judge(captured[1].problem, captured[1].solution)
+                            ["natural_map_rms"], captured[1].velocity_scale)
+            with self.assertRaisesRegex(ballast.Error, "no such dataset"):
+                record["steps/colour"]
+
+
+class Comparisons(unittest.TestCase):
+    @needs_program
+    def test_own_solver_is_a_row_and_a_curve(self):
+        own = "own=%s %s" % (sys.executable, examples / "own_solver.py")
+        with tempfile.TemporaryDirectory() as folder:
+            listed = pathlib.Path(folder, "list.toml")
+            listed.write_text('[[external]]\nname = "served"\nserve = true\ncommand = "%s %s"\n'
+                              % (sys.executable, examples / "own_solver.py"))
+            run("compare", "known:contacts=8,bodies=6", "--solvers", "pgs", "--tolerances", "1e-4",
+                "--no-report", "--memory", "0", "--output", folder + "/out", "--external", own,
+                str(listed))
+            rows = {row["solver"]: row for row in ballast.rows(folder + "/out")}
+            for name in ["own", "served"]:
+                self.assertEqual(rows[name]["outcome"], "solved", rows[name]["note"])
+                self.assertGreater(len(rows[name]["history"]), 1)
+                self.assertGreater(rows[name]["iterations"], 0)
+        with self.assertRaisesRegex(ballast.Error, "it has no rows"):
+            ballast.rows("/nowhere")
+
+    def test_what_a_solver_may_not_answer(self):
+        M, H, mu, v = chain(3)
+        with tempfile.TemporaryDirectory() as folder:
+            ballast.Problem.from_bodies(M, H, mu, v_free=v).write(folder + "/p.hdf5")
+            with self.assertRaisesRegex(ballast.Error, "is no request"):
+                ballast.serve(lambda request: request.start, [folder + "/p.hdf5", folder + "/a"])
+            with self.assertRaisesRegex(SystemExit, "expected PROBLEM ANSWER"):
+                ballast.serve(lambda request: request.start, ["--surve"])
 
 
 class Examples(unittest.TestCase):

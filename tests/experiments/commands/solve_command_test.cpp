@@ -4,6 +4,8 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/files/solution_file.hpp"
+#include "solvers/seam/run_solver.hpp"
+#include "solvers/solver_list.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -25,6 +27,23 @@ struct Collection {
 };
 
 }  // namespace
+
+TEST_CASE("the program's answer has the bits of the library's") {
+  const Collection c;
+  const std::string problem = (c.in / "a.hdf5").string();
+  const fs::path answer = c.folder.path() / "answer.hdf5";
+  const FrictionProblem read = read_problem(problem);
+  const double scale = contact_error(read, Impulses::Zero(read.row_count())).velocity_scale;
+  for (const char* name : {"pgs", "nncg", "newton_ac", "auto"}) {
+    INFO(name);
+    REQUIRE(
+        ballast_program({"solve", problem, "--solver", name, "--output", answer.string()}).status ==
+        0);
+    const auto solver = make_solver(name);
+    const SolverRun run = SolverRunner().run(*solver, read, {}, {1e-8 * scale, 10000});
+    CHECK(read_solution(answer, read) == run.solved.impulses);
+  }
+}
 
 TEST_CASE("solve keeps its answer and starts from it") {
   const Collection c;

@@ -1,0 +1,98 @@
+"""Friction problems and their parts."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Optional, Union
+
+import numpy as np
+import scipy.sparse as sparse
+
+from . import _ballast
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Problem:
+    """A friction problem. Made by from_delassus, from_bodies or read; it does not change."""
+
+    def __init__(self, core: _ballast.Problem):
+        self._core = core
+
+    @classmethod
+    def from_delassus(cls, W: Any, q: np.ndarray, mu: np.ndarray) -> "Problem":
+        """From W [1/kg], dense or sparse, (3n, 3n), positive semidefinite; q [m/s], (3n) or (n, 3);
+        mu, (n). Raises ValueError and InvalidProblem, which names the entry."""
+        W = sparse.csr_matrix(W)
+        W.sum_duplicates()
+        return cls(_ballast.Problem.from_delassus(W.data, W.indices, W.indptr, q, mu))
+
+    @classmethod
+    def from_bodies(cls, M: Any, H: Any, mu: np.ndarray, v_free: Optional[np.ndarray] = None,
+                    f: Optional[np.ndarray] = None, w: Optional[np.ndarray] = None) -> "Problem":
+        """From M [kg, kg m^2], (d, d), symmetric positive definite; H, (3n, d), with u = H v + w;
+        mu, (n); v_free [m/s, rad/s], (d), or f = M v_free; w [m/s], (3n), zero if left out."""
+        M = sparse.csc_matrix(M)
+        transposed = sparse.csc_matrix(sparse.csr_matrix(H).T)
+        if (v_free is None) == (f is None):
+            raise ValueError("expected one of v_free and f")
+        if v_free is not None:
+            f = M @ np.asarray(v_free, dtype=float).ravel()
+        if w is None:
+            w = np.zeros(3 * len(mu))
+        parts = [(a.data, a.indices, a.indptr) for a in (M, transposed)]
+        return cls(_ballast.Problem.from_bodies(*parts, f, w, mu))
+
+    @classmethod
+    def read(cls, file: Path) -> "Problem":
+        """A stored problem: FCLIB .hdf5, Siconos .dat, captured by a run."""
+        return cls(_ballast.Problem.read(os.fspath(file)))
+
+    def write(self, file: Path) -> None:
+        """As FCLIB's HDF5: by its bodies where these are known, else W and q."""
+        self._core.write(os.fspath(file))
+
+    @property
+    def W(self) -> sparse.csr_matrix:
+        """The Delassus matrix [1/kg], (3n, 3n): the problem's own memory, which cannot be written;
+        built where only bodies are known."""
+        data, indices, pointers = self._core.delassus()
+        size = len(pointers) - 1
+        return sparse.csr_matrix((data, indices, pointers), (size, size))
+
+    @property
+    def M(self) -> sparse.csc_matrix:
+        """Masses [kg, kg m^2], (d, d). Raises ValueError where only W is known; so do H and f."""
+        data, indices, pointers = self._core.bodies()[0]
+        size = len(pointers) - 1
+        return sparse.csc_matrix((data, indices, pointers), (size, size))
+
+    @property
+    def H(self) -> sparse.csr_matrix:
+        """u = H v + w, (3n, d)."""
+        mass, (data, indices, pointers), _ = self._core.bodies()
+        return sparse.csr_matrix((data, indices, pointers),
+                                 (len(pointers) - 1, len(mass[2]) - 1))
+
+    @property
+    def f(self) -> np.ndarray:
+        """M v_free [N s, N m s], (d)."""
+        return self._core.bodies()[2]
+
+    @property
+    def q(self) -> np.ndarray:
+        """Relative velocities without impulses [m/s], (n, 3)."""
+        return self._core.q
+
+    @property
+    def mu(self) -> np.ndarray:
+        """Friction coefficients, (n)."""
+        return self._core.mu
+
+    @property
+    def has_bodies(self) -> bool:
+        """M and H are known, not only W."""
+        return self._core.has_bodies
+
+    def __len__(self) -> int:
+        return self._core.contact_count
