@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/command.hpp"
+#include "experiments/commands/compare_snakemake.hpp"
 #include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "experiments/compare/compare_page.hpp"
@@ -21,7 +22,8 @@
 
 namespace ballast {
 
-Command compare_diff_command();  // of compare_diff_command.cpp
+// Each is defined in the file of its name.
+Command compare_diff_command(), compare_merge_command(), compare_collect_command();
 
 namespace {
 
@@ -34,6 +36,7 @@ struct CompareRequest {
   std::filesystem::path output = "results/compare", reference;
   CompareOptions comparison;
   bool report = true, is_quiet = false, is_json = false;
+  std::filesystem::path snakemake;
 
   Telling telling() const {
     return is_json ? Telling::program : is_quiet ? Telling::nobody : Telling::reader;
@@ -131,10 +134,33 @@ ExitCode compare_live(const CompareRequest& options) {
   return ExitCode::ok;
 }
 
+/// The comparison as jobs for others; solves nothing.
+ExitCode plan_jobs(const CompareRequest& options) {
+  if (!options.external.empty() || !options.live.scene.empty() || !options.reference.empty())
+    throw UsageError("compare: --snakemake: not with --external, --live or --reference");
+  const CompareOptions& c = options.comparison;
+  ComparisonPlan plan{
+      .cases = options.cases,
+      .solvers = {},
+      .options = {"--tolerances", options.tolerances, "--starts", options.starts, "--measure",
+                  options.measure, "--repeats", std::to_string(c.repeats), "--max-seconds",
+                  printed("%.17g", c.max_seconds), "--exact-seconds",
+                  printed("%.17g", c.exact_seconds), "--memory",
+                  printed("%.17g", c.limits.memory_MB)},
+      .results = options.output};
+  for (const ComparedSolver& solver : c.solvers) plan.solvers.push_back(solver.name);
+  write_compare_snakemake(plan, options.snakemake);
+  std::cout << "cd " << shell_word(std::filesystem::absolute(options.snakemake).string())
+            << "\n  snakemake -s Snakefile --profile slurm   on a cluster with Slurm\n"
+            << "  snakemake -s Snakefile --cores 4         on this machine" << std::endl;
+  return ExitCode::ok;
+}
+
 ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError("compare: expected cases, or --live SCENE");
   require_own_folder(options.output, {"rows", "trajectories", "start", "exact"});
+  if (!options.snakemake.empty()) return plan_jobs(options);
   if (!options.external.empty() && !options.live.scene.empty())
     throw UsageError("compare: --external: not with --live, whose solver works inside the step");
   options.program_limits.memory_MB = options.comparison.limits.memory_MB;
@@ -158,6 +184,7 @@ ExitCode compare(CompareRequest& options) {
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
   if (InterruptGuard::requested()) return interrupted();
+  if (options.comparison.is_part) return verdict_on_cases(rows, cases.size());
   if (options.report) write_compare_page(options.output, rows, reference);
   const ExitCode code = verdict_on_cases(rows, cases.size());
   if (options.is_json)
@@ -212,6 +239,10 @@ Command compare_command() {
        {"--output DIR", &options->output, "Folder of the results", shown},
        {"--no-report", &options->report, "No figures and no page"},
        {"--quiet", &options->is_quiet, "Says nothing but failures"},
+       {"--snakemake DIR", &options->snakemake,
+        "Solves nothing, but writes cases x backends as a Snakefile with a profile for Slurm"},
+       {"--part", &comparison.is_part,
+        "One of several processes that fill one folder: rows alone; being killed is a row"},
        {"--json", &options->is_json,
         "Every solve for programs: one JSON object a line on stdout, nothing else",
         excludes("--quiet")},
@@ -227,7 +258,7 @@ Command compare_command() {
        {"--packing-cache DIR", &live.packing_cache,
         "Where deposited packings are kept (<output>/packings)"}},
       [options] { return compare(*options); },
-      {compare_diff_command()}};
+      {compare_diff_command(), compare_merge_command(), compare_collect_command()}};
 }
 
 }  // namespace ballast

@@ -36,32 +36,6 @@ class ContentHash {
   std::uint64_t hash_ = fnv1a("");
 };
 
-std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale) {
-  ContentHash hash;
-  hash.add(problem.row_begin);
-  hash.add(problem.friction);
-  if (problem.has_dynamics) {
-    const DynamicsForm& d = problem.dynamics;
-    hash.add(d.dof_begin);
-    hash.add(d.mass);
-    hash.add(d.body_a);
-    hash.add(d.body_b);
-    hash.add(d.h);
-    hash.add(d.v_free);
-    hash.add(d.bias);
-  }
-  if (problem.has_delassus) {
-    const SparseRows& w = problem.delassus.w;
-    hash.add(w.outerIndexPtr(), static_cast<size_t>(w.outerSize() + 1) * sizeof(int));
-    hash.add(w.innerIndexPtr(), static_cast<size_t>(w.nonZeros()) * sizeof(int));
-    hash.add(w.valuePtr(), static_cast<size_t>(w.nonZeros()) * sizeof(double));
-    hash.add(problem.delassus.q);
-  }
-  hash.add(start);
-  hash.add(&scale, sizeof scale);
-  return hash.key();
-}
-
 double rank_deficiency(const FrictionProblem& problem, int touched_dofs) {
   const int rows = problem.row_count();
   if (rows == 0) return 0.0;
@@ -115,6 +89,32 @@ double mass_ratio(const FrictionProblem& problem, const std::vector<int>& touche
 }
 
 }  // namespace
+
+std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale) {
+  ContentHash hash;
+  hash.add(problem.row_begin);
+  hash.add(problem.friction);
+  if (problem.has_dynamics) {
+    const DynamicsForm& d = problem.dynamics;
+    hash.add(d.dof_begin);
+    hash.add(d.mass);
+    hash.add(d.body_a);
+    hash.add(d.body_b);
+    hash.add(d.h);
+    hash.add(d.v_free);
+    hash.add(d.bias);
+  }
+  if (problem.has_delassus) {
+    const SparseRows& w = problem.delassus.w;
+    hash.add(w.outerIndexPtr(), static_cast<size_t>(w.outerSize() + 1) * sizeof(int));
+    hash.add(w.innerIndexPtr(), static_cast<size_t>(w.nonZeros()) * sizeof(int));
+    hash.add(w.valuePtr(), static_cast<size_t>(w.nonZeros()) * sizeof(double));
+    hash.add(problem.delassus.q);
+  }
+  hash.add(start);
+  hash.add(&scale, sizeof scale);
+  return hash.key();
+}
 
 LoadedCase load_case(FrictionProblem problem, double velocity_scale) {
   problem.validate();

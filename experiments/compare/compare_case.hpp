@@ -66,6 +66,9 @@ LoadedCase load_case(FrictionProblem problem, double velocity_scale = 0.0);
 CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start,
                      double velocity_scale);
 
+/// CaseFacts::content: all bits of the problem, its start and its scale.
+std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale);
+
 /// "Capsules-i101-404.dat" -> "Capsules", "Rover1039.dat" -> "Rover".
 std::string family_of_file(const std::string& file_name);
 

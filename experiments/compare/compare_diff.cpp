@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "experiments/compare/stored_comparison.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -20,14 +21,11 @@ struct Repeats {
   }
 };
 
-using Identity = std::tuple<std::string, std::string, double, StartKind, Measure>;
-
-std::map<Identity, Repeats> grouped(std::span<const CompareRow> rows) {
-  std::map<Identity, Repeats> groups;
+std::map<SolveIdentity, Repeats> grouped(std::span<const CompareRow> rows) {
+  std::map<SolveIdentity, Repeats> groups;
   for (const CompareRow& row : rows) {
     if (row.outcome == Outcome::unreadable) continue;  // no backend was tried
-    Repeats& repeats =
-        groups[{row.facts.content, row.solver, row.tolerance, row.start, row.measure}];
+    Repeats& repeats = groups[identity_of(row)];
     repeats.case_name = row.case_name;
     // The median tells solved from unsolved: no time is 0.
     repeats.seconds.push_back(std::max(row.seconds(), 1e-9));
@@ -58,9 +56,9 @@ const char* name_of(Change change) {
 
 std::vector<ChangedSolve> compare_diff(std::span<const CompareRow> before,
                                        std::span<const CompareRow> after, double least) {
-  const std::map<Identity, Repeats> old_groups = grouped(before), new_groups = grouped(after);
+  const std::map<SolveIdentity, Repeats> old_groups = grouped(before), new_groups = grouped(after);
   std::vector<ChangedSolve> changes;
-  const auto add = [&](const Identity& identity, const Repeats* was, const Repeats* is) {
+  const auto add = [&](const SolveIdentity& identity, const Repeats* was, const Repeats* is) {
     ChangedSolve solve;
     solve.case_name = (was ? was : is)->case_name;
     solve.solver = std::get<1>(identity);

@@ -1,7 +1,6 @@
 #include "experiments/compare/stored_comparison.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
@@ -9,6 +8,10 @@
 
 namespace ballast {
 namespace fs = std::filesystem;
+
+SolveIdentity identity_of(const CompareRow& row) {
+  return {row.facts.content, row.solver, row.tolerance, row.start, row.measure};
+}
 
 StoredComparison read_comparison(const fs::path& folder) {
   if (!fs::is_directory(folder / "rows"))

@@ -47,6 +47,22 @@ Json jobs_json(const std::vector<ResolvedRun>& runs, const fs::path& results,
 
 }  // namespace
 
+void write_slurm_profile(const fs::path& folder) {
+  const bool is_plain =
+      folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") == std::string::npos;
+  if (!is_plain)
+    throw Error(folder.string() +
+                ": stands in commands for a shell and Snakemake: expected a path without blanks, "
+                "quotes and brackets");
+  create_folder(folder / "slurm" / "jobs");
+  write_whole_file(folder / "slurm" / "config.yaml",
+                   with_folder(cluster_file("config.yaml"), folder));
+  const fs::path status = folder / "slurm" / "status.sh";
+  write_whole_file(status, cluster_file("status.sh"));
+  fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                  fs::perm_options::add);
+}
+
 void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::path& program,
                      const fs::path& folder_given) {
   const fs::path results = fs::absolute(results_given).lexically_normal(),
@@ -55,26 +71,14 @@ void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::
   for (PlannedRun& run : absolute.runs)
     run.scene = fs::absolute(find_scene(run.scene)).lexically_normal();
   const std::vector<ResolvedRun> runs = resolve(absolute);
-  const bool is_plain =
-      folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") == std::string::npos;
-  if (!is_plain)
-    throw Error(folder.string() +
-                ": stands in commands for a shell and Snakemake: expected a path without blanks, "
-                "quotes and brackets");
+  write_slurm_profile(folder);
   for (const char* name : {"runs", "packings", "logs", "snakemake"}) create_folder(results / name);
-  create_folder(folder / "slurm" / "jobs");
   note_plan(results, plan.name, runs);
   write_plan(absolute, folder / "plan.toml");
   const Json jobs = jobs_json(runs, results, program, folder);
   write_whole_file(folder / "runs.json",
                    jobs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_whole_file(folder / "Snakefile", cluster_file("Snakefile"));
-  write_whole_file(folder / "slurm" / "config.yaml",
-                   with_folder(cluster_file("config.yaml"), folder));
-  const fs::path status = folder / "slurm" / "status.sh";
-  write_whole_file(status, cluster_file("status.sh"));
-  fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
-                  fs::perm_options::add);
 }
 
 }  // namespace ballast

@@ -85,6 +85,14 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
   const ProgramResult same = ballast_program({"compare", "diff", before, before, "--all"});
   CHECK(same.status == 0);
   CHECK_THAT(same.output, Catch::Contains("known-b4-c6x1-R1-s1") && Catch::Contains(": 2 same"));
+  const fs::path site = folder.path() / "site";
+  const ProgramResult merged =
+      ballast_program({"compare", "merge", before, other, "--output", site.string()});
+  CHECK(merged.status == 0);
+  CHECK_THAT(merged.output, Catch::Contains("2 comparisons, 4 rows: " + site.string()));
+  CHECK(fs::exists(site / "index.html"));
+  check_failure(ballast_program({"compare", "merge", before, "--output", before}),
+                ExitCode::failure, {before});
   // One row is lost by hand.
   const fs::path after = folder.path() / "after";
   fs::copy(before, after, fs::copy_options::recursive);
@@ -105,6 +113,37 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
                 {"--lest, did you mean \"--least\""});
   check_failure(ballast_program({"compare", "known:", "--solver", "pgs"}), ExitCode::usage,
                 {"--solver, did you mean"});
+}
+
+TEST_CASE("a comparison as jobs: each leaves its rows, and the last one finds them all") {
+  const TemporaryFolder folder;
+  const fs::path output = folder.path() / "out", jobs = folder.path() / "jobs";
+  const std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4,count=2",
+                                          "--solvers",    "pgs,nncg",
+                                          "--tolerances", "1e-2",
+                                          "--memory",     "0",
+                                          "--output",     output.string()};
+  std::vector<std::string> planned = words;
+  planned.insert(planned.end(), {"--snakemake", jobs.string()});
+  const ProgramResult written = ballast_program(planned);
+  INFO(written.errors);
+  REQUIRE(written.status == 0);
+  CHECK(fs::exists(jobs / "slurm/config.yaml"));
+  const auto plan = nlohmann::json::parse(read_whole_file(jobs / "jobs.json"));
+  REQUIRE(plan["jobs"].size() == 4);
+  for (const auto& job : plan["jobs"])
+    CHECK(ballast_program(job.get<std::vector<std::string>>()).status == 0);
+  const ProgramResult last = ballast_program(plan["finish"].get<std::vector<std::string>>());
+  CHECK(last.status == 0);
+  CHECK(fs::exists(output / "compare.html"));
+  size_t found = 0;
+  for (const std::string& line : split(last.output, '\n'))
+    found += line.find("(was there)") != std::string::npos;
+  CHECK(found == 4);
+  planned.back() = (folder.path() / "with blank").string();
+  check_failure(ballast_program(planned), ExitCode::failure, {"a path without blanks"});
+  planned.insert(planned.end(), {"--external", "own=true"});
+  check_failure(ballast_program(planned), ExitCode::usage, {"--snakemake: not with --external"});
 }
 
 TEST_CASE("a comparison that cannot be had is one line") {

@@ -12,11 +12,11 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A folder "in" with two problems, one of them deeper.
-struct Collection {
+struct ToConvert {
   TemporaryFolder folder;
   KnownSolution known = make_known_solution({.bodies = 6, .contacts = 12});
   fs::path in = folder.path() / "in", out = folder.path() / "out";
-  Collection() {
+  ToConvert() {
     fs::create_directories(in / "deep");
     write_problem(in / "a.hdf5", known.problem);
     write_problem(in / "deep" / "b.hdf5", known.problem);
@@ -26,7 +26,7 @@ struct Collection {
 }  // namespace
 
 TEST_CASE("a collection goes from format to format and stays the same problem") {
-  const Collection c;
+  const ToConvert c;
   for (const std::string to : {"local", "global", "both", "siconos"}) {
     const auto target = c.out / to;
     const ProgramResult result =
@@ -44,7 +44,7 @@ TEST_CASE("a collection goes from format to format and stays the same problem") 
 }
 
 TEST_CASE("what cannot be converted is said, and the others are") {
-  const Collection c;
+  const ToConvert c;
   c.folder.write("in/broken.dat", "3 x");
   check_failure(
       ballast_program({"convert", c.in.string(), "--to", "siconos", "--output", c.out.string()}),

@@ -1,0 +1,48 @@
+#pragma once
+// A collection of captured problems that everybody can make: the same runs on every machine, and a
+// manifest of what is in each file.
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "platform/exit_code.hpp"
+
+namespace ballast {
+
+/// One run of vibrated_box, of which four steps are kept.
+struct CollectedRun {
+  std::string name;  ///< "shaken-60": the scene and the number of grains
+  std::vector<std::string> overrides;
+};
+
+/// Three scenes for each of six numbers of grains up to `most_grains`, 20 to 2600 (some 70 to 10000
+/// contacts): shaken (the paper's drive at 20 Hz), pressed (a constant load: one long jam),
+/// agitated (60 Hz, twice the load, much friction). The scenes of a size share their packing.
+std::vector<CollectedRun> collection_runs(int most_grains);
+
+/// One line of manifest.csv.
+struct CollectedProblem {
+  std::string file;     ///< in the folder of the problems
+  std::string content;  ///< key of problem, start and scale: CaseFacts::content
+  int contacts = 0, rows = 0, step = 0;
+  std::string phase;  ///< of the motion
+};
+
+/// Makes what is missing of `folder`: packings/, runs/<name>, problems/<name>/step_*.hdf5 and
+/// problems/manifest.csv. `told` is called before each run. The code is that of the first run that
+/// did not come to its end, of which nothing is lost. Throws Error.
+ExitCode make_collection(const std::filesystem::path& folder, std::span<const CollectedRun> runs,
+                         const std::function<void(const CollectedRun&)>& told,
+                         std::vector<CollectedProblem>& problems);
+
+/// Reads problems/manifest.csv, this or another one's. Throws Error.
+std::vector<CollectedProblem> read_collection(const std::filesystem::path& manifest);
+
+/// Files that both have and whose contents differ.
+std::vector<std::string> other_contents(std::span<const CollectedProblem> ours,
+                                        std::span<const CollectedProblem> theirs);
+
+}  // namespace ballast
