@@ -27,8 +27,7 @@ namespace {
 struct SiconosRecipe {
   const char* name;
   int solver;
-  double contact_visits;  ///< iterations times contacts of the first round; every round that runs
-                          ///< out of them doubles the next
+  double contact_visits;  ///< iterations x contacts of the first round; a next one has twice them
   void (*adjust)(SolverOptions&);
   bool factorises = true;  ///< wants W by columns
   /// Contacts up to which W is dense: there LAPACK is up to 90 times faster than sparse columns.
@@ -56,7 +55,6 @@ class BlockProblem {
     q_.setZero(3 * contacts);
     for (std::size_t i = 0; i < row_.size(); ++i)
       q_[row_[i]] = moving.q[static_cast<Eigen::Index>(i)];
-
     block_begin_.assign(1, 0);
     block_column_.clear();
     for (int k = 0; k < contacts; ++k) add_block_row(moving, k);
@@ -142,8 +140,7 @@ class Siconos final : public Solver {
  public:
   explicit Siconos(const SiconosRecipe& recipe) : recipe_(recipe) {}
 
-  /// W in the library's form is start-up, and waits for solve(): a program of Siconos' own has it
-  /// so.
+  /// W in the library's form is start-up, as in a program of Siconos' own: it waits for solve().
   void prepare(const FrictionProblem&) override { is_taken_ = false; }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
@@ -194,8 +191,7 @@ class Siconos final : public Solver {
     return budget.tolerance * std::sqrt(contacts) / (q > 0.0 ? q : 1.0);
   }
 
-  /// Iterations of the first round: some seconds' worth, so that the clock is looked at. Most
-  /// problems need one round.
+  /// Iterations of the first round: some seconds' worth, so that the clock is looked at.
   int first_chunk() const {
     const double visits = recipe_.contact_visits / std::max(1, blocks_.contacts());
     return static_cast<int>(std::clamp(visits, 100.0, 1e6));
