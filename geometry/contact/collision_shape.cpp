@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "geometry/shape/area_vector.hpp"
+#include "geometry/shape/front_search.hpp"
+#include "geometry/shape/sorted_by_key.hpp"
 
 namespace ballast {
 namespace {
@@ -17,10 +19,10 @@ int rounded_up(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
 /// The boundary of a patch of faces as one loop, counter-clockwise from outside, from its smallest
 /// vertex on.
 std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<int>& patch,
-                               int id) {
+                               std::span<const int> members) {
+  const int id = patch[members[0]];
   std::vector<std::pair<int, int>> next;  // (corner, the corner after it)
-  for (int f = 0; f < polyhedron.face_count(); ++f) {
-    if (patch[f] != id) continue;
+  for (const int f : members) {
     const std::span<const int> loop = polyhedron.face(f), across = polyhedron.face_neighbours(f);
     for (size_t k = 0; k < loop.size(); ++k) {
       if (patch[across[k]] != id) next.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
@@ -61,6 +63,12 @@ void AffineRows::evaluate(const Vec3& d, double* __restrict values) const {
   const double* __restrict z = y + padded_;
   const double* __restrict w = z + padded_;
   for (int i = 0; i < padded_; ++i) values[i] = ((dx * x[i] + dy * y[i]) + dz * z[i]) + w[i];
+}
+
+double AffineRows::value(int row, const Vec3& d) const {
+  const double* x = table_.data() + row;
+  const size_t n = static_cast<size_t>(padded_);
+  return ((d.x() * x[0] + d.y() * x[n]) + d.z() * x[2 * n]) + x[3 * n];
 }
 
 CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
@@ -104,47 +112,60 @@ std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
 /// Writes one face per patch, with its corners, and how isolated each face's normal is.
 void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   const int count = 1 + *std::max_element(patch.begin(), patch.end());
-  std::vector<int> members(count, 0), seed(count, 0);
-  for (int f = polyhedron.face_count() - 1; f >= 0; --f) {
-    ++members[patch[f]];
-    seed[patch[f]] = f;
-  }
+  const SortedByKey by_patch = sorted_by_key(patch, count);
   face_rows_ = AffineRows(count, -kFar);
-  std::vector<double> heights(vertices_.padded());
+  const FrontSearch search(polyhedron.vertices());
   // A patch of one face is that face. Of several the outline is the polygon, and
   // its area vector gives the normal.
   for (int p = 0; p < count; ++p) {
-    std::vector<int> loop(polyhedron.face(seed[p]).begin(), polyhedron.face(seed[p]).end());
-    Vec3 normal = polyhedron.normal(seed[p]);
-    if (members[p] > 1) {
-      loop = boundary_loop(polyhedron, patch, p);
+    const std::span<const int> members = by_patch.of(p), first = polyhedron.face(members[0]);
+    std::vector<int> loop(first.begin(), first.end());
+    Vec3 normal = polyhedron.normal(members[0]);
+    if (members.size() > 1) {
+      loop = boundary_loop(polyhedron, patch, members);
       normal = area_vector(loop, polyhedron.vertices()).normalized();
     }
     // Through the highest vertex and not the mean of the corners: no
     // vertex is in front of its face.
-    vertices_.evaluate(normal, heights.data());
-    const double offset = *std::max_element(heights.begin(), heights.begin() + vertices_.count());
+    double offset = -kFar;
+    const auto look = [&](int v) { return offset = std::max(offset, vertices_.value(v, normal)); };
+    for (const int v : loop) look(v);
+    search.visit_higher(normal, offset, look);
     face_rows_.set(p, normal, -offset);
     faces_.push_back(
         {normal, offset, 1.0, static_cast<int>(corners_.size()), static_cast<int>(loop.size())});
     for (const int v : loop) {
       corners_.push_back({v, -1, polyhedron.vertex(v)});
-      bounds_.unevenness = std::max(bounds_.unevenness, offset - heights[v]);
+      bounds_.unevenness = std::max(bounds_.unevenness, offset - vertices_.value(v, normal));
     }
   }
-  // The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
-  for (Face& face : faces_) {
-    for (const Face& other : faces_) {
-      if (&face == &other || face.normal.dot(other.normal) < 0.5) continue;
-      face.isolation =
-          std::min(face.isolation, face.normal.cross(other.normal).norm());  // sine <= angle
-    }
+  measure_isolation();
+}
+
+/// The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
+void CollisionShape::measure_isolation() {
+  std::vector<Vec3> normals;
+  for (const Face& face : faces_) normals.push_back(face.normal);
+  const FrontSearch search(normals);
+  // Cosines nearer to each other than this may be out of order for their roundings.
+  constexpr double slack = 1e-14, sixty_degrees = 0.5;
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    double floor = sixty_degrees - slack;
+    search.visit_higher(normals[f], floor, [&](int g) {
+      const Vec3& other = normals[static_cast<size_t>(g)];
+      const double cosine = normals[f].dot(other);
+      if (static_cast<size_t>(g) == f || cosine < sixty_degrees) return floor;
+      const double sine = normals[f].cross(other).norm();  // <= angle
+      faces_[f].isolation = std::min(faces_[f].isolation, sine);
+      return floor = std::max(floor, cosine - slack);
+    });
   }
 }
 
 /// Writes the edges between patches, and for each of them a side of the two faces beside it.
 void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   sides_.resize(corners_.size());
+  const FrontSearch search(polyhedron.vertices());
   const auto add_side = [&](int f, int from, int to) {
     const auto first = corners_.begin() + faces_[f].first_corner;
     const auto corner =
@@ -167,12 +188,19 @@ void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector
     // Edge::drop: the common normal with an edge u is n = p left_normal + q right_normal with p, q
     // = |right_normal.u|, |left_normal.u| times length / (sine |along x u|), so that the least sum
     // of a vertex's depths below both faces bounds its depth along n.
-    double below = kFar;
-    for (int v = 0; v < polyhedron.vertex_count(); ++v) {
-      if (v == edge.tail || v == edge.head) continue;
+    // It is the highest vertex along the sum of the normals.
+    double below = kFar, floor = -kFar;
+    const double offsets = faces_[left].offset + faces_[right].offset;
+    const double rounding = 1e-14 * (std::abs(offsets) + polyhedron.circumradius());
+    const auto look = [&](int v) {
+      if (v == edge.tail || v == edge.head) return floor;
       below = std::min(below, faces_[left].offset - left_normal.dot(polyhedron.vertex(v)) +
                                   faces_[right].offset - right_normal.dot(polyhedron.vertex(v)));
-    }
+      return floor = offsets - below - rounding;
+    };
+    for (const int f : {left, right})
+      for (const Corner& corner : corners(f)) look(corner.vertex);
+    search.visit_higher(left_normal + right_normal, floor, look);
     const Vec3& tail = polyhedron.vertex(edge.tail);
     const Vec3 along = polyhedron.vertex(edge.head) - tail;
     const double length = along.norm(), sine = left_normal.cross(right_normal).norm();

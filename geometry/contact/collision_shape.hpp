@@ -29,6 +29,8 @@ class AffineRows {
 
   /// values[i] = xyz(i).d + w(i) for all padded() rows.
   void evaluate(const Vec3& d, double* values) const;
+  /// Of one row, to the last bit.
+  double value(int row, const Vec3& d) const;
 
  private:
   int count_ = 0, padded_ = 0;
@@ -116,6 +118,7 @@ class CollisionShape {
   size_t corner_span(int f) const { return static_cast<size_t>(faces_[f].corner_count); }
   std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
   void build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  void measure_isolation();
   void build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_ball(const Polyhedron& polyhedron);

@@ -1,8 +1,8 @@
 #include "geometry/shape/close_pairs.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
+#include <bit>
+#include <cstdint>
 #include <utility>
 
 namespace ballast {
@@ -10,19 +10,19 @@ namespace {
 
 /// For each point the smallest index of a point equal to it.
 std::vector<int> first_equal(std::span<const Vec3> points) {
-  // Sorted by coordinates and then by index, equal points stand in runs that
-  // begin with the smallest index.
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int i) {
-    const Vec3& p = points[static_cast<size_t>(i)];
-    return std::tuple(p.x(), p.y(), p.z(), i);
-  };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
-  std::vector<int> first(points.size());
-  for (size_t i = 0, run = 0; i < order.size(); ++i) {
-    if (points[static_cast<size_t>(order[i])] != points[static_cast<size_t>(order[run])]) run = i;
-    first[static_cast<size_t>(order[i])] = order[run];
+  // A table of the points seen so far, each in the first free place from the one that its
+  // coordinates' bits name.
+  const size_t places = std::bit_ceil(2 * points.size() + 1);
+  std::vector<int> table(places, -1), first(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    std::uint64_t name = 0;
+    for (const double x : points[i])
+      name = (std::rotl(name, 23) ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15u;
+    size_t place = (name >> 32) & (places - 1);
+    while (table[place] >= 0 && points[static_cast<size_t>(table[place])] != points[i])
+      place = (place + 1) & (places - 1);
+    if (table[place] < 0) table[place] = static_cast<int>(i);
+    first[i] = table[place];
   }
   return first;
 }

@@ -7,12 +7,6 @@
 #include <numeric>
 
 namespace ballast {
-namespace {
-
-constexpr int leaf_size = 16;
-
-}  // namespace
-
 FrontSearch::FrontSearch(std::span<const Vec3> points) : points_(points), order_(points.size()) {
   std::iota(order_.begin(), order_.end(), 0);
   if (!order_.empty()) build(0, static_cast<int>(order_.size()));
@@ -71,25 +65,28 @@ FrontSearch::Node FrontSearch::enclosing(int begin, int end) const {
   return node;
 }
 
+/// The highest that a point of the slab and the ball can be: across the slab, and along it. For
+/// p = centre + h m + t with m the slab's normal, t within the slab and |t| <= radius:
+/// direction.p <= direction.centre + max(across low, across high) + along radius.
+double FrontSearch::highest(const Node& node, const Vec3& direction, const Vec3& origin) {
+  const double across = direction.dot(node.slab_normal);
+  const double along = (direction - across * node.slab_normal).norm();
+  const Vec3 arm = node.centre - origin;
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double rounding = 16.0 * epsilon * direction.norm() * (arm.norm() + node.radius);
+  return direction.dot(arm) + std::max(across * node.low, across * node.high) +
+         along * node.radius + rounding;
+}
+
 bool FrontSearch::any_in_front(const Vec3& normal, const Vec3& origin, double height) const {
   for (size_t at = 0; at < nodes_.size();) {
     const Node& node = nodes_[at];
-    // The highest that a point of the slab and the ball can be: across the slab, and along it.
-    // For p = centre + h m + t with m the slab's normal, t within the slab and |t| <= radius:
-    // normal.p <= normal.centre + max(across low, across high) + along radius.
-    const double across = normal.dot(node.slab_normal);
-    const double along = (normal - across * node.slab_normal).norm();
-    const double centre = normal.dot(node.centre - origin);
-    const double highest =
-        centre + std::max(across * node.low, across * node.high) + along * node.radius;
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    const double rounding = 16.0 * epsilon * ((node.centre - origin).norm() + node.radius);
-    if (highest + rounding <= height) {
+    if (highest(node, normal, origin) <= height) {
       at = static_cast<size_t>(node.after);
       continue;
     }
     // Only leaves look at their points; behind an inner node stands its first child.
-    if (node.end - node.begin <= leaf_size)
+    if (is_leaf(node))
       for (int i = node.begin; i < node.end; ++i) {
         const Vec3& p = points_[static_cast<size_t>(order_[static_cast<size_t>(i)])];
         if (normal.dot(p - origin) > height) return true;

@@ -19,6 +19,23 @@ class FrontSearch {
   /// Whether a point has normal.(point - origin) > height [m]. `normal`: of length 1.
   bool any_in_front(const Vec3& normal, const Vec3& origin, double height) const;
 
+  /// visit(i) for the points that may be higher than `floor` along `direction` (of any length):
+  /// higher than visit's last answer, the new floor. For who looks for the highest point, in a
+  /// sense of its own.
+  template <typename Visit>
+  void visit_higher(const Vec3& direction, double floor, Visit&& visit) const {
+    for (size_t at = 0; at < nodes_.size();) {
+      const Node& node = nodes_[at];
+      if (highest(node, direction, Vec3::Zero()) <= floor) {
+        at = static_cast<size_t>(node.after);
+        continue;
+      }
+      if (is_leaf(node))
+        for (int i = node.begin; i < node.end; ++i) floor = visit(order_[static_cast<size_t>(i)]);
+      ++at;
+    }
+  }
+
  private:
   struct Node {
     int begin, end;  // its points in order_
@@ -26,6 +43,10 @@ class FrontSearch {
     Vec3 centre, slab_normal;
     double low, high, radius;  // of the slab from the centre; of the ball around it
   };
+  static constexpr int leaf_size = 16;
+  static bool is_leaf(const Node& node) { return node.end - node.begin <= leaf_size; }
+  /// What direction.(p - origin) is at most for the points of a node, computed with roundings.
+  static double highest(const Node& node, const Vec3& direction, const Vec3& origin);
   void build(int begin, int end);
   Node enclosing(int begin, int end) const;
 

@@ -92,4 +92,36 @@ void check_convex(std::span<const Vec3> vertices, std::span<const int> first,
   }
 }
 
+/// Seen from a point inside, in front of which no triangle is turned away, the surface covers the
+/// sphere of directions a whole number of times: once where the solid angles sum to 4 pi. Then it
+/// is no more than one layer, and one that is bent outward at every edge is convex (Tietze,
+/// Nakajima). Edges alone do not tell: a double pyramid over a pentagram is bent outward at all of
+/// them.
+bool is_surely_convex(std::span<const Vec3> vertices, std::span<const int> corners,
+                      std::span<const int> across, std::span<const Vec3> normals,
+                      std::span<const double> blur) {
+  Vec3 inside = Vec3::Zero();
+  for (const Vec3& p : vertices) inside += p / static_cast<double>(vertices.size());
+  const auto corner = [&](size_t f, size_t k) { return corners[3 * f + k % 3]; };
+  double solid_angle = 0.0;
+  for (size_t f = 0; f < normals.size(); ++f) {
+    const Vec3& origin = vertices[static_cast<size_t>(corner(f, 0))];
+    const auto height = [&](const Vec3& p) { return normals[f].dot(p - origin); };
+    if (!(height(inside) < -blur[f])) return false;
+    for (size_t k = 0; k < 3; ++k) {
+      // The neighbour's third corner lies behind this plane.
+      const size_t g = static_cast<size_t>(across[3 * f + k]);
+      const int third =
+          corner(g, 0) + corner(g, 1) + corner(g, 2) - corner(f, k) - corner(f, k + 1);
+      if (!(height(vertices[static_cast<size_t>(third)]) < -blur[f])) return false;
+    }
+    // Van Oosterom and Strackee 1983.
+    const Vec3 a = (origin - inside).normalized(),
+               b = (vertices[static_cast<size_t>(corner(f, 1))] - inside).normalized(),
+               c = (vertices[static_cast<size_t>(corner(f, 2))] - inside).normalized();
+    solid_angle += 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+  }
+  return solid_angle < 6.0 * std::numbers::pi;
+}
+
 }  // namespace ballast::mesh_checks

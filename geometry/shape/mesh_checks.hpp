@@ -42,4 +42,14 @@ void check_loop(std::span<const Vec3> vertices, int face, std::span<const int> l
 void check_convex(std::span<const Vec3> vertices, std::span<const int> first,
                   std::span<const Vec3> normals, std::span<const double> allowed, double size);
 
+/// True: these triangles, which make one closed surface, are convex, and no vertex lies in front of
+/// any of their planes; told from neighbours alone, in linear time. False: not known, as where
+/// neighbours lie nearly in one plane.
+///
+/// `corners`: three per triangle; across[3 f + k]: the triangle across corner k -> k + 1 of f;
+/// blur[f]: how well f's plane is known within the solid [m].
+bool is_surely_convex(std::span<const Vec3> vertices, std::span<const int> corners,
+                      std::span<const int> across, std::span<const Vec3> normals,
+                      std::span<const double> blur);
+
 }  // namespace ballast::mesh_checks

@@ -93,8 +93,8 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
       // A mesh that is convex as it stands is taken, but for two kinds: single precision, whose
       // faces are fitted anew, and polygons cut into pieces, which are joined.
       Polyhedron polyhedron(mesh.vertices, mesh.faces);
-      if (mesh.is_single) return rounded_hull(mesh.vertices, kFileTolerance);
-      return has_coplanar_neighbours(polyhedron) ? convex_hull(mesh.vertices) : polyhedron;
+      if (has_coplanar_neighbours(polyhedron)) polyhedron = convex_hull(mesh.vertices);
+      return mesh.is_single ? rounded_hull(std::move(polyhedron), kFileTolerance) : polyhedron;
     } catch (const InvalidPolyhedron&) {
       // Convex only to six digits: the solid that was meant is the rounded hull of its vertices.
       const Polyhedron nearly(mesh.vertices, mesh.faces,

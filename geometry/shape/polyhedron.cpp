@@ -8,6 +8,7 @@
 
 #include "geometry/shape/area_vector.hpp"
 #include "geometry/shape/mesh_checks.hpp"
+#include "geometry/shape/sorted_by_key.hpp"
 
 namespace ballast {
 
@@ -74,18 +75,27 @@ void Polyhedron::build_edges() {
     bool downwards;
     int face, slot;  // slot: position in face_vertices_
   };
-  std::vector<HalfEdge> halves;
+  std::vector<int> low_end, high_end, face_of;  // by slot
   for (int f = 0; f < face_count(); ++f) {
     for (int k = face_begin_[f]; k < face_begin_[f + 1]; ++k) {
       const int a = face_vertices_[k],
                 b = face_vertices_[k + 1 < face_begin_[f + 1] ? k + 1 : face_begin_[f]];
-      halves.push_back({std::min(a, b), std::max(a, b), a > b, f, k});
+      low_end.push_back(std::min(a, b));
+      high_end.push_back(std::max(a, b));
+      face_of.push_back(f);
     }
   }
-  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.low, a.high, a.downwards, a.slot) <
-           std::tie(b.low, b.high, b.downwards, b.slot);
-  });
+  // By their smaller vertex in linear time; the few of one vertex are sorted.
+  std::vector<HalfEdge> halves;
+  const SortedByKey by_low = sorted_by_key(low_end, vertex_count());
+  for (int low = 0; low < vertex_count(); ++low) {
+    for (const int k : by_low.of(low))
+      halves.push_back({low, high_end[k], face_vertices_[k] != low, face_of[k], k});
+    std::sort(
+        halves.begin() + by_low.begin[low], halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
+          return std::tie(a.high, a.downwards, a.slot) < std::tie(b.high, b.downwards, b.slot);
+        });
+  }
   // Sorted, the half-edges of one edge stand side by side, the upward one first.
   face_neighbours_.assign(face_vertices_.size(), -1);
   for (size_t i = 0; i < halves.size();) {
@@ -114,20 +124,14 @@ void Polyhedron::build_edges() {
   }
 }
 
-/// The faces around each vertex, stored like the loops: sorted (vertex,
-/// face) pairs, counted and summed up.
+/// The faces around each vertex, stored like the loops.
 void Polyhedron::build_vertex_faces() {
-  std::vector<std::pair<int, int>> pairs;  // (vertex, face)
-  for (int f = 0; f < face_count(); ++f) {
-    for (const int v : face(f)) pairs.emplace_back(v, f);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  vertex_face_begin_.assign(vertex_count() + 1, 0);
-  for (const auto& [vertex, face] : pairs) {
-    ++vertex_face_begin_[vertex + 1];
-    vertex_faces_.push_back(face);
-  }
-  for (int v = 0; v < vertex_count(); ++v) vertex_face_begin_[v + 1] += vertex_face_begin_[v];
+  SortedByKey by_vertex = sorted_by_key(face_vertices_, vertex_count());
+  std::vector<int> face_of(face_vertices_.size());
+  for (int f = 0; f < face_count(); ++f)
+    std::fill(face_of.begin() + face_begin_[f], face_of.begin() + face_begin_[f + 1], f);
+  for (const int slot : by_vertex.order) vertex_faces_.push_back(face_of[slot]);
+  vertex_face_begin_ = std::move(by_vertex.begin);
 }
 
 /// Faces connected across edges and Euler's V - E + F = 2: together they leave only the sphere, as
@@ -197,11 +201,18 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
 /// by that angle.
 void Polyhedron::check_convex(double tolerance, const std::vector<double>& thinness) const {
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (circumradius_ + size_);
+  std::vector<double> blur;  // of each face's plane within the solid [m]
+  for (int f = 0; f < face_count(); ++f)
+    blur.push_back(rounding * (1.0 + 2.0 * size_ * thinness[f]));
+  const bool has_triangles_only = face_vertices_.size() == 3 * normals_.size();
+  if (has_triangles_only &&
+      mesh_checks::is_surely_convex(vertices_, face_vertices_, face_neighbours_, normals_, blur))
+    return;
   std::vector<int> first;
   std::vector<double> allowed;
   for (int f = 0; f < face_count(); ++f) {
     first.push_back(face(f)[0]);
-    allowed.push_back(tolerance * size_ + rounding * (1.0 + 2.0 * size_ * thinness[f]));
+    allowed.push_back(tolerance * size_ + blur[f]);
   }
   mesh_checks::check_convex(vertices_, first, normals_, allowed, size_);
 }

@@ -120,7 +120,10 @@ double move_to_planes(Corner& corner, const std::vector<Plane>& planes) {
 }  // namespace
 
 Polyhedron rounded_hull(std::span<const Vec3> points, double rounding) {
-  Polyhedron hull = convex_hull(points);
+  return rounded_hull(convex_hull(points), rounding);
+}
+
+Polyhedron rounded_hull(Polyhedron hull, double rounding) {
   Vec3 low = hull.vertex(0), high = low;
   for (const Vec3& p : hull.vertices()) {
     low = low.cwiseMin(p);

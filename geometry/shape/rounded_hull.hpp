@@ -13,5 +13,7 @@ namespace ballast {
 /// fit the joined faces, it is the hull of the points as they are. Throws InvalidPolyhedron as
 /// convex_hull does.
 Polyhedron rounded_hull(std::span<const Vec3> points, double rounding);
+/// The same of points whose hull is there already.
+Polyhedron rounded_hull(Polyhedron hull, double rounding);
 
 }  // namespace ballast

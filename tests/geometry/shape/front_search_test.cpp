@@ -46,3 +46,27 @@ TEST_CASE("a point in front of a plane is found exactly where a look at all poin
   CHECK(found < cases * 9 / 10);
   CHECK_FALSE(FrontSearch({}).any_in_front(Vec3::UnitX(), Vec3::Zero(), -1.0));
 }
+
+TEST_CASE("the highest point along a direction is found, though not all are looked at") {
+  Random random(8);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 3000; ++i) points.push_back(Vec3(1, 2, 3) + random_direction(random));
+  const FrontSearch search(points);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 direction = random.uniform(0.1, 3.0) * random_direction(random);
+    double highest = -1e30, found = -1e30;
+    for (const Vec3& p : points) highest = std::max(highest, direction.dot(p));
+    int looks = 0;
+    search.visit_higher(direction, found, [&](int i) {
+      ++looks;
+      return found = std::max(found, direction.dot(points[static_cast<size_t>(i)]));
+    });
+    CHECK(found == highest);
+    CHECK(looks < 1500);
+    // Nothing is higher than the highest.
+    search.visit_higher(direction, highest * (1.0 + 1e-12), [&](int i) {
+      CHECK(direction.dot(points[static_cast<size_t>(i)]) <= highest);
+      return highest;
+    });
+  }
+}
