@@ -32,13 +32,14 @@ double Relay::run(const Leg& leg) {
   solved_.iterations += part.iterations;
   solved_.own_residual = part.own_residual;
   solved_.startup_seconds += part.startup_seconds;
-  if (!(error > error_)) {
+  reached_ = part.reason == StopReason::reached_tolerance;
+  // Another measure than the error may be what was reached.
+  if (reached_ || !(error > error_)) {
     solved_.impulses = std::move(part.impulses);
     error_ = error;
   } else if (!solved_.history.empty()) {
     solved_.history.back().error = error_;  // of the iterate that is kept
   }
-  reached_ = part.reason == StopReason::reached_tolerance;
   if (part.reason == StopReason::numerical_failure) failed_ = true;
   return error_;
 }

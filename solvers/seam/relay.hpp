@@ -23,8 +23,8 @@ class Relay {
   /// The clock of the whole starts here.
   Relay(const Budget& budget, Impulses start);
 
-  /// Runs a leg from the best iterate so far. The better of the two is kept: a leg may end worse
-  /// than it began. Returns the error of the best [m/s].
+  /// Runs a leg from the best iterate so far. The better of the two is kept, as a leg may end worse
+  /// than it began; or the one that reached what was asked. Returns the error of the best [m/s].
   double run(const Leg& leg);
   /// `solver`, prepared for `problem`, for at most so many iterations.
   double run(Solver& solver, const FrictionProblem& problem, int most_iterations);

@@ -41,6 +41,16 @@ TEST_CASE("what is left of a budget is never less than nothing, and the rest of 
   CHECK(rest_of(whole, 11, 3.0).max_seconds == 0.0);
 }
 
+TEST_CASE("what reached another measure is the answer, though its error is not the smallest") {
+  Relay relay({.tolerance = 0.0, .max_iterations = 100}, Impulses::Zero(1));
+  relay.run(leg(30, 1.0, 0.5));
+  relay.run(leg(20, 2.0, 0.9, StopReason::reached_tolerance));
+  CHECK(relay.over());
+  const Solved solved = relay.finish();
+  CHECK(solved.reason == StopReason::reached_tolerance);
+  CHECK(solved.impulses == Impulses::Constant(1, 2.0));
+}
+
 TEST_CASE("every leg begins at the best iterate, and has what the others left") {
   Relay relay({.tolerance = 0.0, .max_iterations = 100}, Impulses::Constant(3, 5.0));
   CHECK_FALSE(relay.over());
