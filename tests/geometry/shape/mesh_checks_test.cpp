@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
@@ -257,77 +255,4 @@ TEST_CASE("a vertex in front of a face is measured from that face") {
   };
   CHECK_NOTHROW(check(0.5));
   CHECK_THROWS_WITH(check(0.49), "not convex: vertex 3 lies 0.25 of the size in front of face 0");
-}
-
-namespace {
-
-/// Two pyramids over one polygon of `corners` corners that goes `turns` times around.
-Faces double_pyramid(int corners, int turns, std::vector<Vec3>& vertices) {
-  vertices = {{0, 0, 1}, {0, 0, -1}};
-  Faces faces;
-  for (int k = 0; k < corners; ++k) {
-    const double angle = 2.0 * std::numbers::pi * turns * k / corners;
-    vertices.emplace_back(std::cos(angle), std::sin(angle), 0.0);
-    const int a = 2 + k, b = 2 + (k + 1) % corners;
-    faces.push_back({0, a, b});
-    faces.push_back({1, b, a});
-  }
-  return faces;
-}
-
-/// What is_surely_convex says of the triangles.
-bool is_sure(const std::vector<Vec3>& vertices, const Faces& faces) {
-  std::vector<int> corners, across;
-  std::vector<Vec3> normals;
-  for (const std::vector<int>& face : faces) {
-    corners.insert(corners.end(), face.begin(), face.end());
-    const Vec3& a = vertices[face[0]];
-    normals.push_back((vertices[face[1]] - a).cross(vertices[face[2]] - a).normalized());
-    for (int k = 0; k < 3; ++k)
-      for (size_t g = 0; g < faces.size(); ++g)
-        for (int j = 0; j < 3; ++j)
-          if (faces[g][j] == face[(k + 1) % 3] && faces[g][(j + 1) % 3] == face[k])
-            across.push_back(static_cast<int>(g));
-  }
-  const std::vector<double> blur(faces.size(), 1e-14);
-  return mesh_checks::is_surely_convex(vertices, corners, across, normals, blur);
-}
-
-}  // namespace
-
-TEST_CASE("told from neighbours: once around is convex, twice is not") {
-  std::vector<Vec3> vertices;
-  Faces faces = double_pyramid(5, 1, vertices);
-  CHECK(is_sure(vertices, faces));
-  // The pentagram's: a sphere by Euler's count and bent outward at every edge.
-  faces = double_pyramid(5, 2, vertices);
-  CHECK_FALSE(is_sure(vertices, faces));
-  CHECK(contains(complaint(vertices, faces), "not convex"));
-  // Neighbours in one plane leave it open.
-  CHECK_FALSE(is_sure({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}},
-                      {{0, 2, 4}, {4, 2, 1}, {0, 4, 3}, {4, 1, 3}, {1, 2, 3}, {0, 3, 2}}));
-}
-
-TEST_CASE("told from neighbours, and by looking at all vertices from all faces: the same") {
-  Random random(31);
-  int convex = 0, dented = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    std::vector<Vec3> points;
-    for (int i = 0; i < 8 + trial % 30; ++i) points.push_back(random_direction(random));
-    const Polyhedron hull = convex_hull(points);
-    std::vector<Vec3> vertices = vertices_of(hull);
-    const Faces faces = loops_of(hull);
-    if (trial % 2 == 1) vertices[random.below(vertices.size())] *= random.uniform(0.3, 1.1);
-    bool expected = true;
-    for (const std::vector<int>& face : faces) {
-      const Vec3& a = vertices[face[0]];
-      const Vec3 normal = (vertices[face[1]] - a).cross(vertices[face[2]] - a).normalized();
-      for (const Vec3& p : vertices) expected = expected && normal.dot(p - a) < 1e-12;
-    }
-    CHECK(is_sure(vertices, faces) == expected);
-    CHECK((complaint(vertices, faces) == "") == expected);
-    (expected ? convex : dented) += 1;
-  }
-  CHECK(convex > 100);
-  CHECK(dented > 40);
 }
