@@ -3,6 +3,7 @@
 #include "experiments/step/time_step.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
+#include "platform/random.hpp"
 
 namespace ballast {
 namespace {
@@ -184,6 +185,11 @@ MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packin
   state = packing.state;
   state.time = 0.0;
   state.step = 0;
+  if (const double noise = scene.drive.start_noise; noise > 0.0) {
+    Random random(scene.drive.start_noise_seed ^ 0x4e6f697365ull);  // its own stream: "Noise"
+    for (size_t b = 0; b < rain.grains.size(); ++b)
+      for (double& place : state.pose[b].position) place += random.uniform(-noise, noise);
+  }
   return box_system(scene, rain, BoxStage::drive, packing.deposit.lid);
 }
 

@@ -30,6 +30,7 @@
 
 #include "experiments/measure/compaction.hpp"
 #include "experiments/measure/curve_fit.hpp"
+#include "experiments/measure/force_law.hpp"
 #include "experiments/measure/wall_cycles.hpp"
 #include "experiments/step/step_record.hpp"
 

@@ -168,42 +168,10 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   return cycles;
 }
 
-LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles,
-                  const WallSettings& settings) {
-  std::vector<double> active_x, active_force, passive_x, passive_force;
-  for (size_t p = cycles.loop_first; p < cycles.loop_last; ++p) {
-    const WallPeriod& period = cycles.periods[p];
-    const auto is_fitted = [&](double xi, double stroke) {
-      return xi >= settings.fit_from * stroke && xi <= settings.fit_to * stroke;
-    };
-    // Nearer to the jam than the smoothing is wide, f_g holds some of the jam's force.
-    const size_t width = cycles.smoothing_samples;
-    for (size_t k = period.first + width; k + width < period.last; ++k) {
-      const bool rises = k <= period.peak;
-      // The stroke is counted from where it began: x_before on the
-      // way out, x_after on the way back.
-      const double xi = steps[k].wall_x - (rises ? period.x_before : period.x_after);
-      const double stroke = period.x_peak - (rises ? period.x_before : period.x_after);
-      if (!is_fitted(xi, stroke)) continue;
-      if (rises && cycles.phase[k] == WallPhase::active &&
-          cycles.phase[k - width] == WallPhase::active) {
-        active_x.push_back(xi);
-        active_force.push_back(cycles.force[k]);
-      } else if (!rises && cycles.phase[k] == WallPhase::passive &&
-                 cycles.phase[k + width] == WallPhase::passive) {
-        passive_x.push_back(xi);
-        passive_force.push_back(cycles.force[k]);
-      }
-    }
-  }
-  return {fit_exponential(active_x, active_force), fit_line(active_x, active_force),
-          fit_line(passive_x, passive_force)};
-}
-
 JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min,
                          double f_max) {
   JammedState state;
-  std::vector<double> miss, smooth_miss, speed;
+  std::vector<double> miss, smooth_miss, speed, load_rate, velocity;
   long jammed = 0, all = 0;
   for (size_t k = 0; k < steps.size(); ++k) {
     if (cycles.phase[k] == WallPhase::none) continue;
@@ -214,6 +182,10 @@ JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cy
     miss.push_back(std::abs(steps[k].wall_force - steps[k].load) / f_max);
     smooth_miss.push_back(std::abs(cycles.force[k] - steps[k].load) / f_max);
     speed.push_back(std::abs(steps[k].wall_v));
+    if (k == 0 || k + 1 == steps.size()) continue;
+    const StepRecord &before = steps[k - 1], &after = steps[k + 1];
+    load_rate.push_back((after.load - before.load) / (after.time - before.time));
+    velocity.push_back(cycles.velocity[k]);
   }
   if (all > 0) state.share = static_cast<double>(jammed) / static_cast<double>(all);
   const Statistics force = statistics(miss), speeds = statistics(speed);
@@ -224,6 +196,11 @@ JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cy
   state.force_smooth = statistics(smooth_miss).mean;
   state.speed_mean = speeds.mean;
   state.speed_max = speeds.max;
+  const LineFit yield = fit_line(load_rate, velocity);
+  state.creep = yield.offset;
+  state.compliance = -yield.slope;
+  state.compliance_error = yield.slope_error;
+  state.stiffness = 1.0 / state.compliance;
   return state;
 }
 

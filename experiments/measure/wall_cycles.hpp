@@ -83,19 +83,6 @@ struct WallCycles {
 WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double step,
                        const WallSettings& settings = {});
 
-/// f_g against the displacement from the jamming position, xi = x - x_before (active) or x -
-/// x_after (passive), all loop periods together, smoothed f_g, between fit_from and fit_to of each
-/// stroke, and so far from the jam that the smoothing mixes nothing of it in. The paper:
-/// exponential when active, linear when passive.
-struct LoopFits {
-  ExponentialFit active;  ///< [N], rate [1/m]
-  LineFit active_line;    ///< the same samples with a straight line, to see whether "exponential"
-                          ///< says more
-  LineFit passive;        ///< [N], slope [N/m]: negative, f_g grows as x decreases
-};
-LoopFits fit_loop(std::span<const StepRecord> steps, const WallCycles& cycles,
-                  const WallSettings& settings = {});
-
 /// The jammed state where the load is above its mean (with the load below, the wall is about to
 /// leave).
 struct JammedState {
@@ -105,6 +92,13 @@ struct JammedState {
          force_max = not_known;                          ///< |f_g - f|/f_max per step, not smoothed
   double force_smooth = not_known;                       ///< mean |f_g - f|/f_max with f_g smoothed
   double speed_mean = not_known, speed_max = not_known;  ///< |v| [m/s], not smoothed
+  /// How the wall gives way to a load that changes: v = creep - (df/dt)/k over the jammed samples,
+  /// v smoothed. Rigid grains exactly solved: 1/k = 0. See jam_stiffness.hpp for the same of one
+  /// step.
+  double stiffness = not_known;         ///< k [N/m]; negative or huge: not to be told from rigid
+  double compliance = not_known;        ///< 1/k [m/N]
+  double compliance_error = not_known;  ///< its standard error
+  double creep = not_known;             ///< outward velocity under a steady load [m/s]
 };
 JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min,
                          double f_max);

@@ -29,7 +29,25 @@ enum class Varied {
   loose_frequency,   ///< nu, from the loosest deposit
   rough_frequency,   ///< nu, with twice the friction
   strong_frequency,  ///< nu, under the largest load
-  time_step_fast
+  time_step_fast,
+  // the stages of decisive_stages.cpp: three samples, 200 iterations a step or the tolerance
+  box_length,               ///< L/H at 5 Hz
+  box_length_fast,          ///< L/H at 20 Hz
+  replica,                  ///< number of the perturbed start, 10 Hz
+  replica_fast,             ///< the same at 60 Hz
+  tight_frequency,          ///< nu, solver error at most 1e-2 g h
+  tightest_frequency,       ///< nu, at most 1e-3 g h
+  pressed_frequency,        ///< nu: lid pressed, mu 0.4 while depositing
+  pressed_rough_frequency,  ///< nu: lid pressed, mu 0.8
+  placed_frequency,         ///< nu: lid placed, mu 0.4
+  placed_rough_frequency,   ///< nu: lid placed, mu 0.8
+  light_frequency,          ///< nu: f_max = 6 m g, m_w = 0.1 m
+  light_strong_frequency,   ///< nu: f_max = 12 m g, m_w = 0.1 m
+  light_half_frequency,     ///< nu: f_max = 6 m g, m_w = 0.1 m, all at half scale
+  shape,                    ///< number of the grains' kind at 5 Hz
+  shape_fast,               ///< the same at 20 Hz
+  size_similar,             ///< number of grains, the box growing in all directions, 5 Hz
+  size_wide                 ///< number of grains, the box growing in y alone, 5 Hz
 };
 
 struct CampaignSettings {
@@ -61,9 +79,10 @@ struct Campaign {
   CampaignSettings settings;
   std::vector<CampaignRun> runs;
   std::vector<CampaignPoint> points;
-  std::vector<size_t> motion;  ///< runs of Figs. 3-7 and 12: the paper's 5 Hz, one for each seed,
-                               ///< with stored states
-  int packings = 0;            ///< different deposits
+  std::vector<size_t> motion;    ///< runs of Figs. 3-7 and 12: the paper's 5 Hz, one for each seed,
+                                 ///< with stored states
+  int packings = 0;              ///< different deposits
+  double packing_seconds = 0.0;  ///< theirs, estimated
 
   long steps() const;
   double seconds() const;  ///< estimate, core-seconds, packings included

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/box/vibrated_box.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 
@@ -27,15 +28,18 @@ std::string name_of(const RunSettings& s, int base_iterations) {
   add("gap", campaign_number(s.lid_raise), s.lid_raise != base_lid_raise);
   add("lid", "placed", !s.pressed);
   add("mudep", campaign_number(s.deposit_friction), s.deposit_friction != base_friction);
+  add("tol", campaign_number(s.tolerance), s.tolerance > 0.0);
+  if (!s.variant.empty()) name += '_' + s.variant;
   return name + "_seed=" + std::to_string(s.seed);
 }
 
-/// Core-seconds of a drive of the 1200-grain box: a step's fixed part, and an iteration of each
-/// backend, as measured on one machine (docs/measured). Only for telling how long the rest takes.
-double estimate(const RunSettings& s, long steps) {
-  constexpr double fixed = 8e-3, iteration = 0.18e-3;  // [s]
+/// Core-seconds of a drive: a step's fixed part, and an iteration of each backend, as measured with
+/// 1200 grains on one machine (docs/measured), in proportion to the grains. Only for telling how
+/// long the rest takes.
+double estimate(const RunSettings& s, long steps, int grains) {
+  constexpr double fixed = 3e-3, iteration = 0.08e-3;  // [s]
   const double factor = s.solver == "nncg" ? 1.0 : s.solver == "anderson_pgs" ? 1.3 : 0.8;
-  return static_cast<double>(steps) * (fixed + factor * iteration * s.iterations);
+  return static_cast<double>(steps) * grains / 1200.0 * (fixed + factor * iteration * s.iterations);
 }
 
 }  // namespace
@@ -47,8 +51,7 @@ long Campaign::steps() const {
 }
 
 double Campaign::seconds() const {
-  constexpr double packing = 85.0;  // of one core, 1200 grains
-  double sum = packing * packings;
+  double sum = packing_seconds;
   for (const CampaignRun& run : runs) sum += run.seconds;
   return sum;
 }
@@ -74,13 +77,14 @@ size_t CampaignBuilder::run(RunSettings s) {
   CampaignRun run;
   run.planned = {name, campaign.settings.scene, overrides_of(s)};
   run.steps = std::lround(s.duration / s.step);
-  run.seconds = estimate(s, run.steps);
+  const Scene scene = read_scene(find_scene(run.planned.scene), run.planned.overrides);
+  run.seconds = estimate(s, run.steps, scene.grains->count);
   run.stage = stage;
   campaign.runs.push_back(run);
   // what the deposit depends on, and nothing else of the run
-  packings_.insert(s.size + (s.pressed ? " pressed " : " placed ") +
-                   campaign_number(s.deposit_friction) + ' ' + campaign_number(s.lid_raise) + ' ' +
-                   std::to_string(s.seed));
+  constexpr double packing_of_grain = 0.04;  // [s] of one core
+  if (packings_.insert(packing_key(scene)).second)
+    campaign.packing_seconds += packing_of_grain * scene.grains->count;
   campaign.packings = static_cast<int>(packings_.size());
   return campaign.runs.size() - 1;
 }
@@ -122,7 +126,9 @@ std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) con
   if (!s.pressed) add("deposit.lid_pressure_weight", "0");
   if (s.deposit_friction != base_friction)
     add("deposit.friction", campaign_number(s.deposit_friction));
-  add("record.pose_rate", s.states ? "100" : "1");
+  if (s.tolerance > 0.0) add("solver.tolerance", campaign_number(s.tolerance));
+  set.insert(set.end(), s.set.begin(), s.set.end());
+  add("record.pose_rate", campaign_number(s.states ? 100.0 : s.pose_rate));
   add("record.forces", "false");
   if (s.states) add("record.state_rate", "100");
   return set;

@@ -22,8 +22,12 @@ struct RunSettings {
   double deposit_friction = base_friction;  ///< while the grains are deposited
   double lid_raise = base_lid_raise;        ///< [m]
   int iterations = 0;                       ///< 0: the campaign's
+  double tolerance = 0.0;                   ///< of the solver [g h]; 0: the scene's
+  std::string variant;                      ///< what else differs: a word for the run's name
+  std::vector<std::string> set;             ///< the variant's overrides, "dotted.key=value"
   int seed = 1;
-  bool states = false;  ///< keeps whole states
+  double pose_rate = 1.0;  ///< [1/s], without states
+  bool states = false;     ///< keeps whole states
 };
 
 /// "%g"
@@ -45,6 +49,8 @@ class CampaignBuilder {
              TimeWindow window = {});
 
   int seeds() const { return campaign.settings.seeds; }
+  /// The scene that all runs vary.
+  const Scene& scene() const { return scene_; }
 
   Campaign campaign;
   std::string stage;  ///< of the runs that come next

@@ -1,6 +1,7 @@
 // Which runs reproduce the paper.
 
 #include "experiments/paper/campaign_builder.hpp"
+#include "experiments/paper/decisive_stages.hpp"
 
 namespace ballast {
 namespace {
@@ -180,6 +181,7 @@ Campaign make_campaign(const CampaignSettings& settings) {
   add_sensitivity(build);
   build.stage = "investigation";
   add_investigation(build);
+  add_decisive_stages(build);
   return build.campaign;
 }
 

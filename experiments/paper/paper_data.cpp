@@ -22,7 +22,24 @@ const char* plural_of(Varied varied) {
                                    "frequencies, looser deposit",
                                    "frequencies, friction 0.8",
                                    "frequencies, f_max = 8 m g",
-                                   "steps at 60 Hz"};
+                                   "steps at 60 Hz",
+                                   "lengths of the box at 5 Hz",
+                                   "lengths of the box at 20 Hz",
+                                   "replicas at 10 Hz",
+                                   "replicas at 60 Hz",
+                                   "frequencies, solver at 1e-2",
+                                   "frequencies, solver at 1e-3",
+                                   "frequencies, lid pressed, μ 0.4",
+                                   "frequencies, lid pressed, μ 0.8",
+                                   "frequencies, lid placed, μ 0.4",
+                                   "frequencies, lid placed, μ 0.8",
+                                   "frequencies, f_max = 6 m g, m_w = 0.1 m",
+                                   "frequencies, f_max = 12 m g, m_w = 0.1 m",
+                                   "frequencies, the same at half scale",
+                                   "kinds of grains at 5 Hz",
+                                   "kinds of grains at 20 Hz",
+                                   "numbers of grains, similar boxes",
+                                   "numbers of grains, wider boxes"};
   return words[static_cast<size_t>(varied)];
 }
 
@@ -51,6 +68,26 @@ std::filesystem::path PaperData::folder(size_t run) const {
 }
 
 RunData PaperData::read(size_t run) const { return read_run_data(folder(run)); }
+
+const std::vector<RunObservables>& PaperData::observables() {
+  if (!observables_.empty()) return observables_;
+  for (size_t k = 0; k < campaign_.runs.size(); ++k) {
+    if (!has(k)) continue;
+    RunObservables run = observe_run(read(k));
+    run.run = k;
+    run.name = campaign_.runs[k].planned.name;
+    run.stage = campaign_.runs[k].stage;
+    run.key = folder(k).filename().string();
+    observables_.push_back(std::move(run));
+  }
+  return observables_;
+}
+
+const RunObservables* PaperData::observables_of(size_t run) {
+  for (const RunObservables& seen : observables())
+    if (seen.run == run) return &seen;
+  return nullptr;
+}
 
 int PaperData::finished() const {
   return static_cast<int>(std::count(finished_.begin(), finished_.end(), true));
@@ -92,6 +129,7 @@ std::vector<VariedValue> PaperData::values(Varied which) {
     if (const Observation* seen = observation(point)) {
       value.samples.push_back(*seen);
       value.seeds.push_back(point.seed);
+      value.runs.push_back(point.run);
     }
   }
   std::vector<VariedValue> list;
@@ -116,12 +154,6 @@ std::string PaperData::missing(Varied which) const {
   return "PARTIAL: " + std::to_string(there.size()) + " of " + std::to_string(planned.size()) +
          ' ' + plural_of(which) + ", " + std::to_string(done) + " of " + std::to_string(runs) +
          " runs.";
-}
-
-double grain_count(const RunData& data) {
-  const double noted = data.summary_number("grains");
-  if (std::isfinite(noted)) return noted;
-  return data.scene && data.scene->grains ? data.scene->grains->count : not_known;
 }
 
 }  // namespace ballast

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/paper/campaign.hpp"
+#include "experiments/paper/run_observables.hpp"
 
 namespace ballast {
 
@@ -19,6 +20,7 @@ struct VariedValue {
   int planned = 0;                   ///< seeds that the campaign has
   std::vector<Observation> samples;  ///< seeds that are finished
   std::vector<int> seeds;            ///< theirs, growing
+  std::vector<size_t> runs;          ///< theirs, for PaperData::observables_of
   SampleMean mean(double Observation::*quantity) const;
   const Observation* of_seed(int seed) const;  ///< null: not finished
 };
@@ -39,6 +41,10 @@ class PaperData {
   std::filesystem::path folder(size_t run) const;
   /// A finished run's record. Throws Error.
   RunData read(size_t run) const;
+  /// Every finished run, measured, in the campaign's order: read once, on the first call.
+  const std::vector<RunObservables>& observables();
+  /// The one of this run; null: not finished.
+  const RunObservables* observables_of(size_t run);
   /// Finished ones of Campaign::motion.
   std::vector<size_t> motion() const;
   /// A run at this of the frequencies that are varied, the least seed that is finished.
@@ -51,13 +57,11 @@ class PaperData {
   Campaign campaign_;
   std::filesystem::path results_;
   std::vector<bool> finished_;
+  std::vector<RunObservables> observables_;
   std::map<std::pair<size_t, double>, Observation> seen_;  // by run and window
 };
 
 /// Many values of what is varied, as a note calls them: "frequencies".
 const char* plural_of(Varied varied);
-
-/// The grains of a run, from its manifest's summary.
-double grain_count(const RunData& data);
 
 }  // namespace ballast

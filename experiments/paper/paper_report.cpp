@@ -87,6 +87,8 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
   for (const PaperSection& section : sections)
     for (const page::Picture& figure : section.figures)
       write_whole_file(folder / "data" / (figure.plot.name + ".csv"), figure_csv(figure.plot));
+  write_whole_file(folder / "data" / "runs.csv", runs_csv(data.observables()));
+  write_whole_file(folder / "data" / "runs_columns.csv", run_columns_csv());
   page::Page page = paper_page(sections, origin_of(data));
   // the data stand beside as CSV, and README.md shows the files themselves
   page::draw_pictures(page, folder, {.with_script = false, .on_white = true});

@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "experiments/paper/decisive_stages.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -73,6 +74,12 @@ std::vector<const ReportSection*> sections_of(const std::string& target) {
   return found;
 }
 
+bool is_stage(const std::string& target) {
+  const auto stages = decisive_stages();
+  return std::any_of(stages.begin(), stages.end(),
+                     [&](const DecisiveStage& stage) { return target == stage.name; });
+}
+
 bool is_needed(const ReportSection& section, const CampaignPoint& point) {
   return std::find(section.needs.begin(), section.needs.end(), point.varied) !=
              section.needs.end() &&
@@ -89,16 +96,22 @@ std::span<const ReportSection> paper_sections() {
 std::vector<std::string> paper_targets() {
   std::vector<std::string> names;
   for (const ReportSection& section : paper_sections()) names.emplace_back(section.name);
+  for (const DecisiveStage& stage : decisive_stages())
+    if (sections_of(stage.name).empty()) names.emplace_back(stage.name);
   names.emplace_back(every_section);
   return names;
 }
 
 std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target) {
   const std::vector<const ReportSection*> sections = sections_of(target);
-  if (sections.empty())
-    throw std::invalid_argument("paper: '" + target + "' is not one of " + joined(paper_targets()));
   // a set: a run that several sections draw is made once, and in the campaign's order
   std::set<size_t> needed;
+  // all the runs of a stage, and for the whole report every run there is
+  for (size_t k = 0; k < campaign.runs.size(); ++k)
+    if (is_stage(target) ? campaign.runs[k].stage == target : target == every_section)
+      needed.insert(k);
+  if (sections.empty() && !is_stage(target))
+    throw std::invalid_argument("paper: '" + target + "' is not one of " + joined(paper_targets()));
   for (const ReportSection* section : sections) {
     if (section->needs_motion) needed.insert(campaign.motion.begin(), campaign.motion.end());
     for (const CampaignPoint& point : campaign.points)
@@ -121,7 +134,9 @@ std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target)
 
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target) {
   std::vector<PaperSection> made;
-  for (const ReportSection* section : sections_of(target)) {
+  // a stage that no section is called after: all sections, with what there is
+  const bool draws_all = sections_of(target).empty() && is_stage(target);
+  for (const ReportSection* section : sections_of(draws_all ? every_section : target)) {
     made.push_back(section->make(data));
     made.back().id = section->name;
     made.back().heading = page::words(section->name + std::string(".heading"));

@@ -116,6 +116,9 @@ struct DriveSpec {
   double f_min_over_weight = 0.0;
   double wall_mass_over_grains = 0.5;  ///< m_w / m
   double lid_raise = 0.01;             ///< [m]
+  double start_noise = 0.0;  ///< every grain's centre is moved by up to this along each axis [m]:
+                             ///< runs that differ in nothing else show the floor of chaos
+  std::uint64_t start_noise_seed = 1;
 };
 
 /// The paper's box is the default: it is known how it moves with these numbers. Other scenes have

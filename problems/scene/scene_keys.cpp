@@ -184,6 +184,11 @@ const SceneKeys<DriveSpec> drive_keys{
     {"wall_mass_over_grains", number(&DriveSpec::wall_mass_over_grains, positive, "grain masses"),
      "the wall's mass in masses of all grains"},
     {"lid_raise", number(&DriveSpec::lid_raise, not_negative, "m"), "gap that the lid leaves"},
+    {"start_noise", number(&DriveSpec::start_noise, not_negative, "m"),
+     "the centres of the grains start the drive moved by up to this along each axis, drawn evenly: "
+     "1e-12 makes replicas, whose differences are chaos alone",
+     Presence::only_where_given},
+    {"start_noise_seed", seed(&DriveSpec::start_noise_seed), "of that", Presence::only_where_given},
 };
 
 const SceneKeys<ControlVolumeSpec> control_volume_keys{

@@ -123,3 +123,28 @@ TEST_CASE("a packing comes back to the last bit, and only to whom it belongs") {
   put_bytes(file, "cut off");
   CHECK_THAT(run_error([&] { read_packing(file, "key", read); }), Contains(file.string()));
 }
+
+TEST_CASE("a noise at the start moves every grain a little, by its seed, and the packing stays") {
+  const TemporaryFolder folder;
+  const Scene quiet = small_box(),
+              noisy = small_box({"drive.start_noise=1e-9", "drive.start_noise_seed=5"}),
+              other = small_box({"drive.start_noise=1e-9", "drive.start_noise_seed=6"});
+  CHECK(packing_key(quiet) == packing_key(noisy));
+  std::vector<BoxStage> stages;
+  const Packing packing = deposited(quiet, folder.path() / "part", stages);
+  const Rain rain = make_rain(quiet);
+  MotionState from, moved, again, differently;
+  drive_system(quiet, rain, packing, from);
+  drive_system(noisy, rain, packing, moved);
+  drive_system(noisy, rain, packing, again);
+  drive_system(other, rain, packing, differently);
+  CHECK(same_bits(moved.pose, again.pose));
+  CHECK_FALSE(same_bits(moved.pose, differently.pose));
+  for (size_t b = 0; b < from.pose.size(); ++b) {
+    const double way = (moved.pose[b].position - from.pose[b].position).cwiseAbs().maxCoeff();
+    if (b < rain.grains.size())
+      CHECK((way > 0.0 && way < 1.1e-9));
+    else
+      CHECK(way == 0.0);
+  }
+}

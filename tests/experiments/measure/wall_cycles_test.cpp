@@ -66,6 +66,31 @@ TEST_CASE("the stroke of a swinging wall is its swing") {
   }
 }
 
+TEST_CASE("a jam that gives way as a spring, and creeps, has that stiffness and that creep") {
+  // out by 1 cm and back in the first half of each period; then x = -f/k, creeping inwards
+  const double h = 1e-4, frequency = 5.0, stiffness = 1e7, creep = -1e-5, f_max = 6000.0;
+  std::vector<StepRecord> steps;
+  for (long k = 1; k <= std::lround(1.0 / h); ++k) {
+    StepRecord s;
+    s.time = static_cast<double>(k) * h;
+    const double turn = s.time * frequency, phase = turn - std::floor(turn),
+                 omega = 2.0 * std::numbers::pi * frequency;
+    s.load = s.wall_force = 0.5 * f_max * (1.0 - std::sin(omega * s.time));
+    const double rate = -0.5 * f_max * omega * std::cos(omega * s.time);
+    s.wall_v = phase < 0.5 ? 0.1 * std::sin(2.0 * omega * s.time) : creep - rate / stiffness;
+    s.wall_x = phase < 0.5 ? 0.01 * std::sin(omega * s.time) : 0.0;
+    steps.push_back(s);
+  }
+  WallSettings settings;
+  settings.smoothing = 0.0;
+  const WallCycles cycles = wall_cycles(steps, frequency, h, settings);
+  const JammedState jam = jammed_state(steps, cycles, 0.0, f_max);
+  REQUIRE(jam.samples > 100);
+  CHECK(jam.stiffness == Approx(stiffness).epsilon(1e-4));
+  CHECK(jam.creep == Approx(creep).epsilon(1e-4));
+  CHECK(jam.compliance_error < 1e-3 * jam.compliance);
+}
+
 TEST_CASE("a frequency or a step that is not positive is refused") {
   const auto steps = swinging(5.0, 1.0, 1e-3, 1.0);
   CHECK_THROWS_AS(wall_cycles(steps, 0.0, 1e-3), std::invalid_argument);

@@ -1,0 +1,79 @@
+#include "experiments/measure/roll.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+namespace {
+
+bool is_between(double x, double lo, double hi) { return x >= lo && x <= hi; }
+
+}  // namespace
+
+std::vector<Displacement> displacements(std::span<const Pose> before, std::span<const Pose> after,
+                                        size_t grains) {
+  std::vector<Displacement> list;
+  for (size_t b = 0; b < grains; ++b)
+    list.push_back(
+        {0.5 * (before[b].position + after[b].position), after[b].position - before[b].position});
+  return list;
+}
+
+bool Roll::goes_round() const {
+  return std::all_of(along.begin(), along.end(), [](double a) { return a > 0.0; }) ||
+         std::all_of(along.begin(), along.end(), [](double a) { return a < 0.0; });
+}
+
+Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& r, double reach) {
+  std::array<double, 4> sum{}, count{};
+  const auto add = [&](size_t side, bool is_near, double along) {
+    if (!is_near) return;
+    sum[side] += along;
+    count[side] += 1.0;
+  };
+  // a grain near a corner counts for both sides
+  for (const Displacement& d : displacements) {
+    const double x = d.place.x(), z = d.place.z();
+    const bool in_x = is_between(x, r.x_lo, r.x_hi), in_z = is_between(z, r.z_lo, r.z_hi);
+    add(0, in_x && std::abs(z - r.z_hi) <= reach, d.move.x());
+    add(1, in_z && std::abs(x - r.x_hi) <= reach, -d.move.z());
+    add(2, in_x && std::abs(z - r.z_lo) <= reach, -d.move.x());
+    add(3, in_z && std::abs(x - r.x_lo) <= reach, d.move.z());
+  }
+  Roll roll;
+  if (*std::min_element(count.begin(), count.end()) == 0.0) return roll;
+  for (size_t side = 0; side < 4; ++side) roll.along[side] = sum[side] / count[side];
+  roll.circulation = (roll.along[0] + roll.along[2]) * (r.x_hi - r.x_lo) +
+                     (roll.along[1] + roll.along[3]) * (r.z_hi - r.z_lo);
+  return roll;
+}
+
+RollField roll_field(std::span<const Displacement> displacements, const XzRectangle& r, int columns,
+                     int rows) {
+  const size_t cells = static_cast<size_t>(columns) * static_cast<size_t>(rows);
+  RollField field{
+      columns, rows, {}, {}, std::vector<double>(cells, 0.0), std::vector<double>(cells, 0.0)};
+  const double width = (r.x_hi - r.x_lo) / columns, height = (r.z_hi - r.z_lo) / rows;
+  std::vector<double> count(cells, 0.0);
+  for (const Displacement& d : displacements) {
+    const double column = std::floor((d.place.x() - r.x_lo) / width),
+                 row = std::floor((d.place.z() - r.z_lo) / height);
+    if (!is_between(column, 0, columns - 1) || !is_between(row, 0, rows - 1)) continue;
+    const size_t cell =
+        static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
+    field.move_x[cell] += d.move.x();
+    field.move_z[cell] += d.move.z();
+    count[cell] += 1.0;
+  }
+  // 0/0 where there is no grain: not known
+  for (size_t cell = 0; cell < cells; ++cell) {
+    const size_t row = cell / static_cast<size_t>(columns), column = cell % columns;
+    field.x.push_back(r.x_lo + (static_cast<double>(column) + 0.5) * width);
+    field.z.push_back(r.z_lo + (static_cast<double>(row) + 0.5) * height);
+    field.move_x[cell] /= count[cell];
+    field.move_z[cell] /= count[cell];
+  }
+  return field;
+}
+
+}  // namespace ballast

@@ -1,0 +1,55 @@
+#pragma once
+// Do the grains roll? Their displacements over whole periods of the load (stroboscopic: the same
+// phase, so that what goes to and fro drops out), and how these go around a loop in the xz plane
+// (paper, Fig. 6).
+//
+// A mean vorticity cannot tell a roll from shear: both have a circulation. A roll goes round: along
+// all four sides of a rectangle the displacement has the same sense.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "experiments/measure/curve_fit.hpp"
+#include "geometry/shape/pose.hpp"
+
+namespace ballast {
+
+/// What one grain has done.
+struct Displacement {
+  Vec3 place;  ///< of its centre, at the middle of its way [m]
+  Vec3 move;   ///< [m]
+};
+/// Of the first `grains` bodies between two states.
+std::vector<Displacement> displacements(std::span<const Pose> before, std::span<const Pose> after,
+                                        size_t grains);
+
+/// A rectangle in the xz plane; y is averaged over.
+struct XzRectangle {
+  double x_lo, x_hi, z_lo, z_hi;  ///< [m]
+};
+
+/// The sense of the motion along the sides of a rectangle, positive clockwise with x to the right
+/// (the driven wall) and z upwards: right along the top, down the right side, left along the
+/// bottom, up the left side.
+struct Roll {
+  std::array<double, 4> along{not_known, not_known, not_known,
+                              not_known};  ///< mean displacement along top, right, bottom, left [m]
+  double circulation = not_known;          ///< its integral around the rectangle [m^2]
+  bool goes_round() const;                 ///< all four have one sign
+};
+/// Grains within `reach` of a side count for it: about a grain's size [m]. A side without a grain
+/// makes all of it not known.
+Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& rectangle,
+             double reach);
+
+/// Mean displacement on a grid over the rectangle, for a picture: row by row from the lowest, NaN
+/// without grains.
+struct RollField {
+  int columns = 0, rows = 0;
+  std::vector<double> x, z, move_x, move_z;  ///< centres of the cells, means [m]
+};
+RollField roll_field(std::span<const Displacement> displacements, const XzRectangle& rectangle,
+                     int columns, int rows);
+
+}  // namespace ballast

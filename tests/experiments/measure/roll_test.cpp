@@ -1,0 +1,78 @@
+// A roll against shear and translation: fields whose circulation is known.
+
+#include "experiments/measure/roll.hpp"
+
+#include <cmath>
+
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// Grains on a grid in [0, 2] x [0, 1] of the xz plane, moved by a function of place.
+template <class Move>
+std::vector<Displacement> moved(const Move& move) {
+  std::vector<Displacement> list;
+  for (int i = 0; i <= 40; ++i)
+    for (int k = 0; k <= 20; ++k) {
+      const Vec3 place(0.05 * i, 0.3, 0.05 * k);
+      list.push_back({place, move(place)});
+    }
+  return list;
+}
+
+constexpr XzRectangle middle{0.5, 1.5, 0.25, 0.75};
+
+}  // namespace
+
+TEST_CASE("a turn as of a rigid body goes round, with twice its angle times the area") {
+  const double angle = 0.01;  // clockwise: right at the top
+  const auto field =
+      moved([&](const Vec3& x) { return Vec3(angle * (x.z() - 0.5), 0, -angle * (x.x() - 1.0)); });
+  const Roll roll = roll_of(field, middle, 0.01);
+  CHECK(roll.circulation == Approx(2.0 * angle * 0.5));
+  CHECK(roll.goes_round());
+  CHECK(roll.along[0] == Approx(angle * 0.25));
+  CHECK(roll.along[1] == Approx(angle * 0.5));
+}
+
+TEST_CASE("shear has a circulation and does not go round; a translation has none") {
+  const auto shear = moved([](const Vec3& x) { return Vec3(0.01 * (x.z() - 0.5), 0, 0); });
+  const Roll sheared = roll_of(shear, middle, 0.01);
+  CHECK(sheared.circulation == Approx(0.01 * 0.5));
+  CHECK_FALSE(sheared.goes_round());
+  const Roll carried = roll_of(moved([](const Vec3&) { return Vec3(1, 2, 3); }), middle, 0.01);
+  CHECK(carried.circulation == Approx(0.0).margin(1e-12));
+  CHECK_FALSE(carried.goes_round());
+}
+
+TEST_CASE("a side without a grain makes the roll not known") {
+  auto field = moved([](const Vec3&) { return Vec3(1, 0, 0); });
+  std::erase_if(field, [](const Displacement& d) { return d.place.z() > 0.6; });
+  const Roll roll = roll_of(field, middle, 0.01);
+  CHECK(std::isnan(roll.circulation));
+  CHECK_FALSE(roll.goes_round());
+}
+
+TEST_CASE("displacements are of the first bodies alone, at the middle of their way") {
+  std::vector<Pose> before(3), after(3);
+  after[1].position = Vec3(0.2, 0, 0);
+  const auto list = displacements(before, after, 2);
+  REQUIRE(list.size() == 2);
+  CHECK(list[1].move.x() == 0.2);
+  CHECK(list[1].place.x() == 0.1);
+}
+
+TEST_CASE("the field's cells hold the means of their grains, and nothing without grains") {
+  const auto field = roll_field(std::vector<Displacement>{{Vec3(0.1, 0, 0.1), Vec3(1, 0, 2)},
+                                                          {Vec3(0.2, 0, 0.2), Vec3(3, 0, 2)},
+                                                          {Vec3(5, 0, 0), Vec3(9, 9, 9)}},
+                                {0, 1, 0, 1}, 2, 2);
+  REQUIRE(field.move_x.size() == 4);
+  CHECK(field.move_x[0] == 2.0);
+  CHECK(field.move_z[0] == 2.0);
+  CHECK(std::isnan(field.move_x[3]));
+  CHECK(field.x[1] == Approx(0.75));
+  CHECK(field.z[2] == Approx(0.75));
+}

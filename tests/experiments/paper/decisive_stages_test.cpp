@@ -1,0 +1,110 @@
+// The stages that decide: valid scenes, three samples each, and the settings that their names say.
+
+#include "experiments/paper/decisive_stages.hpp"
+
+#include <map>
+#include <set>
+
+#include "experiments/box/vibrated_box.hpp"
+#include "experiments/paper/sections.hpp"
+#include "problems/scene/scene_file.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+Campaign decisive(const CampaignSettings& settings = {}) {
+  CampaignBuilder build(settings);
+  add_decisive_stages(build);
+  return build.campaign;
+}
+
+Scene scene_of(const Campaign& campaign, const CampaignPoint& point) {
+  const PlannedRun& run = campaign.runs[point.run].planned;
+  return read_scene(find_scene(run.scene), run.overrides);
+}
+
+}  // namespace
+
+TEST_CASE("every decisive value has three samples, at 200 iterations or by its tolerance") {
+  const Campaign campaign = decisive();
+  std::map<std::pair<Varied, double>, std::set<int>> seeds;
+  for (const CampaignPoint& point : campaign.points) {
+    seeds[{point.varied, point.value}].insert(point.seed);
+    const Scene scene = scene_of(campaign, point);
+    CHECK(scene.solver.max_iterations >= decisive_iterations);
+    CHECK(scene.duration * scene.drive.frequency >= 3.0 - 1e-9);
+  }
+  for (const auto& [value, samples] : seeds) {
+    const bool is_replica = value.first == Varied::replica || value.first == Varied::replica_fast;
+    CHECK(samples.size() == (is_replica ? 1u : 3u));
+  }
+}
+
+TEST_CASE("the box is longer at the same height and width, and its grains follow the length") {
+  const Campaign campaign = decisive();
+  const Scene base = read_scene(find_scene("vibrated_box"), {});
+  int seen = 0;
+  for (const CampaignPoint& point : campaign.points) {
+    if (point.varied != Varied::box_length) continue;
+    const Scene scene = scene_of(campaign, point);
+    const double longer = scene.box.length / base.box.length;
+    CHECK(longer == Approx(point.value / base_box_shape).epsilon(1e-5));
+    CHECK(scene.grains->count == Approx(longer * base.grains->count).margin(0.5));
+    CHECK(scene.box.width == base.box.width);
+    ++seen;
+  }
+  CHECK(seen == 15);
+}
+
+TEST_CASE("replicas share a packing and differ in the seed of their noise alone") {
+  const Campaign campaign = decisive();
+  std::set<std::string> packings;
+  std::set<std::uint64_t> noises;
+  for (const CampaignPoint& point : campaign.points) {
+    if (point.varied != Varied::replica && point.varied != Varied::replica_fast) continue;
+    const Scene scene = scene_of(campaign, point);
+    CHECK(scene.drive.start_noise == 1e-12);
+    packings.insert(packing_key(scene));
+    noises.insert(scene.drive.start_noise_seed);
+  }
+  CHECK(packings.size() == 1);
+  CHECK(noises.size() == 8);
+}
+
+TEST_CASE("similar boxes keep their shape, wider ones their height and length") {
+  const Campaign campaign = decisive();
+  const Scene base = read_scene(find_scene("vibrated_box"), {});
+  for (const CampaignPoint& point : campaign.points) {
+    if (point.varied != Varied::size_similar && point.varied != Varied::size_wide) continue;
+    const Scene scene = scene_of(campaign, point);
+    const double area = scene.box.length * scene.box.width,
+                 base_area = base.box.length * base.box.width,
+                 height = scene.grains->count / area / (base.grains->count / base_area);
+    if (point.varied == Varied::size_similar) {
+      CHECK(height == Approx(scene.box.length / base.box.length).epsilon(0.01));
+      CHECK(scene.box.length == Approx(scene.box.width));
+    } else {
+      CHECK(height == Approx(1.0).epsilon(0.01));
+      CHECK(scene.box.length == base.box.length);
+    }
+  }
+}
+
+TEST_CASE("a stage is a target of its own runs, all of them belong to \"all\"") {
+  const Campaign campaign = make_campaign({});
+  for (const DecisiveStage& stage : decisive_stages())
+    for (const size_t run : runs_for(campaign, stage.name))
+      CHECK(campaign.runs[run].stage == stage.name);
+  CHECK(runs_for(campaign, "all").size() == campaign.runs.size());
+  CHECK_THROWS_AS(runs_for(campaign, "boxes"), std::invalid_argument);
+}
+
+TEST_CASE("a scene of a few grains has the stages too, never narrower than a grain") {
+  CampaignSettings settings;
+  settings.scene = "vibrated_box_small";
+  settings.overrides = {"grains.count=20", "box.length=0.14", "box.width=0.14"};
+  const Campaign campaign = decisive(settings);
+  CHECK(campaign.runs.size() == decisive().runs.size());
+}
