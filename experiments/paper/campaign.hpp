@@ -47,7 +47,8 @@ enum class Varied {
   shape,                    ///< number of the grains' kind at 5 Hz
   shape_fast,               ///< the same at 20 Hz
   size_similar,             ///< number of grains, the box growing in all directions, 5 Hz
-  size_wide                 ///< number of grains, the box growing in y alone, 5 Hz
+  size_wide,                ///< number of grains, the box growing in y alone, 5 Hz
+  reading_frequency         ///< nu in vibrated_box_paper, the most probable reading of the paper
 };
 
 struct CampaignSettings {
@@ -73,6 +74,7 @@ struct CampaignPoint {
   int seed = 1;
   size_t run = 0;     ///< index into Campaign::runs
   TimeWindow window;  ///< of the periods that count
+  std::string stage;  ///< that asks for it; its run may be one of an earlier stage
 };
 
 struct Campaign {

@@ -29,6 +29,7 @@ std::string name_of(const RunSettings& s, int base_iterations) {
   add("lid", "placed", !s.pressed);
   add("mudep", campaign_number(s.deposit_friction), s.deposit_friction != base_friction);
   add("tol", campaign_number(s.tolerance), s.tolerance > 0.0);
+  if (!s.scene.empty()) name += '_' + s.scene;
   if (!s.variant.empty()) name += '_' + s.variant;
   return name + "_seed=" + std::to_string(s.seed);
 }
@@ -75,7 +76,7 @@ size_t CampaignBuilder::run(RunSettings s) {
   for (size_t k = 0; k < campaign.runs.size(); ++k)
     if (campaign.runs[k].planned.name == name) return k;
   CampaignRun run;
-  run.planned = {name, campaign.settings.scene, overrides_of(s)};
+  run.planned = {name, s.scene.empty() ? campaign.settings.scene : s.scene, overrides_of(s)};
   run.steps = std::lround(s.duration / s.step);
   const Scene scene = read_scene(find_scene(run.planned.scene), run.planned.overrides);
   run.seconds = estimate(s, run.steps, scene.grains->count);
@@ -93,12 +94,14 @@ void CampaignBuilder::point(Varied varied, double value, const std::string& labe
                             RunSettings settings, int seeds, TimeWindow window) {
   for (int seed = 1; seed <= seeds; ++seed) {
     settings.seed = seed;
-    campaign.points.push_back({varied, value, label, seed, run(settings), window});
+    campaign.points.push_back({varied, value, label, seed, run(settings), window, stage});
   }
 }
 
 std::vector<std::string> CampaignBuilder::overrides_of(const RunSettings& s) const {
-  std::vector<std::string> set = campaign.settings.overrides;
+  // what the user overrides is of the campaign's scene
+  std::vector<std::string> set;
+  if (s.scene.empty()) set = campaign.settings.overrides;
   const auto add = [&](const char* key, const std::string& value) {
     set.push_back(std::string(key) + '=' + value);
   };

@@ -23,6 +23,7 @@ struct RunSettings {
   double lid_raise = base_lid_raise;        ///< [m]
   int iterations = 0;                       ///< 0: the campaign's
   double tolerance = 0.0;                   ///< of the solver [g h]; 0: the scene's
+  std::string scene;                        ///< empty: the campaign's
   std::string variant;                      ///< what else differs: a word for the run's name
   std::vector<std::string> set;             ///< the variant's overrides, "dotted.key=value"
   int seed = 1;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems/scene/scene_file.hpp"
+
 namespace ballast {
 namespace {
 
@@ -145,6 +147,19 @@ void add_shapes(CampaignBuilder& build) {
     }
 }
 
+/// The scene in which the silent choices are those that the paper's own numbers ask for.
+void add_reading(CampaignBuilder& build) {
+  // beside the paper's box alone: a campaign of another one is for trying out
+  if (build.campaign.settings.scene != CampaignSettings{}.scene) return;
+  const Scene scene = read_scene(find_scene(reading_scene));
+  RunSettings s = decisive_run(10.0);
+  s.scene = reading_scene;
+  s.force = scene.drive.f_max_over_weight;
+  s.wall_mass = scene.drive.wall_mass_over_grains;
+  s.iterations = scene.solver.max_iterations;
+  add_frequencies(build, Varied::reading_frequency, {5.0, 10.0, 20.0, 60.0, 2.0, 1.0}, s);
+}
+
 /// Is the length in Delta x = l Phi(X/l) the grains' or the packing's? Similar boxes (H/L fixed)
 /// grow in both, wider ones (H/d fixed) in neither.
 void add_sizes(CampaignBuilder& build) {
@@ -189,10 +204,10 @@ const std::vector<GrainKind>& grain_kinds() {
 }
 
 std::span<const DecisiveStage> decisive_stages() {
-  static constexpr DecisiveStage stages[] = {{"box", add_box_lengths}, {"replicas", add_replicas},
-                                             {"tight", add_tight},     {"deposits", add_deposits},
-                                             {"loads", add_loads},     {"shapes", add_shapes},
-                                             {"sizes", add_sizes},     {"tightest", add_tightest}};
+  static constexpr DecisiveStage stages[] = {
+      {"box", add_box_lengths}, {"reading", add_reading},   {"replicas", add_replicas},
+      {"tight", add_tight},     {"deposits", add_deposits}, {"loads", add_loads},
+      {"shapes", add_shapes},   {"sizes", add_sizes},       {"tightest", add_tightest}};
   return stages;
 }
 

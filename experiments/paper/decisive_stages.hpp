@@ -10,6 +10,7 @@
 namespace ballast {
 
 inline constexpr int decisive_iterations = 200;
+inline constexpr const char* reading_scene = "vibrated_box_paper";
 
 /// The lengths of the box over the height of the packing in it.
 inline constexpr double box_shapes[] = {0.6, 0.87, 1.2, 1.8, 2.5};

@@ -39,7 +39,8 @@ const char* plural_of(Varied varied) {
                                    "kinds of grains at 5 Hz",
                                    "kinds of grains at 20 Hz",
                                    "numbers of grains, similar boxes",
-                                   "numbers of grains, wider boxes"};
+                                   "numbers of grains, wider boxes",
+                                   "frequencies, the paper's reading"};
   return words[static_cast<size_t>(varied)];
 }
 

@@ -106,10 +106,9 @@ std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target
   const std::vector<const ReportSection*> sections = sections_of(target);
   // a set: a run that several sections draw is made once, and in the campaign's order
   std::set<size_t> needed;
-  // all the runs of a stage, and for the whole report every run there is
-  for (size_t k = 0; k < campaign.runs.size(); ++k)
-    if (is_stage(target) ? campaign.runs[k].stage == target : target == every_section)
-      needed.insert(k);
+  for (const CampaignPoint& point : campaign.points)
+    if ((is_stage(target) && target == point.stage) || target == every_section)
+      needed.insert(point.run);
   if (sections.empty() && !is_stage(target))
     throw std::invalid_argument("paper: '" + target + "' is not one of " + joined(paper_targets()));
   for (const ReportSection* section : sections) {

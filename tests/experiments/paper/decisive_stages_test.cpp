@@ -2,6 +2,7 @@
 
 #include "experiments/paper/decisive_stages.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -73,6 +74,22 @@ TEST_CASE("replicas share a packing and differ in the seed of their noise alone"
   CHECK(noises.size() == 8);
 }
 
+TEST_CASE("the paper's reading is driven as its own scene says") {
+  const Scene scene = read_scene(find_scene(reading_scene));
+  const Campaign campaign = decisive();
+  for (const CampaignPoint& point : campaign.points) {
+    if (point.varied != Varied::reading_frequency) continue;
+    const PlannedRun& run = campaign.runs[point.run].planned;
+    const Scene driven = read_scene(find_scene(run.scene), run.overrides);
+    CHECK(run.scene == reading_scene);
+    CHECK(driven.drive.frequency == point.value);
+    CHECK(driven.drive.f_max_over_weight == scene.drive.f_max_over_weight);
+    CHECK(driven.drive.wall_mass_over_grains == scene.drive.wall_mass_over_grains);
+    CHECK(driven.solver.max_iterations == scene.solver.max_iterations);
+    CHECK(driven.box.length == scene.box.length);
+  }
+}
+
 TEST_CASE("similar boxes keep their shape, wider ones their height and length") {
   const Campaign campaign = decisive();
   const Scene base = read_scene(find_scene("vibrated_box"), {});
@@ -94,9 +111,14 @@ TEST_CASE("similar boxes keep their shape, wider ones their height and length") 
 
 TEST_CASE("a stage is a target of its own runs, all of them belong to \"all\"") {
   const Campaign campaign = make_campaign({});
-  for (const DecisiveStage& stage : decisive_stages())
-    for (const size_t run : runs_for(campaign, stage.name))
-      CHECK(campaign.runs[run].stage == stage.name);
+  for (const DecisiveStage& stage : decisive_stages()) {
+    std::set<size_t> asked;
+    for (const CampaignPoint& point : campaign.points)
+      if (point.stage == stage.name) asked.insert(point.run);
+    const auto runs = runs_for(campaign, stage.name);
+    CHECK_FALSE(runs.empty());
+    CHECK(std::set<size_t>(runs.begin(), runs.end()) == asked);
+  }
   CHECK(runs_for(campaign, "all").size() == campaign.runs.size());
   CHECK_THROWS_AS(runs_for(campaign, "boxes"), std::invalid_argument);
 }
@@ -106,5 +128,10 @@ TEST_CASE("a scene of a few grains has the stages too, never narrower than a gra
   settings.scene = "vibrated_box_small";
   settings.overrides = {"grains.count=20", "box.length=0.14", "box.width=0.14"};
   const Campaign campaign = decisive(settings);
-  CHECK(campaign.runs.size() == decisive().runs.size());
+  const Campaign whole = decisive();
+  const auto readings = std::count_if(whole.runs.begin(), whole.runs.end(), [](const auto& run) {
+    return run.planned.scene == reading_scene;
+  });
+  CHECK(readings == 18);
+  CHECK(campaign.runs.size() + 18 == whole.runs.size());
 }
