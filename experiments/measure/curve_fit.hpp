@@ -39,16 +39,6 @@ struct Projection {
   double amplitude = not_known, residual = not_known;
 };
 template <class Shape>
-Projection residual_at(double amplitude, std::span<const double> x, std::span<const double> y,
-                       const Shape& shape) {
-  Projection result{amplitude, 0.0};
-  for (size_t k = 0; k < x.size(); ++k) {
-    const double miss = y[k] - amplitude * shape(x[k]);
-    result.residual += miss * miss;
-  }
-  return result;
-}
-template <class Shape>
 Projection project(std::span<const double> x, std::span<const double> y, const Shape& shape) {
   double sy = 0.0, ss = 0.0;
   for (size_t k = 0; k < x.size(); ++k) {
@@ -56,7 +46,12 @@ Projection project(std::span<const double> x, std::span<const double> y, const S
     sy += s * y[k];
     ss += s * s;
   }
-  return residual_at(sy / ss, x, y, shape);
+  Projection result{sy / ss, 0.0};
+  for (size_t k = 0; k < x.size(); ++k) {
+    const double miss = y[k] - result.amplitude * shape(x[k]);
+    result.residual += miss * miss;
+  }
+  return result;
 }
 
 /// Centred low-pass without phase shift: Hann-weighted mean over `width` samples to both sides

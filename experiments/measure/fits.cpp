@@ -113,8 +113,7 @@ Proportion fit_proportion(std::span<const double> x, std::span<const double> y) 
 
 double PeakedRate::at(double frequency) const { return gain * peaked_shape(frequency, critical); }
 
-PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate,
-                           double gain) {
+PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate) {
   // Eq. 5: the rate is D nu up to nu_c and D nu_c^2 / nu beyond, D the gain of a period.
   std::vector<double> x, y;
   for (size_t k = 0; k < std::min(frequency.size(), rate.size()); ++k)
@@ -127,8 +126,7 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   if (fit.samples < 3) return fit;
   // Once nu_c is chosen the best gain follows (the rate is linear in it), so nu_c alone is scanned.
   const auto projected = [&](double critical) {
-    const auto shape = [&](double at) { return peaked_shape(at, critical); };
-    return std::isfinite(gain) ? residual_at(gain, x, y, shape) : project(x, y, shape);
+    return project(x, y, [&](double at) { return peaked_shape(at, critical); });
   };
   // evenly in log nu_c, between the least and the largest frequency
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
@@ -152,10 +150,9 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   const double least_residual = residual[static_cast<size_t>(best)];
   if (total > 0.0) fit.r2 = 1.0 - least_residual / total;
   // where the squared residuals exceed the least by what t at 95 % allows
-  const int freedom = fit.samples - (std::isfinite(gain) ? 1 : 2);
-  const double t = student_t95(freedom);
-  // The profile of the residual: S(nu_c) <= S_least (1 + t^2 / freedom).
-  const double bound = least_residual * (1.0 + t * t / freedom) + 1e-300;
+  const double t = student_t95(fit.samples - 2);
+  // The profile of the residual: S(nu_c) <= S_least (1 + t^2 / (n - 2)).
+  const double bound = least_residual * (1.0 + t * t / (fit.samples - 2)) + 1e-300;
   int first = best, last = best;
   for (int k = 0; k <= parts; ++k)
     if (residual[static_cast<size_t>(k)] <= bound) {

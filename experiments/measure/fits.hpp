@@ -65,9 +65,7 @@ struct PeakedRate {
   double at(double frequency) const;
 };
 /// Least squares in the rate itself; nu_c is sought within the frequencies given. Needs three
-/// points. Where `gain` is given, it is D and nu_c alone is free: the paper's "only fitting
-/// parameter", D from the gain of a period at low nu.
-PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate,
-                           double gain = not_known);
+/// points.
+PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate);
 
 }  // namespace ballast
