@@ -1,8 +1,10 @@
 #include "solvers/backends/newton_burst.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "solvers/backends/interior_jump.hpp"
 #include "solvers/backends/nncg.hpp"
@@ -16,10 +18,35 @@ constexpr double smallest_epsilon = 1e-8, largest_epsilon = 0.1;
 
 double raised(double epsilon, double factor) { return std::min(largest_epsilon, factor * epsilon); }
 
+/// How many more sweeps a solve will take. Their error falls about like a power of their number,
+/// whose exponent is small in jams.
+class SweepPace {
+ public:
+  /// Takes the error after so many sweeps; how many more until `aim`, by the later half of them.
+  double left(int sweeps, double error, double aim) {
+    looks_.push_back({sweeps, error});
+    size_t k = looks_.size() - 1;
+    while (k > 0 && 2 * looks_[k].sweeps > sweeps) --k;
+    const Look& before = looks_[k];
+    if (!(before.sweeps > 0 && before.error > error)) return 1e300;
+    const double exponent = std::log(before.error / error) / std::log(1.0 * sweeps / before.sweeps);
+    return sweeps * (std::pow(error / aim, 1.0 / exponent) - 1.0);
+  }
+
+ private:
+  struct Look {
+    int sweeps;
+    double error;
+  };
+  std::vector<Look> looks_;
+};
+
 class NewtonBurst final : public Solver {
  public:
   explicit NewtonBurst(const NewtonBurstSettings& settings)
-      : settings_(settings), sweeps_(make_nncg()) {}
+      : settings_(settings), sweeps_(make_nncg()) {
+    newton_.system().use_team(&team_);
+  }
 
   void prepare(const FrictionProblem& problem) override {
     if (!problem.has_dynamics)
@@ -27,34 +54,64 @@ class NewtonBurst final : public Solver {
           "newton_burst: the problem has no dynamics form (M, H): it solves in the bodies' "
           "unknowns");
     sweeps_->prepare(problem);
-    newton_.prepare(problem);
-    interior_.prepare(newton_.contacts(), newton_.system());
+    is_ready_ = false;
   }
 
-  void use_threads(int threads) override { sweeps_->use_threads(threads); }
+  void use_threads(int threads) override {
+    sweeps_->use_threads(threads);
+    team_.resize(threads);
+  }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;
+    if (settings_.start_sweeps == 0) {
+      make_ready();
+      NewtonIterate at = newton_.iterate(start);
+      const double error = newton_.settle(at);
+      newton_.contacts().to_impulses(at.r, start);
+      Course course(budget, std::move(start), error);
+      return by_newton(course);
+    }
+    SweepPace pace;
+    int refusals = 0;
+    Course course(budget, *sweeps_, problem, std::move(start), [&](int sweeps, double error) {
+      const double left = pace.left(sweeps, error, budget.aim());
+      // One look may have met the error on its way up.
+      refusals = left > settings_.promised_sweeps ? refusals + 1 : 0;
+      return sweeps >= settings_.start_sweeps && refusals > 1;
+    });
+    return by_newton(course);
+  }
+
+ private:
+  /// From where the course has come to, if it is not over.
+  Solved by_newton(Course& course) {
+    if (course.over()) return course.finish();
+    make_ready();
     // The error without any impulse says how large the problem's velocities are.
-    NewtonIterate at = newton_.iterate(Impulses::Zero(problem.row_count()));
+    NewtonIterate at = newton_.iterate(Impulses::Zero(problem_->row_count()));
     const double scale = newton_.settle(at), end = settings_.endgame * scale;
-    at = newton_.iterate(start);
+    at = newton_.iterate(course.best());
     double error = newton_.settle(at);
-    newton_.contacts().to_impulses(at.r, start);
-    Course course(budget, std::move(start), error);
-    if (!course.over()) error = burst(course, at, settings_.start_sweeps);
     descend(course, at, error, end);
     if (!course.over()) endgame(course, at, error);
     jump_about(course, at, scale);
     return course.finish();
   }
 
- private:
   /// How a proximal step's Newton method ended.
   struct Inner {
     bool converged;
     int steps;
   };
+
+  /// Ordering and analysis cost as much as hundreds of sweeps, and most solves do without.
+  void make_ready() {
+    if (is_ready_) return;
+    newton_.prepare(*problem_);
+    interior_.prepare(newton_.contacts(), newton_.system());
+    is_ready_ = true;
+  }
 
   void offer(Course& course, const NewtonIterate& at, double error) {
     newton_.contacts().to_impulses(at.r, impulses_);
@@ -81,8 +138,8 @@ class NewtonBurst final : public Solver {
   /// below the error `end`, or where three rounds in a row gained nothing.
   void descend(Course& course, NewtonIterate& at, double& error, double end) {
     double epsilon = settings_.epsilon;
-    int slow = 0;
-    while (!course.over() && error > end && slow < 3) {
+    int slow = 0, undone = 0;
+    while (!course.over() && error > end && slow < 3 && undone < 2) {
       const NewtonIterate before = at;
       newton_.set_centre(at.r, epsilon);
       newton_.linearise(at);
@@ -98,6 +155,7 @@ class NewtonBurst final : public Solver {
       if (course.over()) return;
       NewtonIterate swept = at;
       const double swept_error = burst(course, swept, settings_.burst);
+      const bool is_undone = after < swept_error && after < error;
       if (!(after < swept_error)) {
         after = swept_error;
         at = std::move(swept);
@@ -106,6 +164,8 @@ class NewtonBurst final : public Solver {
       if (after < 0.4 * error) epsilon = std::max(1e-6, 0.5 * epsilon);
       if (after > error) epsilon = raised(epsilon, 4.0);
       slow = after > 0.97 * error ? slow + 1 : 0;
+      // Twice in a row sweeps undid what the step had gained: what is left are long waves.
+      undone = is_undone ? undone + 1 : 0;
       if (after > 2.0 * error && !course.over()) {
         at = before;
         after = burst(course, at, settings_.burst);
@@ -218,8 +278,10 @@ class NewtonBurst final : public Solver {
 
   NewtonBurstSettings settings_;
   std::unique_ptr<Solver> sweeps_;
+  WorkerTeam team_;
   RegularNewton newton_;
   InteriorJump interior_;
+  bool is_ready_ = false;  ///< these two are prepared for problem_
   const FrictionProblem* problem_ = nullptr;
   NewtonIterate change_, trial_, best_trial_;
   Impulses impulses_;

@@ -1,6 +1,7 @@
 #pragma once
-// Newton steps on Coulomb's law of all contacts, regularised, with every contact's status guessed
-// and the linear systems solved exactly; between them bursts of accelerated sweeps, then alone.
+// Accelerated sweeps as long as they promise to arrive; then Newton steps on Coulomb's law of all
+// contacts, regularised, with every contact's status guessed and the linear systems solved exactly;
+// between them bursts of sweeps, then alone. So one backend serves loose and tight tolerances.
 //
 // What each part is for: a Newton step carries impulses across the whole packing, as far as the
 // statuses that it guessed are right; sweeps put statuses right, contact by contact. From an error
@@ -13,9 +14,12 @@
 namespace ballast {
 
 struct NewtonBurstSettings {
-  int start_sweeps = 100;  ///< before the first Newton step
-  int burst = 400;         ///< sweeps after a Newton step, at most
-  int jump = 200;          ///< sweeps before a jump, where the proximal steps are stuck
+  int start_sweeps = 500;  ///< before the first Newton step, at least; 0: none
+  /// Newton's turn comes where sweeps promise to need more than so many others: what a
+  /// factorisation for some thousand contacts and the first Newton steps cost.
+  int promised_sweeps = 2000;
+  int burst = 400;  ///< sweeps after a Newton step, at most
+  int jump = 200;   ///< sweeps before a jump, where the proximal steps are stuck
   /// The compliance to begin with, as a part of lambda_max(W_cc).
   double epsilon = 3e-4;
   /// Below this part of the error at zero impulse there are no more bursts.

@@ -1,5 +1,6 @@
 #include "solvers/seam/course.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,29 @@ Course::Course(const Budget& budget, Impulses start, double error)
     : budget_(budget), error_(error), best_(std::move(start)) {
   is_enough_ = budget_.fclib && budget_.fclib->reached(best_, error_);
   remember();
+}
+
+Course::Course(const Budget& budget, Solver& first, const FrictionProblem& problem, Impulses start,
+               const std::function<bool(int, double)>& leave)
+    : budget_(budget), best_(start) {
+  const std::function<bool(int, double)> either = [&](int iterations, double error) {
+    leaves_ = budget.leave && (*budget.leave)(iterations, error);
+    return leaves_ || leave(iterations, error);
+  };
+  Budget whole = budget;
+  whole.keep_history = true;
+  whole.leave = &either;
+  Solved opened = first.solve(problem, std::move(start), whole);
+  error_ = opened.history.front().error;
+  // Of the history the errors of the best are kept.
+  if (budget_.keep_history) history_ = opened.history;
+  for (size_t k = 1; k < history_.size(); ++k)
+    history_[k].error = std::min(history_[k].error, history_[k - 1].error);
+  iterations_ = opened.iterations;
+  is_enough_ = opened.reason == StopReason::reached_tolerance;
+  if (!is_enough_ && !(opened.own_residual < error_)) return;
+  error_ = opened.own_residual;
+  best_ = std::move(opened.impulses);
 }
 
 void Course::offer(const Impulses& r, double error) {

@@ -15,6 +15,10 @@ class Course {
  public:
   /// The clock starts here. `start` is the best so far, `error` its error [m/s].
   Course(const Budget& budget, Impulses start, double error);
+  /// The clock starts here, and `first`, prepared for `problem`, opens the course from `start`
+  /// until `leave` (Budget) says that it is enough. It judges the start as well.
+  Course(const Budget& budget, Solver& first, const FrictionProblem& problem, Impulses start,
+         const std::function<bool(int, double)>& leave);
 
   void spend(int iterations) { iterations_ += iterations; }
   /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best, or

@@ -1,6 +1,7 @@
 #include "solvers/backends/newton_burst.hpp"
 
 #include "problems/algebra/known_solutions.hpp"
+#include "solvers/backends/nncg.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
@@ -40,6 +41,34 @@ TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[fact
       *solver, deficient(1), {}, {.tolerance = 1e-10, .max_iterations = 500, .max_seconds = 20.0});
   CAPTURE(run.solved.iterations, run.error.natural_map_rms);
   CHECK(run.success);
+}
+
+TEST_CASE("where sweeps are enough it is nncg, bit for bit", "[factors]") {
+  KnownSolutionSettings settings;
+  settings.bodies = 60;
+  settings.contacts = 90;
+  const FrictionProblem problem = make_known_solution(settings).problem;
+  const Budget budget{.tolerance = 1e-3, .max_iterations = 5000};
+  const auto sweeps = make_nncg(), solver = make_newton_burst();
+  const SolverRun by_sweeps = SolverRunner().run(*sweeps, problem, {}, budget);
+  const SolverRun run = SolverRunner().run(*solver, problem, {}, budget);
+  REQUIRE(by_sweeps.success);
+  CHECK(run.success);
+  CHECK(run.solved.iterations == by_sweeps.solved.iterations);
+  CHECK(run.solved.impulses == by_sweeps.solved.impulses);
+}
+
+TEST_CASE("Newton takes over from sweeps to the same bits on any number of threads", "[factors]") {
+  const Budget budget{.tolerance = 1e-10, .max_iterations = 2000};
+  Impulses alone;
+  for (const int threads : {1, 2}) {
+    const auto solver = make_newton_burst({.start_sweeps = 20, .promised_sweeps = 10});
+    solver->use_threads(threads);
+    const SolverRun run = SolverRunner().run(*solver, deficient(3), {}, budget);
+    CHECK(run.success);
+    if (threads == 1) alone = run.solved.impulses;
+    CHECK(run.solved.impulses == alone);
+  }
 }
 
 TEST_CASE("what can never be reached ends as stalled", "[factors]") {

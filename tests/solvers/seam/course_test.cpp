@@ -1,5 +1,6 @@
 #include "solvers/seam/course.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "problems/algebra/known_solutions.hpp"
@@ -43,6 +44,59 @@ TEST_CASE("iterates of one count are one point of the history, and none without 
   REQUIRE(solved.history.size() == 2);
   CHECK(solved.history[1].error == 0.25);
   CHECK(Course({}, Impulses::Zero(1), 1.0).finish().history.empty());
+}
+
+namespace {
+
+/// Comes to `error` after three iterations, from a start of error 0.5.
+struct Opener final : Solver {
+  double error;
+  StopReason reason;
+  Opener(double e, StopReason why) : error(e), reason(why) {}
+  void prepare(const FrictionProblem&) override {}
+  Solved solve(const FrictionProblem&, Impulses start, const Budget& budget) override {
+    CHECK(budget.keep_history);
+    CHECK((*budget.leave)(3, error));
+    Solved solved;
+    solved.impulses = start + Impulses::Ones(1);
+    solved.reason = reason;
+    solved.iterations = 3;
+    solved.own_residual = error;
+    solved.history = {{0, 0.0, 0.5}, {2, 0.1, 0.7}, {3, 0.2, error}};
+    return solved;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("another solver opens a course, which goes on from the better of its ends") {
+  const std::function<bool(int, double)> leave = [](int, double) { return true; };
+  for (const double error : {0.4, 0.6}) {
+    Opener opener(error, StopReason::stalled);
+    Course course({.tolerance = 0.1, .max_iterations = 10, .keep_history = true}, opener, {},
+                  Impulses::Ones(1), leave);
+    CHECK_FALSE(course.over());
+    CHECK(course.error() == std::min(error, 0.5));
+    CHECK(course.best()[0] == (error < 0.5 ? 2.0 : 1.0));
+    CHECK(course.rest().max_iterations == 7);
+    const Solved solved = course.finish();
+    REQUIRE(solved.history.size() == 3);
+    CHECK(solved.history[1].error == 0.5);
+    CHECK(solved.history[2].error == std::min(error, 0.5));
+  }
+  // Who gave the budget is asked first.
+  const std::function<bool(int, double)> never = [](int, double) { return false; };
+  Opener called_off(0.4, StopReason::stalled);
+  Course ended({.tolerance = 0.1, .leave = &leave}, called_off, {}, Impulses::Ones(1), never);
+  CHECK(ended.over());
+  CHECK(ended.finish().reason == StopReason::stalled);
+  Opener arrives(0.05, StopReason::reached_tolerance);
+  Course reached({.tolerance = 0.1}, arrives, {}, Impulses::Ones(1), leave);
+  CHECK(reached.over());
+  const Solved solved = reached.finish();
+  CHECK(solved.reason == StopReason::reached_tolerance);
+  CHECK(solved.impulses[0] == 2.0);
+  CHECK(solved.history.empty());
 }
 
 TEST_CASE("a course is over at the tolerance, at a limit, or where nothing is finite") {
