@@ -81,7 +81,12 @@ constexpr SolverEntry rows[] = {
      ContactLaw::coulomb,
      [] { return make_newton({.equation = ContactEquation::fischer_burmeister}); }, suitesparse},
     {"prox_newton", "proximal-point steps, each by semismooth Newton (Acary, Bremond, Huber 2018)",
-     ContactLaw::coulomb, [] { return make_proximal_newton(); }, suitesparse},
+     ContactLaw::coulomb,
+     [] {
+       return make_proximal_newton(
+           {.start_sweeps = 400, .accelerated = true, .mending_sweeps = 200});
+     },
+     suitesparse},
     {"newton_burst",
      "ours: regularised active-set Newton between bursts of nncg, then proximal steps, own LU",
      ContactLaw::coulomb, [] { return make_newton_burst(); }, suitesparse},

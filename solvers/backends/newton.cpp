@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/backends/nncg.hpp"
 #include "solvers/parts/newton_step.hpp"
 #include "solvers/seam/iteration.hpp"
 
@@ -71,7 +72,7 @@ class Newton final : public Solver {
 class ProximalNewton final : public Solver {
  public:
   explicit ProximalNewton(const ProximalNewtonSettings& settings)
-      : settings_(settings), start_(make_gauss_seidel({})) {}
+      : settings_(settings), start_(settings.accelerated ? make_nncg() : make_gauss_seidel({})) {}
 
   void prepare(const FrictionProblem& problem) override {
     start_->prepare(problem);
@@ -80,11 +81,15 @@ class ProximalNewton final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    // A cold start is swept first: Newton converges from near by only.
-    if (budget.max_iterations > 0 && r.squaredNorm() == 0.0)
-      r = swept(problem, std::move(r), settings_.start_sweeps, budget.max_seconds, budget);
     step_.begin(settings_.equation, rho_factors[0], std::move(r));
     Best best{step_.impulses(), step_.error()};
+    // The start is swept first, a warm one too: Newton converges from near by only, and of a warm
+    // start hundreds of contacts have another status by now.
+    if (budget.max_iterations > 0 && settings_.start_sweeps > 0) {
+      step_.restart(
+          swept(problem, step_.impulses(), settings_.start_sweeps, budget.max_seconds, budget));
+      best.offer(step_.impulses(), step_.error());
+    }
     iteration.evaluated(best.error, best.r);
     double weight = settings_.first_weight, halved = best.error;
     int failures = 0, halved_at = 0;

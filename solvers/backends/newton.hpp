@@ -21,7 +21,8 @@ std::unique_ptr<Solver> make_newton(const NewtonSettings& settings);
 
 struct ProximalNewtonSettings {
   ContactEquation equation = ContactEquation::alart_curnier;
-  int start_sweeps = 200;        ///< of Gauss-Seidel, when the start is cold
+  int start_sweeps = 200;        ///< before the first step
+  bool accelerated = false;      ///< sweeps go along nncg's search
   int mending_sweeps = 50;       ///< after a proximal step that failed
   double first_weight = 1e-3;    ///< alpha rho of the first proximal step
   double inner_reduction = 0.5;  ///< of the residual that an inner Newton must reach

@@ -27,3 +27,21 @@ TEST_CASE("the proximal Newton solves rank-deficient problems of unequal masses,
   }
   CHECK(solved >= 19);  // seed 6 stays at 2e-5
 }
+
+TEST_CASE("the proximal Newton sweeps a warm start as well, and never loses it", "[factors]") {
+  KnownSolutionSettings settings;
+  settings.bodies = 60;
+  settings.contacts = 90;
+  const KnownSolution known = make_known_solution(settings);
+  const Budget budget{.tolerance = 1e-6, .max_iterations = 50};
+  for (const bool accelerated : {false, true}) {
+    const auto solver = make_proximal_newton({.start_sweeps = 2000, .accelerated = accelerated});
+    // Sweeps are enough, and they are not counted.
+    const SolverRun run = SolverRunner().run(*solver, known.problem, 0.5 * known.r, budget);
+    CHECK(run.success);
+    CHECK(run.solved.iterations == 0);
+    const SolverRun there = SolverRunner().run(*solver, known.problem, known.r, budget);
+    CHECK(there.success);
+    CHECK(there.solved.impulses == known.r);
+  }
+}
