@@ -44,9 +44,7 @@ class SweepPace {
 class NewtonBurst final : public Solver {
  public:
   explicit NewtonBurst(const NewtonBurstSettings& settings)
-      : settings_(settings), sweeps_(make_nncg()) {
-    newton_.system().use_team(&team_);
-  }
+      : settings_(settings), sweeps_(make_nncg()) {}
 
   void prepare(const FrictionProblem& problem) override {
     if (!problem.has_dynamics)
@@ -57,10 +55,7 @@ class NewtonBurst final : public Solver {
     is_ready_ = false;
   }
 
-  void use_threads(int threads) override {
-    sweeps_->use_threads(threads);
-    team_.resize(threads);
-  }
+  void use_threads(int threads) override { sweeps_->use_threads(threads); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;
@@ -278,7 +273,6 @@ class NewtonBurst final : public Solver {
 
   NewtonBurstSettings settings_;
   std::unique_ptr<Solver> sweeps_;
-  WorkerTeam team_;
   RegularNewton newton_;
   InteriorJump interior_;
   bool is_ready_ = false;  ///< these two are prepared for problem_

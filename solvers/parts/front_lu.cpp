@@ -84,15 +84,32 @@ void FrontLu::analyse(const SparseColumns& a, const std::vector<int>& unknown_be
   if (tree_.fronts.empty() || !(graph == graph_)) {
     tree_ = make_front_tree(graph, dissection_order(graph));
     graph_ = std::move(graph);
-    layout_ = make_front_layout(tree_);
-    numbers_.resize(layout_.numbers_begin.back());
-    boundaries_.resize(layout_.boundary_numbers);
-    work_.resize(graph_.unknown_count());
-    below_.resize(graph_.unknown_count());
-    largest_.resize(graph_.unknown_count());
+    layout();
   }
   place_entries(a);
   pattern_.take(a);
+}
+
+/// How many numbers each front needs, and how high the stack of boundaries grows.
+void FrontLu::layout() {
+  numbers_begin_.assign(1, 0);
+  std::vector<std::int64_t> waiting;  // sizes of the boundaries on the stack
+  std::int64_t height = 0, highest = 0;
+  for (const Front& front : tree_.fronts) {
+    const std::int64_t rows = front.rows, own = front.own, boundary = front.boundary();
+    numbers_begin_.push_back(numbers_begin_.back() + rows * own + own * boundary);
+    // A front's own boundary is made above those of its children, and then takes their place.
+    highest = std::max(highest, height + boundary * boundary);
+    for (int k = 0; k < front.child_count; ++k, waiting.pop_back()) height -= waiting.back();
+    if (front.parent < 0) continue;
+    waiting.push_back(boundary * boundary);
+    height += waiting.back();
+  }
+  numbers_.resize(numbers_begin_.back());
+  stack_.resize(highest);
+  work_.resize(graph_.unknown_count());
+  below_.resize(graph_.unknown_count());
+  largest_.resize(graph_.unknown_count());
 }
 
 /// Every entry belongs to the front that eliminates the first of its two unknowns.
@@ -142,39 +159,34 @@ bool FrontLu::factor(const SparseColumns& a) {
       largest = std::max(largest, std::abs(a.valuePtr()[e]));
     largest_[tree_.place[j]] = largest;
   }
-  // Subtrees side by side, then the fronts above them one by one, each by all.
-  const double* values = a.valuePtr();
-  failed_.assign(layout_.subtrees.size(), false);
-  run_parts(team_, static_cast<int>(layout_.subtrees.size()), [&](int s) {
-    const auto [begin, end] = layout_.subtrees[s];
-    for (int f = begin; f < end && !failed_[s]; ++f) failed_[s] = !factor_front(f, values, false);
-  });
-  if (std::find(failed_.begin(), failed_.end(), true) != failed_.end()) return false;
-  return std::all_of(layout_.above.begin(), layout_.above.end(),
-                     [&](int f) { return factor_front(f, values, true); });
-}
-
-/// `is_shared`: the team works on this front together.
-bool FrontLu::factor_front(int number, const double* values, bool is_shared) {
-  const Front& front = tree_.fronts[number];
-  double* boundary = boundaries_.data() + layout_.made_at[number];
-  // The matrix's own entries, then the children's boundaries from the last one down.
-  assemble(front, number, values, boundary);
-  for (int k = 0, child = number - 1; k < front.child_count; ++k, --child) {
-    while (tree_.fronts[child].parent != number) --child;
-    extend_add(tree_.fronts[child], boundaries_.data() + layout_.kept_at[child], front, boundary);
+  // A front's boundary is made above those of its children, and then moved down over them:
+  //
+  //     | .. | child 1 | child 2 | own |    ->    | .. | own |
+  std::int64_t top = 0;  // of the stack of boundaries
+  for (int f = 0; f < static_cast<int>(tree_.fronts.size()); ++f) {
+    const Front& front = tree_.fronts[f];
+    const std::int64_t size = static_cast<std::int64_t>(front.boundary()) * front.boundary();
+    double* boundary = stack_.data() + top;
+    // The matrix's own entries, then the children's boundaries from the top of the stack down.
+    assemble(front, f, a.valuePtr(), boundary);
+    for (int k = 0, child = f - 1; k < front.child_count; ++k) {
+      while (tree_.fronts[child].parent != f) --child;
+      const std::int64_t rows = tree_.fronts[child].boundary();
+      top -= rows * rows;
+      extend_add(tree_.fronts[child], stack_.data() + top, front, boundary);
+      --child;
+    }
+    if (!eliminate(front, boundary)) return false;
+    // The children's boundaries are used up, and this front's own takes their place.
+    std::copy_n(boundary, size, stack_.data() + top);
+    top += size;
   }
-  if (!eliminate(front, boundary, is_shared)) return false;
-  // It waits in the place of the children's, which are used up.
-  const std::int64_t size = static_cast<std::int64_t>(front.boundary()) * front.boundary();
-  if (layout_.kept_at[number] != layout_.made_at[number])
-    std::copy_n(boundary, size, boundaries_.data() + layout_.kept_at[number]);
   return true;
 }
 
 void FrontLu::assemble(const Front& front, int number, const double* values, double* boundary) {
-  double* numbers = numbers_.data() + layout_.numbers_begin[number];
-  std::fill_n(numbers, layout_.numbers_begin[number + 1] - layout_.numbers_begin[number], 0.0);
+  double* numbers = numbers_.data() + numbers_begin_[number];
+  std::fill_n(numbers, numbers_begin_[number + 1] - numbers_begin_[number], 0.0);
   std::fill_n(boundary, static_cast<std::int64_t>(front.boundary()) * front.boundary(), 0.0);
   for (int e = entries_begin_[number]; e < entries_begin_[number + 1]; ++e)
     numbers[entries_[e].to] += values[entries_[e].from];
@@ -184,7 +196,7 @@ void FrontLu::extend_add(const Front& child, const double* from, const Front& fr
                          double* boundary) {
   const int number = child.parent, own = front.own, rows = child.boundary();
   const int* row = tree_.row_in_parent.data() + child.rows_begin + child.own;
-  double* columns = numbers_.data() + layout_.numbers_begin[number];
+  double* columns = numbers_.data() + numbers_begin_[number];
   double* rest = columns + static_cast<std::int64_t>(front.rows) * own;
   // The child's rows, which ascend, are first rows of the parent's own unknowns, from `split` on
   // rows of its boundary; so are its columns. That makes four blocks, in three places.
@@ -202,15 +214,6 @@ void FrontLu::extend_add(const Front& child, const double* from, const Front& fr
   }
 }
 
-/// task(first, count) for all of so many columns: where a front is shared, in pieces of one width,
-/// however many threads there are.
-template <typename Task>
-void FrontLu::for_columns(bool is_shared, int columns, const Task& task) {
-  const int width = is_shared ? 96 : std::max(1, columns), pieces = (columns + width - 1) / width;
-  run_parts(is_shared ? team_ : nullptr, pieces,
-            [&](int k) { task(width * k, std::min(width, columns - width * k)); });
-}
-
 /// The elimination of one front, whose rows and columns are its own unknowns and then its boundary:
 ///
 ///     [ A11  A12 ]   [ L11     ] [ U11  U12 ]
@@ -218,12 +221,12 @@ void FrontLu::for_columns(bool is_shared, int columns, const Task& task) {
 ///
 /// A11 and A21 are `a`, A12 is `rest`. A22 is `boundary`: it holds what the children left, as the
 /// matrix's own entries there belong to fronts above.
-bool FrontLu::eliminate(const Front& front, double* boundary, bool is_shared) {
+bool FrontLu::eliminate(const Front& front, double* boundary) {
   constexpr int strip = 24;
   constexpr double smallest_pivot = 1e-14;
   const int number = static_cast<int>(&front - tree_.fronts.data());
   const int rows = front.rows, own = front.own, outside = front.boundary();
-  double* a = numbers_.data() + layout_.numbers_begin[number];
+  double* a = numbers_.data() + numbers_begin_[number];
   double* rest = a + static_cast<std::int64_t>(rows) * own;
   // The own columns strip by strip: narrow ones by our own loops, all that is right of them by
   // BLAS.
@@ -233,12 +236,9 @@ bool FrontLu::eliminate(const Front& front, double* boundary, bool is_shared) {
     factor_strip(diagonal, rows, rows - j, width);
     if (right == 0) continue;
     double* beside = diagonal + static_cast<std::int64_t>(width) * rows;
-    for_columns(is_shared, right, [&](int first, int count) {
-      double* columns = beside + static_cast<std::int64_t>(first) * rows;
-      solve_unit_lower(width, count, diagonal, rows, columns, rows);
-      subtract_product(below, count, width, diagonal + width, rows, columns, rows, columns + width,
-                       rows);
-    });
+    solve_unit_lower(width, right, diagonal, rows, beside, rows);
+    subtract_product(below, right, width, diagonal + width, rows, beside, rows, beside + width,
+                     rows);
   }
   // Nothing is exchanged, so that a tiny pivot would drown what follows in rounding.
   for (int j = 0; j < own; ++j) {
@@ -248,12 +248,8 @@ bool FrontLu::eliminate(const Front& front, double* boundary, bool is_shared) {
   }
   if (outside == 0) return true;
   // The rest of the own rows, and what is left for the parent.
-  for_columns(is_shared, outside, [&](int first, int count) {
-    double* columns = rest + static_cast<std::int64_t>(first) * own;
-    solve_unit_lower(own, count, a, rows, columns, own);
-    subtract_product(outside, count, own, a + own, rows, columns, own,
-                     boundary + static_cast<std::int64_t>(first) * outside, outside);
-  });
+  solve_unit_lower(own, outside, a, rows, rest, own);
+  subtract_product(outside, outside, own, a + own, rows, rest, own, boundary, outside);
   return true;
 }
 
@@ -266,8 +262,8 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;
     std::fill_n(below_.data(), front.boundary(), 0.0);
-    forward(numbers_.data() + layout_.numbers_begin[f], front.rows, front.own,
-            work_.data() + front.first, below_.data());
+    forward(numbers_.data() + numbers_begin_[f], front.rows, front.own, work_.data() + front.first,
+            below_.data());
     for (int i = 0; i < front.boundary(); ++i) work_[place[i]] -= below_[i];
   }
   // U x = y from the roots down: a front's boundary is known when its turn comes.
@@ -275,7 +271,7 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;
     for (int i = 0; i < front.boundary(); ++i) below_[i] = work_[place[i]];
-    backward(numbers_.data() + layout_.numbers_begin[f], front.rows, front.own, below_.data(),
+    backward(numbers_.data() + numbers_begin_[f], front.rows, front.own, below_.data(),
              work_.data() + front.first);
   }
   x.resize(unknowns);
@@ -284,7 +280,12 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
 
 double FrontLu::operations() const {
   double sum = 0.0;
-  for (const Front& front : tree_.fronts) sum += operations_of(front);
+  for (const Front& front : tree_.fronts) {
+    // 2/3 k^3 for L11 U11, k^2 m each for L21 and U12, 2 k m^2 for S,
+    // with k own and m boundary rows.
+    const double own = front.own, outside = front.boundary();
+    sum += 2.0 / 3.0 * own * own * own + 2.0 * own * own * outside + 2.0 * own * outside * outside;
+  }
   return sum;
 }
 

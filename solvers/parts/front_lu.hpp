@@ -12,8 +12,7 @@
 
 #include <Eigen/Dense>
 
-#include "platform/worker_team.hpp"
-#include "solvers/parts/front_layout.hpp"
+#include "solvers/parts/front_tree.hpp"
 #include "solvers/parts/sparse_pattern.hpp"
 
 namespace ballast {
@@ -26,9 +25,6 @@ std::vector<int> dissection_order(const BlockGraph& graph);
 /// A = L U in an order of its own.
 class FrontLu {
  public:
-  /// factor() shares its work among `team`, which outlives the use. The same bits whatever its
-  /// size: work is cut in the same places.
-  void use_team(WorkerTeam* team) { team_ = team; }
   /// Orders and analyses. `a` square, compressed, any pattern; `unknown_begin[k]` is the first
   /// unknown of block k, from 0 to the size of `a`. Where the pattern is the last one's, nothing is
   /// done; where only the graph of the blocks is, no new order is looked for.
@@ -48,26 +44,23 @@ class FrontLu {
   struct Entry {
     int from, to;
   };
+  void layout();
   void place_entries(const SparseColumns& a);
-  bool factor_front(int number, const double* values, bool is_shared);
   void assemble(const Front& front, int number, const double* values, double* boundary);
   void extend_add(const Front& child, const double* from, const Front& front, double* boundary);
-  bool eliminate(const Front& front, double* boundary, bool is_shared);
-  template <typename Task>
-  void for_columns(bool is_shared, int columns, const Task& task);
+  bool eliminate(const Front& front, double* boundary);
 
   SparsePattern pattern_;
   BlockGraph graph_;
   FrontTree tree_;
-  FrontLayout layout_;
-  /// A front's numbers: its own columns (rows x own, column-major), in which L below and U above
-  /// the diagonal come to stand, then the rest of its own rows (own x boundary).
+  /// A front's numbers, from numbers_begin_: its own columns (rows x own, column-major), in which L
+  /// below and U above the diagonal come to stand, then the rest of its own rows (own x boundary).
   std::vector<double> numbers_;
+  std::vector<std::int64_t> numbers_begin_;
   std::vector<Entry> entries_;      ///< by front
   std::vector<int> entries_begin_;  ///< fronts + 1
-  std::vector<double> boundaries_;  ///< that wait for their parents, column-major
-  std::vector<char> failed_;        ///< subtrees in which a pivot is too small
-  WorkerTeam* team_ = nullptr;
+  /// Boundaries that wait for their parents (boundary x boundary, column-major), one on the other.
+  std::vector<double> stack_;
   std::vector<double> largest_;  ///< by place: the largest entry of the column in the matrix
   Eigen::VectorXd work_, below_;
 };

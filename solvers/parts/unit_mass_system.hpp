@@ -15,8 +15,6 @@ class UnitMassSystem {
   /// The pattern of bodies in contact, its order and analysis. `contacts` must outlive the use of
   /// the system.
   void prepare(const UnitMassContacts& contacts);
-  /// See FrontLu.
-  void use_team(WorkerTeam* team) { factor_.use_team(team); }
   /// With K_c = gain[c]; blocks of zeros cost nothing. False: the elimination broke down.
   bool factor(const std::vector<Eigen::Matrix3d>& gain);
   /// x of the system above, with the K of factor(). Improved by its residual, once, where that is

@@ -137,27 +137,6 @@ TEST_CASE("the same matrix gives the same bits, whatever was factored before", "
   CHECK(x == y);
 }
 
-TEST_CASE("a team factors to the same bits, whatever its size", "[factors]") {
-  // 400 bodies in fronts that are wide enough to be cut.
-  const Blocks blocks = newton_matrix(400, 1200, 1e3, true, 9);
-  const Eigen::VectorXd b = right_side(blocks.begin.back());
-  Eigen::VectorXd alone, shared;
-  FrontLu fronts;
-  fronts.analyse(blocks.a, blocks.begin);
-  REQUIRE(fronts.factor(blocks.a));
-  fronts.solve(b, alone);
-  WorkerTeam team;
-  fronts.use_team(&team);
-  for (const int threads : {1, 2, 3}) {
-    team.resize(threads);
-    for (int repeat = 0; repeat < 3; ++repeat) {
-      REQUIRE(fronts.factor(blocks.a));
-      fronts.solve(b, shared);
-      CHECK(alone == shared);
-    }
-  }
-}
-
 TEST_CASE("a breakdown is reported, and the next matrix is factored", "[factors]") {
   const Blocks good = newton_matrix(30, 60, 1.0, false, 6);
   FrontLu fronts;
