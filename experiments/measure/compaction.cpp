@@ -51,9 +51,8 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
       compaction.reference = row.solid_fraction;
       break;
     }
-  std::vector<double> gains;
-  for (const WallPeriod& period : periods) gains.push_back(gain_of(steps, period));
-  compaction.gain = statistics(gains).mean;
+  for (const WallPeriod& period : periods) compaction.gains.push_back(gain_of(steps, period));
+  compaction.gain = statistics(compaction.gains).mean;
   compaction.relative_gain = compaction.gain / compaction.reference;
   const auto rate = [&](const TimeWindow& window) {
     return compaction_rate(steps, frequency, step, compaction.reference, window);

@@ -17,7 +17,8 @@ struct Compaction {
   double initial = not_known;        ///< rho before the drive
   double reference = not_known;      ///< rho_0: at paper_window.begin
   double last = not_known;           ///< at the end of the run
-  double gain = not_known;           ///< Delta rho_1: mean over the periods that count
+  std::vector<double> gains;         ///< of each period that counts
+  double gain = not_known;           ///< Delta rho_1: mean over them
   double relative_gain = not_known;  ///< Delta rho_1 / rho_0
   double rate = not_known;           ///< Eq. 4 over paper_window [1/s]
   double rate_common = not_known;    ///< Eq. 4 over common_window [1/s]

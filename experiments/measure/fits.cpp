@@ -1,7 +1,6 @@
 #include "experiments/measure/fits.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace ballast {
@@ -28,18 +27,16 @@ double peaked_shape(double frequency, double critical) {
   return frequency <= critical ? frequency : critical * critical / frequency;
 }
 
-}  // namespace
-
-double student_t95(int degrees_of_freedom) {
-  // 95 % of the distribution lies within +-t: for 1 to 30 degrees of freedom.
-  constexpr std::array table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
-                             2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
-                             2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
-  if (degrees_of_freedom < 1) return std::numeric_limits<double>::infinity();
-  if (degrees_of_freedom <= static_cast<int>(table.size()))
-    return table[static_cast<size_t>(degrees_of_freedom - 1)];
-  return 1.960 + 2.4 / degrees_of_freedom;  // right to 3e-3 from here on
+/// Squared residuals about amplitude times shape.
+template <class Shape>
+double missed(const std::vector<double>& x, const std::vector<double>& y, double amplitude,
+              const Shape& shape) {
+  double squares = 0.0;
+  for (size_t k = 0; k < x.size(); ++k) squares += std::pow(y[k] - amplitude * shape(x[k]), 2);
+  return squares;
 }
+
+}  // namespace
 
 SampleMean sample_mean(std::span<const double> values) {
   std::vector<double> finite;
@@ -113,7 +110,8 @@ Proportion fit_proportion(std::span<const double> x, std::span<const double> y) 
 
 double PeakedRate::at(double frequency) const { return gain * peaked_shape(frequency, critical); }
 
-PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate) {
+PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate,
+                           double gain) {
   // Eq. 5: the rate is D nu up to nu_c and D nu_c^2 / nu beyond, D the gain of a period.
   std::vector<double> x, y;
   for (size_t k = 0; k < std::min(frequency.size(), rate.size()); ++k)
@@ -125,42 +123,36 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   fit.samples = static_cast<int>(y.size());
   if (fit.samples < 3) return fit;
   // Once nu_c is chosen the best gain follows (the rate is linear in it), so nu_c alone is scanned.
-  const auto projected = [&](double critical) {
-    return project(x, y, [&](double at) { return peaked_shape(at, critical); });
+  const auto at = [&](double critical) {
+    const auto shape = [&](double nu) { return peaked_shape(nu, critical); };
+    return std::isfinite(gain) ? Projection{gain, missed(x, y, gain, shape)} : project(x, y, shape);
   };
   // evenly in log nu_c, between the least and the largest frequency
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
-  const double low = *least, ratio = *most / *least;
   constexpr int parts = 4000;  // 0.1 % of nu_c over two decades: finer than any interval it gives
-  std::vector<double> residual(parts + 1);
-  const auto critical = [&](int k) {
+  const auto critical = [low = *least, ratio = *most / *least](int k) {
     return low * std::pow(ratio, static_cast<double>(k) / parts);
   };
-  int best = 0;
-  for (int k = 0; k <= parts; ++k) {
-    residual[static_cast<size_t>(k)] = projected(critical(k)).residual;
-    if (residual[static_cast<size_t>(k)] < residual[static_cast<size_t>(best)]) best = k;
-  }
-  fit.critical = critical(best);
-  fit.gain = projected(fit.critical).amplitude;
+  std::vector<double> residual;
+  for (int k = 0; k <= parts; ++k) residual.push_back(at(critical(k)).residual);
+  const auto best = std::min_element(residual.begin(), residual.end());
+  fit.critical = critical(static_cast<int>(best - residual.begin()));
+  fit.gain = at(fit.critical).amplitude;
   // R^2 against the mean alone
   double total = 0.0;
   const double mean = spread_of(y).mean;
   for (const double value : y) total += (value - mean) * (value - mean);
-  const double least_residual = residual[static_cast<size_t>(best)];
-  if (total > 0.0) fit.r2 = 1.0 - least_residual / total;
-  // where the squared residuals exceed the least by what t at 95 % allows
-  const double t = student_t95(fit.samples - 2);
-  // The profile of the residual: S(nu_c) <= S_least (1 + t^2 / (n - 2)).
-  const double bound = least_residual * (1.0 + t * t / (fit.samples - 2)) + 1e-300;
-  int first = best, last = best;
+  if (total > 0.0) fit.r2 = 1.0 - *best / total;
+  // where the squared residuals exceed the least by what t at 95 % allows: S(nu_c) <= S_least (1 +
+  // t^2 / (n - parameters))
+  const int freedom = fit.samples - (std::isfinite(gain) ? 1 : 2);
+  const double t = student_t95(freedom), bound = *best * (1.0 + t * t / freedom) + 1e-300;
+  fit.low = fit.high = fit.critical;
   for (int k = 0; k <= parts; ++k)
     if (residual[static_cast<size_t>(k)] <= bound) {
-      first = std::min(first, k);
-      last = std::max(last, k);
+      fit.low = std::min(fit.low, critical(k));
+      fit.high = std::max(fit.high, critical(k));
     }
-  fit.low = critical(first);
-  fit.high = critical(last);
   return fit;
 }
 

@@ -6,12 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/measure/curve_fit.hpp"
+#include "experiments/measure/significance.hpp"
 
 namespace ballast {
-
-/// Two-sided 95 % quantile of Student's t. Infinite without a degree of freedom.
-double student_t95(int degrees_of_freedom);
 
 /// Mean over independent samples (seeds) with its standard error s/sqrt(n); NaN error for one
 /// sample. Skips what is not finite.
@@ -64,8 +61,9 @@ struct PeakedRate {
   int samples = 0;
   double at(double frequency) const;
 };
-/// Least squares in the rate itself; nu_c is sought within the frequencies given. Needs three
-/// points.
-PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate);
+/// Least squares in the rate itself; nu_c is sought within the frequencies given. `gain`: D where
+/// it is known, so that nu_c alone is fitted as in the paper. Needs three points.
+PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate,
+                           double gain = not_known);
 
 }  // namespace ballast

@@ -50,6 +50,7 @@ Observation observe(std::span<const StepRecord> steps, const RunFacts& facts, do
   // Outwards is positive, and the packing contracts inwards: the sign is turned.
   seen.net = -summary.net.mean;
   seen.gain = summary.compaction.gain;
+  seen.relative_gain = summary.compaction.relative_gain;
   seen.dissipated = summary.dissipated.mean;
 
   seen.solid_initial = summary.compaction.initial;

@@ -16,10 +16,10 @@ struct Observation {
   double mean_grain_mass = not_known;  ///< m of one grain [kg]
   // means over the periods that count
   int periods = 0;
-  double rise = not_known, speed_in = not_known;  ///< Delta x_max [m], v_max [m/s]
-  double net = not_known;                         ///< [m], > 0: contraction
-  double gain = not_known;                        ///< Delta rho_1
-  double dissipated = not_known;                  ///< per period [J]
+  double rise = not_known, speed_in = not_known;       ///< Delta x_max [m], v_max [m/s]
+  double net = not_known;                              ///< [m], > 0: contraction
+  double gain = not_known, relative_gain = not_known;  ///< Delta rho_1; over rho_0
+  double dissipated = not_known;                       ///< per period [J]
   // of the run
   double solid_initial = not_known, solid_reference = not_known;  ///< rho before the drive; rho_0
   double rate = not_known,

@@ -51,13 +51,6 @@ TEST_CASE("sample means carry the standard error of independent samples") {
   CHECK(std::isnan(sample_mean(std::vector<double>{}).mean));
 }
 
-TEST_CASE("Student's t: tabulated and asymptotic parts meet") {
-  CHECK(student_t95(2) == Approx(4.303));
-  CHECK(std::isinf(student_t95(0)));
-  CHECK(std::abs(student_t95(31) - student_t95(30)) < 0.01);
-  CHECK(student_t95(100000) == Approx(1.96).epsilon(1e-3));
-}
-
 TEST_CASE("a proportion through the origin is the geometric mean of the ratios") {
   const std::vector<double> x{1, 10, 100}, y{0.02, 0.1, 2.0};
   const Proportion fit = fit_proportion(x, y);
@@ -83,6 +76,20 @@ TEST_CASE("Eq. 5 is found again, with an interval around its corner") {
   CHECK(fit.r2 > 0.98);
   CHECK(fit.at(4.5) == Approx(0.5 * fit.at(9.0)).epsilon(0.1));
   CHECK(std::isnan(fit_peaked_rate(std::vector<double>{1, 2}, std::vector<double>{1, 2}).critical));
+}
+
+TEST_CASE("Eq. 5 with its gain given leaves the corner alone to be fitted") {
+  const std::vector<double> nu{1, 2, 5, 10, 20, 60};
+  std::vector<double> rate;
+  for (const double f : nu) rate.push_back(f < 9.0 ? 0.0025 * f : 0.0025 * 81.0 / f);
+  const PeakedRate fit = fit_peaked_rate(nu, rate, 0.0025);
+  CHECK(fit.gain == 0.0025);
+  CHECK(fit.critical == Approx(9.0).epsilon(2e-3));
+  // twice the gain wants an earlier corner, and misses the points
+  const PeakedRate wrong = fit_peaked_rate(nu, rate, 0.005);
+  CHECK(wrong.gain == 0.005);
+  CHECK(wrong.critical < 8.0);
+  CHECK(wrong.r2 < fit.r2);
 }
 
 TEST_CASE("Eq. 5 on a rate that only grows puts the corner at the end of the data") {

@@ -1,0 +1,37 @@
+#include "experiments/measure/weighted_fit.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "experiments/measure/significance.hpp"
+
+namespace ballast {
+
+double WeightedFit::error_at(const Eigen::VectorXd& row) const {
+  return std::sqrt(row.dot(covariance * row));
+}
+
+WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
+                         const Eigen::VectorXd& error) {
+  // every row in units of its error: then ordinary least squares
+  const Eigen::VectorXd weight = error.cwiseInverse();
+  const Eigen::MatrixXd scaled = weight.asDiagonal() * design;
+  const Eigen::VectorXd target = weight.cwiseProduct(y);
+  WeightedFit fit;
+  fit.value = scaled.colPivHouseholderQr().solve(target);
+  const Eigen::Index values = design.cols();
+  const Eigen::MatrixXd normal = scaled.transpose() * scaled;
+  fit.covariance = normal.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(values, values));
+  fit.chi2 = (target - scaled * fit.value).squaredNorm();
+  fit.degrees_of_freedom = static_cast<int>(design.rows() - values);
+  return fit;
+}
+
+Improvement improvement(const WeightedFit& less, const WeightedFit& more) {
+  const int further = less.degrees_of_freedom - more.degrees_of_freedom;
+  if (further < 1 || more.degrees_of_freedom < 1) return {};
+  const double ratio = (less.chi2 - more.chi2) / further / more.reduced();
+  return {ratio, f_p(ratio, further, more.degrees_of_freedom)};
+}
+
+}  // namespace ballast
