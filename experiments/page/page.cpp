@@ -35,7 +35,9 @@ Table facts_table() {
 
 Table words_table(const std::string& name, const Values& values) {
   const std::vector<Text> lines = parts_of(words(name, values), "\n");
-  return {.caption = lines.front(), .head = parts_of(lines.back(), "||")};
+  Table table{.caption = lines.front(), .head = parts_of(lines.at(lines.size() > 1), "||")};
+  for (size_t k = 2; k < lines.size(); ++k) table.rows.push_back(parts_of(lines[k], "||"));
+  return table;
 }
 
 }  // namespace ballast::page

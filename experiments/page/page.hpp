@@ -115,8 +115,8 @@ struct Page {
 /// A table of facts, empty: rows are {what, value}.
 Table facts_table();
 
-/// A table without rows yet. Its words are two lines: the caption, and the cells of the head with
-/// "||" between them.
+/// A table. Its words are lines: the caption, the cells of the head with "||" between them, and
+/// the rows that it has already.
 Table words_table(const std::string& name, const Values& values = {});
 
 }  // namespace ballast::page

@@ -20,15 +20,18 @@ const char* rgb_of(Ink ink);  ///< "#rrggbb"
 
 enum class Mark {
   line,    ///< NaN breaks it
-  points,  ///< filled circles; with y_error: bars
+  points,  ///< filled, of the curve's shape; with y_error: bars
   area,    ///< filled between y and y_low
 };
+
+enum class MarkShape { circle, triangle, square, diamond };
 
 struct Curve {
   std::vector<double> x = {}, y = {};
   std::string title = {};  ///< empty: not in the key
   Ink ink = Ink::blue;
   Mark mark = Mark::line;
+  MarkShape shape = MarkShape::circle;
   double width = 1.6;  ///< of the line, or size of the points
   bool dashed = false;
   int fineness = 0;  ///< of dashes, 0 to 2: ever shorter ones
@@ -51,6 +54,8 @@ struct Panel {
   std::optional<double> y_min = {}, y_max = {}, x_min = {}, x_max = {};
   std::vector<Curve> curves = {};
   std::vector<ReferenceLine> lines = {};
+  std::vector<double> x_ticks = {};  ///< numbered; empty: chosen by the range
+  bool is_inset = false;             ///< stands inside the panel before it, on the upper left
 };
 
 struct Figure {
@@ -59,6 +64,7 @@ struct Figure {
   int width = 900, height = 420;
   std::vector<Panel> panels = {};  ///< one above the other, x axes aligned; only the last shows its
                                    ///< x label if all share it
+  bool has_letters = false;        ///< (a), (b) ... above the panels: for print
 };
 
 /// Escapes what enhanced text would interpret; control characters become spaces.

@@ -37,10 +37,10 @@ void Extent::add(double value) {
 
 void Extent::pad(double margin) {
   if (is_log) {
-    const double first = std::log10(low), last = std::log10(high), more = margin * (last - first);
-    const bool has_marks = std::floor(last + more) - std::ceil(first - more) >= 1.0;
-    low = std::pow(10.0, has_marks ? first - more : std::floor(first - 1e-9));
-    high = std::pow(10.0, has_marks ? last + more : std::ceil(last + 1e-9));
+    // a constant gets a factor of two to both sides
+    const double more = high > low ? margin * std::log(high / low) : std::log(2.0);
+    low *= std::exp(-more);
+    high *= std::exp(more);
     return;
   }
   // a constant gets room above and below
@@ -51,6 +51,30 @@ void Extent::pad(double margin) {
   }
   low -= margin * span;
   high += margin * span;
+}
+
+std::vector<double> minor_log_ticks(const Extent& extent) {
+  std::vector<double> ticks;
+  for (double decade = std::floor(std::log10(extent.low)); std::pow(10.0, decade) < extent.high;
+       ++decade)
+    for (int digit = 1; digit < 10; ++digit) {
+      const double tick = digit * std::pow(10.0, decade);
+      if (tick >= extent.low * (1.0 - 1e-9) && tick <= extent.high * (1.0 + 1e-9))
+        ticks.push_back(tick);
+    }
+  return ticks;
+}
+
+std::vector<double> log_ticks(const Extent& extent) {
+  const double decades = std::log10(extent.high / extent.low);
+  constexpr double many = 3.0;
+  std::vector<double> ticks = minor_log_ticks(extent);
+  // the first digit of each decides; over less than half a decade all are numbered
+  std::erase_if(ticks, [&](double tick) {
+    const long digit = std::lround(tick / std::pow(10.0, std::floor(std::log10(tick * 1.0001))));
+    return decades >= many ? digit != 1 : decades > 0.5 && digit != 1 && digit != 2 && digit != 5;
+  });
+  return ticks;
 }
 
 Extent y_extent(const Panel& panel) {
@@ -86,24 +110,41 @@ Extent x_extent(const Panel& panel) {
 std::vector<PanelPlace> panel_places(const Figure& figure) {
   // numbers and x label below the last box, or below each when the axes differ
   const bool is_shared =
-      std::all_of(figure.panels.begin(), figure.panels.end(),
-                  [&](const Panel& panel) { return panel.x_label == figure.panels[0].x_label; });
+      std::all_of(figure.panels.begin(), figure.panels.end(), [&](const Panel& panel) {
+        return panel.is_inset || panel.x_label == figure.panels[0].x_label;
+      });
   constexpr double above = 12.0, below_last = 66.0;
   const double below = is_shared ? 12.0 : below_last;
-  const size_t count = figure.panels.size();
-  // what keys, numbers and labels leave is shared evenly among the boxes
+  // what keys (and letters, which stand beside them), numbers and labels leave is shared evenly
+  // among the boxes; an inset takes no room
+  size_t count = 0;
   double keys = 0.0;
-  for (const Panel& panel : figure.panels) keys += key_row * key_size(figure, panel).rows;
+  std::vector<KeySize> sizes;
+  for (const Panel& panel : figure.panels) {
+    KeySize& key = sizes.emplace_back(key_size(figure, panel));
+    if (figure.has_letters) key.rows = std::max(key.rows, 1);
+    if (panel.is_inset) continue;
+    keys += key_row * key.rows;
+    ++count;
+  }
   const double box = (figure.height - keys - static_cast<double>(count) * above - below_last -
                       static_cast<double>(count - 1) * below) /
                      static_cast<double>(count);
   // from the top of the figure down
   std::vector<PanelPlace> places;
   double y = figure.height;
-  for (size_t p = 0; p < count; ++p) {
-    const KeySize key = key_size(figure, figure.panels[p]);
-    y -= above + key_row * key.rows;
-    places.push_back({y, y - box, !is_shared || p + 1 == count, key});
+  const double right = figure.width - right_margin;
+  for (size_t p = 0, boxes = 0; p < sizes.size(); ++p) {
+    if (figure.panels[p].is_inset) {
+      const PanelPlace& outer = places.back();
+      const double width = outer.right - outer.left, height = outer.top - outer.bottom;
+      places.push_back({outer.left + 0.09 * width, outer.left + 0.47 * width,
+                        outer.top - 0.05 * height, outer.bottom + 0.45 * height, true, sizes[p]});
+      continue;
+    }
+    ++boxes;
+    y -= above + key_row * sizes[p].rows;
+    places.push_back({left_margin, right, y, y - box, !is_shared || boxes == count, sizes[p]});
     y -= box + below;
   }
   return places;

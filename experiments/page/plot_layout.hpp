@@ -18,10 +18,15 @@ struct Extent {
   /// Takes in a value that the axis can show: finite, and positive where it is logarithmic.
   void add(double value);
   bool is_empty() const { return low > high; }
-  /// `margin` of the span to both sides; a logarithmic axis on which fewer than two decades would
-  /// then be marked gets whole ones.
+  /// `margin` of the span to both sides.
   void pad(double margin);
 };
+
+/// Ticks of a logarithmic axis: 1, 2, 5 of every decade, only the powers of ten where there are
+/// many decades. Within the extent.
+std::vector<double> log_ticks(const Extent& extent);
+/// 1 to 9 of every decade within the extent: marked without a number.
+std::vector<double> minor_log_ticks(const Extent& extent);
 
 /// Of all curves, error bars and reference lines of a panel, padded; the panel's own limits where
 /// it has them. Throw std::invalid_argument when there is nothing to show.
@@ -35,7 +40,8 @@ struct KeySize {
 };
 
 struct PanelPlace {
-  double top, bottom;  ///< pixels from the figure's lower edge to the axes' box
+  double left, right;  ///< pixels from the figure's left edge to the axes' box
+  double top, bottom;  ///< pixels from the figure's lower edge to it
   bool shows_x;        ///< numbers and label below the x axis
   KeySize key;         ///< above the box
 };

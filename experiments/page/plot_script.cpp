@@ -44,6 +44,8 @@ std::string colour(Ink ink, double opacity) {
 
 std::string plot_command(const std::string& block, const Curve& curve) {
   constexpr const char* dashes[] = {" dt (8,5)", " dt (4,3)", " dt (1.5,3)"};
+  constexpr int shapes[] = {7, 9, 5, 13};  // gnuplot's numbers, in the order of MarkShape
+  const int shape = shapes[static_cast<size_t>(curve.shape)];
   std::string text = block;
   const std::string ink = colour(curve.ink, curve.opacity);
   switch (curve.mark) {
@@ -52,10 +54,11 @@ std::string plot_command(const std::string& block, const Curve& curve) {
                       curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
       break;
     case Mark::points:
-      text += curve.y_error.empty() ? printed(" using 1:2 with points pt 7 ps %.3g lc rgb %s",
-                                              0.35 * curve.width, ink.c_str())
-                                    : printed(" using 1:2:3 with yerrorbars pt 7 ps %.3g lc rgb %s",
-                                              0.35 * curve.width, ink.c_str());
+      text += curve.y_error.empty()
+                  ? printed(" using 1:2 with points pt %d ps %.3g lc rgb %s", shape,
+                            0.35 * curve.width, ink.c_str())
+                  : printed(" using 1:2:3 with yerrorbars pt %d ps %.3g lc rgb %s", shape,
+                            0.35 * curve.width, ink.c_str());
       break;
     case Mark::area:
       text += printed(" using 1:2:3 with filledcurves fs solid noborder fc rgb %s", ink.c_str());
@@ -99,21 +102,34 @@ void check(const Figure& figure) {
     }
 }
 
+/// The ticks of a logarithmic axis ('x' or 'y'): with numbers at `numbered`, small ones between.
+std::string log_axis(char axis, const Extent& extent, std::vector<double> numbered) {
+  if (numbered.empty()) numbered = log_ticks(extent);
+  std::string list;
+  for (const double tick : numbered) list += (list.empty() ? "" : ", ") + script_number(tick);
+  for (const double tick : minor_log_ticks(extent)) list += ", '' " + script_number(tick) + " 1";
+  const bool has_powers_only = extent.high / extent.low >= 1e3;
+  return printed("set logscale %c\nset format %c '%s'\nset %ctics (", axis, axis,
+                 has_powers_only ? "10^{%L}" : "%g", axis) +
+         list + ")\n";
+}
+
 std::string panel_commands(const Figure& figure, const Panel& panel, const PanelPlace& place,
-                           const std::string& blocks) {
+                           const std::string& blocks, char letter) {
   const Extent x = x_extent(panel), y = y_extent(panel);
   std::string text =
-      "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n";
-  const double right = 1.0 - right_margin / figure.width;
+      "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n"
+      "set xtics autofreq\nset ytics autofreq\n";
+  const double right = place.right / figure.width;
   text += printed("set lmargin at screen %.5f\nset rmargin at screen %.5f\n",
-                  left_margin / figure.width, right);
+                  place.left / figure.width, right);
   text += printed("set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
                   place.top / figure.height, place.bottom / figure.height);
   text += "set xrange [" + script_number(x.low) + ':' + script_number(x.high) + "]\nset yrange [" +
           script_number(y.low) + ':' + script_number(y.high) + "]\n";
-  // axes: logarithmic ones are numbered by powers of ten
-  if (panel.log_x) text += "set logscale x\nset format x '10^{%L}'\n";
-  if (panel.log_y) text += "set logscale y\nset format y '10^{%L}'\n";
+  if (panel.log_x) text += log_axis('x', x, panel.x_ticks);
+  if (panel.log_y) text += log_axis('y', y, {});
+  text += printed("set tics font ',%d'\n", panel.is_inset ? 12 : 15);
   text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n"
                         : "set xlabel ''\nset format x ''\n";
   text += "set ylabel " + quoted(panel.y_label) + '\n';
@@ -123,6 +139,7 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
       "1.0\n",
       right, (place.top + 5.0 + 0.5 * key_row * place.key.rows) / figure.height, place.key.columns);
   for (const ReferenceLine& line : panel.lines) text += reference(line);
+  if (letter) text += printed("set label '(%c)' at graph 0, graph 1 left offset 0, 0.7\n", letter);
   std::string curves;
   for (size_t c = 0; c < panel.curves.size(); ++c)
     curves += (curves.empty() ? "" : ", \\\n     ") +
@@ -173,8 +190,12 @@ std::string gnuplot_script(const Figure& figure, PlotFormat format) {
   text += "set grid lw 0.6 lt 1 lc rgb '#e0e0e0'\n";
   text += "set multiplot\n";
   const std::vector<PanelPlace> places = panel_places(figure);
-  for (size_t p = 0; p < figure.panels.size(); ++p)
-    text += panel_commands(figure, figure.panels[p], places[p], "$p" + std::to_string(p) + "c");
+  char next = 'a';
+  for (size_t p = 0; p < figure.panels.size(); ++p) {
+    const bool is_lettered = figure.has_letters && !figure.panels[p].is_inset;
+    text += panel_commands(figure, figure.panels[p], places[p], "$p" + std::to_string(p) + "c",
+                           is_lettered ? next++ : '\0');
+  }
   return text + "unset multiplot\n";
 }
 

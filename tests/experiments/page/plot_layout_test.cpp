@@ -41,10 +41,35 @@ TEST_CASE("what an axis cannot show doesn't stretch it") {
   CHECK(y_extent(panel).high == Approx(4.0 + 0.12));
   panel = panel_of({1, 2, 3}, {-5, 0, 10});
   panel.log_y = true;
-  CHECK(y_extent(panel).low == Approx(1.0));  // one value: the whole decades around it
-  CHECK(y_extent(panel).high == Approx(100.0));
+  CHECK(y_extent(panel).low == Approx(5.0));  // one value: a factor of two to both sides
+  CHECK(y_extent(panel).high == Approx(20.0));
   panel.curves[0].y = {-1, 0, -2};
   CHECK_THROWS_AS(y_extent(panel), std::invalid_argument);
+}
+
+TEST_CASE("a logarithmic axis is numbered at 1, 2, 5, over many decades at powers of ten") {
+  const std::vector<double> few = log_ticks({true, 0.9, 70.0}), many = log_ticks({true, 0.5, 2e3}),
+                            short_one = log_ticks({true, 3.5, 8.0});
+  CHECK(few.size() == 6);
+  CHECK(few[2] == Approx(5.0));
+  CHECK(few.back() == Approx(50.0));
+  CHECK(many.size() == 4);
+  CHECK(many.back() == Approx(1000.0));
+  CHECK(short_one.size() == 5);  // 4 to 8
+  CHECK(minor_log_ticks({true, 0.95, 3.1}).size() == 3);
+}
+
+TEST_CASE("an inset stands inside the panel before it and takes no room") {
+  Figure figure;
+  figure.panels = {panel_of({0, 1}, {0, 1}), panel_of({0, 1}, {0, 1})};
+  figure.panels[1].is_inset = true;
+  const std::vector<PanelPlace> places = panel_places(figure);
+  CHECK(places[0].shows_x);
+  CHECK(places[0].bottom == Approx(66.0));
+  CHECK(places[1].left > places[0].left);
+  CHECK(places[1].right < places[0].right);
+  CHECK(places[1].top < places[0].top);
+  CHECK(places[1].bottom > places[0].bottom);
 }
 
 TEST_CASE("a constant has room above and below") {
