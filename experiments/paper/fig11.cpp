@@ -3,21 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/paper/sections.hpp"
+#include "experiments/paper/one_curve.hpp"
 
 namespace ballast {
 namespace {
-
-/// One thing varied: its points have a colour, and a row of the table.
-struct Branch {
-  Varied varied;
-  const char *name, *title;  ///< in words, and in the legend
-  Ink ink;
-};
-constexpr Branch branches[] = {{Varied::frequency, "ν", "ν", Ink::blue},
-                               {Varied::force, "f_max", "f_{max}", Ink::vermilion},
-                               {Varied::gravity, "g", "g", Ink::green},
-                               {Varied::wall_mass, "m_w", "m_w", Ink::purple}};
 
 /// Points of one thing varied: right side of Eq. 3 and Delta x_max, in mm.
 VariedCurve points_on_eq3(const std::vector<VariedValue>& values) {
@@ -30,6 +19,7 @@ VariedCurve points_on_eq3(const std::vector<VariedValue>& values) {
     points.x.push_back(1e3 * sample_mean(sides).mean);
     points.y.push_back(1e3 * rise.mean);
     points.error.push_back(1e3 * rise.error);
+    points.errors_from += rise.samples - 1;
   }
   return points;
 }
@@ -40,26 +30,48 @@ VariedCurve together(const std::vector<VariedCurve>& parts) {
     all.x.insert(all.x.end(), part.x.begin(), part.x.end());
     all.y.insert(all.y.end(), part.y.begin(), part.y.end());
     all.error.insert(all.error.end(), part.error.begin(), part.error.end());
+    all.errors_from += part.errors_from;
   }
   return all;
 }
 
+/// How Fig. 11 is drawn: logarithmic, linear as the paper's, and the linear one near the origin as
+/// in the paper's inset.
+enum class View { logarithmic, linear, origin };
+
 Panel eq3_panel(const std::vector<VariedCurve>& parts, const VariedCurve& all, double factor,
-                bool is_log) {
-  Panel panel{.x_label = is_log ? "right side of Eq. 3 without {/:Italic C}  (mm)"
-                                : "the same, linear  (mm)",
-              .y_label = "Δ{/:Italic x}_{max}  (mm)",
+                View view) {
+  const bool is_log = view == View::logarithmic, is_inset = view == View::origin;
+  Panel panel{.x_label = is_inset ? ""
+                         : is_log ? "right side of Eq. 3 without {/:Italic C}  (mm)"
+                                  : "right side of Eq. 3 without {/:Italic C}, linear  (mm)",
+              .y_label = is_inset ? "" : "Δ{/:Italic x}_{max}  (mm)",
               .log_x = is_log,
-              .log_y = is_log};
-  // the points of each series in its colour
-  for (size_t b = 0; b < parts.size(); ++b)
-    if (!parts[b].x.empty())
-      panel.curves.push_back(points_of(parts[b], branches[b].title, branches[b].ink));
-  // our line and the paper's, over the range of all points
-  const auto [low, high] = std::minmax_element(all.x.begin(), all.x.end());
-  const auto line = [&, range = Drawn{is_log ? *low : 0.0, *high, is_log}](
-                        double prefactor, const std::string& title, Ink ink) {
-    panel.curves.push_back(curve_of([=](double x) { return prefactor * x; }, range, title, ink));
+              .log_y = is_log,
+              .is_inset = is_inset};
+  // near the origin: three quarters of the points
+  std::vector<double> sorted = all.x;
+  std::sort(sorted.begin(), sorted.end());
+  const double high = is_inset ? quantile_of_sorted(sorted, 0.75) : sorted.back();
+  // the points of each series in its colour and with the paper's mark
+  for (size_t b = 0; b < parts.size(); ++b) {
+    VariedCurve shown;
+    for (size_t k = 0; k < parts[b].x.size(); ++k) {
+      if (parts[b].x[k] > high) continue;
+      shown.x.push_back(parts[b].x[k]);
+      shown.y.push_back(parts[b].y[k]);
+      shown.error.push_back(parts[b].error[k]);
+    }
+    if (shown.x.empty()) continue;
+    Curve curve = points_of(shown, is_inset ? "" : all_series()[b].title, all_series()[b].ink);
+    curve.shape = all_series()[b].shape;
+    panel.curves.push_back(curve);
+  }
+  // our line and the paper's, over the range of the points
+  const Drawn range{is_log ? sorted.front() : 0.0, high, is_log};
+  const auto line = [&](double prefactor, const std::string& title, Ink ink) {
+    panel.curves.push_back(
+        curve_of([=](double x) { return prefactor * x; }, range, is_inset ? "" : title, ink));
   };
   line(factor, "C = " + plot_label(page::number(factor)), Ink::black);
   line(paper::prefactor, "the paper’s C = 0.01", Ink::grey);
@@ -90,14 +102,6 @@ VariedCurve without_largest(VariedCurve points) {
   return points;
 }
 
-/// The paper gives one digit: within 30 % agrees, within a factor of 2.5 is of the same order.
-Agreement judge_prefactor(double factor, double low, double high, int points) {
-  if (points < 5) return Agreement::reported;
-  const double ratio = factor / paper::prefactor;
-  const bool is_inside = low <= paper::prefactor && paper::prefactor <= high;
-  return graded((ratio > 0.7 && ratio < 1.3) || is_inside, ratio > 0.4 && ratio < 2.5);
-}
-
 }  // namespace
 
 PaperSection fig11_section(PaperData& data) {
@@ -105,7 +109,7 @@ PaperSection fig11_section(PaperData& data) {
   page::Table table = page::words_table("fig11.table");
   std::vector<VariedCurve> parts;
   double by_grain = not_known;
-  for (const Branch& branch : branches) {
+  for (const Series& branch : all_series()) {
     const std::vector<VariedValue> values = read_values(data, branch.varied, section);
     if (branch.varied == Varied::frequency) by_grain = prefactor_by_grain(values);
     const VariedCurve& points = parts.emplace_back(points_on_eq3(values));
@@ -113,36 +117,35 @@ PaperSection fig11_section(PaperData& data) {
     const PowerFit power = fit_power(points.x, points.y);
     table.rows.push_back({branch.name, std::to_string(line.samples), page::number(line.factor),
                           page::interval(line.low, line.high), page::number(line.spread),
-                          words_of(power), misfit_words(power, points)});
+                          words_of(power), words_of(misfit_of(power, points))});
   }
   // all series as one: a law without a free exponent, and one with
   const VariedCurve all = together(parts);
   if (all.x.empty()) return section;
   const Proportion line = fit_proportion(all.x, all.y);
   const PowerFit power = fit_power(all.x, all.y);
+  const Misfit misfit = misfit_of(power, all);
   const double linear = linear_prefactor(all);
   const page::Values words{{"C", page::number(line.factor)},
                            {"interval", page::interval(line.low, line.high)},
                            {"spread", page::number(line.spread)},
                            {"exponent", words_of(power)},
-                           {"misfit", misfit_words(power, all)},
+                           {"misfit", words_of(misfit)},
                            {"meaning", page::words("misfit")},
                            {"grain", page::number(by_grain)},
                            {"linear", page::number(linear)},
                            {"without", page::number(linear_prefactor(without_largest(all)))}};
   section.draw("fig11",
-               {.height = 820,
-                .panels = {eq3_panel(parts, all, line.factor, true),
-                           eq3_panel(parts, all, line.factor, false)}},
+               {.height = 900,
+                .panels = {eq3_panel(parts, all, line.factor, View::logarithmic),
+                           eq3_panel(parts, all, line.factor, View::linear),
+                           eq3_panel(parts, all, line.factor, View::origin)}},
                words);
   section.tables = {table};
-  const bool is_known = line.samples > 4;
-  section.claim("fig11.line", words,
-                is_known ? graded(line.spread < 1.25, line.spread < 1.6) : Agreement::reported);
-  section.claim("fig11.factor", words,
-                judge_prefactor(line.factor, line.low, line.high, line.samples));
-  if (is_known)
-    section.claim("fig11.linear", words, judge_prefactor(linear, linear, linear, line.samples));
+  section.claim("fig11.line", words, PaperRange::exponent(1.0), found(power, misfit.p));
+  section.claim("fig11.factor", words, PaperRange::roughly(paper::prefactor),
+                {.value = line.factor, .low = line.low, .high = line.high});
+  section.report("fig11.linear", words);
   return section;
 }
 

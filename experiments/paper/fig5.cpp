@@ -41,12 +41,15 @@ std::optional<ModelStart> after_unjamming(const MotionRun& run, const WallPeriod
 /// period (means over periods).
 struct Modelled {
   double rise_from_jam = not_known, rise = not_known, speed_in = not_known;
-  ModelMotion last = {};  ///< of the last period
+  ModelMotion last = {};      ///< of the last period
+  ModelMotion from_jam = {};  ///< a prediction: nothing of the period is taken from the run
 };
 
 Modelled modelled(const MotionRun& run) {
   const WallModel model = model_of(run.summary);
-  Modelled result{.rise_from_jam = integrate(model).rise};
+  Modelled result;
+  result.from_jam = integrate(model);
+  result.rise_from_jam = result.from_jam.rise;
   std::vector<double> rises, speeds;
   for (const WallPeriod& period : run.summary.wall.periods) {
     const auto start = after_unjamming(run, period);
@@ -62,7 +65,8 @@ Modelled modelled(const MotionRun& run) {
 
 /// The last period: x from the jamming position against time, and f_g smoothed against v; the
 /// simulation's and the model's. Axes in s, mm, mm/s, kN or N.
-Figure draw(const MotionRun& run, const ModelMotion& model) {
+Figure draw(const MotionRun& run, const Modelled& modelled) {
+  const ModelMotion& model = modelled.last;
   const ForceUnit unit = force_unit(run.summary.facts.f_max);
   const WallPeriod& period = run.summary.wall.periods.back();
   std::vector<double> time, x, model_x;
@@ -82,13 +86,19 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
   }
   Curve motion = line_of(model.time, model_x, "model", Ink::black, 2.0);
   motion.dashed = true;
-  return {.height = 760,
-          .panels = {{.x_label = "{/:Italic t} in the period  (s)",
-                      .y_label = "{/:Italic x} − {/:Italic x}_{jam}  (mm)",
-                      .curves = {line_of(time, x, "simulation", Ink::blue, 2.0), motion}},
-                     {.x_label = "{/:Italic v}  (mm/s)",
-                      .y_label = std::string("{/:Italic f}_g  (") + unit.name + ")",
-                      .curves = {loop, model_loop}}}};
+  std::vector<double> predicted_x;
+  for (const double at : modelled.from_jam.x) predicted_x.push_back(1e3 * at);
+  Curve predicted =
+      line_of(modelled.from_jam.time, predicted_x, "model from the jam", Ink::vermilion, 2.0);
+  predicted.dashed = true;
+  return {
+      .height = 760,
+      .panels = {{.x_label = "{/:Italic t} in the period  (s)",
+                  .y_label = "{/:Italic x} − {/:Italic x}_{jam}  (mm)",
+                  .curves = {line_of(time, x, "simulation", Ink::blue, 2.0), motion, predicted}},
+                 {.x_label = "{/:Italic v}  (mm/s)",
+                  .y_label = std::string("{/:Italic f}_g  (") + unit.name + ")",
+                  .curves = {loop, model_loop}}}};
 }
 
 }  // namespace
@@ -111,7 +121,7 @@ PaperSection fig5_section(PaperData& data) {
                           page::number(1e3 * model.rise_from_jam),
                           page::number(1e3 * s.speed_in.mean), page::number(1e3 * model.speed_in),
                           page::percent(speeds.back())});
-    if (drawn.panels.empty() && !model.last.time.empty()) drawn = draw(runs[k], model.last);
+    if (drawn.panels.empty() && !model.last.time.empty()) drawn = draw(runs[k], model);
   }
   const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds),
                    jam = sample_mean(from_jam);
@@ -122,9 +132,10 @@ PaperSection fig5_section(PaperData& data) {
                            {"jam", page::percent(jam.mean)}};
   section.draw("fig5", drawn, words);
   section.tables = {table};
-  section.claim("fig5.rise", words,
-                graded(std::abs(rise.mean) <= 0.15, std::abs(rise.mean) <= 0.3));
-  section.claim("fig5.speed", words, graded(speed.mean < 0.0));
+  // the force was fitted to the same run: that its integral comes back is consistency alone
+  section.claim("fig5.rise", words, PaperRange::about(0.0, 0.15), part_of(found(rise)));
+  section.claim("fig5.jam", words, PaperRange::about(0.0, 0.15), found(jam));
+  section.claim("fig5.speed", words, PaperRange::at_most(0.0), found(speed));
   return section;
 }
 

@@ -65,11 +65,12 @@ PaperSection fig9_section(PaperData& data) {
     panel.curves = power_law_curves(curve, fit, expected, geometric_mean(curve.x));
     const std::string of = name;
     words[of] = words_of(fit);
-    words[of + "_misfit"] = misfit_words(fit, curve);
+    const Misfit misfit = misfit_of(fit, curve);
+    words[of + "_misfit"] = words_of(misfit);
     // Either part of the frequencies by itself: a law that bends has two exponents.
     words[of + "_low"] = words_of(fit_part(curve, 0.0, 10.0));
     words[of + "_high"] = words_of(fit_part(curve, 10.0, 1e9));
-    section.claim("fig9." + of, words, judge_exponent(fit, expected));
+    section.claim("fig9." + of, words, PaperRange::exponent(expected), found(fit, misfit.p));
   }
   section.draw("fig9", figure, words);
   section.tables = {values_table(values)};

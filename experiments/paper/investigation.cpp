@@ -72,33 +72,73 @@ page::Table rates_table(const std::vector<RunGroup>& causes) {
   return table;
 }
 
-/// "−1.80 against −1.82 (0.7 standard deviations of the samples)".
-page::Text effect(const std::vector<RunGroup>& causes, const RunGroup& group,
-                  double Observation::*quantity) {
-  const SampleMean seen = overall(group, quantity),
-                   reference = overall(causes[static_cast<size_t>(group.reference)], quantity);
-  if (!std::isfinite(seen.mean) || !std::isfinite(reference.mean)) return "–";
-  const page::Text text = page::number(seen.mean) + " against " + page::number(reference.mean);
-  const double deviation = deviation_of(overall(causes[0], quantity));
-  if (!(deviation > 0.0)) return text;
-  return text + " (" + page::number(std::abs(seen.mean - reference.mean) / deviation, 2) +
-         " standard deviations of the samples)";
+/// One cause's exponent beside that without it.
+struct Effect {
+  const RunGroup* cause;
+  const char* quantity;  ///< in words
+  double with, without;
+  Difference difference;
+};
+
+/// Single runs of one packing: the error of a difference of two exponents comes from the scatter
+/// of runs of one packing, pooled over all frequencies and samples of the campaign.
+std::vector<Effect> effects_of(const std::vector<RunGroup>& causes,
+                               const std::vector<VariedValue>& driven) {
+  const double span = std::log(fast_end / slow_end);
+  std::vector<Effect> effects;
+  for (const auto& [name, quantity] :
+       {std::pair{"Δx_max", &Observation::rise}, std::pair{"v_max", &Observation::speed_in}}) {
+    const PooledError scatter = scatter_paired(driven, quantity);
+    for (const RunGroup& cause : causes) {
+      if (cause.reference < 0) continue;
+      const double with = overall(cause, quantity).mean,
+                   without = overall(causes[static_cast<size_t>(cause.reference)], quantity).mean;
+      // two runs make an exponent, and two exponents the difference
+      if (std::isfinite(with) && std::isfinite(without))
+        effects.push_back(
+            {&cause,
+             name,
+             with,
+             without,
+             {with - without, 2.0 * scatter.deviation / span, scatter.degrees_of_freedom}});
+    }
+  }
+  return effects;
 }
 
-void claim_effects(const std::vector<RunGroup>& causes, PaperSection& section) {
-  for (const RunGroup& group : causes)
-    if (group.reference >= 0 && std::isfinite(overall(group, &Observation::rise).mean))
-      section.claim("investigation.exponent",
-                    {{"cause", group.name},
-                     {"rise", effect(causes, group, &Observation::rise)},
-                     {"speed", effect(causes, group, &Observation::speed_in)}});
+page::Table effects_table(const std::vector<Effect>& effects) {
+  page::Table table = page::words_table("investigation.effects");
+  std::vector<double> chances;
+  for (const Effect& effect : effects) chances.push_back(effect.difference.p());
+  const std::vector<double> corrected = holm(chances);
+  for (size_t k = 0; k < effects.size(); ++k) {
+    const Effect& effect = effects[k];
+    table.rows.push_back({effect.cause->name, effect.quantity, page::number(effect.with),
+                          page::number(effect.without),
+                          page::number(effect.difference.mean) + " ± " +
+                              page::number(effect.difference.half_width(), 2),
+                          words_of_p(chances[k]), words_of_p(corrected[k]),
+                          corrected[k] < 0.05 ? "yes" : "no"});
+  }
+  return table;
+}
+
+/// Which causes change an exponent by more than chance, all of them asked together.
+page::Text proven(const page::Table& effects) {
+  page::Text names;
+  for (const std::vector<page::Text>& row : effects.rows)
+    if (plain_words(row.back()) == "yes") add_to_list(names, row[0] + " (" + row[1] + ")");
+  return names.spans.empty() ? page::Text("none") : names;
+}
+
+void report_peaks(const std::vector<RunGroup>& causes, PaperSection& section) {
   for (const RunGroup& group : causes) {
     const double whole = peak_of(group, &Observation::rate);
     if (std::isfinite(whole))
-      section.claim("investigation.peak",
-                    {{"cause", group.name},
-                     {"own", page::number(whole, 1)},
-                     {"common", page::number(peak_of(group, &Observation::rate_common), 1)}});
+      section.report("investigation.peak",
+                     {{"cause", group.name},
+                      {"own", page::number(whole, 1)},
+                      {"common", page::number(peak_of(group, &Observation::rate_common), 1)}});
   }
 }
 
@@ -114,7 +154,13 @@ PaperSection investigation_section(PaperData& data) {
     section.tables = {exponents_table(causes)};
     if (const page::Table rates = rates_table(causes); !rates.rows.empty())
       section.tables.push_back(rates);
-    claim_effects(causes, section);
+    const page::Table effects = effects_table(effects_of(causes, data.values(Varied::frequency)));
+    if (!effects.rows.empty()) {
+      section.tables.push_back(effects);
+      section.report("investigation.exponent",
+                     {{"count", std::to_string(effects.rows.size())}, {"proven", proven(effects)}});
+    }
+    report_peaks(causes, section);
   }
   add_local_exponents(data, causes, section);
   add_similarity(data, section);

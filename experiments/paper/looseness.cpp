@@ -14,11 +14,12 @@ struct Loosening {
   Varied varied;
   const char *name, *title;  ///< of the table's words, and in the legend
   Ink ink;
+  MarkShape shape;
 };
 constexpr Loosening loosenings[] = {
-    {Varied::iterations, "slow", "nncg, 10 Hz", Ink::blue},
-    {Varied::iterations_fast, "fast", "nncg, 60 Hz", Ink::vermilion},
-    {Varied::backend, "backends", "other backends, 10 Hz", Ink::green}};
+    {Varied::iterations, "slow", "nncg, 10 Hz", Ink::blue, MarkShape::circle},
+    {Varied::iterations_fast, "fast", "nncg, 60 Hz", Ink::vermilion, MarkShape::triangle},
+    {Varied::backend, "backends", "other backends, 10 Hz", Ink::green, MarkShape::square}};
 
 double error_of(const VariedValue& value) { return value.samples.front().error_mean; }
 
@@ -33,10 +34,11 @@ double seen(const VariedValue& value, double Observation::*quantity) {
   return value.samples.front().*quantity;
 }
 
-/// Spread between samples: standard deviation over the base runs' seeds; relative to their mean.
-double relative_spread(const RunGroup& base) {
-  const SampleMean mean = base.mean_at(base_force, &Observation::rise);
-  return deviation_of(mean) / std::abs(mean.mean);
+/// What Delta x_max of two runs of one packing differs by at most, by chance alone (95 %):
+/// relative.
+double chance_of(const std::vector<VariedValue>& base) {
+  const PooledError scatter = scatter_paired(base, &Observation::rise);
+  return student_t95(scatter.degrees_of_freedom) * std::sqrt(2.0) * scatter.deviation;
 }
 
 page::Table table_of(const Loosening& what, const std::vector<VariedValue>& values,
@@ -48,7 +50,7 @@ page::Table table_of(const Loosening& what, const std::vector<VariedValue>& valu
     for (const ObservableColumn& column : observable_columns()) {
       const double now = seen(value, column.value), best = seen(tightest, column.value);
       page::Text cell = page::number(column.factor * now);
-      if (&value != &tightest)
+      if (value.label != tightest.label)
         cell += " (" + (best == 0.0 ? page::Text("–") : page::percent(now / best - 1.0)) + ")";
       table.rows.back().push_back(cell);
     }
@@ -61,13 +63,14 @@ Curve deviation_curve(const Loosening& what, const std::vector<VariedValue>& val
                       const VariedValue& tightest, bool against_time) {
   VariedCurve points;
   for (const VariedValue& value : values) {
-    if (&value == &tightest) continue;
+    if (value.label == tightest.label) continue;
     const double ratio = seen(value, &Observation::rise) / seen(tightest, &Observation::rise);
     points.x.push_back(against_time ? milliseconds(value) : error_of(value));
     points.y.push_back(std::max(1e-4, std::abs(ratio - 1.0)));
-    points.error.push_back(0.0);
   }
-  return points_of(points, what.title, what.ink);
+  Curve curve = points_of(points, what.title, what.ink);
+  curve.shape = what.shape;
+  return curve;
 }
 
 Panel deviation_panel(const char* x_label, double spread) {
@@ -76,7 +79,7 @@ Panel deviation_panel(const char* x_label, double spread) {
               .log_x = true,
               .log_y = true};
   if (std::isfinite(spread) && spread > 0.0)
-    panel.lines = {{spread, "spread between samples", false, Ink::grey}};
+    panel.lines = {{spread, "chance, runs of one packing (95 %)", false, Ink::grey}};
   return panel;
 }
 
@@ -97,22 +100,28 @@ page::Text loosest_good(std::vector<VariedValue> values, double spread) {
 
 PaperSection looseness_section(PaperData& data) {
   PaperSection section{.text = {page::words("looseness.intro")}};
-  const double spread = relative_spread({"base", data.values(Varied::force)});
+  const double spread = chance_of(data.values(Varied::force));
   Figure figure{.height = 800,
-                .panels = {deviation_panel("rms error over  {/:Italic g h}", spread),
+                .panels = {deviation_panel("rms error / ({/:Italic g h})", spread),
                            deviation_panel("wall clock of a step, median  (ms)", spread)}};
   for (const Loosening& what : loosenings) {
-    const std::vector<VariedValue> values = read_values(data, what.varied, section);
-    if (values.size() < 2) continue;
+    std::vector<VariedValue> values = read_values(data, what.varied, section), compared = values;
+    // at one frequency there is one reference: other backends are compared with the tightest nncg
+    if (what.varied == Varied::backend) {
+      for (const VariedValue& value : data.values(Varied::iterations)) compared.push_back(value);
+      // nncg's own run is drawn among its iterations
+      std::erase_if(values, [](const VariedValue& value) { return value.value == 0.0; });
+    }
+    if (values.empty() || compared.size() < 2) continue;
     // the others are compared with the run of the smallest error
-    const VariedValue& tightest = *std::min_element(values.begin(), values.end(), is_tighter);
+    const VariedValue& tightest = *std::min_element(compared.begin(), compared.end(), is_tighter);
     section.tables.push_back(table_of(what, values, tightest));
     for (const bool against_time : {false, true})
       figure.panels[against_time].curves.push_back(
           deviation_curve(what, values, tightest, against_time));
     if (what.varied == Varied::iterations && values.size() > 2 && std::isfinite(spread))
-      section.claim("looseness.claim", {{"spread", page::number(100.0 * spread, 2)},
-                                        {"good", loosest_good(values, spread)}});
+      section.report("looseness.claim", {{"spread", page::number(100.0 * spread, 2)},
+                                         {"good", loosest_good(values, spread)}});
   }
   if (!section.tables.empty()) section.draw("looseness", figure);
   return section;

@@ -101,9 +101,10 @@ std::vector<size_t> PaperData::motion() const {
   return runs;
 }
 
-std::optional<size_t> PaperData::at_frequency(double frequency) const {
+std::optional<size_t> PaperData::at_frequency(double frequency, int seed) const {
   for (const CampaignPoint& point : campaign_.points)
-    if (point.varied == Varied::frequency && point.value == frequency && has(point.run))
+    if (point.varied == Varied::frequency && point.value == frequency && point.seed == seed &&
+        has(point.run))
       return point.run;
   return {};
 }

@@ -47,8 +47,8 @@ class PaperData {
   const RunObservables* observables_of(size_t run);
   /// Finished ones of Campaign::motion.
   std::vector<size_t> motion() const;
-  /// A run at this of the frequencies that are varied, the least seed that is finished.
-  std::optional<size_t> at_frequency(double frequency) const;
+  /// The finished run of a seed at this of the frequencies that are varied.
+  std::optional<size_t> at_frequency(double frequency, int seed) const;
   int finished() const;
 
  private:

@@ -62,12 +62,21 @@ std::vector<page::Text> origin_of(const PaperData& data) {
 page::Page paper_page(const std::vector<PaperSection>& sections,
                       const std::vector<page::Text>& origin) {
   page::Page page{.title = "The paper, figure by figure", .lede = {page::words("paper.lede")}};
-  page::Table agreement{.head = {"figure", "paper", "Ballast", "agreement"}};
-  for (const PaperSection& section : sections)
+  page::Table agreement = page::words_table("paper.agreement"),
+              beyond = page::words_table("paper.beyond");
+  for (const PaperSection& section : sections) {
     for (const AgreementRow& row : section.rows)
-      agreement.rows.push_back({row.place, row.paper, row.ballast, word_of(row.agreement)});
+      agreement.rows.push_back({row.place, row.paper, row.ballast, words_of(row.range),
+                                words_of(row.found), word_of(row.agreement)});
+    for (const BeyondRow& finding : section.findings)
+      beyond.rows.push_back({finding.what, finding.found});
+  }
   page.add({"origin", "What was run", {page::List{origin}}});
-  page.add({"agreement", "Paper, Ballast, agreement", {agreement}});
+  page.add({"agreement", "Paper, Ballast, agreement", {page::words("paper.rule"), agreement}});
+  page.add({"beyond", "Beyond the paper", {beyond}});
+  page.add({"parameters",
+            "What the paper says and what was chosen",
+            {page::words_table("paper.parameters"), page::words("paper.unknown")}});
   for (const PaperSection& section : sections) {
     page::Section part{section.id, section.heading, {page::Notices{{}, section.notes}}};
     for (const page::Text& paragraph : section.text) part.add(paragraph);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace ballast {
 namespace {
@@ -62,8 +64,40 @@ SampleMean RunGroup::mean_at(double value, double Observation::*quantity) const 
   return found ? found->mean(quantity) : SampleMean{};
 }
 
-double deviation_of(const SampleMean& mean) {
-  return mean.error * std::sqrt(static_cast<double>(mean.samples));
+std::vector<double> logs_of(const VariedValue& value, double Observation::*quantity) {
+  std::vector<double> logs;
+  for (const Observation& sample : value.samples) logs.push_back(std::log(sample.*quantity));
+  return logs;
+}
+
+PooledError scatter_between(const std::vector<VariedValue>& values, double Observation::*quantity) {
+  std::vector<std::vector<double>> groups;
+  for (const VariedValue& value : values) groups.push_back(logs_of(value, quantity));
+  return pooled_error(groups);
+}
+
+PooledError scatter_paired(const std::vector<VariedValue>& values, double Observation::*quantity) {
+  std::set<int> seeds;
+  for (const VariedValue& value : values) seeds.insert(value.seeds.begin(), value.seeds.end());
+  // one group for each packing: what it misses of the mean at every value that has all packings
+  std::map<int, std::vector<double>> misses;
+  int complete = 0;
+  for (const VariedValue& value : values) {
+    const std::vector<double> logs = logs_of(value, quantity);
+    const SampleMean mean = sample_mean(logs);
+    if (mean.samples < static_cast<int>(seeds.size())) continue;
+    ++complete;
+    for (size_t k = 0; k < logs.size(); ++k) misses[value.seeds[k]].push_back(logs[k] - mean.mean);
+  }
+  std::vector<std::vector<double>> groups;
+  for (const auto& [seed, missed] : misses) groups.push_back(missed);
+  PooledError pooled = pooled_error(groups);
+  // the misses at one value add up to nothing: that takes a degree of freedom for each
+  const int freedom = (complete - 1) * (static_cast<int>(seeds.size()) - 1);
+  if (freedom < 1) return {};
+  pooled.deviation *= std::sqrt(static_cast<double>(pooled.degrees_of_freedom) / freedom);
+  pooled.degrees_of_freedom = freedom;
+  return pooled;
 }
 
 page::Table observable_table(const std::string& name) {

@@ -20,8 +20,14 @@ struct RunGroup {
   SampleMean mean_at(double value, double Observation::*quantity) const;
 };
 
-/// Standard deviation of one sample: what another set of grains changes.
-double deviation_of(const SampleMean& mean);
+/// Logarithms of a quantity, one of each sample.
+std::vector<double> logs_of(const VariedValue& value, double Observation::*quantity);
+
+/// How the logarithm of a quantity scatters, pooled over values of what is varied: between samples
+/// of grains; and from run to run of one packing, where what a packing has in common at all values
+/// is taken out (of the values that have every packing).
+PooledError scatter_between(const std::vector<VariedValue>& values, double Observation::*quantity);
+PooledError scatter_paired(const std::vector<VariedValue>& values, double Observation::*quantity);
 
 /// The words of a table, in which {observables} stands for the heads of observable_columns().
 page::Table observable_table(const std::string& name);

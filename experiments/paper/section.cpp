@@ -18,20 +18,12 @@ void add_value(CsvWriter& csv, const std::vector<double>& values, size_t k) {
 
 }  // namespace
 
-const char* word_of(Agreement agreement) {
-  constexpr const char* words[] = {"agrees", "partly", "DIFFERS", "reported"};
-  return words[static_cast<size_t>(agreement)];
-}
-
-Agreement graded(bool agrees, bool agrees_partly) {
-  return agrees ? Agreement::agrees : agrees_partly ? Agreement::partly : Agreement::differs;
-}
-
 void PaperSection::draw(const std::string& name, Figure plot, const page::Values& values) {
   // "fig9" is kept as fig09, so that files sort by number
   const bool has_one_digit = name.starts_with("fig") && name.size() == 4;
   const std::string file = has_one_digit ? "fig0" + name.substr(3) : name;
   if (plot.name.empty()) plot.name = file;
+  plot.has_letters = plot.panels.size() > 1;
   if (plot.title.empty()) plot.title = plain_words(page::words(name + ".title"));
   figures.push_back({std::move(plot),
                      {page::marked("**Paper:** ") + page::words(name + ".paper"),
@@ -40,9 +32,15 @@ void PaperSection::draw(const std::string& name, Figure plot, const page::Values
                          page::Text("data", 0, "data/" + file + ".csv")});
 }
 
-void PaperSection::claim(const std::string& name, const page::Values& values, Agreement agreement) {
+void PaperSection::claim(const std::string& name, const page::Values& values,
+                         const PaperRange& range, const Found& found) {
   const std::vector<page::Text> cells = parts_of(page::words(name, values), "||");
-  rows.push_back({cells.at(0), cells.at(1), cells.at(2), agreement});
+  rows.push_back({cells.at(0), cells.at(1), cells.at(2), range, found, agreement_of(range, found)});
+}
+
+void PaperSection::report(const std::string& name, const page::Values& values) {
+  const std::vector<page::Text> cells = parts_of(page::words(name, values), "||");
+  findings.push_back({cells.at(0), cells.at(1)});
 }
 
 Panel frequency_panel(const std::string& y_label) {
@@ -50,7 +48,8 @@ Panel frequency_panel(const std::string& y_label) {
           .y_label = y_label,
           .log_x = true,
           .x_min = 0.85,
-          .x_max = 70.0};
+          .x_max = 70.0,
+          .x_ticks = {1, 2, 5, 10, 20, 60}};
 }
 
 Curve points_of(VariedCurve points, const std::string& title, Ink ink) {

@@ -5,20 +5,23 @@
 #include <vector>
 
 #include "experiments/page/page.hpp"
+#include "experiments/paper/agreement.hpp"
 
 namespace ballast {
-
-enum class Agreement { agrees, partly, differs, reported };
-const char* word_of(Agreement agreement);
-/// agrees, or partly where only that holds, or differs.
-Agreement graded(bool agrees, bool agrees_partly = false);
 
 /// One row of the table paper | Ballast | agreement.
 struct AgreementRow {
   page::Text place;    ///< "Fig. 9"
   page::Text paper;    ///< what the paper says
   page::Text ballast;  ///< what was measured, with its interval
+  PaperRange range;    ///< what the paper's words are taken as
+  Found found;         ///< what the verdict was made from
   Agreement agreement = Agreement::reported;
+};
+
+/// A result beyond the paper: nothing to agree with.
+struct BeyondRow {
+  page::Text what, found;
 };
 
 struct PaperSection {
@@ -29,19 +32,24 @@ struct PaperSection {
   std::vector<page::Picture> figures = {};
   std::vector<page::Table> tables = {};
   std::vector<AgreementRow> rows = {};
+  std::vector<BeyondRow> findings = {};
 
   /// A figure with its captions: words(name.paper) and words(name.found). Unless `plot` has them,
   /// its title is words(name.title), and its files are called `name`, with two digits for "fig9".
   void draw(const std::string& name, Figure plot, const page::Values& values = {});
-  /// A row of the table of agreement. words(name) is "place || what the paper says || what was
-  /// measured".
-  void claim(const std::string& name, const page::Values& values,
-             Agreement agreement = Agreement::reported);
+  /// A row of the table of agreement, judged by the one rule of agreement.hpp. words(name) is
+  /// "place
+  /// || what the paper says || what was measured".
+  void claim(const std::string& name, const page::Values& values, const PaperRange& range,
+             const Found& found);
+  /// A row of the table of what is beyond the paper. words(name) is "what || what was measured".
+  void report(const std::string& name, const page::Values& values);
 };
 
 /// Points of a figure with their standard errors.
 struct VariedCurve {
   std::vector<double> x, y, error;
+  int errors_from = 0;  ///< degrees of freedom of all errors together: samples less points
 };
 
 /// A panel over the paper's frequencies, 1 to 60 Hz: the same axis in every figure.

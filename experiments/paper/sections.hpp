@@ -20,8 +20,8 @@ struct ReportSection {
   std::vector<Varied> needs;                                  ///< points of these
   bool (*needs_point)(const CampaignPoint& point) = nullptr;  ///< of them only where true
 };
-/// In the paper's order. A new figure is its file, its words in texts/, and in sections.cpp its
-/// declaration and its row.
+/// The first result, then in the paper's order. A new figure is its file, its words in texts/, and
+/// in sections.cpp its declaration and its row.
 std::span<const ReportSection> paper_sections();
 
 /// Names that `ballast paper` takes: those of the sections, and "all".
@@ -52,12 +52,16 @@ page::Text words_of(const SampleMean& mean, double factor = 1.0);
 page::Text samples_of(const VariedValue& value);
 /// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995)".
 page::Text words_of(const PowerFit& fit);
-/// "χ²/dof 3.2" of a curve's points about the fit, with their errors; "χ²/dof –" when these are not
-/// known. What a reader has to know about it: words("misfit").
-page::Text misfit_words(const PowerFit& fit, const VariedCurve& curve);
-/// agrees: the interval holds `expected`, or the exponent is within `tolerance` of it; partly:
-/// within three times that.
-Agreement judge_exponent(const PowerFit& fit, double expected, double tolerance = 0.1);
+/// How far a law misses a curve's points, in their errors.
+struct Misfit {
+  double reduced = not_known;  ///< chi^2 over its degrees of freedom
+  double p = not_known;        ///< of so large a misfit where the law holds
+};
+Misfit misfit_of(const PowerFit& fit, const VariedCurve& curve);
+/// "χ²/dof 3.2, p 0.004"; what a reader has to know about it: words("misfit").
+page::Text words_of(const Misfit& misfit);
+/// "0.004", "< 1e-4"
+page::Text words_of_p(double p);
 
 /// What the legend says of points that are means over seeds.
 inline constexpr const char* mean_title = "mean over samples ± standard error";

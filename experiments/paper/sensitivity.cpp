@@ -38,7 +38,7 @@ PaperSection sensitivity_section(PaperData& data) {
     }
     section.tables.push_back(table);
     if (values.size() > 1)
-      section.claim("sensitivity.claim", {{"what", plural_of(varied)}, {"found", found}});
+      section.report("sensitivity.claim", {{"what", plural_of(varied)}, {"found", found}});
   }
   return section;
 }

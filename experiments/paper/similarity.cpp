@@ -107,13 +107,14 @@ void add_local(const std::string& name, int height, const Panel& axes,
   const page::Values words{
       {"errors", error_meaning(values)}, {"trends", trends}, {"of_law", of_law}};
   section.draw(name, figure, words);
-  section.claim(name + ".claim", words);
+  section.report(name + ".claim", words);
 }
 
 /// Measured against predicted, a row for each quantity; in words. `full`: the full box's
-/// quantities at the frequency that is similar.
+/// quantities at the frequency that is similar. `scatter`: of their logarithms.
 page::Text compare_half_scale(const VariedValue& half,
                               const std::array<SampleMean, quantities.size()>& full,
+                              const std::array<PooledError, quantities.size()>& scatter,
                               page::Table& table) {
   page::Text found;
   for (size_t q = 0; q < quantities.size(); ++q) {
@@ -121,16 +122,17 @@ page::Text compare_half_scale(const VariedValue& half,
     const SampleMean seen = half.mean(quantity.value);
     // lengths halve, so that a quantity of dimension length^p scales by (1/2)^p
     const double factor = std::pow(0.5, quantity.in_scale), predicted = factor * full[q].mean;
-    const double difference = seen.mean - predicted,
-                 error = std::hypot(seen.error, factor * full[q].error);
-    const page::Text relative = page::percent(difference / predicted),
-                     in_errors = page::number(std::abs(difference) / error, 2);
+    const Difference difference{
+        std::log(seen.mean / predicted),
+        scatter[q].deviation * std::sqrt(1.0 / seen.samples + 1.0 / full[q].samples),
+        scatter[q].degrees_of_freedom};
+    const page::Text relative = page::percent(difference.mean) + " ± " +
+                                page::number(100.0 * difference.half_width(), 2) + " %",
+                     chance = words_of_p(difference.p());
     table.rows.push_back({half.label, std::string(quantity.name) + " (" + quantity.unit + ")",
                           words_of(full[q], 1e3), page::number(factor),
-                          words_of(full[q], 1e3 * factor), words_of(seen, 1e3), relative,
-                          in_errors});
-    add_to_list(found, std::string(quantity.name) + " " + relative + " (" + in_errors +
-                           " standard errors)");
+                          words_of(full[q], 1e3 * factor), words_of(seen, 1e3), relative, chance});
+    add_to_list(found, std::string(quantity.name) + " " + relative + " (p " + chance + ")");
   }
   return found;
 }
@@ -143,8 +145,11 @@ void add_half_scale(PaperData& data, const RunGroup& frequencies, PaperSection& 
   const double same = varied_frequency * std::sqrt(0.5);
   // no run has that frequency: each sample is interpolated between 7 and 10 Hz
   std::array<SampleMean, quantities.size()> full;
-  for (size_t q = 0; q < quantities.size(); ++q)
+  std::array<PooledError, quantities.size()> scatter;
+  for (size_t q = 0; q < quantities.size(); ++q) {
     full[q] = interpolated(*below, *above, same, quantities[q].value);
+    scatter[q] = scatter_between(frequencies.values, quantities[q].value);
+  }
   const RunGroup sizes{"size", data.values(Varied::size)};
   page::Table table = page::words_table("similarity.table", {{"same", page::number(same)}});
   page::Text found;
@@ -152,9 +157,9 @@ void add_half_scale(PaperData& data, const RunGroup& frequencies, PaperSection& 
                                     std::pair{half_scale_case, "with the lid’s 1 cm as it is"}}) {
     const VariedValue* half = sizes.at(which);
     if (!half) continue;
-    const page::Text of_half = compare_half_scale(*half, full, table);
+    const page::Text of_half = compare_half_scale(*half, full, scatter, table);
     add_to_list(found, std::string(name) + ": " + of_half);
-    section.claim("similarity.claim", {{"how", name}, {"found", of_half}});
+    section.report("similarity.claim", {{"how", name}, {"found", of_half}});
   }
   if (table.rows.empty()) return;
   section.tables.push_back(table);
@@ -186,7 +191,7 @@ void add_gravity(PaperData& data, std::vector<VariedValue> frequencies,
                         {"beta", page::number(beta.exponent)},
                         {"measured", words_of(gravity)}});
   section.text.push_back(page::words("gravity.text", {{"found", found}}));
-  section.claim("gravity.claim", {{"found", found}});
+  section.report("gravity.claim", {{"found", found}});
 }
 
 }  // namespace
@@ -199,7 +204,7 @@ void add_local_exponents(PaperData& data, const std::vector<RunGroup>& causes,
     add_local("exponents_frequency", 700, frequency_panel(""), frequencies, &Quantity::in_frequency,
               causes, section);
   if (forces.size() > 2)
-    add_local("exponents_force", 640, {.x_label = "{/:Italic f}_{max} / {/:Italic m g}"}, forces,
+    add_local("exponents_force", 640, {.x_label = "{/:Italic f}_{max} / ({/:Italic m g})"}, forces,
               &Quantity::in_force, {}, section);
 }
 

@@ -84,19 +84,21 @@ TEST_CASE(
   REQUIRE(sections.size() == 1);
   CHECK(sections[0].figures.size() == 2);
   std::string effects;
-  for (const AgreementRow& row : sections[0].rows)
-    if (plain_words(row.paper) == "exponents of ν, 10–60 Hz")
-      effects += plain_words(row.ballast) + '\n';
-  CHECK_THAT(effects, Catch::Contains("friction 0.8: Δx_max −2.00 against −1.80") &&
-                          Catch::Contains("20 iterations a step: Δx_max −1.80 against −1.80"));
-  CHECK_THAT(plain_words(row_of(sections, "exponent of g = −α/2 − β (similarity)").ballast),
+  for (const page::Table& table : sections[0].tables)
+    for (const std::vector<page::Text>& row : table.rows)
+      if (row.size() == 8)
+        effects += plain_words(row[0] + " " + row[1] + " " + row[2] + " " + row[3]) + '\n';
+  CHECK_THAT(effects, Catch::Contains("friction 0.8 Δx_max −2.00 −1.80") &&
+                          Catch::Contains("20 iterations a step Δx_max −1.80 −1.80"));
+  const auto found = [&](const std::string& what) {
+    for (const BeyondRow& finding : sections[0].findings)
+      if (plain_words(finding.what) == what) return plain_words(finding.found);
+    return std::string("nothing");
+  };
+  CHECK_THAT(found("exponent of g = −α/2 − β (similarity)"),
              Catch::StartsWith("−α/2 − β = 1.90") && Catch::Contains("measured: 1.90"));
-  CHECK_THAT(plain_words(row_of(sections, "compaction fastest near 10 Hz").ballast),
+  CHECK_THAT(found("compaction fastest near 10 Hz"),
              Catch::Contains("at 10 Hz in the paper’s window"));
-  CHECK_THAT(
-      plain_words(
-          row_of(sections,
-                 "half-scale box = full box at ν/√2 (similarity), with the lid’s 1 cm as it is")
-              .ballast),
-      Catch::Contains("Δx_max") && Catch::Contains("v_max"));
+  CHECK_THAT(found("half-scale box = full box at ν/√2 (similarity), with the lid’s 1 cm as it is"),
+             Catch::Contains("Δx_max") && Catch::Contains("v_max"));
 }

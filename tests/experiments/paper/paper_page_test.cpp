@@ -19,8 +19,11 @@ PaperSection sample_section() {
                       .caption = {"what the paper says", "falls | too"},
                       .files = page::Text("PDF", 0, "figures/fig09.pdf")}};
   section.tables = {{"Means", {"ν", "a|b"}, {{"1", page::with_error(1.5, 0.25)}}}};
-  section.rows = {{"Fig. 9", "x ~ ν^−2", page::number(-2.0), Agreement::agrees},
-                  {"Fig. 9", "y", "no", Agreement::differs}};
+  const Found sharp{.value = -2.0, .low = -2.01, .high = -1.99};
+  section.rows = {{"Fig. 9", "x ~ ν^−2", page::number(-2.0), PaperRange::exponent(-2.0), sharp,
+                   Agreement::agrees},
+                  {"Fig. 9", "y", "no", PaperRange::exponent(1.0), sharp, Agreement::differs}};
+  section.findings = {{"beyond", "something"}};
   return section;
 }
 
@@ -36,7 +39,8 @@ TEST_CASE("both pages say the same words") {
   CHECK_THAT(html,
              Contains("Figure 9 &lt;again&gt;") && Contains("what the paper says<br>falls | too"));
   CHECK_THAT(markdown,
-             Contains("| Fig. 9 | y | no | DIFFERS |") && Contains("**PARTIAL: 1 of 2**"));
+             Contains("| Fig. 9 | y | no | 0.9 … 1.1 | −2.00 [−2.01, −1.99] | DIFFERS |") &&
+                 Contains("**PARTIAL: 1 of 2**"));
   const std::string head = "| ν | a\\|b |", found = "falls \\| too";
   CHECK_THAT(markdown, Contains(head) && Contains(found));
   CHECK_THAT(markdown,
@@ -46,10 +50,14 @@ TEST_CASE("both pages say the same words") {
 TEST_CASE("what was found stands before the sections, row by row") {
   const page::Page page = paper_page({sample_section(), sample_section()}, {});
   REQUIRE(page.sections.at(1).id == "agreement");
-  const auto& table = std::get<page::Table>(page.sections.at(1).blocks.at(0));
+  const auto& table = std::get<page::Table>(page.sections.at(1).blocks.at(1));
   REQUIRE(table.rows.size() == 4);
   CHECK(plain_words(table.rows[0][2]) == "−2.00");
-  CHECK(plain_words(table.rows[3][3]) == "DIFFERS");
+  CHECK(plain_words(table.rows[3][5]) == "DIFFERS");
+  REQUIRE(page.sections.at(2).id == "beyond");
+  const auto& beyond = std::get<page::Table>(page.sections.at(2).blocks.at(0));
+  REQUIRE(beyond.rows.size() == 2);
+  CHECK(plain_words(beyond.rows[0][1]) == "something");
 }
 
 }  // namespace

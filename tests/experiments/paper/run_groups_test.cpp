@@ -41,7 +41,6 @@ TEST_CASE("a group knows its values, and says nothing of others") {
   CHECK(group.at(7.0) == nullptr);
   const SampleMean mean = group.mean_at(5.0, &Observation::rise);
   CHECK(mean.mean == 2.0);
-  CHECK(deviation_of(mean) == Approx(std::sqrt(2.0)));  // of 1 and 3
   CHECK(std::isnan(group.mean_at(7.0, &Observation::rise).mean));
 }
 
@@ -51,4 +50,21 @@ TEST_CASE("a table of observables has their heads where its words say {observabl
   CHECK(plain_words(table.head[0]) == "solver");
   CHECK(plain_words(table.head[3]) == "Δx_max (mm)");
   CHECK_FALSE(table.caption.empty());
+}
+
+TEST_CASE("what a packing has in common is in the scatter between samples, not from run to run") {
+  // two packings that always differ by a factor e^2, and runs that miss that by e^0.2
+  const auto logs = [](double a, double b) {
+    return std::vector<double>{std::exp(a), std::exp(b)};
+  };
+  const std::vector<VariedValue> values{value_of(1.0, {1, 2}, logs(0.0, 2.2)),
+                                        value_of(2.0, {1, 2}, logs(5.0, 6.8)),
+                                        value_of(3.0, {1}, {7.0})};
+  const PooledError between = scatter_between(values, &Observation::rise),
+                    paired = scatter_paired(values, &Observation::rise);
+  CHECK(between.degrees_of_freedom == 2);
+  CHECK(between.deviation == Approx(std::sqrt(0.5 * (2.2 * 2.2 / 2.0 + 1.8 * 1.8 / 2.0))));
+  CHECK(paired.degrees_of_freedom == 1);
+  CHECK(paired.deviation == Approx(0.2));  // differences of 2.2 and 1.8, made of four runs
+  CHECK(scatter_paired({values[0]}, &Observation::rise).degrees_of_freedom == 0);
 }

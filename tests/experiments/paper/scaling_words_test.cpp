@@ -6,22 +6,18 @@
 namespace ballast {
 namespace {
 
-TEST_CASE("an exponent agrees when it is near, or its sharp interval holds the expected one") {
-  PowerFit fit;
-  fit.exponent = -1.93;
-  fit.half_width = 0.01;
-  CHECK(judge_exponent(fit, -2.0) == Agreement::agrees);  // within 0.1
-  fit.exponent = -1.75;
-  CHECK(judge_exponent(fit, -2.0) == Agreement::partly);  // within 0.3
-  fit.half_width = 0.4;
-  CHECK(judge_exponent(fit, -2.0) == Agreement::agrees);  // the interval holds −2
-  fit.half_width = 1.5;                                   // and would hold anything
-  CHECK(judge_exponent(fit, -2.0) == Agreement::partly);
-  fit.exponent = -1.5;
-  fit.half_width = 0.1;
-  CHECK(judge_exponent(fit, -2.0) == Agreement::differs);
-  fit.half_width = not_known;
-  CHECK(judge_exponent(fit, -2.0) == Agreement::reported);
+TEST_CASE("a law's misfit is about one, and has its p, where the points scatter as their errors") {
+  const VariedCurve on{{1, 2, 4, 8}, {1.1, 1.9, 4.3, 7.7}, {0.1, 0.2, 0.4, 0.8}, 8},
+      off{{1, 2, 4, 8}, {1.0, 1.0, 8.0, 8.0}, {0.05, 0.05, 0.4, 0.4}, 8};
+  const Misfit good = misfit_of(fit_power(on.x, on.y), on),
+               bad = misfit_of(fit_power(off.x, off.y), off);
+  CHECK(good.reduced < 2.0);
+  CHECK(good.p > 0.1);
+  CHECK(bad.reduced > 10.0);
+  CHECK(bad.p < 0.01);
+  CHECK_THAT(plain_words(words_of(bad)),
+             Catch::StartsWith("χ²/dof ") && Catch::Contains(", p < 1e-4"));
+  CHECK(plain_words(words_of_p(1e-9)) == "< 1e-4");
 }
 
 TEST_CASE("a power law is found and said with its interval") {

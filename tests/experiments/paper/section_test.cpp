@@ -48,7 +48,7 @@ TEST_CASE("a figure has its words, and files that sort by number") {
   CHECK_THAT(picture.plot.title, Catch::Contains("Phase portraits"));
   REQUIRE(picture.caption.size() == 2);
   CHECK_THAT(plain_words(picture.caption[0]), Catch::StartsWith("Paper: Displacements"));
-  CHECK_THAT(plain_words(picture.caption[1]), Catch::Contains("0.5 raw and 0.1 scaled"));
+  CHECK_THAT(plain_words(picture.caption[1]), Catch::Contains("0.5 raw, 0.1 scaled"));
   CHECK(picture.files.spans.at(0).link == "figures/fig08.pdf");
   section.draw("fig10_mass", {.name = "mine", .title = "Mine"},
                {{"exponent", "1"}, {"misfit", "2"}, {"frequency", "10"}, {"end", "0.7"}});
@@ -59,13 +59,16 @@ TEST_CASE("a figure has its words, and files that sort by number") {
 TEST_CASE(
     "a claim is a row: where, what the paper says, what was measured, and whether it agrees") {
   PaperSection section;
-  section.claim("fig8.collapse", {{"raw", "0.5"}, {"scaled", "0.1"}}, graded(false, true));
+  section.claim("fig8.collapse", {{"raw", "0.5"}, {"scaled", "0.1"}}, PaperRange::at_most(0.1),
+                {.value = 0.2, .low = 0.19, .high = 0.21});
   REQUIRE(section.rows.size() == 1);
   CHECK(section.rows[0].place == page::Text("Fig. 8"));
   CHECK(section.rows[0].paper == page::Text("orbits at 5 and 10 Hz collapse"));
   CHECK_THAT(plain_words(section.rows[0].ballast), Catch::StartsWith("distance raw 0.5, scaled"));
-  CHECK(section.rows[0].agreement == Agreement::partly);
-  CHECK(graded(true) == Agreement::agrees);
-  CHECK(graded(false) == Agreement::differs);
+  CHECK(section.rows[0].agreement == Agreement::differs);
   CHECK(std::string(word_of(Agreement::differs)) == "DIFFERS");
+  section.report("sensitivity.claim", {{"what", "steps"}, {"found", "nothing"}});
+  REQUIRE(section.findings.size() == 1);
+  CHECK(plain_words(section.findings[0].what) == "Δx_max by steps");
+  CHECK(section.rows.size() == 1);
 }
