@@ -8,6 +8,7 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/commands/compare_snakemake.hpp"
 #include "experiments/compare/backend_summary.hpp"
+#include "experiments/compare/case_views.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/live_page.hpp"
@@ -32,6 +33,7 @@ struct CompareRequest {
   LiveOptions live;
   std::vector<std::string> cases, external;
   ExternalLimits program_limits;
+  bool with_views = false;
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
   std::filesystem::path output = "results/compare", reference;
   CompareOptions comparison;
@@ -183,6 +185,8 @@ ExitCode compare(CompareRequest& options) {
     return options.is_quiet ? !InterruptGuard::requested() : show(row, was_there, done, count);
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
+  if (options.with_views)
+    write_case_views(rows, options.comparison, [] { return !InterruptGuard::requested(); });
   if (InterruptGuard::requested()) return interrupted();
   if (options.comparison.is_part) return verdict_on_cases(rows, cases.size());
   if (options.report) write_compare_page(options.output, rows, reference);
@@ -238,6 +242,8 @@ Command compare_command() {
         "CSV of others' times: problem,ms_1e-4,solver_1e-4,..."},
        {"--output DIR", &options->output, "Folder of the results", shown},
        {"--no-report", &options->report, "No figures and no page"},
+       {"--views", &options->with_views,
+        "Of captured cases also a page each in 3D, where in the packing which backend is wrong"},
        {"--quiet", &options->is_quiet, "Says nothing but failures"},
        {"--snakemake DIR", &options->snakemake,
         "Solves nothing, but writes cases x backends as a Snakefile with a profile for Slurm"},

@@ -12,6 +12,7 @@
 #include "experiments/record/checkpoint.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
+#include "experiments/view/animated_png.hpp"
 #include "experiments/view/run_view.hpp"
 #include "experiments/view/still.hpp"
 #include "platform/atomic_file.hpp"
@@ -29,7 +30,8 @@ struct ExportOptions {
   std::string format_word, time_word;
   // of pictures
   int frame = -1;  ///< number of the stored frame; -1: by time, or the last
-  std::string view_word, colour_word;
+  std::string view_word, colour_word, frames_word;
+  std::optional<std::pair<int, int>> frames;  ///< first and last of an animation
   StillOptions still;
 };
 
@@ -87,15 +89,45 @@ ExitCode export_all(const ExportOptions& options, const MechanicalSystem& system
   return ExitCode::ok;
 }
 
+/// "20:40".
+std::optional<std::pair<int, int>> parsed_frames(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  const std::vector<std::string> ends = split(word, ':');
+  const auto first = parsed<int>(ends[0]), last = parsed<int>(ends.back());
+  if (ends.size() != 2 || !first || !last || *first < 0 || *last <= *first)
+    throw std::invalid_argument("'" + word + "': expected FIRST:LAST, two numbers of frames");
+  return std::pair(*first, *last);
+}
+
+/// Some stored frames as a picture that moves: a tenth of a second each.
+ExitCode export_animation(const ExportOptions& options, const ViewData& view) {
+  const auto [first, last] = *options.frames;
+  if (last >= static_cast<int>(view.frames.size()))
+    throw Error(options.source.string() + ": has frames 0 to " +
+                std::to_string(view.frames.size() - 1) + ", not --frames " + options.frames_word);
+  std::vector<Picture3> pictures;
+  for (int frame = first; frame <= last; ++frame)
+    pictures.push_back(still_picture(view, static_cast<size_t>(frame), options.still));
+  const std::string png = animated_png(pictures, still_finer, 100);
+  write_whole_file(options.output, png);
+  std::cout << options.output.string() << ": frames " << first << " to " << last << ", "
+            << png.size() / 1000 << " kB\n";
+  return ExitCode::ok;
+}
+
 /// A picture of one stored frame, drawn without a display.
 ExitCode export_picture(const ExportOptions& options) {
   const std::optional<ViewData> view = view_of_run(read_run_data(options.source));
   if (!view) throw Error(options.source.string() + ": no poses are stored there");
+  if (options.still.with_chains && view->contacts.empty())
+    throw Error(options.source.string() +
+                ": no forces are stored there (--set record.forces=true)");
   const std::vector<PoseFrame>& frames = view->frames;
   size_t frame = frames.size() - 1;
   if (options.frame >= static_cast<int>(frames.size()))
     throw Error(options.source.string() + ": has frames 0 to " + std::to_string(frame) +
                 ", not --frame " + std::to_string(options.frame));
+  if (options.frames) return export_animation(options, *view);
   const double time = options.time.value_or(frames.back().time);
   const auto is_nearer = [&](const PoseFrame& a, const PoseFrame& b) {
     return std::abs(a.time - time) < std::abs(b.time - time);
@@ -154,10 +186,14 @@ Command export_command() {
        {"--time S", &options->time_word, "The stored frame nearest to this time [s]",
         into(options->time, parsed_time)},
        {"--frame N", &options->frame, "png: number of the stored frame (the last)"},
+       {"--frames FIRST:LAST", &options->frames_word,
+        "png: these stored frames as a picture that moves", into(options->frames, parsed_frames)},
        {"--view FROM", &options->view_word, "png: home, x, -x, y, -y, z, or YAW,PITCH in degrees",
         parsed([options](const std::string& word) { set_view(options->still, word); })},
        {"--colour BY", &options->colour_word, "png: speed, displacement, size or none (speed)",
         parsed([options](const std::string& word) { set_colour(options->still, word); })},
+       {"--chains", &options->still.with_chains,
+        "png: force chains, bodies as glass; needs a run with record.forces"},
        {"--width PIXELS", &options->still.width, "png", between(16, 8000), shown},
        {"--height PIXELS", &options->still.height, "png", between(16, 8000), shown},
        {"--last", &options->last, "The latest checkpoint (default)", excludes("--time")},

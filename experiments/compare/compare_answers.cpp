@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/compare/backend_summary.hpp"
+#include "experiments/compare/case_views.hpp"
 #include "experiments/compare/compare_table.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
@@ -56,18 +57,30 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
                {"limit", limit},
                {"shift", summary_shift},
                {"again", again(data, rows[0])}};
-  Json &columns = json["columns"] = Json::array(), &cells = json["rows"] = Json::array();
+  // `views`: where the bodies of a case are known its page in 3D, empty where none was asked for
+  Json columns = Json::array(), cells = Json::array(), words = Json::object(),
+       histories = Json::object(), views = Json::object();
   for (const CompareColumn& column : compare_columns())
     columns.push_back({column.name, column.description});
-  Json &words = json["words"] = Json::object(), &histories = json["histories"] = Json::object();
   const size_t points = std::clamp<size_t>(most_points / rows.size(), 8, 100);
   for (const CompareRow& row : rows) {
     Json line = Json::array();
     for (const CompareColumn& column : compare_columns()) line.push_back(column.text(row));
     cells.push_back(std::move(line));
     words[row.case_name] = shell_word(row.word.empty() ? row.case_name : row.word);
+    if (row.can_view) {
+      const std::filesystem::path page = view_page_of(row.case_name);
+      views[row.case_name] = std::filesystem::exists(data.folder / page) ? page.string() : "";
+    }
     if (row.history.size() > 1) histories[row.key] = history_json(row, points);
   }
+  // only now: a member that is added moves the others
+  for (const auto& [name, part] : {std::pair("columns", &columns),
+                                   {"rows", &cells},
+                                   {"words", &words},
+                                   {"histories", &histories},
+                                   {"views", &views}})
+    json[name] = std::move(*part);
   page::Answers answers{.are_given = true};
   answers.data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (const char* name : modules) answers.modules.push_back(comparison_file(name));

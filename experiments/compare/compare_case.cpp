@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "experiments/view/problem_view.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/files/captured_problem.hpp"
@@ -48,9 +49,10 @@ CompareCase stored_case(const fs::path& file) {
 CompareCase captured_case(const fs::path& file) {
   const CapturedProblem captured = read_captured(file);
   const std::string run = run_of_captured(file);
-  return {run + "/" + file.stem().string(),
-          run + (captured.phase == "none" ? "" : ", " + captured.phase),
-          [file] { return load_captured(file); }};
+  return {.name = run + "/" + file.stem().string(),
+          .family = run + (captured.phase == "none" ? "" : ", " + captured.phase),
+          .load = [file] { return load_captured(file); },
+          .has_bodies = can_view_problem(file)};
 }
 
 /// What cannot be read says so when it is loaded: it is one row, and the others go on.

@@ -41,7 +41,8 @@ struct CompareCase {
                        ///< of a captured one
   /// Throws what is wrong with it: Error, InvalidProblem, std::bad_alloc.
   std::function<LoadedCase()> load;
-  std::string word = {};  ///< of `ballast compare`, for this case; for one of stress:all, that
+  std::string word = {};    ///< of `ballast compare`, for this case; for one of stress:all, that
+  bool has_bodies = false;  ///< captured, in the folder of its run: `ballast view` shows it in 3D
 };
 
 /// Each word is one of

@@ -49,7 +49,9 @@ struct HistoryRow {
 struct CompareRow {
   // what was tried
   std::string key, case_name, family, solver, law;
-  std::string word;  ///< of the command line, for the case alone; in no file
+  // of the command line, for the case alone; in no file
+  std::string word;
+  bool can_view = false;  ///< `ballast view WORD --solver SOLVER` shows where the answer is wrong
   Measure measure = Measure::natural_map;
   double tolerance = 0.0;
   StartKind start = StartKind::cold;

@@ -150,12 +150,13 @@ class Comparison {
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
     if (std::optional<CompareRow> stored = stored_row(file)) {
       was_there = true;
-      stored->word = tried.word;
-      return std::move(*stored);
+      row = std::move(*stored);
     }
+    row.word = tried.word;
+    row.can_view = tried.has_bodies && attempt.solver->external_key.empty();
+    if (was_there) return row;
     row.case_name = tried.name;
     row.family = tried.family;
-    row.word = tried.word;
     row.solver = attempt.solver->name;
     row.law = name_of(attempt.solver->law);
     row.measure = options_.measure;

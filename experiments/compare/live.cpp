@@ -18,6 +18,7 @@
 #include "platform/content_key.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 
@@ -171,6 +172,13 @@ int reference_of(const std::vector<Trajectory>& trajectories) {
   return best;
 }
 
+std::string command_of(const LiveOptions& options) {
+  std::string command = "ballast compare --live " + shell_word(options.scene);
+  for (const std::string& one : options.overrides) command += " --set " + shell_word(one);
+  return command + printed(" --from %g --duration %g --max-seconds %g", options.start,
+                           options.duration, options.max_seconds);
+}
+
 }  // namespace
 
 LiveComparison run_live(const LiveOptions& options,
@@ -193,6 +201,7 @@ LiveComparison run_live(const LiveOptions& options,
       goes_on = said(comparison.trajectories.back());
     }
   comparison.reference = reference_of(comparison.trajectories);
+  comparison.command = command_of(options);
   return comparison;
 }
 

@@ -39,6 +39,8 @@ struct LiveComparison {
   int reference = -1;  ///< index of the reference solution: exact law, tightest tolerance,
                        ///< complete, first listed; -1: none
   std::vector<Trajectory> trajectories;
+  /// Of the command line, without --solvers and --tolerances: what makes them again.
+  std::string command;
 };
 
 /// Steps every backend to every tolerance in a child process of its own; trajectories that are

@@ -31,6 +31,7 @@ Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& traje
   curve.dashed = looseness > 0;
   curve.fineness = static_cast<int>(std::clamp<size_t>(looseness, 1, 3)) - 1;
   curve.width = looseness == 0 ? 2.0 : 1.6;
+  curve.origins = {trajectory.label()};
   return curve;
 }
 

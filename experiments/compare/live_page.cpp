@@ -1,5 +1,7 @@
 #include "experiments/compare/live_page.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/live_figures.hpp"
 #include "experiments/compare/live_row.hpp"
@@ -7,6 +9,7 @@
 #include "experiments/page/page.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -47,6 +50,21 @@ page::Table rows_table(const std::vector<LiveRow>& rows, const LiveComparison& c
   return table;
 }
 
+/// For a click on a point: its trajectory's row of the table, and the command that makes it again.
+std::string origins_of(const LiveComparison& comparison) {
+  nlohmann::ordered_json data, &origins = data["origins"] = nlohmann::ordered_json::object();
+  for (const Trajectory& t : comparison.trajectories) {
+    const std::string label = t.label();
+    origins[label] = {{"row", label}};
+    // so many iterations whatever the error are no option of the command line
+    if (t.max_iterations > 0 || comparison.command.empty()) continue;
+    const std::string command = comparison.command + " --solvers " + t.solver +
+                                printed(" --tolerances %g --output results/again", t.tolerance);
+    origins[label]["commands"].push_back({command, "Made again by:"});
+  }
+  return data.dump();
+}
+
 }  // namespace
 
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison) {
@@ -63,7 +81,7 @@ void write_live_page(const std::filesystem::path& folder, const LiveComparison& 
   page::Section figures{"figures", "Figures"};
   figures.add(live_figures(comparison));
   page.add(figures);
-  page.answers = {.are_given = true, .with_curves = true};
+  page.answers = {.are_given = true, .with_curves = true, .data = origins_of(comparison)};
   write_with_origin(page, read_origin(folder), folder / "live.html");
 }
 

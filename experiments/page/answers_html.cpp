@@ -21,9 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The modules in the order in which they build upon each other.
-constexpr std::array common_modules = {"elements.js", "choice.js",   "numbers.js",
-                                       "tables.js",   "palette.js",  "legends.js",
-                                       "charts.js",   "pictures.js", "answers.js"};
+constexpr std::array common_modules = {"elements.js", "choice.js",  "numbers.js", "tables.js",
+                                       "palette.js",  "legends.js", "charts.js",  "origins.js",
+                                       "pictures.js", "answers.js"};
 
 /// Five digits are more than a chart shows; JSON has no NaN.
 Json short_number(double value) {
@@ -67,14 +67,15 @@ Json curve_json(const Curve& curve) {
           {"width", curve.width},
           {"mark", curve.mark == Mark::points ? "points" : "line"},
           {"x", short_numbers(curve.x)},
-          {"y", short_numbers(curve.y)}};
+          {"y", short_numbers(curve.y)},
+          {"error", short_numbers(curve.y_error)},
+          {"from", curve.origins}};
 }
 
-/// Bars of errors and areas are not drawn by charts: such a figure stays as it is.
+/// Areas are not drawn by charts: such a figure stays as it is.
 bool is_of_lines(const Panel& panel) {
-  return std::all_of(panel.curves.begin(), panel.curves.end(), [](const Curve& curve) {
-    return curve.mark != Mark::area && curve.y_error.empty();
-  });
+  return std::all_of(panel.curves.begin(), panel.curves.end(),
+                     [](const Curve& curve) { return curve.mark != Mark::area; });
 }
 
 Json picture_json(const Figure& figure) {

@@ -38,6 +38,8 @@ struct Curve {
   double opacity = 1.0;
   std::vector<double> y_error = {};  ///< points: half length of the bars
   std::vector<double> y_low = {};    ///< area: lower bound
+  /// What the points come from: one name for each, or one for all, of the page's data "origins".
+  std::vector<std::string> origins = {};
 };
 
 /// A dashed line across the panel with a label at its end: a target, a reference.

@@ -17,6 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Above its capture/.
+fs::path run_folder_of(const fs::path& file) {
+  return fs::absolute(file).parent_path().parent_path();
+}
+
 /// The contacts as they were, with the forces of the run's own answer.
 std::vector<FrameContact> contacts_of(const CapturedProblem& captured) {
   std::vector<FrameContact> contacts;
@@ -44,22 +49,31 @@ ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend
   for (const int iterations : question.iterations) {
     // a tolerance that nobody reaches: the budget alone ends a solve
     const Budget budget{.tolerance = 1e-14 * captured.velocity_scale(),
-                        .max_iterations = iterations};
+                        .max_iterations = iterations,
+                        .max_seconds = question.max_seconds};
     const SolverRun run = runner.run(*solver, captured.problem,
                                      question.is_warm ? captured.start : Impulses(), budget);
     std::vector<double> error = errors_by_contact(captured.problem, run.solved.impulses);
     for (double& value : error) value /= captured.velocity_scale();
     errors.error.push_back(std::move(error));
     errors.rms.push_back(run.error.natural_map_rms / captured.velocity_scale());
+    if (run.solved.reason == StopReason::time_limit) break;
   }
+  // whose time is over does not get further
+  errors.error.resize(question.iterations.size(), errors.error.back());
+  errors.rms.resize(question.iterations.size(), errors.rms.back());
   return errors;
 }
 
 }  // namespace
 
+bool can_view_problem(const fs::path& file) {
+  return fs::exists(run_folder_of(file) / "record.h5");
+}
+
 ViewData view_of_problem(const fs::path& file, const ErrorQuestion& question) {
-  const fs::path folder = fs::absolute(file).parent_path().parent_path();
-  if (!fs::exists(folder / "record.h5"))
+  const fs::path folder = run_folder_of(file);
+  if (!can_view_problem(file))
     throw Error(file.string() + ": " + folder.string() +
                 " is not the folder of the run it is from: nothing knows the bodies");
   const CapturedProblem captured = read_captured(file);

@@ -14,8 +14,12 @@ namespace ballast {
 struct ErrorQuestion {
   std::vector<std::string> backends = {"pgs", "auto"};
   std::vector<int> iterations = {1, 3, 10, 30, 100, 300, 1000};
-  bool is_warm = false;  ///< from the captured start; else from zero
+  bool is_warm = false;       ///< from the captured start; else from zero
+  double max_seconds = 1e30;  ///< of one solve: larger budgets have the answer that it reached
 };
+
+/// Whether the folder of the run that a captured problem is from is around it.
+bool can_view_problem(const std::filesystem::path& file);
 
 /// The bodies of the run whose capture/ holds the file, at the stored frame nearest to the
 /// problem's time, with the contacts and forces of the problem, and the judge's error of every

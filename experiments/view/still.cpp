@@ -2,61 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
-#include "experiments/view/raster.hpp"
+#include "experiments/view/still_marks.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
-constexpr int finer = 2;           // rows and columns drawn for each of the picture's
-constexpr int shadow_size = 1400;  // pixels of the sun's own picture
-constexpr double lens = 28.0 * std::numbers::pi / 180.0;  // angle that the height spans
-
-using Colour = std::array<float, 3>;
+constexpr int shadow_size = 1400;                               // pixels of the sun's own picture
+constexpr double lens_angle = 28.0 * std::numbers::pi / 180.0;  // angle that the height spans
 
 const Vec3 sun = Vec3(0.42, -0.5, 0.76).normalized();
-
-/// Light at rest to dark at the top, as the page's ramp, in linear light.
-Colour ramp(double share) {
-  constexpr Colour stops[] = {{0.79f, 0.72f, 0.58f}, {0.86f, 0.45f, 0.12f}, {0.80f, 0.17f, 0.05f},
-                              {0.56f, 0.05f, 0.10f}, {0.23f, 0.03f, 0.19f}, {0.06f, 0.03f, 0.21f}};
-  const double at = 5.0 * std::clamp(share, 0.0, 1.0);
-  const auto k = std::min<size_t>(4, static_cast<size_t>(at));
-  Colour colour;
-  for (size_t i = 0; i < 3; ++i)
-    colour[i] = stops[k][i] + (stops[k + 1][i] - stops[k][i]) * static_cast<float>(at - double(k));
-  return colour;
-}
-
-/// A pinhole or, without a distance, a far one: world to column, row and depth.
-struct Lens {
-  Mat3 axes;  // rows: right, up, back
-  Vec3 eye;
-  double scale = 1.0, width = 0.0, height = 0.0;
-  bool is_far = false;
-
-  Vec3 operator*(const Vec3& p) const {
-    const Vec3 seen = axes * (p - eye);
-    const double w = is_far ? 1.0 : -seen.z();
-    // 1/w is linear in the picture; turned round it grows with the distance
-    return {0.5 * width + scale * seen.x() / w, 0.5 * height - scale * seen.y() / w,
-            is_far ? -seen.z() : -1.0 / w};
-  }
-};
-
-Mat3 axes_towards(const Vec3& back) {
-  const Vec3 up = std::abs(back.z()) > 0.9999 ? Vec3::UnitY() : Vec3::UnitZ();
-  Mat3 axes;
-  axes.row(0) = up.cross(back).normalized();
-  axes.row(2) = back;
-  axes.row(1) = back.cross(Vec3(axes.row(0)));
-  return axes;
-}
 
 /// What each grain is coloured by, largest value and all.
 struct Values {
@@ -79,20 +38,6 @@ Values values_of(const ViewData& view, size_t frame, const std::string& colour) 
     values.of_grain.push_back(at(view.frames[frame]));
   }
   return values;
-}
-
-/// Corners of what there is, over all frames.
-std::pair<Vec3, Vec3> extent_of(const ViewData& view) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
-  for (const PoseFrame& frame : view.frames)
-    for (int g = 0; g < view.system.grain_count; ++g) {
-      const auto b = static_cast<size_t>(g);
-      const double reach = view.system.bodies[b].shape.polyhedron->circumradius();
-      low = low.cwiseMin(frame.pose[b].position - Vec3::Constant(reach));
-      high = high.cwiseMax(frame.pose[b].position + Vec3::Constant(reach));
-    }
-  return low.x() <= high.x() ? std::pair(low, high)
-                             : std::pair(Vec3(-Vec3::Ones()), Vec3(Vec3::Ones()));
 }
 
 /// All faces in the picture that a lens makes; `faces` says which grain and normal a number is.
@@ -124,26 +69,29 @@ struct Exposure {
   Lens camera, sunlight;
   Raster seen, shadow;
   std::vector<Face> faces = {};
+  ViewBox box;
   double radius = 1.0;
 };
 
 Exposure expose(const ViewData& view, size_t frame, const StillOptions& options) {
-  const auto [low, high] = extent_of(view);
+  const ViewBox box = box_of(view);
+  const auto& [low, high] = box;
   const Vec3 centre = 0.5 * (low + high);
   const double radius = 0.5 * (high - low).norm();
   const double yaw = options.yaw * std::numbers::pi / 180.0,
                pitch = options.pitch * std::numbers::pi / 180.0;
   const Vec3 back(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
                   std::sin(pitch));
-  const int width = finer * options.width, height = finer * options.height;
+  const int width = still_finer * options.width, height = still_finer * options.height;
   const double narrow = std::min(1.0, options.width / (1.25 * options.height));
   Exposure exposure{
       {axes_towards(back), centre + 3.4 * radius * back,
-       0.5 * height / std::tan(0.5 * lens) * narrow, double(width), double(height)},
+       0.5 * height / std::tan(0.5 * lens_angle) * narrow, double(width), double(height)},
       {axes_towards(sun), centre, 0.49 * shadow_size / radius, shadow_size, shadow_size, true},
       Raster(width, height),
       Raster(shadow_size, shadow_size),
       {},
+      box,
       radius};
   draw_grains(view, view.frames[frame], exposure.sunlight, exposure.shadow, exposure.faces);
   draw_grains(view, view.frames[frame], exposure.camera, exposure.seen, exposure.faces);
@@ -175,6 +123,56 @@ double light_at(const Exposure& exposure, int x, int y) {
   return light * (other(x + 1, y) || other(x, y + 1) ? 0.62 : 1.0);
 }
 
+/// What colours a grain.
+Colour colour_of(const Values& values, const StillOptions& options, int grain) {
+  const double share =
+      values.top > 0.0 ? values.of_grain[static_cast<size_t>(grain)] / values.top : 0.0;
+  return ramp_colour(options.colour == "speed" ? std::sqrt(share) : share);
+}
+
+constexpr Colour paper_white{0.98f, 0.98f, 0.96f};
+
+/// Bodies as they are seen in the light, on paper.
+void draw_solid(const Exposure& exposure, const Values& values, const StillOptions& options,
+                Picture3& picture) {
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const std::uint32_t owner = exposure.seen.owner[exposure.seen.at(x, y)];
+      if (owner == 0) continue;
+      Colour pixel = colour_of(values, options, exposure.faces[owner].grain);
+      for (float& channel : pixel) channel *= static_cast<float>(light_at(exposure, x, y));
+      picture.pixels[picture.at(x, y)] = pixel;
+    }
+}
+
+/// Bodies as glass: each face that looks at the eye is a veil over what is behind it.
+void draw_glass(const ViewData& view, const PoseFrame& frame, const Lens& camera,
+                const Values& values, const StillOptions& options, const Raster& raster,
+                Picture3& picture) {
+  for (int g = 0; g < view.system.grain_count; ++g) {
+    const auto b = static_cast<size_t>(g);
+    const Polyhedron& shape = *view.system.bodies[b].shape.polyhedron;
+    Colour colour = colour_of(values, options, g);
+    for (float& channel : colour) channel = 0.6f * channel + 0.16f;
+    for (int f = 0; f < shape.face_count(); ++f) {
+      const auto loop = shape.face(f);
+      const auto corner = [&](size_t k) {
+        return Vec3(frame.pose[b] * shape.vertices()[static_cast<size_t>(loop[k])]);
+      };
+      const double facing =
+          (frame.pose[b].rotation * shape.normal(f)).dot((camera.eye - corner(0)).normalized());
+      if (facing <= 0.0) continue;
+      const auto veil = static_cast<float>(0.03 + 0.2 * (1.0 - facing) * (1.0 - facing));
+      for (size_t k = 2; k < loop.size(); ++k)
+        scan_triangle(picture.width, picture.height, camera * corner(0), camera * corner(k - 1),
+                      camera * corner(k), [&](int x, int y, float depth) {
+                        if (depth < raster.depth[raster.at(x, y)])
+                          blend(picture.pixels[picture.at(x, y)], colour, veil);
+                      });
+    }
+  }
+}
+
 }  // namespace
 
 void set_view(StillOptions& options, const std::string& word) {
@@ -201,26 +199,27 @@ void set_colour(StillOptions& options, const std::string& word) {
     throw std::invalid_argument("'" + word + "' is no colour: speed, displacement, size or none");
 }
 
-std::string still_png(const ViewData& view, size_t frame, const StillOptions& options) {
-  const Exposure exposure = expose(view, frame, options);
+Picture3 still_picture(const ViewData& view, size_t frame, const StillOptions& options) {
+  Exposure exposure = expose(view, frame, options);
   const Values values = values_of(view, frame, options.colour);
-  const Raster& seen = exposure.seen;
-  Picture3 picture{seen.width, seen.height, {}};
-  picture.pixels.reserve(seen.owner.size());
-  for (int y = 0; y < seen.height; ++y)
-    for (int x = 0; x < seen.width; ++x) {
-      const std::uint32_t owner = seen.owner[seen.at(x, y)];
-      if (owner == 0) {
-        picture.pixels.push_back({0.98f, 0.98f, 0.96f});  // paper
-        continue;
-      }
-      const auto g = static_cast<size_t>(exposure.faces[owner].grain);
-      const double share = values.top > 0.0 ? values.of_grain[g] / values.top : 0.0;
-      Colour pixel = ramp(options.colour == "speed" ? std::sqrt(share) : share);
-      for (float& channel : pixel) channel *= static_cast<float>(light_at(exposure, x, y));
-      picture.pixels.push_back(pixel);
-    }
-  return png_of(picture, finer);
+  const Lens& camera = exposure.camera;
+  Picture3 picture{exposure.seen.width, exposure.seen.height, {}};
+  picture.pixels.assign(exposure.seen.owner.size(), paper_white);
+  if (options.with_chains)
+    exposure.seen = Raster(picture.width, picture.height);  // nothing hides what is within
+  else
+    draw_solid(exposure, values, options, picture);
+  draw_rods(wall_rods(view, frame, exposure.box), camera, exposure.seen, picture);
+  if (options.with_chains) {
+    draw_rods(chain_rods(view, frame), camera, exposure.seen, picture);
+    draw_glass(view, view.frames[frame], camera, values, options, exposure.seen, picture);
+  }
+  draw_walls(walls_of(view, frame, exposure.box), camera, exposure.seen, picture);
+  return picture;
+}
+
+std::string still_png(const ViewData& view, size_t frame, const StillOptions& options) {
+  return png_of(still_picture(view, frame, options), still_finer);
 }
 
 }  // namespace ballast

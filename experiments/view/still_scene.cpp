@@ -3,9 +3,13 @@
 #include "experiments/box/packing_cache.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
+#include "platform/error.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double stone = 2700.0;  // density of a mesh that says none [kg/m^3]
 
@@ -37,6 +41,53 @@ ViewData view_of_scene(const Scene& scene, const std::filesystem::path& packing_
   }
   MechanicalSystem system = box_system(scene, rain, BoxStage::rain, rain.height, &state);
   return view_of_state(std::move(system), state, title + ": the rain before the deposit");
+}
+
+bool is_packing_file(const fs::path& file) {
+  return file.extension() == ".bin" && file.filename().string().starts_with("packing-");
+}
+
+ViewData view_of_packing(const fs::path& file, const std::vector<Scene>& scenes) {
+  if (!fs::exists(file)) throw Error(file.string() + ": no such file");
+  for (const Scene& scene : scenes) {
+    if (!scene.grains) continue;
+    const std::string key = packing_key(scene);
+    if (packing_file("", key).filename() != file.filename()) continue;
+    Packing packing;
+    read_packing(file, key, packing);
+    MotionState state;
+    MechanicalSystem system = drive_system(scene, make_rain(scene), packing, state);
+    ViewData view = view_of_state(std::move(system), state, file.filename().string());
+    view.contacts.resize(1);
+    const StepMemory& memory = packing.memory;
+    for (size_t c = 0; c < memory.contacts.size(); ++c)
+      if (const Vec3 force = memory.impulses[c] / scene.deposit.settle_step; !force.isZero())
+        view.contacts[0].push_back({memory.contacts[c].body_a, memory.contacts[c].body_b,
+                                    memory.contacts[c].position.cast<float>(),
+                                    memory.contacts[c].normal.cast<float>(), force.cast<float>()});
+    return view;
+  }
+  throw Error(file.string() +
+              ": holds no shapes, and none of the scenes tried makes it: --scene FILE, with --set "
+              "where the run had it");
+}
+
+std::vector<Scene> scenes_around(const fs::path& packing) {
+  std::vector<fs::path> files;
+  for (const auto& [name, title] : list_scenes()) files.push_back(find_scene(name));
+  const fs::path results = fs::absolute(packing).parent_path().parent_path();
+  for (const fs::path& folder : {results, results / "runs"}) {
+    if (!fs::is_directory(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (fs::exists(entry.path() / "scene.toml")) files.push_back(entry.path() / "scene.toml");
+  }
+  std::vector<Scene> scenes;
+  for (const fs::path& file : files) try {
+      scenes.push_back(read_scene(file));
+    } catch (const std::exception&) {
+      // a damaged scene of some run is not what was asked for
+    }
+  return scenes;
 }
 
 ViewData view_of_mesh(const std::filesystem::path& file) {

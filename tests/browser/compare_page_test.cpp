@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "experiments/compare/case_views.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/run/manifest.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "tests/experiments/compare/hand_made_row.hpp"
 #include "tests/support/browser.hpp"
@@ -25,6 +27,8 @@ struct HandMadeComparison {
       for (const char* name : {"x1", "y2", "z3"})
         for (const char* solver : {"a", "b", "c"}) add(name, solver, tolerance);
     Manifest("compare", {"ballast compare"}, "key").write(place.path() / "manifest.json");
+    create_folder(place.path() / "views");
+    place.write(view_page_of("x1").string(), "its bodies");
     write_compare_page(place.path(), rows, {});
   }
   void add(const char* name, const char* solver, double tolerance) {
@@ -38,6 +42,7 @@ struct HandMadeComparison {
     row.facts.contacts = name[0] == 'x' ? 10 : name[0] == 'y' ? 20 : 300;
     row.word = std::string("folder/") + name + ".dat";
     row.key = std::string(name) + solver + (tolerance > 1e-5 ? "4" : "6");
+    row.can_view = name[0] != 'z';
     rows.push_back(row);
   }
   fs::path page() const { return place.path() / "compare.html"; }
@@ -152,6 +157,24 @@ TEST_CASE("a point tells its values, and a click opens its solve with the comman
   browser.js("document.querySelector('#cost canvas').focus()");
   for (const char* key : {"ArrowRight", "ArrowRight", "ArrowDown", "Enter"}) browser.key(key);
   CHECK(browser.js("location.hash") == "#row=y2b4");
+  CHECK(browser.complaints == std::vector<std::string>{});
+}
+
+TEST_CASE("a solve says where in the packing it is wrong: by a page, by a command, or not at all") {
+  if (is_missing()) return;
+  const HandMadeComparison made;
+  Browser browser(1400, 900);
+  const std::string commands =
+      "[...document.querySelectorAll('dialog pre')].slice(1).map((e) => e.textContent).join('|')";
+  browser.open(made.page(), "row=x1b4", "document.querySelector('dialog[open]')");
+  CHECK(browser.js("document.querySelector('dialog a.view').getAttribute('href')") ==
+        "views/x1.html#left=b");
+  CHECK(browser.js(commands) == "");
+  browser.open(made.page(), "row=y2b4", "document.querySelector('dialog[open]')");
+  CHECK(browser.js("document.querySelector('dialog a.view')").is_null());
+  CHECK(browser.js(commands) == "ballast view folder/y2.dat --solver b --solver auto");
+  browser.open(made.page(), "row=z3b4", "document.querySelector('dialog[open]')");
+  CHECK(browser.js(commands) == "");
   CHECK(browser.complaints == std::vector<std::string>{});
 }
 

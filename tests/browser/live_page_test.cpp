@@ -13,7 +13,9 @@ TEST_CASE("every figure of a closed loop tells its values and has a legend that 
   if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
   const TemporaryFolder folder;
   Manifest("compare --live x", {}, "key").write(folder.path() / "manifest.json");
-  write_live_page(folder.path(), hand_made_live());
+  LiveComparison live = hand_made_live();
+  live.command = "ballast compare --live x";
+  write_live_page(folder.path(), live);
   Browser browser(1400, 900);
   browser.open(folder.path() / "live.html", "", "document.querySelector('.chart canvas')");
   // the drawn ones stay for print
@@ -26,6 +28,16 @@ TEST_CASE("every figure of a closed loop tells its values and has a legend that 
   for (const char* key : {"ArrowRight", "ArrowRight", "ArrowDown"}) browser.key(key);
   CHECK(browser.js("document.querySelector('#live_wall .said').textContent") ==
         "nncg 0.015; t 0.002\u202fs; wall x 2.003\u202fmm");
+  // Enter opens what it is of: its row of the table, and the command that makes it again
+  browser.key("Enter");
+  CHECK(browser.js("location.hash") == "#origin=nncg+0.015");
+  CHECK(browser.js("document.querySelector('dialog pre').textContent") ==
+        "ballast compare --live x --solvers nncg --tolerances 0.015 --output results/again");
+  CHECK(browser.js("[...document.querySelectorAll('dialog tr')].map((r) => r.innerText.trim())")
+            .dump()
+            .find("wall x\\t2.003") != std::string::npos);
+  browser.key("Escape");
+  CHECK(browser.js("document.querySelector('dialog').open") == false);
   browser.js("document.querySelector('#live_wall [data-title=\"pgs 0.1\"]').click()");
   CHECK(browser.js("['live_wall', 'live_error'].map((n) => Chart.getChart(document.querySelector("
                    "'#' + n + ' canvas')).isDatasetVisible(0))") == Browser::Json{false, false});

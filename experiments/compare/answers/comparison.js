@@ -25,15 +25,14 @@ function filter_failures() {
   }
 }
 
-const bar = asks(), opened = details(), holders = new Map();
+const bar = asks(), holders = new Map();
 document.querySelector("#backends").before(bar.element);
-document.body.append(opened.element);
 for (const [id] of sections) holders.set(id, holder_of(id));
 
 let drawn = null;
 const shown = new Map();
 function refresh_all() {
-  opened.refresh();
+  refresh_details();
   const asked = ["tolerance", "start", "from", "to", "find", "against", "family", "case", "without",
                  "without_family"].map((name) => choice.list(name).join("|")).join("&");
   if (asked === drawn) return;

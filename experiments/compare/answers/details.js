@@ -1,55 +1,39 @@
-// One row, opened from a point or a cell: its numbers, its history, and the command that makes it
-// again.
+// One row, opened from a point or a cell.
 
-function facts_of(row) {
-  const line = (what, value) =>
-    element("tr", {}, element("td", {}, what), element("td", {}, value));
-  return element("table", { class: "facts" }, element("tbody", {},
-    line("what came of it", row.is_solved ? "solved" : reason_of(row)),
-    line("time", `${time_words(row.seconds)}, of it prepare ${time_words(row.prepare_seconds)}`),
-    line("error", `${number(row.error)} (tolerance ${row.tolerance_text}, ${row.measure})`),
-    line("iterations", row.iterations ? String(row.iterations) : dash),
-    line("contacts", `${row.contacts}; rank deficiency ${number(row.rank_deficiency, 2)}, ` +
-                     `mass ratio ${number(row.mass_ratio)}`),
-    row.worst ? line("worst contact", row.worst) : null,
-    row.note ? line("note", row.note) : null));
+const facts_of = (row) => facts_table([
+  ["what came of it", row.is_solved ? "solved" : reason_of(row)],
+  ["time", `${time_words(row.seconds)}, of it prepare ${time_words(row.prepare_seconds)}`],
+  ["error", `${number(row.error)} (tolerance ${row.tolerance_text}, ${row.measure})`],
+  ["iterations", row.iterations ? String(row.iterations) : dash],
+  ["contacts", `${row.contacts}; rank deficiency ${number(row.rank_deficiency, 2)}, ` +
+               `mass ratio ${number(row.mass_ratio)}`],
+  row.worst ? ["worst contact", row.worst] : null,
+  row.note ? ["note", row.note] : null]);
+
+/// Where in the packing the answer is wrong: the case's page in 3D, else the command for it.
+/// Nothing where the bodies are not known.
+function view_of(row) {
+  const page = page_data.views[row.case];
+  if (page === undefined) return [];
+  const words = "Where in the packing it is wrong, contact by contact";
+  if (page)
+    return [element("p", {}, element("a", { href: `${page}#left=${row.solver}`, class: "view" },
+                                     words))];
+  const beside = row.solver === "auto" ? "" : " --solver auto";
+  return [element("p", {}, words + ":"),
+    command_line(`ballast view ${page_data.words[row.case]} --solver ${row.solver}${beside}` +
+                 (row.start === "warm" ? " --warm" : ""))];
 }
 
-function details() {
-  const dialog = element("dialog", { "aria-label": "One solve", class: "details" });
-  let chart = null;
-  const close = () => choice.set("row", null);
-  dialog.addEventListener("keydown", (event) => { if (event.key === "Escape") close(); });
-  document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && dialog.open) close();
-  });
-  const refresh = () => {
-    const row = rows.find((one) => one.key === choice.get("row"));
-    if (dialog.dataset.row === (row?.key ?? "")) return;
-    dialog.dataset.row = row?.key ?? "";
-    chart?.gone();
-    chart = null;
-    if (!row) {
-      dialog.close();
-      return;
-    }
-    const command = command_of(row);
-    const history = history_curve(row);
-    dialog.replaceChildren(
-      element("div", { class: "line head" },
-        element("h3", {}, `${row.solver} on ${row.case}`),
-        button("close", close)),
-      facts_of(row),
-      element("p", {}, "Made again by (from the folder where the comparison was started):"),
-      element("div", { class: "line command" }, element("pre", { tabindex: 0 }, command),
-        button("copy", (event) => copy(command, event.currentTarget))));
-    if (history.points.length > 1) {
-      chart = chart_of({ title: "History", x: seconds_axis, y: error_axis, curves: [history],
-                         lines: tolerance_lines([row]) }, { told: told_history, hidden: "none" });
-      dialog.append(chart.element);
-    }
-    if (!dialog.open) dialog.show();
-    chart?.draw();
-  };
-  return { element: dialog, refresh };
-}
+/// The window of one solve: its numbers, its history, and how it is made again.
+const refresh_details = window_for("row", "One solve", (key) => {
+  const row = rows.find((one) => one.key === key);
+  if (!row) return null;
+  const history = history_curve(row), parts = [facts_of(row),
+    element("p", {}, "Made again by (from the folder where the comparison was started):"),
+    command_line(command_of(row)), ...view_of(row)];
+  if (history.points.length < 2) return { title: `${row.solver} on ${row.case}`, parts };
+  const chart = chart_of({ title: "History", x: seconds_axis, y: error_axis, curves: [history],
+                           lines: tolerance_lines([row]) }, { told: told_history, hidden: "none" });
+  return { title: `${row.solver} on ${row.case}`, parts: [...parts, chart.element], chart };
+});

@@ -65,6 +65,29 @@ function line_of(line, chart_points) {
   };
 }
 
+/// Bars of the errors of points, below them.
+const error_bars = {
+  id: "error_bars",
+  beforeDatasetsDraw(chart) {
+    const { ctx, scales: { y }, chartArea } = chart, within = (place) =>
+      Math.min(chartArea.bottom, Math.max(chartArea.top, place));
+    chart.data.datasets.forEach((set, k) => {
+      if (!chart.isDatasetVisible(k)) return;
+      ctx.strokeStyle = set.borderColor;
+      ctx.lineWidth = 1.2;
+      chart.getDatasetMeta(k).data.forEach((point, i) => {
+        const { y: value, error } = set.data[i];
+        if (!(error > 0)) return;
+        const low = value - error > y.min ? y.getPixelForValue(value - error) : chartArea.bottom;
+        ctx.beginPath();
+        ctx.moveTo(point.x, within(low));
+        ctx.lineTo(point.x, within(y.getPixelForValue(value + error)));
+        ctx.stroke();
+      });
+    });
+  },
+};
+
 /// The chart as an element. `told` gives the words of a point; `opened`, if there is one, is called
 /// for a point that is clicked. `hidden` is the name of the list in the address bar that holds the
 /// titles switched off.
@@ -110,7 +133,8 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
     Chart.defaults.color = variable("ink");
     const sets = figure.curves.map((curve) => ({ ...dataset_of(curve), hidden: !is_shown(curve) }));
     if (all.length) sets.push(...(figure.lines ?? []).map((line) => line_of(line, all)));
-    chart = new Chart(canvas, { type: "line", data: { datasets: sets }, options: options() });
+    chart = new Chart(canvas, { type: "line", data: { datasets: sets }, options: options(),
+                                plugins: [error_bars] });
   };
   const keys = key_walk(figure, is_shown, (at) => {
     const found = point_of(at);

@@ -5,7 +5,8 @@
 function panel_figure(picture, panel) {
   const curve_of = (curve) => ({
     ...curve,
-    points: curve.x.map((x, k) => ({ x, y: curve.y[k] })).filter(({ x, y }) =>
+    points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k],
+                                     from: curve.from[k] ?? curve.from[0] })).filter(({ x, y }) =>
       y !== null && x !== null && (!panel.y.log || y > 0) && (!panel.x.log || x > 0)),
   });
   return { title: picture.title, x: panel.x, y: panel.y, lines: panel.lines,
@@ -21,9 +22,12 @@ function picture_charts(picture) {
       const name = unit ? words.slice(0, unit.index) : words;
       return `${name} ${short_number(value)}${unit ? narrow_space + unit[1] : ""}`;
     };
+    const opens = panel.curves.some((curve) => curve.from.length);
     return chart_of(panel_figure(picture, panel), {
-      told: (curve, { x, y }) =>
-        `${curve.title}; ${quantity(panel.x.label, x)}; ${quantity(panel.y.label, y)}`,
+      told: (curve, { x, y, error }) =>
+        `${curve.title}; ${quantity(panel.x.label, x)}; ${quantity(panel.y.label, y)}` +
+        (error ? ` ± ${short_number(error)}` : ""),
+      opened: opens ? ({ from }) => choice.set("origin", from) : null,
     });
   });
 }

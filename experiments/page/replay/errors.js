@@ -45,16 +45,29 @@ class ErrorView {
     return worst;
   }
 
+  // What the page's address says: #left=pgs&right=auto&budget=100
+  readAddress() {
+    const said = new URLSearchParams(location.hash.slice(1));
+    const { iterations } = this.solves[0], last = this.solves.length - 1;
+    const asked = ["left", "right"].map((side) =>
+      this.solves.findIndex((solve) => solve.backend === said.get(side)));
+    if (asked[0] >= 0) this.shown = [asked[0], asked[0] === last ? 0 : last];
+    if (asked[1] >= 0) this.shown[1] = asked[1];
+    const within = iterations.filter((budget) => budget <= +said.get("budget")).length;
+    if (within) this.budget = within - 1;
+  }
+
   // The controls: who is shown where, the budget, the way to the worst contact.
   build(replay) {
     if (!this.isOn) return;
+    this.readAddress();
     const place = element("errors"), { iterations } = this.solves[0];
     const names = this.solves.map((solve, k) => [String(k), solve.backend]);
     const two = this.solves.length > 1;
     place.hidden = false;
     place.replaceChildren(
-      choice("left", two ? "left" : "backend", names, "0"),
-      ...two ? [choice("right", "right", names, "1")] : [],
+      choice("left", two ? "left" : "backend", names, String(this.shown[0])),
+      ...two ? [choice("right", "right", names, String(this.shown[1]))] : [],
       make("label", {}, "iterations", make("input", { id: "replay-budget", type: "range", min: "0",
         max: String(iterations.length - 1), step: "1", value: String(this.budget),
         "aria-label": "iterations" })),

@@ -1,0 +1,58 @@
+#include "experiments/compare/case_views.hpp"
+
+#include "experiments/compare/compare_options.hpp"
+#include "experiments/run/run.hpp"
+#include "platform/atomic_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace ballast {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_CASE("captured cases are seen in 3D with the backends that gave an answer, others are not") {
+  const TemporaryFolder place;
+  RunOptions run_options;
+  run_options.scene = "settled_rest";
+  run_options.overrides = {"scene.duration=0.01"};
+  run_options.output = place.path() / "run";
+  run_options.capture = "every=5";
+  run(run_options);
+  const std::string captured = (place.path() / "run" / "capture").string();
+  for (const auto& entry : fs::directory_iterator(captured))
+    fs::copy_file(entry.path(), place.path() / "alone.hdf5", fs::copy_options::overwrite_existing);
+
+  CompareOptions options;
+  options.solvers = parse_solvers("pgs,jacobi,nncg");
+  options.tolerances = {1e-3};
+  options.max_seconds = 5.0;
+  options.folder = place.path() / "compare";
+  const auto cases = compare_cases({captured, (place.path() / "alone.hdf5").string()});
+  REQUIRE(cases.size() >= 2);
+  CHECK(cases.front().has_bodies);
+  CHECK_FALSE(cases.back().has_bodies);
+  auto rows =
+      run_comparison(cases, options, [](const auto&, bool, size_t, size_t) { return true; });
+  for (CompareRow& row : rows)
+    if (row.solver == "jacobi") row.outcome = Outcome::crashed;
+
+  const auto goes_on = [] { return true; };
+  CHECK(write_case_views(rows, options, goes_on) == cases.size() - 1);
+  CHECK_FALSE(fs::exists(options.folder / view_page_of(cases.back().name)));
+  const fs::path page = options.folder / view_page_of(cases.front().name);
+  const std::string text = read_whole_file(page);
+  CHECK_THAT(text, Catch::Contains(R"("backend":"pgs")") &&
+                       Catch::Contains(R"("backend":"nncg")") &&
+                       !Catch::Contains(R"("backend":"jacobi")"));
+  // what is there stays; who is stopped writes nothing
+  write_whole_file(page, "kept");
+  write_case_views(rows, options, goes_on);
+  CHECK(read_whole_file(page) == "kept");
+  fs::remove(page);
+  CHECK(write_case_views(rows, options, [] { return false; }) == 0);
+  CHECK_FALSE(fs::exists(page));
+}
+
+}  // namespace
+}  // namespace ballast
