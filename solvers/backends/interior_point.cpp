@@ -154,7 +154,8 @@ class InteriorPoint final : public Solver {
   SlipShift shift_;
   ConePoint point_, before_;  ///< now; where the next s begins
   Eigen::VectorXd q_, u_, rounded_u_;
-  std::unique_ptr<Solver> polisher_ = make_proximal_newton();
+  /// Begins at once: sweeps would undo what the interior point has balanced.
+  std::unique_ptr<Solver> polisher_ = make_proximal_newton({.start_sweeps = 0});
 };
 
 }  // namespace
