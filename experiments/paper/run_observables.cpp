@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "experiments/box/vibrated_box.hpp"
 #include "experiments/measure/run_summary.hpp"
 #include "experiments/record/record_file.hpp"
 #include "experiments/record/record_system.hpp"
