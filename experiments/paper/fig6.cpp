@@ -113,8 +113,9 @@ PaperSection fig6_section(PaperData& data) {
                            {"sense", seen.mean > 0.0 ? "clockwise" : "counter-clockwise"},
                            {"doubt", is_sure ? "" : "; not beyond its error"}};
   section.draw("fig6", field.figure, words);
-  // shear and rotation together, of one instant: neither shows a closed roll
-  section.claim("fig6.roll", words, PaperRange::at_least(0.0), part_of(found(seen)));
+  // shear and rotation together, of one instant, and the paper does not say from which side it
+  // looks: nothing is decided
+  section.claim("fig6.roll", words, PaperRange::at_least(0.0), {.value = seen.mean});
   return section;
 }
 

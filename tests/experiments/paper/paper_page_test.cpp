@@ -38,9 +38,8 @@ TEST_CASE("both pages say the same words") {
   }
   CHECK_THAT(html,
              Contains("Figure 9 &lt;again&gt;") && Contains("what the paper says<br>falls | too"));
-  CHECK_THAT(markdown,
-             Contains("| Fig. 9 | y | no | 0.9 … 1.1 | −2.00 [−2.01, −1.99] | DIFFERS |") &&
-                 Contains("**PARTIAL: 1 of 2**"));
+  CHECK_THAT(markdown, Contains("| Fig. 9 | y | no | 0.9 … 1.1 | −2.00 [−2.01, −1.99") &&
+                           Contains(" | DIFFERS |") && Contains("**PARTIAL: 1 of 2**"));
   const std::string head = "| ν | a\\|b |", found = "falls \\| too";
   CHECK_THAT(markdown, Contains(head) && Contains(found));
   CHECK_THAT(markdown,

@@ -41,7 +41,13 @@ TEST_CASE("a function is drawn from end to end, evenly on its axis") {
 TEST_CASE("a figure has its words, and files that sort by number") {
   PaperSection section;
   section.draw("fig8", {.panels = {Panel{}}},
-               {{"slow", "3"}, {"fast", "7"}, {"raw", "0.5"}, {"scaled", "0.1"}, {"more", "x"}});
+               {{"slow", "3"},
+                {"fast", "7"},
+                {"raw", "0.5"},
+                {"scaled", "0.1"},
+                {"samples", "3"},
+                {"from_after", "0.2"},
+                {"more", "x"}});
   REQUIRE(section.figures.size() == 1);
   const page::Picture& picture = section.figures[0];
   CHECK(picture.plot.name == "fig08");
