@@ -64,10 +64,14 @@ TEST_CASE("curves stand in the page as numbers, and nothing in them ends their e
   CHECK(panel["lines"][0]["value"] == 0.5);
 }
 
-TEST_CASE("figures with bars of errors stay as they are drawn") {
+TEST_CASE("bars of errors go with the numbers of their points; areas stay as they are drawn") {
   if (!can_answer()) return;
   Page page = answering_page();
-  std::get<Picture>(page.sections[2].blocks[0]).plot.panels[0].curves[0].y_error = {1.0, 1.0};
+  Curve& curve = std::get<Picture>(page.sections[2].blocks[0]).plot.panels[0].curves[0];
+  curve.y_error = {0.25, 1.0};
+  const Json pictures = data_in(html_of(page)).at("pictures");
+  CHECK(pictures.at(0)["panels"][0]["curves"][0]["error"] == Json{0.25, 1.0});
+  curve.mark = Mark::area;
   CHECK(data_in(html_of(page)).at("pictures").empty());
 }
 
