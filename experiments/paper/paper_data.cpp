@@ -119,6 +119,12 @@ const Observation* PaperData::observation(const CampaignPoint& point) {
               .first->second;
 }
 
+std::string VariedValue::origin() const {
+  std::string name = "runs";
+  for (const size_t run : runs) name += ' ' + std::to_string(run);
+  return name;
+}
+
 std::vector<VariedValue> PaperData::values(Varied which) {
   // points come in the order of importance; a map sorts them by value
   std::map<double, VariedValue> values;

@@ -20,7 +20,8 @@ struct VariedValue {
   int planned = 0;                   ///< seeds that the campaign has
   std::vector<Observation> samples;  ///< seeds that are finished
   std::vector<int> seeds;            ///< theirs, growing
-  std::vector<size_t> runs;          ///< theirs, for PaperData::observables_of
+  std::vector<size_t> runs;          ///< theirs, in the campaign
+  std::string origin() const;        ///< for Curve::origins: "runs 3 14"
   SampleMean mean(double Observation::*quantity) const;
   const Observation* of_seed(int seed) const;  ///< null: not finished
 };

@@ -5,6 +5,7 @@
 #include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/page/markdown.hpp"
+#include "experiments/paper/point_origins.hpp"
 #include "platform/atomic_file.hpp"
 
 namespace ballast {
@@ -99,6 +100,8 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
   write_whole_file(folder / "data" / "runs.csv", runs_csv(data.observables()));
   write_whole_file(folder / "data" / "runs_columns.csv", run_columns_csv());
   page::Page page = paper_page(sections, origin_of(data));
+  page.answers = {
+      .are_given = true, .with_curves = true, .data = origins_of_points(data, sections, folder)};
   // the data stand beside as CSV, and README.md shows the files themselves
   page::draw_pictures(page, folder, {.with_script = false, .on_white = true});
   write_whole_file(folder / "paper.html", html_of(page));

@@ -19,6 +19,7 @@ VariedCurve curve_of_values(const std::vector<VariedValue>& values, double Obser
   for (const VariedValue& value : values) {
     const SampleMean mean = value.mean(quantity);
     curve.x.push_back(value.value);
+    curve.origins.push_back(value.origin());
     curve.y.push_back(factor * mean.mean);
     curve.error.push_back(factor * mean.error);
     curve.errors_from += std::max(0, mean.samples - 1);

@@ -61,7 +61,8 @@ Curve points_of(VariedCurve points, const std::string& title, Ink ink) {
           .ink = ink,
           .mark = Mark::points,
           .width = 2.4,
-          .y_error = std::move(points.error)};
+          .y_error = std::move(points.error),
+          .origins = std::move(points.origins)};
 }
 
 std::string figure_csv(const Figure& figure) {

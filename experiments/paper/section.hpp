@@ -50,6 +50,7 @@ struct PaperSection {
 struct VariedCurve {
   std::vector<double> x, y, error;
   int errors_from = 0;  ///< degrees of freedom of all errors together: samples less points
+  std::vector<std::string> origins = {};  ///< of the points: VariedValue::origin
 };
 
 /// A panel over the paper's frequencies, 1 to 60 Hz: the same axis in every figure.

@@ -4,8 +4,12 @@
 #include <cmath>
 #include <fstream>
 
+#include <nlohmann/json.hpp>
+
+#include "experiments/page/html.hpp"
 #include "experiments/paper/campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
+#include "experiments/paper/point_origins.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -81,6 +85,21 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
                            Catch::Contains("6 of " + std::to_string(campaign.runs.size()) +
                                            " runs are finished"));
   CHECK_THAT(html, Catch::Contains("PARTIAL: 3 of 10 frequencies"));
+  // a point is the mean of two seeds; the page of one of them is there, of the other a command
+  const VariedValue value = data.values(Varied::frequency).front();
+  REQUIRE(value.runs.size() == 2);
+  CHECK(section.figures[0].plot.panels[0].curves[0].origins.front() == value.origin());
+  std::ofstream(data.folder(value.runs[1]) / "report.html") << "its page";
+  const auto origins = nlohmann::json::parse(
+      origins_of_points(data, {section}, folder.path() / "report"))["origins"];
+  CHECK(origins.size() == 3);
+  const auto& origin = origins[value.origin()];
+  CHECK(origin["links"].size() == 1);
+  CHECK(origin["links"][0][0] ==
+        "../runs/" + data.folder(value.runs[1]).filename().string() + "/report.html");
+  CHECK(origin["links"][0][1] == campaign.runs[value.runs[1]].planned.name);
+  CHECK(origin["commands"][0][0] == "ballast report " + data.folder(value.runs[0]).string());
+  if (page::can_answer()) CHECK_THAT(html, Catch::Contains('"' + value.origin() + '"'));
   CHECK_THAT(text("data/fig09.csv"),
              Catch::StartsWith("panel,y_label,curve,x_label,x,y,y_error,y_low\n"));
 }
