@@ -67,8 +67,8 @@ page::Page paper_page(const std::vector<PaperSection>& sections,
               beyond = page::words_table("paper.beyond");
   for (const PaperSection& section : sections) {
     for (const AgreementRow& row : section.rows)
-      agreement.rows.push_back({row.place, row.paper, row.ballast, words_of(row.range),
-                                words_of(row.found), word_of(row.agreement)});
+      agreement.rows.push_back({row.place, row.paper, word_of(row.agreement), row.ballast,
+                                words_of(row.range), words_of(row.found)});
     for (const BeyondRow& finding : section.findings)
       beyond.rows.push_back({finding.what, finding.found});
   }

@@ -214,15 +214,16 @@ void draw_rods(const std::vector<Rod>& rods, const Lens& camera, Raster& raster,
 
 void draw_walls(const std::vector<WallPatch>& walls, const Lens& camera, const Raster& raster,
                 Picture3& picture) {
-  for (const auto& [loop, is_driven] : walls)
-    for (size_t k = 2; k < loop.size(); ++k)
-      scan_triangle(picture.width, picture.height, camera * loop[0], camera * loop[k - 1],
-                    camera * loop[k], [&](int x, int y, float depth) {
+  for (const WallPatch& wall : walls) {
+    const Colour& colour = wall.is_driven ? blue : grey;
+    const float share = wall.is_driven ? 0.24f : 0.07f;
+    for (size_t k = 2; k < wall.loop.size(); ++k)
+      scan_triangle(picture.width, picture.height, camera * wall.loop[0], camera * wall.loop[k - 1],
+                    camera * wall.loop[k], [&](int x, int y, float depth) {
                       const size_t here = raster.at(x, y);
-                      if (depth < raster.depth[here])
-                        blend(picture.pixels[here], is_driven ? blue : grey,
-                              is_driven ? 0.24f : 0.07f);
+                      if (depth < raster.depth[here]) blend(picture.pixels[here], colour, share);
                     });
+  }
 }
 
 void blend(std::array<float, 3>& pixel, const Colour& colour, float share) {

@@ -88,10 +88,12 @@ TEST_CASE(
   CHECK(fs::exists(killed / "report" / "README.md"));
   Random random(11);
   int kills = 0;
-  double longest = 0.35;
-  while (run_and_kill(random.uniform(0.05, longest) * undisturbed, fig3(killed), log) != 0) {
+  // The first kills are early and then later and later: the undisturbed run may have been held up
+  // by other programs, or the killed ones may be.
+  double longest = 0.1;
+  while (run_and_kill(random.uniform(0.03, longest) * undisturbed, fig3(killed), log) != 0) {
     REQUIRE(++kills < 100);
-    longest *= 1.05;  // on a machine that has become slower it ends all the same
+    longest *= 1.2;
   }
   INFO(kills << " kills, undisturbed " << undisturbed << " s");
   CHECK(kills > 0);
