@@ -1,6 +1,6 @@
 """A solver of one's own in the tables and figures of a comparison, beside all others:
 
-    ballast compare known:contacts=50,bodies=25 --solvers pgs,nncg --external own="python3 own_solver.py"
+    ballast compare known:contacts=50 --solvers pgs,nncg --external own="python3 own_solver.py"
 """
 import time
 

@@ -28,7 +28,7 @@ TEST_CASE("A site has a page for all, a comparison for each machine, and every r
   const std::string page = read_whole_file(site / "index.html");
   CHECK_THAT(page, Catch::Contains("Other &lt;CPU>") || Catch::Contains("Other &lt;CPU&gt;"));
   CHECK_THAT(page, Catch::Contains("machines/M1-One-CPU-2-cores/compare.html"));
-  CHECK_THAT(page, Catch::Contains("2 comparisons on 2 machines"));
+  CHECK_THAT(page, Catch::Contains("Machines: 2; comparisons: 2"));
   CHECK(fs::exists(site / "machines/M2-Other-CPU/compare.html"));
   // A machine's folder is a comparison: it can be merged again.
   const StoredComparison again = read_comparison(site / "machines/M1-One-CPU-2-cores");
@@ -41,5 +41,5 @@ TEST_CASE("A site has a page for all, a comparison for each machine, and every r
   // Written again over itself, with less.
   comparisons.pop_back();
   write_comparison_site(site, comparisons, "ballast compare merge");
-  CHECK_THAT(read_whole_file(site / "index.html"), Catch::Contains("1 comparisons on 1 machines"));
+  CHECK_THAT(read_whole_file(site / "index.html"), Catch::Contains("Machines: 1; comparisons: 1"));
 }
