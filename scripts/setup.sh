@@ -59,10 +59,12 @@ ballast_setup() {
   cd "$root" || exit 1
   log=$root/build-$preset.log
   say "building (preset $preset)"
+  trap 'printf "\ninterrupted; the same command goes on\n" >&2; exit 130' INT
   cmake --preset "$preset" >"$log" 2>&1 &&
     cmake --build --preset "$preset" --target "$target" 2>&1 | show_progress "$log" || {
     tail -n 40 "$log" >&2
     die "the build failed; the whole log is build-$preset.log"
   }
+  trap - INT
   say "ready after $((SECONDS - begin)) s"
 }
