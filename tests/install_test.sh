@@ -11,7 +11,8 @@ trap 'rm -rf "$folder"' EXIT
 fail() { echo "FAILED: $*"; exit 1; }
 
 # Moved after it was installed: nothing may remember a path.
-cmake --install "$build" --prefix "$folder/first" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+cmake --install "$build" --prefix "$folder/first" >"$folder/log" 2>&1 ||
+  { cat "$folder/log"; exit 1; }
 mv "$folder/first" "$folder/moved"
 grep -rl "$root" "$folder"/moved/lib*/cmake && fail "the CMake package names the source tree"
 cd "$folder"

@@ -3,30 +3,15 @@
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
+#include "tests/support/problem_folder.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
 
-namespace {
-
-/// A folder "in" with two problems, one of them deeper.
-struct ToConvert {
-  TemporaryFolder folder;
-  KnownSolution known = make_known_solution({.bodies = 6, .contacts = 12});
-  fs::path in = folder.path() / "in", out = folder.path() / "out";
-  ToConvert() {
-    fs::create_directories(in / "deep");
-    write_problem(in / "a.hdf5", known.problem);
-    write_problem(in / "deep" / "b.hdf5", known.problem);
-  }
-};
-
-}  // namespace
-
 TEST_CASE("a collection goes from format to format and stays the same problem") {
-  const ToConvert c;
+  const ProblemFolder c;
   for (const std::string to : {"local", "global", "both", "siconos"}) {
     const auto target = c.out / to;
     const ProgramResult result =
@@ -44,7 +29,7 @@ TEST_CASE("a collection goes from format to format and stays the same problem") 
 }
 
 TEST_CASE("what cannot be converted is said, and the others are") {
-  const ToConvert c;
+  const ProblemFolder c;
   c.folder.write("in/broken.dat", "3 x");
   check_failure(
       ballast_program({"convert", c.in.string(), "--to", "siconos", "--output", c.out.string()}),

@@ -6,30 +6,15 @@
 #include "problems/files/solution_file.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
+#include "tests/support/problem_folder.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
 
-namespace {
-
-/// A folder "in" with two problems, one of them deeper.
-struct Collection {
-  TemporaryFolder folder;
-  KnownSolution known = make_known_solution({.bodies = 6, .contacts = 12});
-  fs::path in = folder.path() / "in", out = folder.path() / "out";
-  Collection() {
-    fs::create_directories(in / "deep");
-    write_problem(in / "a.hdf5", known.problem);
-    write_problem(in / "deep" / "b.hdf5", known.problem);
-  }
-};
-
-}  // namespace
-
 TEST_CASE("the program's answer has the bits of the library's") {
-  const Collection c;
+  const ProblemFolder c;
   const std::string problem = (c.in / "a.hdf5").string();
   const fs::path answer = c.folder.path() / "answer.hdf5";
   const FrictionProblem read = read_problem(problem);
@@ -46,7 +31,7 @@ TEST_CASE("the program's answer has the bits of the library's") {
 }
 
 TEST_CASE("solve keeps its answer and starts from it") {
-  const Collection c;
+  const ProblemFolder c;
   const std::string problem = (c.in / "a.hdf5").string();
   const fs::path answer = c.folder.path() / "answer.hdf5";
   const ProgramResult first = ballast_program({"solve", problem, "--output", answer.string()});
