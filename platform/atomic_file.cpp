@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 
 namespace ballast {
 
@@ -162,15 +163,15 @@ void create_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error(folder.string() + ": cannot make the folder: " + error.message());
-  if (!fs::is_directory(folder))
+  if (!is_folder(folder))
     throw Error(folder.string() + ": cannot make the folder: there is a file of that name");
 }
 
 void require_own_folder(const fs::path& folder, std::initializer_list<const char*> known) {
   std::error_code error;
-  if (!fs::is_directory(folder, error) || fs::is_empty(folder, error)) return;
+  if (!is_folder(folder) || fs::is_empty(folder, error)) return;
   for (const char* name : known)
-    if (fs::is_directory(folder / name, error)) return;
+    if (is_folder(folder / name)) return;
   throw Error(folder.string() +
               ": holds files that are no results of this kind: give a folder that is new or empty");
 }

@@ -2,13 +2,13 @@
 
 #include <hdf5.h>
 
+#include "platform/file_kind.hpp"
+
 namespace ballast {
 namespace {
 
 hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    file.fail(std::filesystem::exists(path, error) ? "not a regular file" : "no such file");
+  if (!is_file(path)) file.fail(is_there(path) ? "not a regular file" : "no such file");
   // The signature first, so that a text file and a truncated HDF5 file get different answers.
   if (H5Fis_hdf5(path.c_str()) <= 0) file.fail("not an HDF5 file");
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);

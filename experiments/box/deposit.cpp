@@ -3,6 +3,7 @@
 #include "experiments/step/time_step.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/random.hpp"
 
 namespace ballast {
@@ -68,7 +69,7 @@ class Depositor {
  private:
   bool continue_part() {
     std::string phase;
-    if (!std::filesystem::exists(part_) || !load(part_, key_, phase, packing_)) return false;
+    if (!is_there(part_) || !load(part_, key_, phase, packing_)) return false;
     for (const BoxStage stage : {BoxStage::rain, BoxStage::press, BoxStage::settle})
       if (phase == name_of(stage)) stage_ = stage;
     return true;
@@ -173,7 +174,7 @@ void write_packing(const std::filesystem::path& file, const std::string& key,
 }
 
 bool read_packing(const std::filesystem::path& file, const std::string& key, Packing& packing) {
-  if (!std::filesystem::exists(file)) return false;
+  if (!is_there(file)) return false;
   std::string phase;
   if (!load(file, key, phase, packing) || phase != "packing")
     throw Error(file.string() + ": a packing of other settings: delete it, or give --new-packing");

@@ -8,6 +8,7 @@
 #include "experiments/record/checkpoint.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -84,7 +85,7 @@ std::string check(const std::string& file, const CheckOptions& options) {
   if (suffix == ".obj" || suffix == ".stl") return check_mesh(file, options);
   if (suffix == ".hdf5" || suffix == ".h5" || suffix == ".dat") return check_problem(file);
   if (suffix == ".bin" || suffix == ".part") return check_checkpoint(file);
-  if (std::filesystem::exists(file) || !suffix.empty())
+  if (is_there(file) || !suffix.empty())
     throw UsageError(
         file + ": unknown kind of file, expected .toml, .obj, .stl, .hdf5, .h5, .dat or .bin");
   return check_scene(find_scene(file).string(), options);

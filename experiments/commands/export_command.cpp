@@ -17,6 +17,7 @@
 #include "experiments/view/still.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -148,17 +149,17 @@ ExitCode export_run(const ExportOptions& options) {
     return export_picture(options);
   const ExportFormat format =
       options.format ? *options.format : export_format_of_suffix(options.output);
-  if (!std::filesystem::exists(options.source))
+  if (!is_there(options.source))
     throw Error(options.source.string() + ": no such run folder or checkpoint");
-  const bool is_folder = std::filesystem::is_directory(options.source);
-  if (!is_folder && (options.time || options.all))
+  const bool from_folder = is_folder(options.source);
+  if (!from_folder && (options.time || options.all))
     throw Error(options.source.string() + ": a checkpoint is one state: give the run's folder");
   const std::filesystem::path folder =
-      is_folder ? options.source : std::filesystem::absolute(options.source).parent_path();
+      from_folder ? options.source : std::filesystem::absolute(options.source).parent_path();
   MotionState state;
   const MechanicalSystem system = recorded_system(folder, state);
   if (options.all) return export_all(options, system, format);
-  if (!is_folder)
+  if (!from_folder)
     state = read_checkpoint(options.source).state;
   else if (options.time)
     state = state_at(folder, *options.time);

@@ -10,6 +10,7 @@
 #include "experiments/plans/snakemake.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
@@ -38,9 +39,9 @@ void list_runs(const Plan& plan, const PlanOptions& running) {
     const char* state = folder.is_finished(run.key) ? "finished"
                         : folder.has_run()          ? "begun"
                                                     : "waiting";
-    const bool is_there = fs::exists(packing_file(packing_folder(running.results), run.packing));
+    const bool is_stored = is_there(packing_file(packing_folder(running.results), run.packing));
     const std::string packing =
-        run.packing.empty() ? "none" : run.packing + (is_there ? "" : " (to deposit)");
+        run.packing.empty() ? "none" : run.packing + (is_stored ? "" : " (to deposit)");
     std::cout << printed("%-*s  %s  %-8s  %9ld  %s\n", widest, run.run.name.c_str(),
                          run.key.c_str(), state, run.steps, packing.c_str());
   }

@@ -10,6 +10,7 @@
 #include "experiments/run/run.hpp"
 #include "experiments/run_page/report.hpp"
 #include "experiments/run_page/report_origin.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/program.hpp"
 #include "platform/worker_team.hpp"
 
@@ -53,7 +54,7 @@ void limit_threads(RunOptions& options) {
 /// Draws the run's page where it is asked for or missing, and says what is where and what can be
 /// done next.
 void show_results(const RunEnd& end, const RunOptions& options, bool with_page) {
-  const bool has_page = std::filesystem::exists(end.folder / "report.html");
+  const bool has_page = is_there(end.folder / "report.html");
   if (with_page && (!end.was_finished || !has_page)) write_report(end.folder);
   if (end.was_finished || options.telling != Telling::reader) return;
   std::cout << "\nresults in " << end.folder.string() << "\n";

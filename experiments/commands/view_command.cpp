@@ -11,6 +11,7 @@
 #include "experiments/view/still_scene.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/program.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -72,7 +73,7 @@ ViewData view_of(const ViewOptions& options) {
 fs::path page_of(const ViewOptions& options) {
   if (!options.output.empty()) return options.output;
   const fs::path path = options.thing;
-  if (fs::is_directory(path)) return path / "view.html";
+  if (is_folder(path)) return path / "view.html";
   const std::string name = path.stem().string() + ".view.html";
   return path.extension() == ".hdf5" || path.extension() == ".h5" ? path.parent_path() / name
                                                                   : fs::path(name);

@@ -7,6 +7,7 @@
 #include "experiments/view/problem_view.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace {
@@ -46,7 +47,7 @@ size_t write_case_views(std::span<const CompareRow> rows, const CompareOptions& 
     if (!goes_on()) break;
     const fs::path page = options.folder / view_page_of(name);
     ++count;
-    if (fs::exists(page)) continue;
+    if (is_there(page)) continue;
     create_folder(page.parent_path());
     write_view_page(
         view_of_problem(viewed.file, {.backends = viewed.backends,

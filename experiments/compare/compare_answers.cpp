@@ -8,6 +8,7 @@
 #include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/case_views.hpp"
 #include "experiments/compare/compare_table.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
@@ -70,7 +71,7 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
     words[row.case_name] = shell_word(row.word.empty() ? row.case_name : row.word);
     if (row.can_view) {
       const std::filesystem::path page = view_page_of(row.case_name);
-      views[row.case_name] = std::filesystem::exists(data.folder / page) ? page.string() : "";
+      views[row.case_name] = is_there(data.folder / page) ? page.string() : "";
     }
     if (row.history.size() > 1) histories[row.key] = history_json(row, points);
   }

@@ -6,6 +6,7 @@
 
 #include "experiments/view/problem_view.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"
@@ -41,7 +42,7 @@ std::string run_of_captured(const fs::path& file) {
 
 CompareCase stored_case(const fs::path& file) {
   return {file.filename().string(), family_of_file(file.filename().string()), [file] {
-            if (!fs::exists(file)) throw Error(file.string() + ": no such file");
+            if (!is_there(file)) throw Error(file.string() + ": no such file");
             return load_case(read_problem(file));
           }};
 }
@@ -58,7 +59,7 @@ CompareCase captured_case(const fs::path& file) {
 /// What cannot be read says so when it is loaded: it is one row, and the others go on.
 CompareCase file_case(const fs::path& file) {
   try {
-    if (fs::exists(file) && is_captured(file)) return captured_case(file);
+    if (is_there(file) && is_captured(file)) return captured_case(file);
   } catch (const std::exception&) {
   }
   return stored_case(file);

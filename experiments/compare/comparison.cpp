@@ -12,6 +12,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/file_lock.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/text.hpp"
@@ -135,7 +136,7 @@ class Comparison {
 
   /// The row that is there already; none when there is no file, or a damaged one.
   static std::optional<CompareRow> stored_row(const fs::path& file) {
-    if (!fs::exists(file)) return std::nullopt;
+    if (!is_there(file)) return std::nullopt;
     try {
       return compare_row_of_json(read_whole_file(file), file.string());
     } catch (const Error&) {
@@ -183,7 +184,7 @@ class Comparison {
   /// Whether a part was killed while it worked on this row, which then says so; else marks it.
   static bool was_killed(const fs::path& file, CompareRow& row) {
     const fs::path mark = mark_of(file);
-    if (!fs::exists(mark)) {
+    if (!is_there(mark)) {
       write_whole_file(mark, "");
       return false;
     }

@@ -17,6 +17,7 @@
 #include "platform/clock.hpp"
 #include "platform/content_key.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
@@ -145,7 +146,7 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
   trajectory.law = name_of(solver.law);
   trajectory.tolerance = tolerance;
   trajectory.max_iterations = options.max_iterations;
-  if (fs::exists(file)) {
+  if (is_there(file)) {
     const Trajectory fresh = trajectory;
     try {
       read_trajectory(file, trajectory);

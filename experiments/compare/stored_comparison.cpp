@@ -5,6 +5,7 @@
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -14,7 +15,7 @@ SolveIdentity identity_of(const CompareRow& row) {
 }
 
 StoredComparison read_comparison(const fs::path& folder) {
-  if (!fs::is_directory(folder / "rows"))
+  if (!is_folder(folder / "rows"))
     throw Error(folder.string() + ": no folder of a comparison: it has no rows");
   const Manifest manifest = Manifest::read(folder / "manifest.json");
   StoredComparison stored{folder, manifest.machine(), manifest.commit(), manifest.started(), {}};

@@ -6,6 +6,7 @@
 #include "experiments/export/vtp_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -62,7 +63,7 @@ fs::path ParaviewSeries::frame_file(const Series& series, long step) const {
 
 void ParaviewSeries::write_collection(const Series& series) const {
   const fs::path target = folder_ / (std::string(series.name) + ".pvd");
-  if (series.frames.empty() && !fs::exists(target)) return;
+  if (series.frames.empty() && !is_there(target)) return;
   std::vector<std::pair<double, std::string>> frames;
   for (const Frame& frame : series.frames)
     frames.emplace_back(frame.time, frame_file(series, frame.step).filename().string());

@@ -8,6 +8,7 @@
 #include "experiments/external/external_program.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/content_key.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/toml_reader.hpp"
 
@@ -77,8 +78,7 @@ std::string key_of(const ExternalCommand& command) {
   for (std::string word; words >> word;) {
     std::erase_if(word, [](char c) { return c == '\'' || c == '"'; });
     const fs::path file = fs::path(command.folder) / word;
-    std::error_code error;
-    if (fs::is_regular_file(file, error)) known += '|' + content_key(read_whole_file(file));
+    if (is_file(file)) known += '|' + content_key(read_whole_file(file));
   }
   return content_key(known);
 }

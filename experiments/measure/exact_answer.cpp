@@ -3,6 +3,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/child_process.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/seam/run_solver.hpp"
@@ -60,7 +61,7 @@ std::optional<ExactAnswer> find_exact_answer(const FrictionProblem& problem, con
   const auto file = search.folder / (search.key + ".exact");
   // An answer that is there is judged anew: a damaged or foreign file is no answer.
   const bool keeps = !search.folder.empty();
-  if (keeps && std::filesystem::exists(file))
+  if (keeps && is_there(file))
     if (auto found = judged(problem, unpacked(read_whole_file(file)), search)) return found;
   for (const char* solver : {"newton_burst", "auto"}) {
     auto found =

@@ -7,6 +7,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 
@@ -65,7 +66,7 @@ void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
 void read_manifest(RunData& data) {
   const fs::path file = data.folder / "manifest.json";
   data.manifest = nlohmann::ordered_json::object();
-  if (!fs::exists(file)) {
+  if (!is_there(file)) {
     data.notices.push_back(
         "manifest.json is missing: machine, commit and the run's summary are not known.");
     return;
@@ -82,7 +83,7 @@ void read_manifest(RunData& data) {
 
 void read_scene_of_run(RunData& data) {
   const fs::path file = data.folder / "scene.toml";
-  if (!fs::exists(file)) {
+  if (!is_there(file)) {
     data.notices.push_back("scene.toml is missing: parameters are those of the manifest alone.");
     return;
   }
@@ -157,9 +158,9 @@ std::vector<StepRecord> read_steps_csv(const fs::path& file, std::vector<std::st
 RunData read_run_data(const fs::path& folder) {
   RunData data;
   data.folder = folder;
-  if (!fs::is_directory(folder)) throw Error(folder.string() + ": no such folder");
+  if (!is_folder(folder)) throw Error(folder.string() + ": no such folder");
   const fs::path csv = folder / "steps.csv";
-  data.steps = fs::exists(csv) ? read_steps_csv(csv, data.notices) : read_steps(folder);
+  data.steps = is_there(csv) ? read_steps_csv(csv, data.notices) : read_steps(folder);
   if (data.steps.empty()) throw Error(folder.string() + ": the record holds no step");
   check_times(folder, data.steps);
   note_non_finite(data.steps, data.notices);

@@ -5,6 +5,7 @@
 
 #include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace {
@@ -15,7 +16,7 @@ constexpr double slow_part = 0.2;
 std::vector<std::filesystem::path> state_files(const MotionRun& run) {
   const std::filesystem::path folder = RunFolder(run.data.folder).states();
   std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(folder)) return files;
+  if (!is_folder(folder)) return files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".bin") files.push_back(entry.path());
   std::sort(files.begin(), files.end());

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "platform/file_kind.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
@@ -19,7 +20,7 @@ Json origin_of(const PaperData& data, const std::string& name, const fs::path& f
     const auto run = parsed<size_t>(words[k]).value_or(0);
     const fs::path page = data.folder(run) / "report.html";
     const std::string& run_name = data.campaign().runs.at(run).planned.name;
-    if (fs::exists(page))
+    if (is_there(page))
       links.push_back({fs::relative(page, folder).generic_string(), run_name});
     else
       commands.push_back({"ballast report " + shell_word(data.folder(run).string()),

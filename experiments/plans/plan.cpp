@@ -4,6 +4,7 @@
 
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_text.hpp"
@@ -42,7 +43,7 @@ void write_plan(const Plan& plan, const fs::path& file) {
     toml::array set;
     for (const std::string& text : run.overrides) set.push_back(text);
     // a path is relative to the plan's file when it is read
-    const bool is_path = fs::is_regular_file(run.scene);
+    const bool is_path = is_file(run.scene);
     const std::string scene =
         is_path ? fs::absolute(run.scene).lexically_normal().string() : run.scene;
     runs.push_back(toml::table{{"name", run.name}, {"scene", scene}, {"set", std::move(set)}});

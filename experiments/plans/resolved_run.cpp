@@ -3,6 +3,7 @@
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/row_log.hpp"
 #include "problems/scene/scene_file.hpp"
 
@@ -67,7 +68,7 @@ std::vector<std::string> deposit_arguments(const fs::path& results, const Resolv
 
 long steps_in_log(const fs::path& run_folder) {
   const fs::path log = RunFolder(run_folder).steps_log();
-  if (!fs::exists(log)) return 0;
+  if (!is_there(log)) return 0;
   try {
     const RowReader reader(log);
     const std::uintmax_t bytes = fs::file_size(log) - reader.header_bytes();

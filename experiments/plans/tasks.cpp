@@ -7,6 +7,7 @@
 #include "experiments/box/packing_cache.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -62,7 +63,7 @@ std::vector<Task> make_tasks(const fs::path& results, const std::vector<Resolved
     if (!seen.insert(run.key).second) continue;
     drives.push_back(run_task(results, run));
     const bool needs_packing = drives.back().state != TaskState::finished && !run.packing.empty() &&
-                               !fs::exists(packing_file(packing_folder(results), run.packing));
+                               !is_there(packing_file(packing_folder(results), run.packing));
     if (!needs_packing) continue;
     packing_of[run.key] = run.packing;
     deposits.emplace(run.packing, deposit_task(results, run));

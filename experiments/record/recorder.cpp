@@ -8,6 +8,7 @@
 #include "platform/content_key.hpp"
 #include "platform/csv.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/row_log.hpp"
 
 namespace ballast {
@@ -185,7 +186,7 @@ void Recorder::finish(const std::string& scene_text, const std::string& manifest
 }
 
 std::vector<StepRecord> read_steps(const fs::path& folder) {
-  if (fs::exists(record_file(folder))) return read_record_steps(record_file(folder));
+  if (is_there(record_file(folder))) return read_record_steps(record_file(folder));
   RowReader rows(steps_log(folder));
   if (rows.header().row_size != step_columns().size())
     throw Error(steps_log(folder).string() + ": has other columns than this program reads");
@@ -198,7 +199,7 @@ std::vector<StepRecord> read_steps(const fs::path& folder) {
 }
 
 std::vector<PoseFrame> read_poses(const fs::path& folder) {
-  if (fs::exists(record_file(folder))) return read_record_poses(record_file(folder));
+  if (is_there(record_file(folder))) return read_record_poses(record_file(folder));
   RowReader rows(poses_log(folder));
   std::vector<PoseFrame> frames;
   for (auto row = rows.next(); !row.empty(); row = rows.next())
@@ -207,7 +208,7 @@ std::vector<PoseFrame> read_poses(const fs::path& folder) {
 }
 
 void require_same_bodies(const fs::path& folder, const MechanicalSystem& system) {
-  if (fs::exists(steps_log(folder))) open_log(steps_log(folder), steps_header(system));
+  if (is_there(steps_log(folder))) open_log(steps_log(folder), steps_header(system));
 }
 
 }  // namespace ballast

@@ -8,6 +8,7 @@
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
 
@@ -64,7 +65,7 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
 MechanicalSystem system_of_run(const std::filesystem::path& path, MotionState& state) {
   const RunFolder folder(path);
   if (!folder.has_run()) throw Error(path.string() + ": no run here: scene.toml is missing");
-  const bool started = std::filesystem::exists(folder.checkpoint());
+  const bool started = is_there(folder.checkpoint());
   const Scene scene = read_scene(folder.scene());
   if (!scene.grains) {
     MechanicalSystem system = make_system(scene, state);
@@ -85,12 +86,11 @@ MechanicalSystem system_of_run(const std::filesystem::path& path, MotionState& s
 MechanicalSystem recorded_system(const std::filesystem::path& path, MotionState& state) {
   const RunFolder folder(path);
   const std::filesystem::path record = path / "record.h5";
-  if (!folder.has_run() || !std::filesystem::exists(record)) return system_of_run(path, state);
+  if (!folder.has_run() || !is_there(record)) return system_of_run(path, state);
   MechanicalSystem system = read_record_system(record);
   const toml::table scene = load_toml(folder.scene(), {});
   system.friction = scene["contact"]["friction"].value_or(0.0);
-  if (std::filesystem::exists(folder.checkpoint()))
-    state = read_checkpoint(folder.checkpoint()).state;
+  if (is_there(folder.checkpoint())) state = read_checkpoint(folder.checkpoint()).state;
   return system;
 }
 

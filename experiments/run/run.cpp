@@ -7,6 +7,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/file_lock.hpp"
 #include "platform/interrupt.hpp"
 #include "solvers/solver_list.hpp"
@@ -75,7 +76,7 @@ class Run {
     }
     if (!options_.resume) {
       folder_.begin(resolved_.text, manifest_, options_.overwrite);
-    } else if (std::filesystem::exists(folder_.manifest())) {
+    } else if (is_there(folder_.manifest())) {
       manifest_ = Manifest::read(folder_.manifest());
     } else {
       manifest_.write(folder_.manifest());
@@ -105,7 +106,7 @@ class Run {
   /// From the scene, its packing, or the checkpoint. False: stopped while depositing.
   bool prepare() {
     if (!prepare_run(resolved_.scene, packing_order(), manifest_, run_)) return false;
-    if (options_.resume && std::filesystem::exists(folder_.checkpoint())) {
+    if (options_.resume && is_there(folder_.checkpoint())) {
       Checkpoint found = read_checkpoint(folder_.checkpoint());
       if (found.key != resolved_.key)
         throw Error(folder_.checkpoint().string() + ": belongs to another scene");

@@ -8,6 +8,7 @@
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -85,7 +86,7 @@ RunFolder RunFolder::of(const fs::path& output, const std::string& scene_name) {
 
 bool RunFolder::is_finished(const std::string& key) const {
   for (const fs::path& file : {manifest(), path_ / "steps.csv", path_ / "record.h5"})
-    if (!fs::exists(file)) return false;
+    if (!is_there(file)) return false;
   const Manifest found = Manifest::read(manifest());
   return found.key() == key && found.summary_number(steps_left_entry) == 0.0;
 }
@@ -95,7 +96,7 @@ void RunFolder::begin(const std::string& scene_text, const Manifest& manifest,
   create_folder(path_);
   // A folder counts as new that holds nothing but what a run leaves that died while it began.
   const bool is_new = !has_entries_but(path_, beginnings) &&
-                      (!fs::exists(this->manifest()) || is_manifest(this->manifest()));
+                      (!is_there(this->manifest()) || is_manifest(this->manifest()));
   if (!is_new && !is_of_a_run())
     throw Error(path_.string() +
                 ": holds files that are no run's: give a folder that is new or empty");

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "platform/file_kind.hpp"
+
 namespace ballast {
 
 class Manifest;
@@ -23,7 +25,7 @@ class RunFolder {
   std::filesystem::path states() const { return path_ / "states"; }
   std::filesystem::path state_at(long step) const;
   std::filesystem::path steps_log() const { return path_ / "log" / "steps.bin"; }
-  bool has_run() const { return std::filesystem::exists(scene()); }
+  bool has_run() const { return is_there(scene()); }
   /// It holds all of the run of this key: every step, and records that have been closed.
   bool is_finished(const std::string& key) const;
 

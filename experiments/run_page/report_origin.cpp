@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "platform/file_kind.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
@@ -157,7 +158,7 @@ page::Table files_table(const RunData& data) {
       {"paraview", "poses and contacts for ParaView"}};
   page::Table table = page::facts_table();
   for (const auto& [name, what] : files)
-    if (std::filesystem::exists(data.folder / name))
+    if (is_there(data.folder / name))
       table.rows.push_back({page::Text(name, page::code, name), what});
   return table;
 }

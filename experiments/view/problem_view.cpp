@@ -6,6 +6,7 @@
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/algebra/errors_by_contact.hpp"
 #include "problems/files/captured_problem.hpp"
@@ -67,9 +68,7 @@ ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend
 
 }  // namespace
 
-bool can_view_problem(const fs::path& file) {
-  return fs::exists(run_folder_of(file) / "record.h5");
-}
+bool can_view_problem(const fs::path& file) { return is_there(run_folder_of(file) / "record.h5"); }
 
 ViewData view_of_problem(const fs::path& file, const ErrorQuestion& question) {
   const fs::path folder = run_folder_of(file);

@@ -5,6 +5,7 @@
 
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
+#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace {
@@ -72,14 +73,14 @@ void add_curves(const RunData& run, ViewData& view) {
 
 std::optional<ViewData> view_of_run(const RunData& run) {
   const fs::path record = run.folder / "record.h5";
-  if (!fs::exists(record) && !fs::exists(run.folder / "log" / "poses.bin")) return std::nullopt;
+  if (!is_there(record) && !is_there(run.folder / "log" / "poses.bin")) return std::nullopt;
   ViewData view;
   view.frames = read_poses(run.folder);
   if (view.frames.empty()) return std::nullopt;
   MotionState state;
   view.system = recorded_system(run.folder, state);
   if (view.frames.front().pose.size() != view.system.bodies.size()) return std::nullopt;
-  if (fs::exists(record)) view.contacts = read_record_forces(record);
+  if (is_there(record)) view.contacts = read_record_forces(record);
   if (run.scene) view.title = run.scene->title;
   view.friction = view.system.friction;
   view.driven_wall = driven_wall_of(run, view.system);

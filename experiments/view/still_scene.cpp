@@ -4,6 +4,7 @@
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -48,7 +49,7 @@ bool is_packing_file(const fs::path& file) {
 }
 
 ViewData view_of_packing(const fs::path& file, const std::vector<Scene>& scenes) {
-  if (!fs::exists(file)) throw Error(file.string() + ": no such file");
+  if (!is_there(file)) throw Error(file.string() + ": no such file");
   for (const Scene& scene : scenes) {
     if (!scene.grains) continue;
     const std::string key = packing_key(scene);
@@ -77,9 +78,9 @@ std::vector<Scene> scenes_around(const fs::path& packing) {
   for (const auto& [name, title] : list_scenes()) files.push_back(find_scene(name));
   const fs::path results = fs::absolute(packing).parent_path().parent_path();
   for (const fs::path& folder : {results, results / "runs"}) {
-    if (!fs::is_directory(folder)) continue;
+    if (!is_folder(folder)) continue;
     for (const auto& entry : fs::directory_iterator(folder))
-      if (fs::exists(entry.path() / "scene.toml")) files.push_back(entry.path() / "scene.toml");
+      if (is_there(entry.path() / "scene.toml")) files.push_back(entry.path() / "scene.toml");
   }
   std::vector<Scene> scenes;
   for (const fs::path& file : files) try {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "problems/files/problem_file.hpp"
 
 namespace ballast {
@@ -26,7 +27,7 @@ std::vector<fs::path> matches(const std::string& pattern) {
 }
 
 void add_problems(const fs::path& path, std::vector<FoundProblem>& problems) {
-  if (!fs::is_directory(path)) {
+  if (!is_folder(path)) {
     if (!is_problem_file(path))
       throw Error(path.string() + ": is no problem file (.hdf5, .h5, .dat)");
     problems.push_back({path, path.filename()});
@@ -47,7 +48,7 @@ void add_problems(const fs::path& path, std::vector<FoundProblem>& problems) {
 std::vector<FoundProblem> find_problems(const std::string& word) {
   std::vector<FoundProblem> problems;
   const bool is_pattern = word.find_first_of("*?[") != std::string::npos;
-  if (fs::exists(word) || (!is_pattern && is_problem_file(word))) {
+  if (is_there(word) || (!is_pattern && is_problem_file(word))) {
     add_problems(word, problems);
     return problems;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
@@ -16,15 +17,14 @@ fs::path scene_folder() {
   std::error_code unreadable;
   const fs::path program = fs::read_symlink("/proc/self/exe", unreadable);
   const fs::path installed = program.parent_path().parent_path() / "share/ballast/scenes";
-  if (!unreadable && fs::is_directory(installed)) return installed;
+  if (!unreadable && is_folder(installed)) return installed;
   return BALLAST_SCENE_FOLDER;  // of the source tree: problems/scenes
 }
 
 std::vector<std::pair<std::string, std::string>> list_scenes() {
   std::vector<std::pair<std::string, std::string>> scenes;
   const fs::path folder = scene_folder();
-  if (!fs::is_directory(folder))
-    throw SceneFileError(folder.string() + ": no such folder of scenes");
+  if (!is_folder(folder)) throw SceneFileError(folder.string() + ": no such folder of scenes");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
     const toml::table table = load_toml(entry.path(), {});
@@ -37,15 +37,14 @@ std::vector<std::pair<std::string, std::string>> list_scenes() {
 
 fs::path find_scene(const std::string& name_or_path) {
   const fs::path path(name_or_path);
-  if (fs::is_regular_file(path)) return path;
+  if (is_file(path)) return path;
   const bool is_name =
       !name_or_path.empty() && !path.has_parent_path() && path.extension() != ".toml";
-  std::error_code ignored;
-  if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
+  if (is_there(path) && !is_folder(path))
     throw SceneFileError(name_or_path + ": a pipe or a device, expected a scene file");
   if (!is_name) throw SceneFileError(name_or_path + ": no such scene file");
   const fs::path named = scene_folder() / (name_or_path + ".toml");
-  if (fs::is_regular_file(named)) return named;
+  if (is_file(named)) return named;
   std::vector<std::string> there;
   for (const auto& [name, title] : list_scenes()) there.push_back(name);
   throw SceneFileError(name_or_path + ": no scene of this name" +

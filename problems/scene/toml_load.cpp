@@ -5,6 +5,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file_error.hpp"
 #include "problems/scene/toml_reader.hpp"
@@ -142,7 +143,7 @@ void apply(const std::filesystem::path& file, Override o, toml::table& root) {
 }  // namespace
 
 toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  if (std::filesystem::is_directory(file))
+  if (is_folder(file))
     throw SceneFileError(file.string() + ": is a folder, expected a scene in TOML");
   std::string content;
   try {

@@ -2,6 +2,7 @@
 // module.
 
 #include <algorithm>
+#include <regex>
 #include <sstream>
 
 #include "tests/catch.hpp"
@@ -74,6 +75,17 @@ TEST_CASE("what is too long or too wide is seen") {
   for (size_t k = 0; k < widest_line; ++k) accents += "µ";
   CHECK(breaches("a.cpp", accents).empty());  // columns, not bytes
   CHECK(breaches("a.hpp", "int x;\n").size() == 1);
+}
+
+TEST_CASE("what a name leads to is asked for by platform/file_kind.hpp alone") {
+  const std::regex throwing(R"(filesystem::(exists|is_regular_file|is_directory)\(|)"
+                            R"(\bfs::(exists|is_regular_file|is_directory)\((?!status\)))");
+  REQUIRE(std::regex_search("if (fs::exists(file)) {", throwing));
+  REQUIRE_FALSE(std::regex_search("fs::exists(status)", throwing));
+  for (const SourceFile& file : all_sources(false)) {
+    INFO(file.path);
+    if (file.path != "platform/file_kind.hpp") CHECK_FALSE(std::regex_search(file.text, throwing));
+  }
 }
 
 TEST_CASE("every source folder has tests, in the same tree") {

@@ -127,6 +127,9 @@ TEST_CASE("what is wrong with a plan is said with file, key and value") {
              Catch::Contains("list of texts"));
   CHECK_THAT(error_of("scene = \"nowhere\"\n[[run]]\nname = \"a\"\n"),
              Catch::Contains("no scene of this name"));
+  const std::string longer_than_any_file(5000, 'n');
+  CHECK_THAT(error_of("scene = \"" + longer_than_any_file + "\"\n[[run]]\nname = \"a\"\n"),
+             Catch::Contains("no scene of this name"));
 
   const std::string grid = head + "[[grid]]\nname = \"s\"\n";
   CHECK_THAT(error_of(grid), Catch::Contains("nothing varied"));

@@ -25,6 +25,7 @@ TEST_CASE("scenes are found by path, by name, and in the folder that BALLAST_SCE
 TEST_CASE("a scene that is not there is refused with what there is") {
   CHECK_THROWS_WITH(find_scene(""), Catch::Contains("no such scene file"));
   CHECK_THROWS_WITH(find_scene("folder/vibrated_box"), Catch::Contains("no such scene file"));
+  CHECK_THROWS_WITH(find_scene(std::string(5000, 'n')), Catch::Contains("no scene of this name"));
   setenv("BALLAST_SCENES", "/nowhere", 1);
   CHECK_THROWS_WITH(list_scenes(), Catch::Contains("/nowhere: no such folder of scenes"));
   unsetenv("BALLAST_SCENES");
