@@ -4,6 +4,7 @@
 
 #include "geometry/contact/contact_tracker.hpp"
 #include "platform/clock.hpp"
+#include "solvers/parts/local_change.hpp"
 #include "solvers/seam/island_solver.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -61,6 +62,9 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& set
       resting_(system, settings.sleep, settings.detection, settings.velocity_scale()),
       impact_law_(system.restitution),
       reach_(system.bodies.size(), 0.0) {
+  if (settings.solver.change_tolerance > 0.0)
+    solver_ = make_change_stopped(std::move(solver_),
+                                  {settings.solver.change_tolerance, settings.solver.change_every});
   if (settings.solver.islands) solver_ = make_island_solver(std::move(solver_));
   solver_->use_threads(settings.solver.threads);
   if (settings.solver.threads > 1) share_work(settings.solver.threads);

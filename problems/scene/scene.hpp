@@ -129,6 +129,8 @@ struct SolverSpec {
   int max_iterations = 200;
   double max_seconds = 1e30;  ///< per step: breaks reproducibility, so off
   bool warm_start = true;
+  double change_tolerance = 0.0;  ///< above 0: LMGC90's rule in place of the tolerance, looked at
+  int change_every = 500;         ///< every so many iterations (solvers/parts/local_change.hpp)
   bool islands =
       false;        ///< heaps that don't touch are solved each on its own, each to the tolerance
   int threads = 1;  ///< set by the program, never by the file: results do not depend on it

@@ -41,6 +41,14 @@ const SceneKeys<SolverSpec> solver_keys{
     {"max_seconds", number(&SolverSpec::max_seconds, positive, "s"),
      "wall clock per step; a finite one makes runs irreproducible"},
     {"warm_start", flag(&SolverSpec::warm_start), "start from the last step's impulses"},
+    {"change_tolerance", number(&SolverSpec::change_tolerance, part_of_one, "relative"),
+     "above 0, LMGC90's rule \"QM/16\" stops in place of `tolerance`: what one more solution of "
+     "each contact alone would change ([method.md](../theory/method.md)); its scripts have "
+     "1.666e-4. `max_iterations` must leave room for it",
+     Presence::only_where_given, "off"},
+    {"change_every", whole(&SolverSpec::change_every, 1),
+     "iterations between two looks of that rule, for backends whose iterations are sweeps",
+     Presence::only_where_given},
     {"islands", flag(&SolverSpec::islands),
      "heaps that no contact joins are solved one by one, each to the tolerance and with "
      "`max_iterations` of its own; one heap: the same bits as with false. Pays where several "

@@ -76,3 +76,27 @@ TEST_CASE(
   CHECK(residual < 1e-12);
   CHECK(penetration < 1e-9);
 }
+
+TEST_CASE("LMGC90's rule stops the sweeps of a step at multiples of its looks") {
+  Scene scene = empty_scene();
+  scene.walls.push_back(floor_at_zero(0.4));
+  scene.bodies.push_back(cube("below", 0.1, 2.0, Vec3(0, 0, 0.05)));
+  scene.bodies.push_back(cube("above", 0.1, 2.0, Vec3(0.01, 0, 0.15)));
+  scene.bodies[1].velocity = Vec3(0.5, 0.2, 0.0);
+  scene.solver.name = "pgs";
+  scene.solver.max_iterations = 5000;
+  scene.solver.tolerance = 1e9;  // met at once
+  scene.solver.change_tolerance = 1e-6;
+  scene.solver.change_every = 10;
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, step_settings(scene), -1);
+  StepMemory memory;
+  for (int k = 0; k < 20; ++k) {
+    const StepRecord record = stepper.step(state, memory);
+    CHECK(record.contacts > 0);
+    CHECK(record.iterations > 0);
+    CHECK(std::lround(record.iterations) % 10 == 0);
+    CHECK(record.error_rms <= 1e-4 * scene.gravity.norm() * scene.step);
+  }
+}

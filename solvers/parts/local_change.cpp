@@ -1,0 +1,109 @@
+#include "solvers/parts/local_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "platform/clock.hpp"
+#include "solvers/parts/one_contact.hpp"
+#include "solvers/seam/relay.hpp"
+
+namespace ballast {
+
+bool ChangeNorms::within(double tolerance) const {
+  constexpr double largest = 16.666;  // as LMGC90 has it
+  return velocity_mean < tolerance && energy_mean < tolerance && std::abs(drift) < tolerance &&
+         velocity_max < largest * tolerance && energy_max < largest * tolerance;
+}
+
+void LocalChange::prepare(const FrictionProblem& problem) { operator_.prepare(problem); }
+
+ChangeNorms LocalChange::at(const Impulses& r) {
+  operator_.velocity(r, u_);
+  double carrying = 0.0, d_squares = 0.0, w_squares = 0.0, energies = 0.0, dm_squares = 0.0,
+         drift = 0.0, largest_d = 0.0, largest_dm = 0.0;
+  for (int c = 0; c < operator_.contact_count(); ++c) {
+    if (!(operator_.rho()[c] > 0.0)) continue;  // nothing moves it
+    // The contact on its own, and what that changes.
+    const Eigen::Matrix3d& w = operator_.diagonal()[c];
+    const Eigen::Vector3d before = operator_.at(r, c), free = operator_.at(u_, c) - w * before;
+    Eigen::Vector3d after;
+    double slip = 0.0;
+    solve_one_contact(w, free, operator_.friction(c), after, slip);
+    const Eigen::Vector3d d = w * (before - after), m = 0.5 * (before + after);
+    if (m.isZero(0.0)) continue;
+    // The sums of which the norms are made.
+    const Eigen::Vector3d wr = w * before, wr_after = w * after;
+    carrying += 1.0;
+    d_squares += d.squaredNorm();
+    w_squares += 0.5 * (wr.squaredNorm() + wr_after.squaredNorm());
+    energies += 0.5 * (wr.dot(before) + wr_after.dot(after));
+    dm_squares += d.squaredNorm() * m.squaredNorm();
+    drift += m.dot(d);
+    largest_d = std::max(largest_d, d.norm());
+    largest_dm = std::max(largest_dm, d.norm() * m.norm());
+  }
+  if (!(w_squares > 0.0 && energies > 0.0)) return {};
+  const double velocity = std::sqrt(w_squares / carrying), energy = energies / carrying;
+  return {std::sqrt(d_squares / carrying) / velocity, largest_d / velocity,
+          std::sqrt(dm_squares / carrying) / energy, largest_dm / energy, drift / energies};
+}
+
+namespace {
+
+class ChangeStopped final : public Solver {
+ public:
+  ChangeStopped(std::unique_ptr<Solver> backend, const ChangeRule& rule)
+      : backend_(std::move(backend)), rule_(rule) {}
+
+  void prepare(const FrictionProblem& problem) override {
+    backend_->prepare(problem);
+    change_.prepare(problem);
+  }
+
+  void use_threads(int threads) override { backend_->use_threads(threads); }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    const Stopwatch watch;
+    Solved whole;
+    whole.impulses = std::move(start);
+    for (;;) {
+      const double begun = watch.seconds() - whole.startup_seconds;
+      Budget burst = rest_of(budget, whole.iterations, begun);
+      burst.tolerance = 0.0;
+      burst.max_iterations = std::min(burst.max_iterations, rule_.every);
+      const int asked = burst.max_iterations;
+      Solved next = backend_->solve(problem, std::move(whole.impulses), burst);
+      // Booked as one solve.
+      for (const HistoryPoint& point : next.history)
+        whole.history.push_back(
+            {whole.iterations + point.iteration, begun + point.seconds, point.error});
+      whole.impulses = std::move(next.impulses);
+      whole.iterations += next.iterations;
+      whole.startup_seconds += next.startup_seconds;
+      whole.own_residual = next.own_residual;
+      whole.reason = next.reason;
+      // The backend has nothing more to do, or failed, or the rule is met, or nothing is left.
+      if (next.iterations < asked || whole.impulses.size() != problem.row_count()) return whole;
+      if (change_.at(whole.impulses).within(rule_.tolerance)) {
+        whole.reason = StopReason::stalled;
+        return whole;
+      }
+      if (whole.iterations >= budget.max_iterations) return whole;
+    }
+  }
+
+ private:
+  std::unique_ptr<Solver> backend_;
+  ChangeRule rule_;
+  LocalChange change_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_change_stopped(std::unique_ptr<Solver> backend,
+                                            const ChangeRule& rule) {
+  return std::make_unique<ChangeStopped>(std::move(backend), rule);
+}
+
+}  // namespace ballast

@@ -1,0 +1,58 @@
+#pragma once
+// LMGC90's rule for stopping sweeps, norm "QM/16", so that results can be compared with what was
+// computed under it. Read in LMGC90's nlgs (prep_check, solve, comp_check): 500 sweeps between two
+// looks and a tolerance of 1.666e-4 are what its scripts for polyhedra ask for.
+//
+// At an iterate r, with the velocities u that it gives, each contact is solved once more while all
+// others are held: r' and u' = u + W_cc (r' - r). With
+//
+//   d = u - u',   m = (r + r') / 2,   e = (r . W_cc r + r' . W_cc r') / 2,
+//   w^2 = (|W_cc r|^2 + |W_cc r'|^2) / 2
+//
+// and means < > over the contacts that carry something (m not zero), the numbers are those of
+// ChangeNorms. They tell how much one more sweep would change, not how far the solution is: sweeps
+// that creep satisfy them early.
+
+#include <memory>
+
+#include "solvers/parts/contact_operator.hpp"
+#include "solvers/seam/solver.hpp"
+
+namespace ballast {
+
+/// All relative. Zero where no contact carries anything.
+struct ChangeNorms {
+  double velocity_mean = 0.0;  ///< sqrt(<|d|^2> / <w^2>)
+  double velocity_max = 0.0;   ///< max |d| / sqrt(<w^2>)
+  double energy_mean = 0.0;    ///< sqrt(<|d|^2 |m|^2>) / <e>
+  double energy_max = 0.0;     ///< max |d| |m| / <e>
+  double drift = 0.0;          ///< <m . d> / <e>: signed, whether contacts open or close as a whole
+
+  /// The means and |drift| are below the tolerance, the largest below 16.666 of it.
+  bool within(double tolerance) const;
+};
+
+/// The norms of one problem at any impulses.
+class LocalChange {
+ public:
+  /// `problem` must outlive the use. Throws InvalidProblem for a singular mass.
+  void prepare(const FrictionProblem& problem);
+  ChangeNorms at(const Impulses& r);
+
+ private:
+  ContactOperator operator_;
+  Eigen::VectorXd u_;
+};
+
+struct ChangeRule {
+  double tolerance = 1.666e-4;
+  int every = 500;  ///< iterations from one look to the next
+};
+
+/// The backend in bursts of `rule.every` iterations, until the rule is met after one; the budget's
+/// tolerance is not asked. An answer that meets the rule is returned as `stalled`, since it may be
+/// far from a solution. Acceleration begins anew with every burst.
+std::unique_ptr<Solver> make_change_stopped(std::unique_ptr<Solver> backend,
+                                            const ChangeRule& rule);
+
+}  // namespace ballast
