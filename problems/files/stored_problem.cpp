@@ -19,16 +19,16 @@ void set_contacts(FrictionProblem& problem, const std::vector<double>& mu) {
   for (std::size_t c = 0; c <= mu.size(); ++c) problem.row_begin[c] = 3 * static_cast<int>(c);
 }
 
-/// The body of every unknown when `size` consecutive ones make a body; empty when M or H forbid it.
+/// The bodies of every contact when `size` consecutive unknowns make a body; none when M or H
+/// forbid it. The size is known to the compiler: a division by it is made for every entry of H.
+template <int size>
 class Grouping {
  public:
-  Grouping(const GlobalProblem& global, int size) : size_(size) {
-    const int unknowns = static_cast<int>(global.m.rows());
-    fits_ =
-        unknowns % size == 0 && mass_is_block_diagonal(global.m) && find_bodies_of_contacts(global);
+  explicit Grouping(const GlobalProblem& global) {
+    fits_ = global.m.rows() % size == 0 && mass_is_block_diagonal(global.m) &&
+            find_bodies_of_contacts(global);
   }
   bool fits() const { return fits_; }
-  int size() const { return size_; }
   const std::vector<int>& body_a() const { return body_a_; }
   const std::vector<int>& body_b() const { return body_b_; }
 
@@ -36,19 +36,19 @@ class Grouping {
   bool mass_is_block_diagonal(const SparseColumns& m) const {
     for (int column = 0; column < m.outerSize(); ++column)
       for (SparseColumns::InnerIterator entry(m, column); entry; ++entry)
-        if (entry.value() != 0.0 && entry.row() / size_ != column / size_) return false;
+        if (entry.value() != 0.0 && entry.row() / size != column / size) return false;
     return true;
   }
 
   bool find_bodies_of_contacts(const GlobalProblem& global) {
-    const int contacts = static_cast<int>(global.mu.size());
+    const size_t contacts = global.mu.size();
     body_a_.assign(contacts, -1);
     body_b_.assign(contacts, -1);
     // Column 3 c + k of H is row k of contact c; the unknowns in it say which bodies it touches.
     for (int column = 0; column < global.h.outerSize(); ++column) {
       int &a = body_a_[column / 3], &b = body_b_[column / 3];
       for (SparseColumns::InnerIterator entry(global.h, column); entry; ++entry) {
-        const int body = static_cast<int>(entry.row()) / size_;
+        const int body = static_cast<int>(entry.row()) / size;
         if (entry.value() == 0.0 || body == a || body == b) continue;
         if (b == -1)
           b = body;
@@ -61,17 +61,17 @@ class Grouping {
     return true;
   }
 
-  int size_;
   bool fits_;
   std::vector<int> body_a_, body_b_;
 };
 
-void fill_bodies(const GlobalProblem& global, int size, DynamicsForm& dynamics) {
+template <int size>
+void fill_bodies(const GlobalProblem& global, DynamicsForm& dynamics) {
   const int unknowns = static_cast<int>(global.m.rows());
   // f = M v_free is an impulse: v_free block by block, with the masses' own factors.
   dynamics.v_free = global.f;
   for (int first = 0; first < unknowns; first += size) {
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+    Eigen::Matrix<double, size, size> block = Eigen::Matrix<double, size, size>::Zero();
     for (int column = 0; column < size; ++column)
       for (SparseColumns::InnerIterator entry(global.m, first + column); entry; ++entry)
         if (entry.row() / size == first / size) block(entry.row() - first, column) = entry.value();
@@ -87,24 +87,41 @@ void fill_bodies(const GlobalProblem& global, int size, DynamicsForm& dynamics) 
   }
 }
 
-void fill_contacts(const GlobalProblem& global, const Grouping& grouping, DynamicsForm& dynamics) {
+template <int size>
+void fill_contacts(const GlobalProblem& global, const Grouping<size>& grouping,
+                   DynamicsForm& dynamics) {
   dynamics.body_a = grouping.body_a();
   dynamics.body_b = grouping.body_b();
-  const int size = grouping.size();
-  for (int c = 0; c < static_cast<int>(global.mu.size()); ++c) {
+  const size_t contacts = global.mu.size();
+  dynamics.h.reserve(2 * 3 * size * contacts);
+  for (size_t c = 0; c < contacts; ++c) {
     // Three columns of H are one contact; transposed, their rows of a body are its block.
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
       if (body < 0) continue;
-      const std::size_t begin = dynamics.h.size();
-      dynamics.h.resize(begin + 3 * static_cast<std::size_t>(size));
+      const size_t begin = dynamics.h.size();
+      dynamics.h.resize(begin + 3 * size);
       for (int i = 0; i < 3; ++i)
-        for (SparseColumns::InnerIterator entry(global.h, 3 * c + i); entry; ++entry)
+        for (SparseColumns::InnerIterator entry(global.h, 3 * static_cast<int>(c) + i); entry;
+             ++entry)
           if (entry.row() / size == body)
-            dynamics.h[begin + 3 * (entry.row() - body * size) + i] = entry.value();
+            dynamics.h[begin + 3 * static_cast<size_t>(entry.row() - body * size) + i] =
+                entry.value();
     }
     dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
   }
   dynamics.bias = global.w;
+}
+
+/// The dynamics form with bodies of `size` unknowns, into `problem`; false: M or H forbid it.
+template <int size>
+bool group_into_bodies(const GlobalProblem& global, FrictionProblem& problem) {
+  const Grouping<size> grouping(global);
+  if (!grouping.fits()) return false;
+  set_contacts(problem, global.mu);
+  problem.has_dynamics = true;
+  fill_bodies<size>(global, problem.dynamics);
+  fill_contacts(global, grouping, problem.dynamics);
+  return true;
 }
 
 /// W = H^T M^-1 H and q = H^T M^-1 f + w. By LU: stored iteration matrices need not be quite
@@ -174,17 +191,10 @@ FrictionProblem to_friction_problem(LocalProblem local) {
 }
 
 FrictionProblem to_friction_problem(const GlobalProblem& global) {
-  // The first grouping into bodies that M and H allow; where none does, W is formed.
-  for (const int size : {6, 3}) {  // rigid bodies, or points
-    const Grouping grouping(global, size);
-    if (!grouping.fits()) continue;
-    FrictionProblem problem;
-    set_contacts(problem, global.mu);
-    problem.has_dynamics = true;
-    fill_bodies(global, size, problem.dynamics);
-    fill_contacts(global, grouping, problem.dynamics);
+  // The first grouping that M and H allow: rigid bodies, or points; where none does, W is formed.
+  FrictionProblem problem;
+  if (group_into_bodies<6>(global, problem) || group_into_bodies<3>(global, problem))
     return problem;
-  }
   return condense(global);
 }
 

@@ -152,4 +152,21 @@ TEST_CASE("each broken global file is refused") {
   std::vector<double> x = Hdf5Reader(file).read_doubles("/fclib_global/M/x");
   x[0] = -1.0;
   CHECK(broken("/fclib_global/M/x", x).rfind("M(0, 0) = -1", 0) == 0);
+  // One entry of each that is no number, and a friction that is none.
+  const double not_a_number = std::nan("");
+  for (const char* matrix : {"/fclib_global/M", "/fclib_global/H"}) {
+    write_problem(file, small().problem);
+    std::vector<double> entries = Hdf5Reader(file).read_doubles(std::string(matrix) + "/x");
+    entries[2] = not_a_number;
+    CHECK(broken((std::string(matrix) + "/x").c_str(), entries)
+              .rfind(std::string(matrix) + "/x[2] = nan is not finite", 0) == 0);
+  }
+  for (const char* vector : {"/fclib_global/vectors/f", "/fclib_global/vectors/w"})
+    CHECK(broken(vector,
+                 std::vector<double>(std::string(vector).back() == 'f' ? 24 : 18, not_a_number))
+              .rfind(std::string(vector) + "[0] = nan is not finite", 0) == 0);
+  std::vector<double> mu(6, 0.5);
+  mu[1] = -0.5;
+  CHECK(broken("/fclib_global/vectors/mu", mu).find("friction[1] = -0.5 is negative") !=
+        std::string::npos);
 }

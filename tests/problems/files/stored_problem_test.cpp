@@ -130,3 +130,19 @@ TEST_CASE("a mass that is none is refused") {
   singular.m.coeffRef(3, 3) = 0.0;
   CHECK_THROWS_WITH(to_friction_problem(singular), Catch::Contains("M is singular"));
 }
+
+TEST_CASE("a mass that is not symmetric or not definite is refused with bodies and without") {
+  // A body's block: the lower triangle alone would be taken for the whole.
+  GlobalProblem asymmetric = unit_masses(6, {{0}});
+  asymmetric.m.coeffRef(0, 1) = 0.5;
+  CHECK_THROWS_WITH(to_friction_problem(asymmetric).validate(),
+                    Catch::Contains("dynamics.mass[1] = ") || Catch::Contains("dynamics.mass[6]"));
+  GlobalProblem indefinite = unit_masses(6, {{0}});
+  indefinite.m.coeffRef(0, 1) = indefinite.m.coeffRef(1, 0) = 2.0;  // eigenvalues -1 and 3
+  CHECK_THROWS_WITH(to_friction_problem(indefinite), Catch::Contains("not positive definite"));
+  // Eight unknowns are no bodies: W shows it.
+  GlobalProblem condensed = unit_masses(8, {{3}});
+  condensed.m.coeffRef(3, 3) = -1.0;
+  CHECK_THROWS_WITH(to_friction_problem(condensed).validate(),
+                    Catch::Contains("delassus.w(0, 0) = -16 is negative"));
+}
