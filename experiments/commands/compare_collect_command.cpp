@@ -15,7 +15,7 @@ namespace {
 
 struct CollectOptions {
   std::filesystem::path output = "results/collection", check;
-  int largest = 2600;
+  int largest = 2400;
 };
 
 ExitCode collect(const CollectOptions& options) {
@@ -30,9 +30,7 @@ ExitCode collect(const CollectOptions& options) {
   };
   const ExitCode code = make_collection(options.output, runs, told, ours);
   if (code != ExitCode::ok) return code;
-  std::cout << ours.size() << " problems of " << ours.front().contacts << " to "
-            << ours.back().contacts
-            << " contacts: " << (options.output / "problems" / "manifest.csv").string()
+  std::cout << summary_of(ours) << ": " << (options.output / "problems" / "manifest.csv").string()
             << std::endl;
   const std::vector<std::string> others = other_contents(ours, theirs);
   if (!others.empty())
@@ -49,8 +47,8 @@ Command compare_collect_command() {
           "Makes the collection: 72 captured problems of 60 to 10000 contacts, with a manifest",
           {{"--output DIR", &options->output, "Where it is made; the same command goes on", shown},
            {"--largest", &options->largest,
-            "Grains of the largest runs: 20, 60, 200, 600, 1200, 2600 and below", shown,
-            between(20, 2600)},
+            "Grains of the largest runs: 25, 80, 200, 600, 1200, 2400 and below", shown,
+            between(25, 2400)},
            {"--check MANIFEST", &options->check,
             "Another one's manifest.csv: exit code 1 where the contents differ"}},
           [options] { return collect(*options); }};

@@ -11,13 +11,23 @@
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/files/captured_problem.hpp"
+#include "problems/files/problem_file.hpp"
 
 namespace ballast {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int grain_counts[] = {20, 60, 200, 600, 1200, 2600};
+constexpr int grain_counts[] = {25, 80, 200, 600, 1200, 2400};
+constexpr int settling_step = 10;  // 2 ms after the rain: no grain has come to rest
+
+/// What all runs have in common. The packing is taken as soon as the highest grain has fallen, and
+/// a light wall answers its drive within the run: 62 ms.
+const std::vector<std::string> common_overrides = {
+    "control_volume.margin_x=0.03",    "deposit.lid_pressure_weight=0",
+    "deposit.settle_time=0",           "deposit.rest_velocity=0.5",
+    "drive.wall_mass_over_grains=0.1", "scene.duration=0.062",
+    "solver.max_iterations=400",       "record.forces=false"};
 
 struct CollectedScene {
   const char* name;
@@ -25,9 +35,9 @@ struct CollectedScene {
 };
 
 std::vector<CollectedScene> collected_scenes() {
-  return {{"shaken", {"drive.frequency=20"}},
-          {"pressed", {"drive.f_min_over_weight=3"}},
-          {"agitated", {"drive.frequency=60", "drive.f_max_over_weight=6", "contact.friction=1"}}};
+  return {{"shaken", {"drive.frequency=20", "drive.f_max_over_weight=1"}},
+          {"pressed", {"drive.f_min_over_weight=3", "contact.friction=1"}},
+          {"released", {"drive.f_max_over_weight=0", "contact.friction=0.2"}}};
 }
 
 const std::vector<std::string> manifest_columns = {"file", "content", "contacts",
@@ -40,7 +50,7 @@ CollectedProblem described(const fs::path& file, const std::string& name) {
           captured.problem.contact_count(),
           captured.problem.row_count(),
           captured.step,
-          captured.phase};
+          captured.step == settling_step ? "settling" : captured.phase};
 }
 
 void write_manifest(const fs::path& file, std::span<const CollectedProblem> problems) {
@@ -63,8 +73,8 @@ std::vector<CollectedRun> collection_runs(int most_grains) {
     for (const CollectedScene& scene : collected_scenes()) {
       CollectedRun run{printed("%s-%d", scene.name, grains),
                        {printed("grains.count=%d", grains), printed("box.length=%.3g", width),
-                        printed("box.width=%.3g", width), "control_volume.margin_x=0.03",
-                        "scene.duration=0.048", "solver.max_iterations=200"}};
+                        printed("box.width=%.3g", width)}};
+      run.overrides.insert(run.overrides.end(), common_overrides.begin(), common_overrides.end());
       run.overrides.insert(run.overrides.end(), scene.overrides.begin(), scene.overrides.end());
       runs.push_back(std::move(run));
     }
@@ -84,22 +94,30 @@ ExitCode make_collection(const fs::path& folder, std::span<const CollectedRun> r
     options.output = folder / "runs" / wanted.name;
     options.packing_cache = folder / "packings";
     options.begin_or_resume = true;
-    options.capture = "every=60,steps=1";
+    options.capture = printed("every=95,steps=1,also=%d", settling_step);
     options.telling = Telling::nobody;
     if (const ExitCode code = run(options).code; code != ExitCode::ok) return code;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(options.output / "capture"))
-      files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
     create_folder(folder / "problems" / wanted.name);
-    for (const fs::path& file : files) {
-      const std::string name = wanted.name + '/' + file.filename().string();
-      write_whole_file(folder / "problems" / name, read_whole_file(file));
-      problems.push_back(described(file, name));
+    for (const FoundProblem& found : find_problems((options.output / "capture").string())) {
+      const std::string name = wanted.name + '/' + found.name.string();
+      write_whole_file(folder / "problems" / name, read_whole_file(found.file));
+      problems.push_back(described(found.file, name));
     }
   }
   write_manifest(folder / "problems" / "manifest.csv", problems);
   return ExitCode::ok;
+}
+
+std::string summary_of(std::span<const CollectedProblem> problems) {
+  if (problems.empty()) return "0 problems";
+  const auto [least, most] = std::ranges::minmax(problems, {}, &CollectedProblem::contacts);
+  std::map<std::string, int> phases;
+  for (const CollectedProblem& p : problems) ++phases[p.phase];
+  std::string counts;
+  for (const auto& [phase, count] : phases)
+    counts += (counts.empty() ? "" : ", ") + std::to_string(count) + ' ' + phase;
+  return printed("%zu problems of %d to %d contacts (%s)", problems.size(), least.contacts,
+                 most.contacts, counts.c_str());
 }
 
 std::vector<CollectedProblem> read_collection(const fs::path& manifest) {

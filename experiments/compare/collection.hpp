@@ -12,15 +12,17 @@
 
 namespace ballast {
 
-/// One run of vibrated_box, of which four steps are kept.
+/// One run of vibrated_box, of which four steps are kept: one while the grains still settle, three
+/// under the wall's drive.
 struct CollectedRun {
-  std::string name;  ///< "shaken-60": the scene and the number of grains
+  std::string name;  ///< "shaken-80": the scene and the number of grains
   std::vector<std::string> overrides;
 };
 
-/// Three scenes for each of six numbers of grains up to `most_grains`, 20 to 2600 (some 70 to 10000
-/// contacts): shaken (the paper's drive at 20 Hz), pressed (a constant load: one long jam),
-/// agitated (60 Hz, twice the load, much friction). The scenes of a size share their packing.
+/// Three scenes for each of six numbers of grains up to `most_grains`, 25 to 2400 (some 60 to 10000
+/// contacts): shaken (20 Hz: in and out), pressed (a constant load and much friction: passive),
+/// released (the wall gives way, little friction: active). The scenes of a size share their
+/// packing, whose grains have just fallen.
 std::vector<CollectedRun> collection_runs(int most_grains);
 
 /// One line of manifest.csv.
@@ -28,7 +30,7 @@ struct CollectedProblem {
   std::string file;     ///< in the folder of the problems
   std::string content;  ///< key of problem, start and scale: CaseFacts::content
   int contacts = 0, rows = 0, step = 0;
-  std::string phase;  ///< of the motion
+  std::string phase;  ///< "settling", then that of the driven wall: passive, active, jammed
 };
 
 /// Makes what is missing of `folder`: packings/, runs/<name>, problems/<name>/step_*.hdf5 and
@@ -37,6 +39,9 @@ struct CollectedProblem {
 ExitCode make_collection(const std::filesystem::path& folder, std::span<const CollectedRun> runs,
                          const std::function<void(const CollectedRun&)>& told,
                          std::vector<CollectedProblem>& problems);
+
+/// "72 problems of 60 to 10200 contacts (24 active, 30 passive, 18 settling)".
+std::string summary_of(std::span<const CollectedProblem> problems);
 
 /// Reads problems/manifest.csv, this or another one's. Throws Error.
 std::vector<CollectedProblem> read_collection(const std::filesystem::path& manifest);

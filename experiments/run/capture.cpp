@@ -29,12 +29,13 @@ CaptureSettings CaptureSettings::parse(std::string_view text) {
   const std::map<std::string, long*> places{{"every", &settings.every},
                                             {"steps", &settings.steps},
                                             {"from", &settings.from},
-                                            {"to", &settings.to}};
+                                            {"to", &settings.to},
+                                            {"also", &settings.also}};
   for (const std::string& item : split(text, ',')) {
     const std::string name = item.substr(0, item.find('='));
     const auto place = places.find(name);
     if (place == places.end())
-      throw std::invalid_argument("'" + item + "': expected every=, steps=, from= or to=");
+      throw std::invalid_argument("'" + item + "': expected every=, steps=, from=, to= or also=");
     *place->second = positive_number(name, item.substr(std::min(name.size() + 1, item.size())));
     has_range = has_range || name == "from" || name == "to";
   }
@@ -47,6 +48,7 @@ CaptureSettings CaptureSettings::parse(std::string_view text) {
 }
 
 bool CaptureSettings::takes(long step) const {
+  if (step == also) return true;
   if (step < from || step > to) return false;
   // With every = n and steps = k: the steps n to n + k - 1, then 2 n to 2 n + k - 1, and so on.
   return every == 0 || (step >= every && step % every < steps);

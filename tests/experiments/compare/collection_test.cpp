@@ -12,19 +12,27 @@ using namespace ballast;
 
 TEST_CASE("The collection has three scenes of six sizes, each once") {
   std::set<std::string> names;
-  for (const CollectedRun& run : collection_runs(2600)) names.insert(run.name);
+  for (const CollectedRun& run : collection_runs(2400)) names.insert(run.name);
   CHECK(names.size() == 18);
-  CHECK(names.contains("pressed-2600"));
-  CHECK(collection_runs(60).size() == 6);
+  CHECK(names.contains("pressed-2400"));
+  CHECK(collection_runs(80).size() == 6);
+}
+
+TEST_CASE("The summary of a collection has the fewest and the most contacts, wherever they stand") {
+  const std::vector<CollectedProblem> problems{{"a", "", 70, 210, 10, "settling"},
+                                               {"b", "", 9000, 27000, 95, "passive"},
+                                               {"c", "", 61, 183, 190, "active"},
+                                               {"d", "", 500, 1500, 285, "active"}};
+  CHECK(summary_of(problems) ==
+        "4 problems of 61 to 9000 contacts (2 active, 1 passive, 1 settling)");
+  CHECK(summary_of({}) == "0 problems");
 }
 
 TEST_CASE("A collection that is made twice holds the same problems, and its manifest says so") {
   const TemporaryFolder folder;
-  CollectedRun run = collection_runs(20)[1];
+  CollectedRun run = collection_runs(25)[1];
   // Quicker to deposit than what is collected.
-  for (const char* setting : {"grains.count=6", "deposit.lid_time=0.02", "deposit.settle_time=0.02",
-                              "deposit.rest_velocity=0.05"})
-    run.overrides.emplace_back(setting);
+  run.overrides.emplace_back("grains.count=6");
   std::vector<CollectedProblem> first, second;
   const auto make = [&](const char* name, std::vector<CollectedProblem>& problems) {
     return make_collection(
@@ -33,7 +41,10 @@ TEST_CASE("A collection that is made twice holds the same problems, and its mani
   REQUIRE(make("a", first) == ExitCode::ok);
   REQUIRE(make("b", second) == ExitCode::ok);
   REQUIRE(first.size() == 4);
-  CHECK(first[0].file == "pressed-20/step_0000060.hdf5");
+  CHECK(first[0].file == "pressed-25/step_0000010.hdf5");
+  CHECK(first[0].phase == "settling");
+  CHECK(first[3].file == "pressed-25/step_0000285.hdf5");
+  CHECK(first[3].phase == "passive");
   CHECK(first[0].contacts > 0);
   CHECK(other_contents(first, second).empty());
   const auto file = folder.path() / "a/problems/manifest.csv";
