@@ -75,6 +75,10 @@ bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
   return !InterruptGuard::requested();
 }
 
+std::vector<ComparedSolver> solvers_or_none(const std::string& list) {
+  return list == "none" ? std::vector<ComparedSolver>() : parse_solvers(list);
+}
+
 ExitCode interrupted() {
   std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on"
             << std::endl;
@@ -138,19 +142,28 @@ ExitCode compare_live(const CompareRequest& options) {
 
 /// The comparison as jobs for others; solves nothing.
 ExitCode plan_jobs(const CompareRequest& options) {
-  if (!options.external.empty() || !options.live.scene.empty() || !options.reference.empty())
-    throw UsageError("compare: --snakemake: not with --external, --live or --reference");
+  if (!options.live.scene.empty())
+    throw UsageError(
+        "compare: --snakemake: not with --live, whose trajectories go on from one start in one "
+        "process; for closed loops on a cluster vary solver.name in `ballast plan --snakemake`");
   const CompareOptions& c = options.comparison;
   ComparisonPlan plan{
       .cases = options.cases,
       .solvers = {},
+      .external = options.external,
       .options = {"--tolerances", options.tolerances, "--starts", options.starts, "--measure",
                   options.measure, "--repeats", std::to_string(c.repeats), "--max-seconds",
                   printed("%.17g", c.max_seconds), "--exact-seconds",
                   printed("%.17g", c.exact_seconds), "--memory",
-                  printed("%.17g", c.limits.memory_MB)},
+                  printed("%.17g", c.limits.memory_MB), "--startup-seconds",
+                  printed("%.17g", options.program_limits.startup_seconds)},
+      .finish = {},
       .results = options.output};
   for (const ComparedSolver& solver : c.solvers) plan.solvers.push_back(solver.name);
+  if (!options.reference.empty())
+    plan.finish = {"--reference", std::filesystem::absolute(options.reference).string()};
+  if (options.with_views) plan.finish.emplace_back("--views");
+  if (!options.report) plan.finish.emplace_back("--no-report");
   write_compare_snakemake(plan, options.snakemake);
   std::cout << "cd " << shell_word(std::filesystem::absolute(options.snakemake).string())
             << "\n  snakemake -s Snakefile --profile slurm   on a cluster with Slurm\n"
@@ -162,16 +175,19 @@ ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError("compare: expected cases, or --live SCENE");
   require_own_folder(options.output, {"rows", "trajectories", "start", "exact"});
-  if (!options.snakemake.empty()) return plan_jobs(options);
   if (!options.external.empty() && !options.live.scene.empty())
     throw UsageError("compare: --external: not with --live, whose solver works inside the step");
   options.program_limits.memory_MB = options.comparison.limits.memory_MB;
+  std::vector<ComparedSolver> programs;
   try {
-    for (ComparedSolver& solver : external_solvers(options.external, options.program_limits))
-      options.comparison.solvers.push_back(std::move(solver));
+    programs = external_solvers(options.external, options.program_limits);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("compare: --external: ") + error.what());
   }
+  if (!options.snakemake.empty()) return plan_jobs(options);
+  for (ComparedSolver& program : programs) options.comparison.solvers.push_back(std::move(program));
+  if (options.comparison.solvers.empty())
+    throw UsageError("compare: --solvers none: expected a program that solves, --external");
   restart_with_one_algebra_thread();
   options.comparison.folder = options.output;
   options.comparison.command = own_command();
@@ -216,8 +232,9 @@ Command compare_command() {
       "compare",
       "Backends on identical problems: accuracy against cost, figures, a page",
       {{"cases", &options->cases, "Problem files, folders, patterns, known:..., stress:..."},
-       {"--solvers", &options->solvers, "Names, separated by commas, or all", shown,
-        into(comparison.solvers, parse_solvers)},
+       {"--solvers", &options->solvers,
+        "Names, separated by commas, or all, or none: programs alone", shown,
+        into(comparison.solvers, solvers_or_none)},
        {"--external NAME=COMMAND", &options->external,
         "Also a program that solves, or FILE.toml with a list (docs/manual/external.md)"},
        {"--startup-seconds", &options->program_limits.startup_seconds,

@@ -19,20 +19,26 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Jobs begin in another folder.
 std::string absolute_word(const std::string& word) {
   return is_made_case(word) ? word : fs::absolute(word).lexically_normal().string();
 }
 
 Json arguments(const ComparisonPlan& plan, const std::vector<std::string>& cases,
-               const std::string& solvers, const fs::path& results) {
+               const std::string& solvers, const std::vector<std::string>& external) {
   Json words = {"compare"};
   for (const std::string& word : cases) words.push_back(absolute_word(word));
   for (const std::string& word : plan.options) words.push_back(word);
-  for (const std::string& word :
-       {std::string("--solvers"), solvers, std::string("--output"), results.string()})
+  for (const std::string& word : {std::string("--solvers"), solvers, std::string("--output"),
+                                  fs::absolute(plan.results).lexically_normal().string()})
     words.push_back(word);
+  if (!external.empty()) words.push_back("--external");
+  for (const std::string& word : external) words.push_back(word);
   return words;
+}
+
+Json part(Json arguments) {
+  arguments.push_back("--part");
+  return arguments;
 }
 
 }  // namespace
@@ -45,22 +51,26 @@ void write_compare_snakemake(const ComparisonPlan& plan, const fs::path& folder_
   // One word may be many cases; a word of one case names it alone.
   std::set<std::string> words;
   for (const CompareCase& c : compare_cases(plan.cases)) words.insert(c.word);
-  std::string all_solvers;
-  for (const std::string& solver : plan.solvers)
-    all_solvers += (all_solvers.empty() ? "" : ",") + solver;
   Json jobs = Json::object();
   size_t count = 0;
   for (const std::string& word : words) {
-    ++count;
-    for (const std::string& solver : plan.solvers) {
-      Json job = arguments(plan, {word}, solver, results);
-      job.push_back("--part");
-      jobs[printed("case%zu-%s", count, solver.c_str())] = job;
-    }
+    const std::string name = printed("case%zu-", ++count);
+    for (const std::string& solver : plan.solvers)
+      jobs[name + solver] = part(arguments(plan, {word}, solver, {}));
+    // A name that no backend has.
+    if (!plan.external.empty())
+      jobs[name + "external"] = part(arguments(plan, {word}, "none", plan.external));
   }
+  std::string all_solvers;
+  for (const std::string& solver : plan.solvers)
+    all_solvers += (all_solvers.empty() ? "" : ",") + solver;
+  Json finish =
+      arguments(plan, plan.cases, all_solvers.empty() ? "none" : all_solvers, plan.external);
+  for (const std::string& word : plan.finish) finish.push_back(word);
   const Json all = {{"program", own_program().string()},
+                    {"folder", fs::current_path().string()},
                     {"results", results.string()},
-                    {"finish", arguments(plan, plan.cases, all_solvers, results)},
+                    {"finish", finish},
                     {"jobs", jobs}};
   write_whole_file(folder / "jobs.json",
                    all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");

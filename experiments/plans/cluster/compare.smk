@@ -13,7 +13,7 @@ DONE = os.path.join(PLAN["results"], "snakemake", "{job}.done")
 LOG = os.path.join(PLAN["results"], "logs", "{job}.log")
 
 def ballast(arguments):
-    return "OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 " + shlex.join([PLAN["program"]] + arguments)
+    return f"cd {shlex.quote(PLAN['folder'])} && OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 " + shlex.join([PLAN["program"]] + arguments)
 
 localrules: finished
 

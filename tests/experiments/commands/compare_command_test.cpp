@@ -117,11 +117,16 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
 
 TEST_CASE("a comparison as jobs: each leaves its rows, and the last one finds them all") {
   const TemporaryFolder folder;
-  const fs::path output = folder.path() / "out", jobs = folder.path() / "jobs";
+  const fs::path output = folder.path() / "out", jobs = folder.path() / "jobs",
+                 times = folder.path() / "times.csv";
+  write_whole_file(times, "problem,ms_1e-4,solver_1e-4,ms_1e-8,solver_1e-8\n");
+  const std::string program = std::string("own=") + BALLAST_PROGRAM + " answer --solver pgs";
   const std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4,count=2",
                                           "--solvers",    "pgs,nncg",
+                                          "--external",   program,
                                           "--tolerances", "1e-2",
                                           "--memory",     "0",
+                                          "--reference",  times.string(),
                                           "--output",     output.string()};
   std::vector<std::string> planned = words;
   planned.insert(planned.end(), {"--snakemake", jobs.string()});
@@ -130,20 +135,47 @@ TEST_CASE("a comparison as jobs: each leaves its rows, and the last one finds th
   REQUIRE(written.status == 0);
   CHECK(fs::exists(jobs / "slurm/config.yaml"));
   const auto plan = nlohmann::json::parse(read_whole_file(jobs / "jobs.json"));
-  REQUIRE(plan["jobs"].size() == 4);
+  CHECK(plan["folder"] == fs::current_path().string());  // where the programs' commands are meant
+  // Each backend, and the programs together, for each case.
+  REQUIRE(plan["jobs"].size() == 6);
+  REQUIRE(plan["jobs"].contains("case2-external"));
   for (const auto& job : plan["jobs"])
     CHECK(ballast_program(job.get<std::vector<std::string>>()).status == 0);
-  const ProgramResult last = ballast_program(plan["finish"].get<std::vector<std::string>>());
+  // The times of others are the last job's business.
+  const auto last_words = plan["finish"].get<std::vector<std::string>>();
+  CHECK(std::count(last_words.begin(), last_words.end(), times.string()) == 1);
+  CHECK(plan["jobs"].dump().find("--reference") == std::string::npos);
+  const ProgramResult last = ballast_program(last_words);
   CHECK(last.status == 0);
   CHECK(fs::exists(output / "compare.html"));
-  size_t found = 0;
-  for (const std::string& line : split(last.output, '\n'))
+  size_t found = 0, own = 0;
+  for (const std::string& line : split(last.output, '\n')) {
     found += line.find("(was there)") != std::string::npos;
-  CHECK(found == 4);
+    own += line.find(" own ") != std::string::npos && line.find("solved") != std::string::npos;
+  }
+  CHECK(found == 6);
+  CHECK(own >= 2);
   planned.back() = (folder.path() / "with blank").string();
   check_failure(ballast_program(planned), ExitCode::failure, {"a path without blanks"});
-  planned.insert(planned.end(), {"--external", "own=true"});
-  check_failure(ballast_program(planned), ExitCode::usage, {"--snakemake: not with --external"});
+  check_failure(ballast_program({"compare", "--live", "zeno_ball", "--snakemake", jobs.string()}),
+                ExitCode::usage, {"--snakemake: not with --live", "ballast plan --snakemake"});
+}
+
+TEST_CASE("programs are compared alone where no backend is wanted") {
+  const TemporaryFolder folder;
+  std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
+                                    "--solvers",    "none",
+                                    "--tolerances", "1e-2",
+                                    "--memory",     "0",
+                                    "--output",     (folder.path() / "out").string(),
+                                    "--no-report"};
+  check_failure(ballast_program(words), ExitCode::usage, {"--solvers none: expected a program"});
+  words.insert(words.end(),
+               {"--external", std::string("own=") + BALLAST_PROGRAM + " answer --solver pgs"});
+  const ProgramResult alone = ballast_program(words);
+  INFO(alone.errors);
+  CHECK(alone.status == 0);
+  CHECK_THAT(alone.output, Catch::Contains("1/1") && Catch::Contains(" own "));
 }
 
 TEST_CASE("a comparison that cannot be had is one line") {

@@ -3,81 +3,7 @@
 # in the middle of its run, against the local engine: the same bits.
 #
 #   slurm_test.sh BALLAST      exit code 77: skipped, with the reason on standard output
-#
-# Needs munge, slurmctld, slurmd, slurm-client and snakemake (apt-packages-cluster.txt) and root, whose daemons they are. Nothing of
-# an installed Slurm is used or touched: configuration, keys, sockets and state are in a temporary folder, the ports are unusual.
-set -uo pipefail
-
-ballast=$(realpath "$1")
-skip() { echo "SKIPPED: $*"; exit 77; }
-fail() { echo "FAILED: $*"; exit 1; }
-
-for program in munged slurmctld slurmd sbatch scontrol sinfo scancel snakemake; do
-  PATH=$PATH:/usr/sbin command -v "$program" >/dev/null || skip "$program is missing (packages: apt-packages-cluster.txt)"
-done
-case $(snakemake --version) in 7.*) ;; *) skip "the profile is for Snakemake 7, this is $(snakemake --version)" ;; esac
-[ "$(id -u)" = 0 ] || skip "a Slurm of one's own needs root"
-PATH=$PATH:/usr/sbin
-
-folder=$(mktemp -d /tmp/ballast_slurm_XXXXXX)
-chmod 755 "$folder"
-children=()
-finish() {
-  [ -n "${snakemake_id:-}" ] && kill "$snakemake_id" 2>/dev/null
-  scancel --user=root 2>/dev/null  # of the Slurm that SLURM_CONF names: ours
-  for child in "${children[@]}"; do kill "$child" 2>/dev/null; done
-  for child in "${children[@]}"; do wait "$child" 2>/dev/null; done
-  [ -n "${KEEP:-}" ] && echo "kept: $folder" || rm -rf "$folder"
-}
-trap finish EXIT
-
-# --- one node ---------------------------------------------------------------------------------------------------------------------
-start_slurm() {
-  local host port=$((20000 + $$ % 20000)) munge=$folder/munge
-  host=$(hostname -s)
-  mkdir "$munge" "$folder/state" "$folder/spool" "$folder/log"
-  head -c 64 /dev/urandom >"$munge/key"
-  chmod 600 "$munge/key"
-  cat >"$folder/slurm.conf" <<END
-ClusterName=ballast
-SlurmctldHost=$host(127.0.0.1)
-SlurmUser=root
-SlurmdUser=root
-AuthType=auth/munge
-AuthInfo=socket=$munge/socket
-SlurmctldPort=$port
-SlurmdPort=$((port + 1))
-StateSaveLocation=$folder/state
-SlurmdSpoolDir=$folder/spool
-SlurmctldPidFile=$folder/slurmctld.pid
-SlurmdPidFile=$folder/slurmd.pid
-ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
-JobAcctGatherType=jobacct_gather/none
-SelectType=select/cons_tres
-SelectTypeParameters=CR_Core
-ReturnToService=2
-MpiDefault=none
-SlurmdParameters=config_overrides
-NodeName=$host NodeAddr=127.0.0.1 CPUs=2 RealMemory=2000 State=UNKNOWN
-PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
-END
-  export SLURM_CONF=$folder/slurm.conf
-  munged --foreground --force --key-file="$munge/key" --socket="$munge/socket" --pid-file="$munge/pid" --log-file="$munge/log" \
-    --seed-file="$munge/seed" >"$folder/log/munged" 2>&1 &
-  children+=($!)
-  for _ in $(seq 50); do [ -S "$munge/socket" ] && break; sleep 0.1; done
-  slurmctld -D >"$folder/log/slurmctld" 2>&1 &
-  children+=($!)
-  slurmd -D -N "$host" >"$folder/log/slurmd" 2>&1 &
-  children+=($!)
-  for _ in $(seq 100); do
-    [ "$(sinfo -h -o %t 2>/dev/null)" = idle ] && return
-    sleep 0.2
-  done
-  tail -n 5 "$folder"/log/* | cat
-  skip "Slurm cannot be started here: its last words are above"
-}
+source "$(dirname "$(realpath "$0")")/one_node_slurm.sh"
 
 # --- the plan ---------------------------------------------------------------------------------------------------------------------
 # That of small_plan.hpp, ten times as long, so that a worker can be found in the middle of its run.
@@ -110,7 +36,7 @@ echo "Slurm $(slurmctld -V | cut -d' ' -f2), Snakemake $(snakemake --version)"
 "$ballast" plan "$folder/plan.toml" --output "$folder/local" --jobs 2 >"$folder/log/local" 2>&1 || { cat "$folder/log/local"; fail "the local plan"; }
 "$ballast" plan "$folder/plan.toml" --output "$folder/cluster" --snakemake "$folder/jobs" >/dev/null || fail "--snakemake"
 cd "$folder/jobs" || exit 1
-HOME=$folder snakemake -s Snakefile --profile slurm >"$folder/log/snakemake" 2>&1 &
+run_snakemake &
 snakemake_id=$!
 killed=$(kill_a_worker)
 wait "$snakemake_id" || { cat "$folder/log/snakemake"; fail "snakemake"; }
