@@ -13,6 +13,12 @@ from . import _ballast
 Path = Union[str, "os.PathLike[str]"]
 
 
+def _require_shape(matrix: Any, rows: int, columns: int, name: str) -> None:
+    if matrix.shape != (rows, columns):
+        raise ValueError(f"{name}: is {matrix.shape[0]} x {matrix.shape[1]}, "
+                         f"must be {rows} x {columns}")
+
+
 class Problem:
     """A friction problem. Made by from_delassus, from_bodies or read; it does not change."""
 
@@ -25,6 +31,7 @@ class Problem:
         mu, (n). Raises ValueError and InvalidProblem, which names the entry."""
         W = sparse.csr_matrix(W)
         W.sum_duplicates()
+        _require_shape(W, 3 * len(mu), 3 * len(mu), "W")
         return cls(_ballast.Problem.from_delassus(W.data, W.indices, W.indptr, q, mu))
 
     @classmethod
@@ -37,9 +44,14 @@ class Problem:
         if (v_free is None) == (f is None):
             raise ValueError("expected one of v_free and f")
         if v_free is not None:
-            f = M @ np.asarray(v_free, dtype=float).ravel()
+            v = np.asarray(v_free, dtype=float).ravel()
+            _require_shape(M, len(v), len(v), "M")
+            f = M @ v
+        f = np.asarray(f, dtype=float).ravel()
         if w is None:
             w = np.zeros(3 * len(mu))
+        _require_shape(M, len(f), len(f), "M")
+        _require_shape(transposed.T, 3 * len(mu), len(f), "H")
         parts = [(a.data, a.indices, a.indptr) for a in (M, transposed)]
         return cls(_ballast.Problem.from_bodies(*parts, f, w, mu))
 

@@ -67,17 +67,33 @@ class Problems(unittest.TestCase):
         self.assertEqual(again.iterations, 0)
 
     def test_bad_input_is_an_exception_of_one_line(self):
-        make = ballast.Problem.from_delassus
+        make, bodies = ballast.Problem.from_delassus, ballast.Problem.from_bodies
         eye, q = np.eye(3), np.array([-1.0, 0, 0])
+        up = np.array([[0.0, 3, 0], [0, 0, 0], [0, 0, 0]])
         cases = [
             (ValueError, "q has 3 entries, must have 6", lambda: make(np.eye(6), q, [0.5, 0.5])),
-            (ValueError, "W: has 6 rows", lambda: make(np.eye(6), q, [0.5])),
-            (ballast.InvalidProblem, "nan", lambda: make(eye, q * np.nan, [0.5])),
-            (ballast.InvalidProblem, "", lambda: make(eye, q, [-0.5])),
-            (ballast.InvalidProblem, "", lambda: make(-eye, q, [0.5])),
-            (ballast.InvalidProblem, "", lambda: ballast.Problem.from_bodies(
-                -np.eye(3), np.eye(3), [0.5], v_free=q)),
-            (ValueError, "expected one of", lambda: ballast.Problem.from_bodies(eye, eye, [0.5])),
+            (ValueError, "W: is 6 x 6, must be 3 x 3", lambda: make(np.eye(6), q, [0.5])),
+            (ValueError, "W: is 3 x 2, must", lambda: make(np.ones((3, 2)), q, [0.5])),
+            (ballast.InvalidProblem, "delassus.q[0] = nan", lambda: make(eye, q * np.nan, [0.5])),
+            (ballast.InvalidProblem, "delassus.w(0, 0) = nan",
+             lambda: make(eye * np.nan, q, [0.5])),
+            (ballast.InvalidProblem, "friction[0] = -0.5 is negative",
+             lambda: make(eye, q, [-0.5])),
+            (ballast.InvalidProblem, "friction[0] = nan", lambda: make(eye, q, [np.nan])),
+            (ballast.InvalidProblem, "is negative", lambda: make(-eye, q, [0.5])),
+            (ballast.InvalidProblem, "delassus.w(", lambda: make(eye + up, q, [0.5])),
+            (ballast.InvalidProblem, "not positive definite",
+             lambda: bodies(-eye, eye, [0.5], v_free=q)),
+            (ballast.InvalidProblem, "dynamics.mass[", lambda: bodies(eye + up, eye, [0.5], f=q)),
+            (ballast.InvalidProblem, "not positive definite",
+             lambda: bodies(eye + up + up.T, eye, [0.5], f=q)),
+            (ValueError, "M: is 3 x 3, must be 2 x 2", lambda: bodies(eye, eye, [0.5], f=q[:2])),
+            (ValueError, "M: is 3 x 3, must be 4 x 4",
+             lambda: bodies(eye, eye, [0.5], v_free=np.ones(4))),
+            (ValueError, "H: is 3 x 2, must be 3 x 3",
+             lambda: bodies(eye, eye[:, :2], [0.5], f=q)),
+            (ballast.InvalidProblem, "nan", lambda: bodies(eye, eye * np.nan, [0.5], f=q)),
+            (ValueError, "expected one of", lambda: bodies(eye, eye, [0.5])),
             (ballast.Error, "no such file", lambda: ballast.Problem.read("nothing.hdf5")),
             (ballast.UnknownSolver, "no solver is called",
              lambda: ballast.solve(make(eye, q, [0.5]), "psg")),

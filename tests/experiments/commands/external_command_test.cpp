@@ -1,6 +1,7 @@
 // Programs as backends of `ballast compare` and `ballast solve`: each thing that a program can do
 // wrong is its row, the others go on, and nothing of it is left running.
 
+#include <cmath>
 #include <fstream>
 #include <map>
 
@@ -51,6 +52,19 @@ std::map<std::string, Row> rows_of(const fs::path& folder) {
   return rows;
 }
 
+/// Says that it solved the request of this number, with an impulse that is no number.
+fs::path answer_of_nan(const fs::path& file, int contacts, int id) {
+  ExternalRequest request;
+  for (int c = 0; c < contacts; ++c) request.problem.row_begin.push_back(3 * (c + 1));
+  request.problem.friction.assign(static_cast<size_t>(contacts), 0.5);
+  request.id = id;
+  ExternalAnswer answer;
+  answer.status = ExternalStatus::solved;
+  answer.impulses = Impulses::Constant(3 * contacts, std::nan(""));
+  write_answer(file, request, answer);
+  return file;
+}
+
 std::vector<std::string> compare_words(const fs::path& output, const std::string& max_seconds) {
   return {"compare",      "known:contacts=10,bodies=6,frictionless=0",
           "--solvers",    "pgs",
@@ -72,13 +86,14 @@ TEST_CASE("whatever a program does is its row, and nothing is left running") {
     return name + "=sh '" + folder.write(name, text).string() + "'";
   };
   const std::string answered = own + " \"$1\" \"$2\"";
+  const std::string nan = answer_of_nan(folder.path() / "nan.hdf5", 10, 2).string();
   const std::string kept = (folder.path() / "kept").string();
   std::vector<std::string> words = compare_words(folder.path() / "out", "0.2");
   for (const std::string& program :
        {"good=" + own, script("hangs", sleep), script("dies", "echo no licence >&2; exit 3"),
         script("crashes", "kill -SEGV $$"), script("half", answered + half),
-        script("silent", "exit 0"), script("floods", "exec yes"),
-        script("chatty", "yes | head -c 3000000; " + answered),
+        script("silent", "exit 0"), script("nan", "cp " + nan + " \"$2\""),
+        script("floods", "exec yes"), script("chatty", "yes | head -c 3000000; " + answered),
         script("forks", sleep + " & (setsid " + sleep + " &); " + answered),
         script("other",
                answered + "; test -e " + kept + " && cp " + kept + " \"$2\"; cp \"$2\" " + kept)})
@@ -103,6 +118,8 @@ TEST_CASE("whatever a program does is its row, and nothing is left running") {
   CHECK_THAT(rows.at("half").note, Contains("truncated"));
   CHECK(rows.at("silent").outcome == "stopped");
   CHECK_THAT(rows.at("silent").note, Contains("no such file"));
+  CHECK(rows.at("nan").outcome == "stopped");
+  CHECK_THAT(rows.at("nan").note, Contains("/ballast_answer/r[0] is not finite"));
   CHECK(rows.at("floods").outcome == "timeout");
   CHECK(rows.at("chatty").outcome == "solved");
   CHECK(rows.at("forks").outcome == "solved");

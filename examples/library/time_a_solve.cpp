@@ -1,0 +1,32 @@
+// A stored problem, solved again and again: the wall clock of each call in seconds, a line each.
+//
+//   time_a_solve PROBLEM SOLVER TOLERANCE COUNT     the tolerance is relative, as in `ballast
+//   solve`
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <platform/clock.hpp>
+#include <problems/algebra/contact_error.hpp>
+#include <problems/files/problem_file.hpp>
+#include <solvers/seam/run_solver.hpp>
+#include <solvers/seam/verdict.hpp>
+#include <solvers/solver_list.hpp>
+
+int main(int count, char** words) {
+  if (count != 5) return 2;
+  const ballast::FrictionProblem problem = ballast::read_problem(words[1]);
+  for (int k = 0; k < std::atoi(words[4]); ++k) {
+    const ballast::Stopwatch watch;
+    const ballast::Impulses zero = ballast::Impulses::Zero(problem.row_count());
+    const double scale = ballast::contact_error(problem, zero).velocity_scale;
+    const double tolerance = std::atof(words[3]) * scale;
+    const auto solver = ballast::make_solver(words[2]);
+    const ballast::SolverRun run = ballast::SolverRunner().run(
+        *solver, problem, {}, {.tolerance = tolerance, .max_iterations = 10000});
+    const ballast::Finding found =
+        ballast::finding_on(problem, run.solved.impulses, run.solved.reason, run.error, tolerance);
+    if (found.verdict != ballast::Verdict::solved) return 1;
+    std::printf("%.9f\n", watch.seconds());
+  }
+}
