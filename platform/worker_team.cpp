@@ -8,7 +8,7 @@ namespace ballast {
 namespace {
 
 /// Pauses before the core is offered to others; some microseconds.
-constexpr int spins = 100;
+constexpr int spins = 200;
 /// Then, between two looks at the clock of whoever waits.
 constexpr int looks = 16;
 /// Longer than the gap between two loops of a solve, shorter than the rest of a time step [s].
@@ -50,15 +50,17 @@ void WorkerTeam::resize(int threads) {
   shares_ = std::make_unique<Share[]>(static_cast<size_t>(threads));
   patience_ = TeamPatience();
   // Taken here, not by the thread: one that starts late must not miss the first round.
-  const std::uint32_t seen = round_.load();
+  const Marked seen = task_.round.load();
   for (int member = 1; member < threads; ++member)
     workers_.emplace_back([this, member, seen] { work(member, seen); });
 }
 
 void WorkerTeam::stop() {
   ends_ = true;
-  round_.fetch_add(1, std::memory_order_release);
-  round_.notify_all();
+  const Marked round = task_.round.load(std::memory_order_relaxed) >> number_bits;
+  task_.round.store((round + 1) << number_bits, std::memory_order_release);  // no parts
+  bell_.fetch_add(1, std::memory_order_release);
+  bell_.notify_all();
   for (std::thread& worker : workers_) worker.join();
   workers_.clear();
   ends_ = false;
@@ -66,20 +68,17 @@ void WorkerTeam::stop() {
 }
 
 void WorkerTeam::start(int parts, Call call, const void* context) {
-  // A share's upper half is the number of the round, its lower half how many of the member's parts
-  // are taken. A thread that is still in an earlier round finds another number there, and leaves.
-  const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
-  // The shares come before all else of the new round. A thread may have read an earlier round's
-  // share and then stop: it can take a part by it no more, even if it now finds the new `parts_`.
-  for (int member = 0; member < members_; ++member)
-    shares_[static_cast<size_t>(member)].taken.store(std::uint64_t{round} << 32,
-                                                     std::memory_order_relaxed);
-  parts_.store(parts, std::memory_order_release);
-  call_ = call;
-  context_ = context;
+  const Marked number = (task_.round.load(std::memory_order_relaxed) >> number_bits) + 1;
+  const Marked round = (number << number_bits) + static_cast<Marked>(parts);
+  task_.call = call;
+  task_.context = context;
   left_.store(parts, std::memory_order_relaxed);
-  round_.store(round, std::memory_order_release);
-  round_.notify_all();
+  task_.round.store(round, std::memory_order_release);
+  // Who falls asleep at this moment may be missed: the others do its parts.
+  if (asleep_.load(std::memory_order_relaxed) > 0) {
+    bell_.fetch_add(1, std::memory_order_release);
+    bell_.notify_all();
+  }
   // The caller's own parts, then those that the others have not begun.
   const Stopwatch watch;
   for (int member = 0; member < members_; ++member) do_parts(member, round);
@@ -89,30 +88,41 @@ void WorkerTeam::start(int parts, Call call, const void* context) {
   wait_awake(1e30, is_done);
 }
 
-/// Those of `member`'s parts that nobody has taken yet. False when the round is over.
-bool WorkerTeam::do_parts(int member, std::uint32_t round) {
-  std::atomic<std::uint64_t>& taken = shares_[static_cast<size_t>(member)].taken;
+/// Those of `member`'s parts that nobody has taken yet: member, member + members, member +
+/// 2 members and so on, the same parts whoever does them.
+void WorkerTeam::do_parts(int member, Marked round) {
+  const Marked number = round >> number_bits, parts = round % (Marked{1} << number_bits);
+  std::atomic<Marked>& taken = shares_[static_cast<size_t>(member)].taken;
   while (true) {
-    std::uint64_t now = taken.load(std::memory_order_acquire);
-    if (now >> 32 != round) return false;
-    // The member's parts are member, member + members, member + 2 members and so on:
-    // the same parts whoever does them.
-    const std::int64_t part = member + static_cast<std::int64_t>(now & 0xffffffffu) * members_;
-    if (part >= parts_.load(std::memory_order_acquire)) return true;
-    if (!taken.compare_exchange_weak(now, now + 1, std::memory_order_acq_rel)) continue;
-    // As long as this part is not done the round goes on: its task is there.
-    call_(context_, static_cast<int>(part));
+    Marked now = taken.load(std::memory_order_acquire);
+    const Marked marked = now >> number_bits;
+    if (marked > number) return;  // this round is over
+    // A share that was last touched in an earlier round is whole.
+    const Marked count = marked == number ? now % (Marked{1} << number_bits) : 0;
+    const Marked part = static_cast<Marked>(member) + count * static_cast<Marked>(members_);
+    if (part >= parts) return;
+    // As long as this part is not taken and done the round goes on: whoever takes it does so in
+    // this round, and finds its task.
+    if (!taken.compare_exchange_weak(now, (number << number_bits) + count + 1,
+                                     std::memory_order_acq_rel))
+      continue;
+    task_.call(task_.context, static_cast<int>(part));
     left_.fetch_sub(1, std::memory_order_release);
   }
 }
 
-void WorkerTeam::work(int member, std::uint32_t seen) {
+void WorkerTeam::work(int member, Marked seen) {
   while (true) {
     // Awake for a short while, in which the next task usually comes; then asleep until it does.
-    std::uint32_t now = seen;
-    const auto has_come = [&] { return (now = round_.load(std::memory_order_acquire)) != seen; };
+    Marked now = seen;
+    const auto has_come = [&] {
+      return (now = task_.round.load(std::memory_order_acquire)) != seen;
+    };
     if (!wait_awake(wakeful, has_come)) {
-      round_.wait(seen, std::memory_order_acquire);
+      const std::uint32_t rung = bell_.load(std::memory_order_acquire);
+      asleep_.fetch_add(1);
+      if (!has_come()) bell_.wait(rung, std::memory_order_acquire);
+      asleep_.fetch_sub(1);
       continue;
     }
     seen = now;

@@ -45,26 +45,37 @@ class WorkerTeam {
 
  private:
   using Call = void (*)(const void*, int);
-  /// How many of a member's parts have been taken in which round: round * 2^32 + count. One number,
-  /// so that whoever comes late cannot take a part of a round that is over.
+  /// A round and a number that belongs to it, read and written as one: round * 2^24 + number. So
+  /// whoever comes late cannot take a part of a round that is over. Rounds never begin anew: 2^40
+  /// of them take months.
+  using Marked = std::uint64_t;
+  static constexpr int number_bits = 24;
+  /// How many of a member's parts are taken, and in which round. On a line of its own: nobody else
+  /// touches it while its member is in time.
   struct alignas(64) Share {
-    std::atomic<std::uint64_t> taken{0};
+    std::atomic<Marked> taken{0};
+  };
+  /// What the caller tells the others, on one line: the round with its number of parts, and the
+  /// task.
+  struct alignas(64) Task {
+    std::atomic<Marked> round{0};
+    Call call = nullptr;
+    const void* context = nullptr;
   };
 
   void start(int parts, Call call, const void* context);
-  bool do_parts(int member, std::uint32_t round);
-  void work(int member, std::uint32_t seen);
+  void do_parts(int member, Marked round);
+  void work(int member, Marked seen);
   void stop();
 
   std::vector<std::thread> workers_;
   int members_ = 1;
   std::unique_ptr<Share[]> shares_;
-  std::atomic<std::uint32_t> round_{0};
-  std::atomic<int> left_{0};  // parts that are not done
-  std::atomic<int> parts_{0};
-  std::atomic<bool> ends_{false};  // one who is late for a round reads it while stop() sets it
-  Call call_ = nullptr;
-  const void* context_ = nullptr;
+  Task task_;
+  alignas(64) std::atomic<int> left_{0};  // parts that are not done
+  alignas(64) std::atomic<int> asleep_{0};
+  std::atomic<std::uint32_t> bell_{0};  // what they sleep on
+  std::atomic<bool> ends_{false};       // one who is late for a round reads it while stop() sets it
   TeamPatience patience_;
 };
 

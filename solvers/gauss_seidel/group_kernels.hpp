@@ -43,11 +43,11 @@ struct ExactLoops : GroupLoops<Group> {
                   Single* single);
 };
 
-/// The bodies named take the step: p := beta p + gain (w - before), w += beta p (the old p), before
-/// := w.
+/// `count` bodies that follow each other take the step: p := beta p + gain (w - before), w += beta
+/// p (the old p), before := w.
 template <typename Number>
-using MoveBodies = void (*)(const int* named, int count, SearchStep step, BodyRow<Number>* w,
-                            BodyRow<Number>* before, BodyRow<Number>* direction);
+using MoveBodies = void (*)(int count, SearchStep step, BodyRow<Number>* w, BodyRow<Number>* before,
+                            BodyRow<Number>* direction);
 
 /// All loops of one kind of numbers.
 struct ExactKernels {

@@ -238,22 +238,17 @@ BALLAST_INLINE void push_loop(const Group* groups, const Impulses* impulses, int
     }
 }
 
-/// Plain loops of eight numbers: each compiler flag makes its own registers of them. V tells the
-/// instruction sets' functions apart.
+/// A plain loop over the bodies' numbers: each compiler flag makes its own registers of it. V tells
+/// the instruction sets' functions apart.
 template <typename V, typename Number>
-BALLAST_INLINE void move_bodies_loop(const int* named, int count, SearchStep step,
-                                     BodyRow<Number>* w, BodyRow<Number>* before,
-                                     BodyRow<Number>* direction) {
+BALLAST_INLINE void move_bodies_loop(int count, SearchStep step, Number* __restrict w,
+                                     Number* __restrict before, Number* __restrict direction) {
   const Number beta = static_cast<Number>(step.beta), gain = static_cast<Number>(step.gain);
-  for (int n = 0; n < count; ++n) {
-    const int b = named[n];
-    Number* __restrict x = w[b].w, * __restrict p = direction[b].w, * __restrict last = before[b].w;
-    for (int i = 0; i < 8; ++i) {
-      const Number along = beta * p[i], moved = x[i] + along;
-      p[i] = along + gain * (x[i] - last[i]);
-      x[i] = moved;
-      last[i] = moved;
-    }
+  for (int i = 0; i < 8 * count; ++i) {
+    const Number along = beta * direction[i], moved = w[i] + along;
+    direction[i] = along + gain * (w[i] - before[i]);
+    w[i] = moved;
+    before[i] = moved;
   }
 }
 

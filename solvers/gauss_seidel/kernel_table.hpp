@@ -43,9 +43,9 @@ struct ExactLoopsOf : LoopsOf<V, K, Group> {
 };
 
 template <typename V>
-void move_bodies(const int* named, int count, SearchStep step, BodyRow<typename V::Number>* w,
+void move_bodies(int count, SearchStep step, BodyRow<typename V::Number>* w,
                  BodyRow<typename V::Number>* before, BodyRow<typename V::Number>* direction) {
-  move_bodies_loop<V>(named, count, step, w, before, direction);
+  move_bodies_loop<V>(count, step, w->w, before->w, direction->w);
 }
 
 /// So many vectors of doubles, of singles are solved side by side.

@@ -15,6 +15,15 @@ constexpr double least_fill = 0.4;
 
 constexpr int row_bytes = sizeof(BodyRow<double>);
 
+/// Unused elements between those of two parts, so that no page holds elements of both: threads
+/// share no line, and what a processor fetches ahead of the end of a part is not written by
+/// another.
+template <typename Element>
+constexpr int elements_apart() {
+  constexpr int page = 4096;  // bytes
+  return page / sizeof(Element);
+}
+
 /// diag(m, m, m, 3 x 3), column-major.
 bool is_grain_mass(const double* mass) {
   if (!(mass[0] == mass[7] && mass[0] == mass[14])) return false;
@@ -61,8 +70,36 @@ bool WideSweep::sort_bodies(const DynamicsForm& dynamics) {
   return true;
 }
 
-/// In the order of the plan, part by part; each part has a zero velocity of its own for what does
-/// not move, so that threads share no line.
+/// The rows of a slab's bodies follow each other, those that interfaces meet first; and so that
+/// threads share no line, each part has a zero velocity of its own for what does not move.
+void WideSweep::place_bodies(const DynamicsForm& dynamics) {
+  is_shared_.assign(is_wall_.size(), 0);
+  for (const SweepPlan::Part& part : plan_.interfaces())
+    for (int i = part.begin; i < part.end; ++i) {
+      const int c = plan_.contacts()[i];
+      is_shared_[dynamics.body_a[c]] = is_shared_[dynamics.body_b[c]] = 1;
+    }
+  row_of_body_.resize(is_wall_.size());
+  rows_ = 0;
+  for (size_t slab = 0; slab < interiors_.size(); ++slab) {
+    Part& part = interiors_[slab];
+    part.bodies.begin = rows_;
+    for (const char shared : {1, 0}) {
+      for (const int body : plan_.bodies(static_cast<int>(slab)))
+        if (is_shared_[body] == shared) row_of_body_[body] = rows_++;
+      if (shared) part.shared = rows_ - part.bodies.begin;
+    }
+    part.bodies.count = rows_ - part.bodies.begin;
+    part.nowhere = rows_++;
+    rows_ += elements_apart<BodyRow<float>>();
+  }
+  for (Part& part : interfaces_) {
+    part.nowhere = rows_++;
+    rows_ += elements_apart<BodyRow<float>>();
+  }
+}
+
+/// In the order of the plan, part by part.
 bool WideSweep::group_contacts(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   exact_.for_kinds([](auto& kind) {
@@ -78,23 +115,25 @@ bool WideSweep::group_contacts(const FrictionProblem& problem) {
   grains(dynamics.body_a, grain_a_);
   grains(dynamics.body_b, grain_b_);
   contacts_ = 0;
-  interiors_.clear();
-  interfaces_.clear();
-  int nowhere = dynamics.body_count();
-  for (const SweepPlan::Part& part : plan_.interiors())
-    if (!group_part(problem, part, nowhere++, interiors_)) return false;
-  for (const SweepPlan::Part& part : plan_.interfaces())
-    if (!group_part(problem, part, nowhere++, interfaces_)) return false;
+  interiors_.assign(plan_.interiors().size(), {});
+  interfaces_.assign(plan_.interfaces().size(), {});
+  place_bodies(dynamics);
+  for (size_t k = 0; k < interiors_.size(); ++k)
+    if (!group_part(problem, plan_.interiors()[k], interiors_[k])) return false;
+  for (size_t k = 0; k < interfaces_.size(); ++k)
+    if (!group_part(problem, plan_.interfaces()[k], interfaces_[k])) return false;
   exact_.for_kinds([](auto& kind) { kind.impulses.resize(kind.groups.size()); });
-  const size_t groups = exact_.friction.groups.size() + exact_.one_row.groups.size();
+  int groups = 0;
+  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
+    for (const Part& part : *parts) groups += part.friction.count + part.one_row.count;
   size_t walls = 0;
   for (const GroupFrame& f : exact_.wall.frames)
     walls += group_lanes - std::count(f.contact, f.contact + group_lanes, -1);
   return contacts_ - walls >= least_fill * group_lanes * groups;
 }
 
-bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part& part, int nowhere,
-                           std::vector<Part>& parts) {
+bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part& part,
+                           Part& made) {
   const DynamicsForm& dynamics = problem.dynamics;
   const std::vector<int>& order = plan_.contacts();
   const auto moves = [&](int c) { return dynamics.body_a[c] >= 0 || dynamics.body_b[c] >= 0; };
@@ -104,7 +143,7 @@ bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part
       if (is_wall(body)) return body;
     return -1;
   };
-  Part made;
+  const int nowhere = made.nowhere;
   // With friction, and not on a wall with an unknown.
   chosen_.clear();
   for (int i = part.begin; i < part.friction_end; ++i) {
@@ -134,11 +173,23 @@ bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part
       if (moves(order[i]) && wall_of(order[i]) == wall) chosen_.push_back(order[i]);
     const Range added = add_groups(exact_.wall, nowhere);
     for (int g = added.begin; g < added.begin + added.count; ++g)
-      exact_.wall.groups[g].wall_body = wall * row_bytes;
+      exact_.wall.groups[g].wall_body = row_of_body_[wall] * row_bytes;
     made.wall.count += added.count;
   }
-  parts.push_back(made);
+  // Between this part's groups and the next one's.
+  if (!interfaces_.empty())
+    exact_.for_kinds([this]<typename Group>(Kind<Group>& kind) {
+      add_empty_groups(kind, elements_apart<GroupImpulses<float, Group::rows>>());
+    });
   return true;
+}
+
+template <typename Group>
+void WideSweep::add_empty_groups(Kind<Group>& kind, int count) {
+  GroupFrame empty = {};
+  std::fill_n(empty.contact, group_lanes, -1);
+  kind.groups.resize(kind.groups.size() + count);
+  kind.frames.resize(kind.frames.size() + count, empty);
 }
 
 /// Groups of the contacts in chosen_, empty but for the contacts' numbers.
@@ -148,14 +199,10 @@ WideSweep::Range WideSweep::add_groups(Kind<Group>& kind, int nowhere) {
   grouping_.add(chosen_, grain_a_, grain_b_);
   const Range range{static_cast<int>(kind.groups.size()), grouping_.count()};
   contacts_ += static_cast<int>(chosen_.size());
-  kind.groups.resize(range.begin + range.count);
-  kind.frames.resize(range.begin + range.count);
+  add_empty_groups(kind, range.count);
   for (int g = 0; g < range.count; ++g) {
     Group& k = kind.groups[range.begin + g];
-    GroupFrame& f = kind.frames[range.begin + g];
-    k = {};
-    f = {};
-    std::copy_n(grouping_.lanes(g).begin(), group_lanes, f.contact);
+    std::copy_n(grouping_.lanes(g).begin(), group_lanes, kind.frames[range.begin + g].contact);
     for (auto& side : k.body) std::fill_n(side, group_lanes, nowhere * row_bytes);
     std::fill_n(k.bias[0], group_lanes, 1.0);  // open
   }
@@ -207,7 +254,7 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
         block += 1;
         continue;
       }
-    k.body[s][lane] = body * row_bytes;
+    k.body[s][lane] = row_of_body_[body] * row_bytes;
     k.inverse_mass[s][lane] = root.inverse[0] * root.inverse[0];
     // Both sides see the same linear rows with opposite signs: they are stored once, as b has them.
     for (int j = 0; j < 3; ++j)
@@ -230,10 +277,11 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
 
 void WideSweep::free_bodies(const DynamicsForm& dynamics) {
   const int bodies = dynamics.body_count();
-  free_.assign(bodies + interiors_.size() + interfaces_.size(), {});
+  free_.assign(rows_, {});
+  exact_.bodies.assign(rows_, {});
   for (int b = 0; b < bodies; ++b) {
     // Grains keep their velocity v [m/s] in a group's coordinates; L^T is taken of the spin alone.
-    double* w = free_[b].w;
+    double* w = free_[row_of_body_[b]].w;
     const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];
     std::copy_n(v, dynamics.body_dofs(b), w);
     roots_[b].multiply_upper(w);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "solvers/gauss_seidel/wide_sweep.hpp"
 
@@ -63,69 +64,82 @@ void cast_group(const Double& k, Single& s) {
 void WideSweep::enter_single() {
   single_begins_ = false;
   in_single_ = true;
-  const auto enter = [this](const auto& exact, auto& single) {
+  const auto make_room = [](const auto& exact, auto& single) {
     single.impulses.resize(exact.groups.size());
-    if (!single_made_) {
-      single.groups.resize(exact.groups.size());
-      for (size_t g = 0; g < exact.groups.size(); ++g)
-        cast_group(exact.groups[g], single.groups[g]);
-    }
-    for (size_t g = 0; g < exact.groups.size(); ++g) {
-      cast_rows(exact.impulses[g].y, single.impulses[g].y);
-      cast_lanes(exact.impulses[g].miss, single.impulses[g].miss);
-    }
+    single.groups.resize(exact.groups.size());
   };
-  enter(exact_.friction, single_.friction);
-  enter(exact_.one_row, single_.one_row);
-  enter(exact_.wall, single_.wall);
+  make_room(exact_.friction, single_.friction);
+  make_room(exact_.one_row, single_.one_row);
+  make_room(exact_.wall, single_.wall);
+  for_parts(exact_, [this](const Part& part) {
+    const auto enter = [this](const auto& exact, auto& single, Range range) {
+      for (int g = range.begin; g < range.begin + range.count; ++g) {
+        if (!single_made_) cast_group(exact.groups[g], single.groups[g]);
+        cast_rows(exact.impulses[g].y, single.impulses[g].y);
+        cast_lanes(exact.impulses[g].miss, single.impulses[g].miss);
+      }
+    };
+    enter(exact_.friction, single_.friction, part.friction);
+    enter(exact_.one_row, single_.one_row, part.one_row);
+    enter(exact_.wall, single_.wall, part.wall);
+  });
   single_made_ = true;
   single_.bodies.assign(exact_.bodies.size(), {});
+  last_bodies_ = exact_.bodies;
   start_search();
   refresh();
   error_in_double();  // for the biases
 }
 
-/// The iterate in double. Returns the rms distance over bodies between the velocities that the
-/// single sweeps had and those that their impulses give [m/s].
-double WideSweep::refresh() {
-  const auto widen = [](const auto& single, auto& exact) {
-    for (size_t g = 0; g < single.impulses.size(); ++g) {
-      cast_rows(single.impulses[g].y, exact.impulses[g].y);
-      cast_lanes(single.impulses[g].miss, exact.impulses[g].miss);
-    }
-  };
-  widen(single_.friction, exact_.friction);
-  widen(single_.one_row, exact_.one_row);
-  widen(single_.wall, exact_.wall);
-  const std::vector<BodyRow<double>>& last = last_bodies_;
+/// The iterate in double, and how large its impulses are.
+void WideSweep::refresh() {
   last_bodies_.swap(exact_.bodies);
-  push_all();
-  // How far the single sweeps were off; their bodies start at zero, and the last change stays.
-  double square = 0.0;
-  for (size_t b = 0; b < last.size(); ++b) {
+  for_parts(exact_, [this](Part& part) {
+    double squares[group_lanes] = {};
+    const auto widen = [&squares](const auto& single, auto& exact, Range range) {
+      for (int g = range.begin; g < range.begin + range.count; ++g) {
+        cast_rows(single.impulses[g].y, exact.impulses[g].y);
+        cast_lanes(single.impulses[g].miss, exact.impulses[g].miss);
+        for (int lane = 0; lane < group_lanes; ++lane) {
+          const double y = exact.frames[g].normal[lane] * exact.impulses[g].y[0][lane];
+          squares[lane] += y * y;
+        }
+      }
+    };
+    widen(single_.friction, exact_.friction, part.friction);
+    widen(single_.one_row, exact_.one_row, part.one_row);
+    widen(single_.wall, exact_.wall, part.wall);
+    part.impulse_square = std::accumulate(squares, squares + group_lanes, 0.0);
+    push_part(part);
+  });
+}
+
+/// How far the single sweeps were off, over a slab's bodies: between the velocities that they had
+/// and those that their impulses give. The single bodies start at zero, and the last change stays.
+void WideSweep::settle(Part& part) {
+  part.drift_square = 0.0;
+  for (int b = part.bodies.begin; b < part.bodies.begin + part.bodies.count; ++b) {
     for (int i = 0; i < 3; ++i) {
-      const double off = exact_.bodies[b].w[i] - last[b].w[i] - single_.bodies[b].w[i];
-      square += off * off;
+      const double off = exact_.bodies[b].w[i] - last_bodies_[b].w[i] - single_.bodies[b].w[i];
+      part.drift_square += off * off;
     }
     for (int i = 0; i < 8; ++i) single_.before[b].w[i] -= single_.bodies[b].w[i];
     single_.bodies[b] = {};
   }
-  return std::sqrt(square / static_cast<double>(last.size()));
 }
 
-/// The rounding of an impulse, as a velocity of its contact, is no smaller than 2^-24 n y'.
-bool WideSweep::single_suffices(double error, double drift) const {
-  double square = 0.0;
-  exact_.for_kinds([&square](const auto& kind) {
-    for (size_t g = 0; g < kind.groups.size(); ++g)
-      for (int lane = 0; lane < group_lanes; ++lane) {
-        const double y = kind.frames[g].normal[lane] * kind.impulses[g].y[0][lane];
-        square += y * y;
-      }
-  });
-  const double rounding = single_rounding * std::sqrt(square / std::max(1, contacts_));
-
-  return rounding + drift <= allowed_share * error;
+/// The rounding of an impulse, as a velocity of its contact, is no smaller than 2^-24 n y'. Beside
+/// it stands the rms drift of the bodies' velocities.
+bool WideSweep::single_suffices(double error) const {
+  double impulses = 0.0, drift = 0.0, bodies = 0.0;
+  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
+    for (const Part& part : *parts) {
+      impulses += part.impulse_square;
+      drift += part.drift_square;
+      bodies += part.bodies.count;
+    }
+  const double rounding = single_rounding * std::sqrt(impulses / std::max(1, contacts_));
+  return rounding + std::sqrt(drift / bodies) <= allowed_share * error;
 }
 
 void WideSweep::leave_single() {

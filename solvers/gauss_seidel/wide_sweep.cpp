@@ -27,23 +27,34 @@ void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
       }
     }
   });
-  push_all();
+  for_parts(exact_, [this](const Part& part) { push_part(part); });
   in_single_ = false;
   single_begins_ = single_allowed_;
 }
 
-/// The bodies start free, and every impulse pushes them once.
-void WideSweep::push_all() {
-  exact_.bodies = free_;
-  for_parts([this](const Part& part) {
-    const auto push = [this](const auto& kind, const auto& loops, Range range) {
-      loops.push(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
-                 exact_.bodies.data());
-    };
-    push(exact_.friction, kernels_->exact.friction, part.friction);
-    push(exact_.one_row, kernels_->exact.one_row, part.one_row);
-    push(exact_.wall, kernels_->exact.wall, part.wall);
-  });
+/// A slab's bodies start free, and every impulse pushes them once.
+void WideSweep::push_part(const Part& part) {
+  std::copy_n(free_.begin() + part.bodies.begin, part.bodies.count,
+              exact_.bodies.begin() + part.bodies.begin);
+  const auto push = [this](const auto& kind, const auto& loops, Range range) {
+    loops.push(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
+               exact_.bodies.data());
+  };
+  push(exact_.friction, kernels_->exact.friction, part.friction);
+  push(exact_.one_row, kernels_->exact.one_row, part.one_row);
+  push(exact_.wall, kernels_->exact.wall, part.wall);
+}
+
+/// The rows that another core wrote last, all at the same time: one by one, as the groups of an
+/// interface name them, each would take a hundred nanoseconds and more.
+template <typename Number>
+void WideSweep::fetch_shared(const State<Number>& state, int k) const {
+  constexpr int line = 64;  // bytes
+  for (const Part* slab : {&interiors_[k], &interiors_[k + 1]}) {
+    const char* row = reinterpret_cast<const char*>(state.bodies.data() + slab->bodies.begin);
+    for (const char* end = row + slab->shared * sizeof(BodyRow<Number>); row < end; row += line)
+      __builtin_prefetch(row, 1);
+  }
 }
 
 void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
@@ -72,7 +83,7 @@ void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
 template <typename Number, typename Kernels>
 void WideSweep::sweep_in(State<Number>& state, const Kernels& kernels) {
   // Of each part first the contacts with friction, then those of one row, then the driven walls'.
-  for_parts([&](const Part& part) {
+  for_parts(state, [&](const Part& part) {
     const auto sweep = [&state](auto& kind, const auto& loops, Range range) {
       loops.sweep(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
                   state.bodies.data());
@@ -110,12 +121,15 @@ double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, SearchS
   };
   // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
   team_.run(static_cast<int>(interiors_.size()), [&](int slab) {
-    const std::span<const int> bodies = plan_.bodies(slab);
-    kernels.move_bodies(bodies.data(), static_cast<int>(bodies.size()), step, state.bodies.data(),
-                        state.before.data(), state.direction.data());
+    const Range bodies = interiors_[slab].bodies;
+    kernels.move_bodies(bodies.count, step, state.bodies.data() + bodies.begin,
+                        state.before.data() + bodies.begin, state.direction.data() + bodies.begin);
     sweep_part(interiors_[slab]);
   });
-  team_.run(static_cast<int>(interfaces_.size()), [&](int k) { sweep_part(interfaces_[k]); });
+  team_.run(static_cast<int>(interfaces_.size()), [&](int k) {
+    fetch_shared(state, k);
+    sweep_part(interfaces_[k]);
+  });
   // Added up in the order of the parts: the same bits whatever the number of threads.
   double square = 0.0;
   for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
@@ -131,14 +145,16 @@ double WideSweep::sweep(SearchStep step) {
 
 double WideSweep::error() {
   if (!in_single_) return error_in_double();
-  const double drift = refresh(), error = error_in_double();
-  if (!single_suffices(error, drift)) leave_single();
+  refresh();
+  const double error = error_in_double();
+  if (!single_suffices(error)) leave_single();
   return error;
 }
 
 /// In single precision, the contacts' velocities become its biases.
 double WideSweep::error_in_double() {
-  for_parts([this](Part& part) {
+  for_parts(exact_, [this](Part& part) {
+    if (in_single_) settle(part);
     const auto error = [this](const auto& kind, auto& single, const auto& loops, Range range) {
       return loops.error(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
                          kind.frames.data() + range.begin, range.count, exact_.bodies.data(),

@@ -64,7 +64,7 @@ class WideSweep {
     Kind<FrictionGroup<Number>> friction;
     Kind<OneRowGroup<Number>> one_row;
     Kind<WallGroup<Number>> wall;
-    /// Bodies, then one row for each part of the plan that never moves.
+    /// By row_of_body_; and one row for each part of the plan that never moves.
     std::vector<BodyRow<Number>> bodies, before, direction;
 
     /// Calls task(kind) for the three kinds.
@@ -84,17 +84,24 @@ class WideSweep {
   struct Range {
     int begin = 0, count = 0;
   };
-  /// The groups of one part of the plan.
-  struct Part {
+  /// The groups of one part of the plan. Its sums are written by its thread: on a line of their
+  /// own.
+  struct alignas(64) Part {
     Range friction, one_row, wall;
+    Range bodies;                ///< rows of the slab, of an interior alone
+    int shared = 0;              ///< the first so many of them are met by interfaces
+    int nowhere = 0;             ///< the row that never moves
     double change_square = 0.0;  ///< of the last sweep along a search
     double error_square = 0.0;   ///< of error()
+    double impulse_square = 0.0, drift_square = 0.0;  ///< of the last look in single precision
   };
 
   bool sort_bodies(const DynamicsForm& dynamics);
+  void place_bodies(const DynamicsForm& dynamics);
   bool group_contacts(const FrictionProblem& problem);
-  bool group_part(const FrictionProblem& problem, const SweepPlan::Part& part, int nowhere,
-                  std::vector<Part>& parts);
+  bool group_part(const FrictionProblem& problem, const SweepPlan::Part& part, Part& made);
+  template <typename Group>
+  void add_empty_groups(Kind<Group>& kind, int count);
   template <typename Group>
   Range add_groups(Kind<Group>& kind, int nowhere);
   template <typename Group>
@@ -104,12 +111,17 @@ class WideSweep {
   bool fill_lane(const FrictionProblem& problem, Group& group, GroupFrame& frame, int lane) const;
   void free_bodies(const DynamicsForm& dynamics);
   /// Calls task(part) for the interiors, then for the interfaces; those of a kind at the same time.
-  template <typename Task>
-  void for_parts(const Task& task) {
-    team_.run(static_cast<int>(interiors_.size()), [&](int part) { task(interiors_[part]); });
-    team_.run(static_cast<int>(interfaces_.size()), [&](int part) { task(interfaces_[part]); });
+  template <typename Number, typename Task>
+  void for_parts(const State<Number>& state, const Task& task) {
+    team_.run(static_cast<int>(interiors_.size()), [&](int slab) { task(interiors_[slab]); });
+    team_.run(static_cast<int>(interfaces_.size()), [&](int k) {
+      fetch_shared(state, k);
+      task(interfaces_[k]);
+    });
   }
-  void push_all();
+  template <typename Number>
+  void fetch_shared(const State<Number>& state, int k) const;
+  void push_part(const Part& part);
   template <typename Number, typename Kernels>
   void sweep_in(State<Number>& state, const Kernels& kernels);
   template <typename Number, typename Kernels>
@@ -118,9 +130,10 @@ class WideSweep {
   void start_search_in(State<Number>& state);
 
   void enter_single();
-  double refresh();
+  void refresh();
+  void settle(Part& part);
   double error_in_double();
-  bool single_suffices(double error, double drift) const;
+  bool single_suffices(double error) const;
   void leave_single();
 
   const SweepPlan& plan_;
@@ -128,7 +141,10 @@ class WideSweep {
   const GroupKernels* kernels_ = &group_kernels();
 
   std::vector<MassRoot> roots_;
-  std::vector<char> is_wall_;  ///< of each body
+  std::vector<char> is_wall_;     ///< of each body
+  std::vector<char> is_shared_;   ///< of each body: met by an interface
+  std::vector<int> row_of_body_;  ///< slab by slab, so that threads share no line
+  int rows_ = 0;
   ContactGroups grouping_;
   std::vector<int> chosen_, walls_, grain_a_, grain_b_;  ///< room for group_part()
   int contacts_ = 0;                                     ///< that something moves

@@ -51,13 +51,18 @@ double Relay::run(Solver& solver, const FrictionProblem& problem, int most_itera
   });
 }
 
-/// Counted from the beginning of the whole. A leg's first point is where the one before ended.
+/// Counted from the beginning of the whole. A leg's first point is where the one before ended; a
+/// better one without an iteration between them takes its place.
 void Relay::book_history(const std::vector<HistoryPoint>& leg, double began) {
   if (!budget_.keep_history) return;
-  for (const HistoryPoint& point : leg)
-    if (solved_.history.empty() || point.iteration > 0)
-      solved_.history.push_back(
-          {solved_.iterations + point.iteration, began + point.seconds, point.error});
+  for (const HistoryPoint& point : leg) {
+    if (point.iteration == 0 && !solved_.history.empty()) {
+      if (!(point.error < solved_.history.back().error)) continue;
+      solved_.history.pop_back();
+    }
+    solved_.history.push_back(
+        {solved_.iterations + point.iteration, began + point.seconds, point.error});
+  }
 }
 
 bool Relay::over() const {

@@ -17,8 +17,9 @@ struct Sweep {
   WorkerTeam team;
   WideSweep wide{plan, team};
 
-  Sweep(const FrictionProblem& problem, bool single,
-        const GroupKernels& kernels = group_kernels()) {
+  Sweep(const FrictionProblem& problem, bool single, const GroupKernels& kernels = group_kernels(),
+        int threads = 1) {
+    team.resize(threads);
     plan.prepare(problem);
     wide.use_kernels(kernels);
     REQUIRE(wide.prepare(problem));
@@ -53,24 +54,33 @@ TEST_CASE("single: errors fall as in double, for mass ratios up to a million") {
   }
 }
 
-TEST_CASE("single: the same bits on every instruction set") {
-  const FrictionProblem problem = grain_problem({.seed = 9});
+TEST_CASE("single: the same bits on every instruction set, with any number of threads") {
+  // Several slabs, so that threads have interiors and interfaces.
+  const FrictionProblem problem = grain_problem({.grains = 1600, .contacts = 6000, .seed = 5});
   Impulses expected;
-  for (const GroupKernels* kernels : all_group_kernels()) {
-    Sweep single(problem, true, *kernels);
-    single.wide.start_search();
-    for (int k = 0; k < 20; ++k) {
-      single.wide.sweep(SearchStep{k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0});
-      if (k % 5 == 4) single.wide.error();
+  std::vector<double> expected_errors;
+  for (const GroupKernels* kernels : all_group_kernels())
+    for (const int threads : {1, 2, 3, 8}) {
+      Sweep single(problem, true, *kernels, threads);
+      REQUIRE(single.plan.interiors().size() >= 2);
+      single.wide.start_search();
+      std::vector<double> errors;
+      for (int k = 0; k < 20; ++k) {
+        single.wide.sweep(SearchStep{k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0});
+        if (k % 5 == 4) errors.push_back(single.wide.error());
+      }
+      CHECK(single.wide.is_single());
+      errors.push_back(single.wide.error());
+      Impulses r;
+      single.wide.store(problem, r);
+      if (expected.size() == 0) {
+        expected = r;
+        expected_errors = errors;
+      }
+      INFO(kernels->instruction_set << ", threads " << threads);
+      CHECK(r == expected);
+      CHECK(errors == expected_errors);
     }
-    CHECK(single.wide.is_single());
-    single.wide.error();
-    Impulses r;
-    single.wide.store(problem, r);
-    if (expected.size() == 0) expected = r;
-    INFO(kernels->instruction_set);
-    CHECK(r == expected);
-  }
 }
 
 TEST_CASE("single: leaves by itself where its rounding would show") {

@@ -121,7 +121,7 @@ TEST_CASE("wide: the same bits on every instruction set, with any number of thre
   Impulses expected;
   double expected_error = 0.0, expected_square = 0.0;
   for (const GroupKernels* kernels : all_group_kernels())
-    for (const int threads : {1, 2, 3}) {
+    for (const int threads : {1, 2, 3, 8}) {
       Wide wide(problem, *kernels, threads);
       REQUIRE(wide.fits);
       REQUIRE(wide.plan.interiors().size() >= 2);

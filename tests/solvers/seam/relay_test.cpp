@@ -1,5 +1,6 @@
 #include "solvers/seam/relay.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <thread>
 
@@ -90,6 +91,21 @@ TEST_CASE("the history counts on, without the points where a leg takes over") {
   CHECK(iterations == std::vector<int>{0, 30, 50, 60});
   CHECK(errors == std::vector<double>{1.0, 0.5, 0.5, 0.25});  // of the iterate that is kept
   CHECK(solved.history[2].seconds >= solved.history[1].seconds + 4e-3);
+}
+
+TEST_CASE("a leg that improves in no iterations is in the history, a worse one is not") {
+  for (const double error : {0.25, 0.75}) {
+    Relay relay({.max_iterations = 100, .keep_history = true}, Impulses::Zero(1));
+    relay.run(leg(30, 1.0, 0.5));
+    relay.run(leg(0, 2.0, error));
+    relay.run(leg(10, 3.0, 0.125));
+    const Solved solved = relay.finish();
+    REQUIRE(solved.history.size() == 3);
+    CHECK(solved.history[1].iteration == 30);
+    CHECK(solved.history[1].error == std::min(error, 0.5));  // of the iterate that is kept
+    CHECK(solved.history[2].iteration == 40);
+    CHECK(solved.history[2].error == 0.125);
+  }
 }
 
 TEST_CASE("a relay ends with the tolerance, a failure, or a limit, and says which") {
