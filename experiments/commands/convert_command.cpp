@@ -7,6 +7,7 @@
 #include "experiments/commands/command.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/files/siconos_text.hpp"
@@ -18,9 +19,11 @@ namespace fs = std::filesystem;
 
 struct ConvertOptions {
   std::vector<std::string> problems;
-  std::string to = "local";
+  std::string to;  // empty: what --output's suffix says
   fs::path output;
 };
+
+constexpr const char* text_suffix = ".dat";
 
 struct Format {
   const char* name;
@@ -44,7 +47,7 @@ const Format formats[] = {
      [](const fs::path& file, const FrictionProblem& problem) {
        write_problem_forms(file, problem);
      }},
-    {"siconos", ".dat",
+    {"siconos", text_suffix,
      [](const fs::path& file, const FrictionProblem& problem) {
        write_siconos_text(file, condensed(problem));
      }},
@@ -66,38 +69,55 @@ void convert_one(const FoundProblem& found, const Format& format, const fs::path
   if (fs::equivalent(target, found.file, error))
     throw Error(target.string() + ": would be written over what is read");
   const FrictionProblem problem = read_problem(found.file);
-  create_folder(target.parent_path());
+  if (target.has_parent_path()) create_folder(target.parent_path());
   format.write(target, problem);
   std::cout << printed("%-40s %7d contacts  ", found.name.c_str(), problem.contact_count())
             << target.string() << std::endl;
 }
 
+/// Whether --output is the file of one problem, and not a folder. Throws UsageError: several
+/// problems, or a suffix that is not --to's.
+bool names_a_file(const ConvertOptions& options, const Format& format, size_t problems) {
+  if (!is_problem_file(options.output) || is_folder(options.output)) return false;
+  const std::string named = "--output " + options.output.string();
+  if (problems != 1)
+    throw UsageError(named + ": one file for " + std::to_string(problems) +
+                     " problems, expected a folder");
+  const bool is_text = options.output.extension() == text_suffix;
+  if (is_text != (format.extension == std::string(text_suffix)))
+    throw UsageError(named + ": --to " + options.to + " writes " + format.extension);
+  return true;
+}
+
 ExitCode convert(const ConvertOptions& options) {
-  const Format& format = format_of(options.to);
-  size_t count = 0, failed = 0;
+  const bool is_text = options.output.extension() == text_suffix && !is_folder(options.output);
+  const std::string by_suffix = is_text ? "siconos" : "local";
+  const Format& format = format_of(options.to.empty() ? by_suffix : options.to);
+  std::vector<FoundProblem> problems;
+  for (const std::string& word : options.problems)
+    for (FoundProblem& found : find_problems(word)) problems.push_back(std::move(found));
+  const bool is_file = names_a_file(options, format, problems.size());
+  size_t failed = 0;
   std::string reasons;
   std::map<fs::path, fs::path> written;  // what is in it
-  for (const std::string& word : options.problems)
-    for (const FoundProblem& found : find_problems(word)) {
-      ++count;
-      fs::path target = options.output / found.name;
-      target.replace_extension(format.extension);
-      try {
-        const auto [before, is_new] = written.try_emplace(target, found.file);
-        if (!is_new)
-          throw Error(target.string() + ": holds " + before->second.string() + " already");
-        convert_one(found, format, target);
-      } catch (const std::exception& error) {
-        // The others go on.
-        std::string why = error.what();
-        if (why.find(found.file.string()) == std::string::npos)
-          why = found.file.string() + ": " + why;
-        ++failed;
-        add_to_list(reasons, why);
-      }
+  for (const FoundProblem& found : problems) {
+    fs::path target = is_file ? options.output : options.output / found.name;
+    if (!is_file) target.replace_extension(format.extension);
+    try {
+      const auto [before, is_new] = written.try_emplace(target, found.file);
+      if (!is_new) throw Error(target.string() + ": holds " + before->second.string() + " already");
+      convert_one(found, format, target);
+    } catch (const std::exception& error) {
+      // The others go on.
+      std::string why = error.what();
+      if (why.find(found.file.string()) == std::string::npos)
+        why = found.file.string() + ": " + why;
+      ++failed;
+      add_to_list(reasons, why);
     }
+  }
   if (failed == 0) return ExitCode::ok;
-  std::cerr << "ballast: convert: " << failed << " of " << count
+  std::cerr << "ballast: convert: " << failed << " of " << problems.size()
             << " problems are not converted: " << reasons << '\n';
   return ExitCode::failure;
 }
@@ -106,14 +126,19 @@ ExitCode convert(const ConvertOptions& options) {
 
 Command convert_command() {
   const auto options = std::make_shared<ConvertOptions>();
-  return {"convert",
-          "Stored problems from one format into another, whole collections at once",
-          {{"problems", &options->problems, "Files, folders, patterns: .hdf5, .h5, .dat", required},
-           {"--to FORMAT", &options->to,
-            "local (FCLIB: W, q), global (FCLIB: M, H), both, siconos (text: W, q)", shown,
-            parsed([](const std::string& name) { format_of(name); })},
-           {"--output DIR", &options->output, "Folder for the converted ones", required}},
-          [options] { return convert(*options); }};
+  return {
+      "convert",
+      "Stored problems from one format into another, whole collections at once",
+      {{"problems", &options->problems, "Files, folders, patterns: .hdf5, .h5, .dat", required},
+       {"--to FORMAT", &options->to,
+        "local (FCLIB: W, q), global (FCLIB: M, H), both, siconos (text: W, q); by itself "
+        "siconos for an output of suffix .dat, local else",
+        parsed([](const std::string& name) {
+          if (!name.empty()) format_of(name);
+        })},
+       {"--output PATH", &options->output,
+        "Folder for the converted ones; of one problem also its file: .hdf5, .h5, .dat", required}},
+      [options] { return convert(*options); }};
 }
 
 }  // namespace ballast

@@ -10,12 +10,12 @@
 
 namespace ballast {
 namespace fs = std::filesystem;
-namespace {
-
 bool is_problem_file(const fs::path& file) {
   const std::string extension = file.extension().string();
   return extension == ".hdf5" || extension == ".h5" || extension == ".dat";
 }
+
+namespace {
 
 std::vector<fs::path> matches(const std::string& pattern) {
   glob_t found{};

@@ -18,6 +18,9 @@ namespace ballast {
 /// captured comes back in the form in which it was written.
 FrictionProblem read_problem(const std::filesystem::path& file);
 
+/// By its suffix: .hdf5, .h5, .dat.
+bool is_problem_file(const std::filesystem::path& file);
+
 /// One of a collection.
 struct FoundProblem {
   std::filesystem::path file;

@@ -28,6 +28,31 @@ TEST_CASE("a collection goes from format to format and stays the same problem") 
   }
 }
 
+TEST_CASE("one problem becomes one file, in the format of its suffix") {
+  const ProblemFolder c;
+  const std::string problem = (c.in / "a.hdf5").string();
+  for (const std::string name : {"b.dat", "b.hdf5", "b.h5"}) {
+    const fs::path target = c.out / "new" / name;
+    const ProgramResult result = ballast_program({"convert", problem, "--output", target.string()});
+    INFO(result.errors);
+    REQUIRE(result.status == 0);
+    REQUIRE(fs::is_regular_file(target));
+    CHECK_FALSE(read_problem(target).has_dynamics);
+  }
+  const std::string file = (c.out / "c.hdf5").string();
+  CHECK(ballast_program({"convert", problem, "--to", "global", "--output", file}).status == 0);
+  CHECK(read_problem(file).has_dynamics);
+  check_failure(ballast_program({"convert", problem, "--to", "siconos", "--output", file}),
+                ExitCode::usage, {"c.hdf5: --to siconos writes .dat"});
+  check_failure(ballast_program({"convert", c.in.string(), "--output", file}), ExitCode::usage,
+                {"c.hdf5: one file for 2 problems, expected a folder"});
+  // a folder may have such a name
+  fs::create_directories(c.out / "folder.dat");
+  CHECK(ballast_program({"convert", c.in.string(), "--output", (c.out / "folder.dat").string()})
+            .status == 0);
+  CHECK(find_problems((c.out / "folder.dat").string()).size() == 2);
+}
+
 TEST_CASE("what cannot be converted is said, and the others are") {
   const ProblemFolder c;
   c.folder.write("in/broken.dat", "3 x");
