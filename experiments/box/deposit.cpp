@@ -134,18 +134,22 @@ class Depositor {
     const StepSettings settings = stage_settings(scene_, stage_);
     TimeStepper stepper(system, settings, -1);
     Stopwatch since_saved;
+    // also where the last step was saved, and none is left to measure it in
+    rms_velocity_ = grain_rms_velocity(system, packing_.state);
     const long last = std::lround(duration / settings.h);
     while (packing_.state.step < last) {
       const StepRecord record = stepper.step(packing_.state, packing_.memory);
       rms_velocity_ = grain_rms_velocity(system, packing_.state);
       const bool goes_on = progress_(stage_, packing_.state.time, rms_velocity_, record);
+      // The state that ends a stage is never saved within it: who went on from there would make
+      // another step.
+      if (stop(packing_.state.time, rms_velocity_)) break;
       // A checkpoint now and then, and one when it is to stop: the same call goes on there.
       if (!goes_on || since_saved.seconds() > scene_.record.checkpoint_seconds) {
         save(part_, key_, name_of(stage_), packing_);
         since_saved.restart();
       }
       if (!goes_on) return false;
-      if (stop(packing_.state.time, rms_velocity_)) break;
     }
     return true;
   }

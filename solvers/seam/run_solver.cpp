@@ -120,16 +120,4 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
   return until_within(solver, problem, budget, std::move(first));
 }
 
-SolverRun SolverRunner::run_again(Solver& solver, const FrictionProblem& problem, Impulses start,
-                                  const Budget& budget) {
-  validate_start(problem, start);
-  SolverRun first = guarded(problem, budget, [&](SolverRun& run) {
-    const Stopwatch watch;
-    run.solved = solver.solve(problem, std::move(start), budget);
-    run.startup_seconds = run.solved.startup_seconds;
-    run.solve_seconds = watch.seconds() - run.startup_seconds;
-  });
-  return until_within(solver, problem, budget, std::move(first));
-}
-
 }  // namespace ballast

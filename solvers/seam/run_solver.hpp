@@ -39,11 +39,6 @@ class SolverRunner {
   SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start,
                 const Budget& budget);
 
-  /// Solves once more what run() prepared, from another start or for another budget:
-  /// prepare_seconds is 0.
-  SolverRun run_again(Solver& solver, const FrictionProblem& problem, Impulses start,
-                      const Budget& budget);
-
  private:
   template <typename Work>
   SolverRun guarded(const FrictionProblem& problem, const Budget& budget, Work&& work);
