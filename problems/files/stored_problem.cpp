@@ -1,4 +1,6 @@
 #include "problems/files/stored_problem.hpp"
+
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -25,7 +27,7 @@ template <int size>
 class Grouping {
  public:
   explicit Grouping(const GlobalProblem& global) {
-    fits_ = global.m.rows() % size == 0 && mass_is_block_diagonal(global.m) &&
+    fits_ = global.m.rows() % size <= 1 && mass_is_block_diagonal(global.m) &&
             find_bodies_of_contacts(global);
   }
   bool fits() const { return fits_; }
@@ -71,15 +73,16 @@ void fill_bodies(const GlobalProblem& global, DynamicsForm& dynamics) {
   // f = M v_free is an impulse: v_free block by block, with the masses' own factors.
   dynamics.v_free = global.f;
   for (int first = 0; first < unknowns; first += size) {
-    Eigen::Matrix<double, size, size> block = Eigen::Matrix<double, size, size>::Zero();
-    for (int column = 0; column < size; ++column)
+    const int count = std::min(size, unknowns - first);
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(count, count);
+    for (int column = 0; column < count; ++column)
       for (SparseColumns::InnerIterator entry(global.m, first + column); entry; ++entry)
         if (entry.row() / size == first / size) block(entry.row() - first, column) = entry.value();
-    dynamics.dof_begin.push_back(first + size);
+    dynamics.dof_begin.push_back(first + count);
     dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + block.size());
     dynamics.mass_begin.push_back(static_cast<int>(dynamics.mass.size()));
     MassRoot root;
-    if (!root.factor(block.data(), size))
+    if (!root.factor(block.data(), count))
       throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) + ") = " +
                            std::to_string(block(0, 0)) + ": the block is not positive definite");
     root.solve_lower(dynamics.v_free.data() + first);
@@ -99,7 +102,7 @@ void fill_contacts(const GlobalProblem& global, const Grouping<size>& grouping,
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
       if (body < 0) continue;
       const size_t begin = dynamics.h.size();
-      dynamics.h.resize(begin + 3 * size);
+      dynamics.h.resize(begin + 3 * static_cast<size_t>(dynamics.body_dofs(body)));
       for (int i = 0; i < 3; ++i)
         for (SparseColumns::InnerIterator entry(global.h, 3 * static_cast<int>(c) + i); entry;
              ++entry)

@@ -31,9 +31,9 @@ inline Eigen::VectorXd as_eigen(const std::vector<double>& x) {
 
 FrictionProblem to_friction_problem(LocalProblem local);
 
-/// Keeps the dynamics form when the unknowns can be grouped into bodies of at most six so that M is
-/// block diagonal and a contact touches at most two of them; forms W otherwise. Throws
-/// InvalidProblem when M is not symmetric positive definite.
+/// Keeps the dynamics form when the unknowns can be grouped into bodies of six, or of three, so
+/// that M is block diagonal and a contact touches at most two of them; one unknown may be left for
+/// a last body. Forms W otherwise. Throws InvalidProblem when M is not symmetric positive definite.
 FrictionProblem to_friction_problem(const GlobalProblem& global);
 
 /// Rows of the problem as three per contact, tangents of one-row contacts being zero, and back.

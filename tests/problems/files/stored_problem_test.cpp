@@ -103,6 +103,21 @@ TEST_CASE("unknowns are grouped by six, or else by three") {
   check_same_law(points, grouped);
 }
 
+TEST_CASE("one unknown behind the bodies is a body of its own, as a run's driven wall") {
+  GlobalProblem global = unit_masses(13, {{0, 7}, {8, 12}, {12}});
+  global.m.coeffRef(12, 12) = 4.0;
+  const FrictionProblem problem = to_friction_problem(global);
+  REQUIRE(problem.has_dynamics);
+  problem.validate();
+  CHECK(problem.dynamics.dof_begin == std::vector<int>{0, 6, 12, 13});
+  CHECK(problem.dynamics.body_b == std::vector<int>{0, 1, 2});
+  CHECK(problem.dynamics.body_a == std::vector<int>{1, 2, -1});
+  check_same_law(global, problem);
+  // A wall that is coupled to a grain by its mass is none.
+  global.m.coeffRef(12, 3) = global.m.coeffRef(3, 12) = 0.25;
+  CHECK_FALSE(to_friction_problem(global).has_dynamics);
+}
+
 TEST_CASE("what is no group of bodies is condensed to W") {
   const GlobalProblem three_touched = unit_masses(18, {{0, 6, 12}});
   GlobalProblem coupled = unit_masses(12, {{0, 7}});
