@@ -1,6 +1,7 @@
 """What Python costs: the same solves by the module and by a C++ program linked with the installed
-library, the same steps by the module (a callback after each) and by `ballast run`. By turns, on one
-core, each turn a new process; ratios of neighbouring turns, of which the median counts.
+library, the same steps by the module (a callback after each) and by `ballast bench step`. By turns,
+on one core, each turn a new process; processor times, since other programs hardly enter these;
+ratios of neighbouring turns, of which the median counts.
 
     overhead.py solve PROBLEM TIME_A_SOLVE [--solver pgs] [--tolerance 1e-3]
     overhead.py step SCENE BALLAST PACKINGS [--set KEY=VALUE ...]
@@ -22,22 +23,19 @@ SOLVE = """
 import sys, time, ballast
 problem = ballast.Problem.read(sys.argv[1])
 for _ in range(int(sys.argv[4])):
-    begin = time.perf_counter()
+    begin = time.process_time()
     answer = ballast.solve(problem, sys.argv[2], tolerance=float(sys.argv[3]))
-    print(time.perf_counter() - begin)
+    print(time.process_time() - begin)
     assert answer.solved
 """
 
 STEP = """
 import sys, time, ballast
-scene = ballast.Scene(sys.argv[1], sys.argv[3:], packings=sys.argv[2])
-duration = float(next(word for word in sys.argv if word.startswith("scene.duration=")).split("=")[1])
-count = round(duration / scene.h)
-times = []
-scene.step(1, lambda scene, record: None)
-begin = time.perf_counter()
-scene.step(count - 1, lambda scene, record: times.append(record["contacts"]))
-print((time.perf_counter() - begin) / (count - 1))
+scene = ballast.Scene(sys.argv[1], sys.argv[4:], packings=sys.argv[2])
+times = [time.process_time()]
+scene.step(int(sys.argv[3]), lambda scene, record: times.append(time.process_time()))
+for begin, end in zip(times[1:], times[2:]):
+    print(end - begin)
 """
 
 
@@ -48,16 +46,14 @@ def on_core(words, core):
     return [float(line) for line in done.stdout.split()]
 
 
-def steps_of_a_run(words, core):
-    """Seconds per step that `ballast run` notes in its record, all phases of a step together."""
+def steps_of_the_bench(words, core):
+    """Median processor seconds of a whole step in `ballast bench step`, which records nothing."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(["taskset", "-c", str(core), *words, "--output", folder + "/run"],
-                       check=True, stdout=subprocess.DEVNULL)
-        with open(pathlib.Path(folder, "run/steps.csv"), encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))[1:]
-    total = sum(float(value) for row in rows for name, value in row.items()
-                if name.startswith("seconds_"))
-    return [total / len(rows)]
+        subprocess.run(["taskset", "-c", str(core), *words, "--output", folder], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        with open(pathlib.Path(folder, "step.csv"), encoding="utf-8") as file:
+            rows = {(row["group"], row["name"]): row for row in csv.DictReader(file)}
+    return [1e-3 * float(rows["1 thread, all", "step, CPU"]["median"])]
 
 
 def compare(ours, theirs, rounds):
@@ -83,21 +79,25 @@ def main():
     parser.add_argument("packings", nargs="?", help="PACKINGS")
     parser.add_argument("--solver", default="pgs")
     parser.add_argument("--tolerance", default="1e-3")
+    parser.add_argument("--solves", default="9", help="in a turn; their median counts")
+    parser.add_argument("--steps", default="200")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--core", type=int, default=1)
     parser.add_argument("--rounds", type=int, default=7)
     options = parser.parse_args()
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if options.what == "solve":
-        words = [options.subject, options.solver, options.tolerance, "9"]
+        words = [options.subject, options.solver, options.tolerance, options.solves]
         compare(lambda: on_core([sys.executable, "-c", SOLVE, *words], options.core),
                 lambda: on_core([options.program, *words], options.core), options.rounds)
     else:
         sets = [word for value in options.set for word in ("--set", value)]
         compare(lambda: on_core([sys.executable, "-c", STEP, options.subject, options.packings,
-                                 *options.set], options.core),
-                lambda: steps_of_a_run([options.program, "run", options.subject, "--no-report",
-                                        "--packing-cache", options.packings, *sets], options.core),
+                                 options.steps, *options.set], options.core),
+                lambda: steps_of_the_bench([options.program, "bench", "step", options.subject,
+                                            "--steps", options.steps, "--no-plot",
+                                            "--packing-cache", options.packings, *sets],
+                                           options.core),
                 options.rounds)
 
 
