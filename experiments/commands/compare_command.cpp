@@ -1,5 +1,6 @@
 // Backends on identical problems: rows, figures and a page.
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -71,7 +72,7 @@ bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
                        name_of(row.start), name_of(row.outcome), row.seconds(), row.error,
                        was_there ? "  (was there)" : "",
                        row.is_false_success() ? "  JUDGE DISAGREES" : "")
-            << std::endl;
+            << (std::isnan(row.error) && !row.note.empty() ? "  " + row.note : "") << std::endl;
   return !InterruptGuard::requested();
 }
 

@@ -15,12 +15,19 @@ import dataclasses
 import functools
 import os
 import pathlib
+import sys
 from typing import Any, Callable, Optional, Sequence, Union
+
+try:
+    from . import _ballast
+except ImportError as error:
+    _built = sorted(file.name for file in pathlib.Path(__file__).parent.glob("_ballast*.so"))
+    raise ImportError(f"{error}: ballast was built as {', '.join(_built) or 'nothing'}, "
+                      f"and this is Python {sys.version.split()[0]}, {sys.executable}") from error
 
 import numpy as np
 import scipy.sparse as sparse
 
-from . import _ballast
 from ._ballast import (Error, InvalidProblem, MissingSolver, Scene as _Scene, UnknownSolver,
                        UnsupportedProblem, scenes, solvers)
 

@@ -1,6 +1,7 @@
 """The module as its users call it. Run: python3 -m unittest, with PYTHONPATH=<build>/python."""
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -105,6 +106,17 @@ class Problems(unittest.TestCase):
                 call()
             self.assertIn(words.lower(), str(caught.exception).lower())
             self.assertNotIn("\n", str(caught.exception))
+
+    def test_another_python_is_told_so(self):
+        package = pathlib.Path(ballast.__file__).parent
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder, "ballast")
+            shutil.copytree(package, copy, ignore=shutil.ignore_patterns("*.so"))
+            # As the files of another version are called.
+            copy.joinpath("_ballast.cpython-27-other.so").touch()
+            told = subprocess.run([sys.executable, "-c", "import ballast"], cwd=folder, text=True,
+                                  env={**os.environ, "PYTHONPATH": folder}, stderr=subprocess.PIPE)
+        self.assertIn("built as _ballast.cpython-27-other.so, and this is Python", told.stderr)
 
     def test_other_threads_run_while_it_solves(self):
         M, H, mu, v = chain(3000)

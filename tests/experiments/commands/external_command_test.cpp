@@ -112,6 +112,8 @@ TEST_CASE("whatever a program does is its row, and nothing is left running") {
   CHECK_THAT(rows.at("hangs").note, Contains("hangs: killed: no answer within"));
   CHECK(rows.at("dies").outcome == "crashed");
   CHECK_THAT(rows.at("dies").note, Contains("exit code 3: no licence"));
+  CHECK_THAT(result.output,
+             Contains("error       nan  dies: the program ended with exit code 3: "));
   CHECK(rows.at("crashes").outcome == "crashed");
   CHECK_THAT(rows.at("crashes").note, Contains("signal 11"));
   CHECK(rows.at("half").outcome == "stopped");
