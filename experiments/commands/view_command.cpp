@@ -55,9 +55,11 @@ ViewData view_of(const ViewOptions& options) {
                   ? scenes_around(path)
                   : std::vector{read_scene(find_scene(options.scene), options.overrides)});
   if (suffix == ".obj" || suffix == ".stl") return view_of_mesh(path);
-  if (suffix == ".hdf5" || suffix == ".h5") {
-    if (!is_captured(path))
-      throw Error(path.string() + ": is no captured problem (ballast run --capture)");
+  if (suffix == ".hdf5" || suffix == ".h5" || suffix == ".dat") {
+    if (is_file(path) && !is_captured(path))
+      throw Error(path.string() +
+                  ": does not say where its contacts are, so there is nothing to show in 3D; "
+                  "problems of ballast run --capture do");
     ErrorQuestion question;
     if (!options.solvers.empty()) question.backends = options.solvers;
     for (const std::string& name : question.backends) find_solver(name);

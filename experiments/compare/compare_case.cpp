@@ -53,7 +53,7 @@ CompareCase captured_case(const fs::path& file) {
   return {.name = run + "/" + file.stem().string(),
           .family = run + (captured.phase == "none" ? "" : ", " + captured.phase),
           .load = [file] { return load_captured(file); },
-          .has_bodies = can_view_problem(file)};
+          .has_bodies = true};
 }
 
 /// What cannot be read says so when it is loaded: it is one row, and the others go on.

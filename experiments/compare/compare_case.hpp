@@ -42,7 +42,7 @@ struct CompareCase {
   /// Throws what is wrong with it: Error, InvalidProblem, std::bad_alloc.
   std::function<LoadedCase()> load;
   std::string word = {};    ///< of `ballast compare`, for this case; for one of stress:all, that
-  bool has_bodies = false;  ///< captured, in the folder of its run: `ballast view` shows it in 3D
+  bool has_bodies = false;  ///< captured: `ballast view` shows it in 3D
 };
 
 /// Each word is one of

@@ -33,6 +33,7 @@ std::string reason_of(const CompareRow& row) {
 
 page::Text time_of(double seconds) {
   if (!std::isfinite(seconds)) return {"–", page::note};
+  if (seconds < 1e-4) return page::quantity(1e6 * seconds, "µs");
   return seconds < 1.0 ? page::quantity(1e3 * seconds, "ms") : page::quantity(seconds, "s");
 }
 

@@ -22,7 +22,10 @@ double smallest_radius_of(const Scene& scene) {
 }
 
 std::string length_text(double metres) {
-  return metres < 1e-3 ? printed("%.2g µm", 1e6 * metres) : printed("%.2g mm", 1e3 * metres);
+  const bool is_small = metres < 1e-3;
+  const double value = (is_small ? 1e6 : 1e3) * metres;
+  // from 100 on %g would write a power of ten
+  return printed(value >= 99.5 ? "%.0f %s" : "%.2g %s", value, is_small ? "µm" : "mm");
 }
 
 std::string steps_words(const RunTrust& trust) {

@@ -43,9 +43,11 @@ void Extent::pad(double margin) {
     high *= std::exp(more);
     return;
   }
-  // a constant gets room above and below
-  const double span = high > low ? high - low : std::max(std::abs(high) * 0.1, 1e-9);
-  if (high == low) {
+  // a constant gets room above and below; so does what differs in digits that no axis writes
+  const double size = std::max(std::abs(low), std::abs(high));
+  const bool is_constant = high - low <= std::max(1e-6 * size, 1e-100);
+  const double span = is_constant ? std::max(size * 0.1, 1e-9) : high - low;
+  if (is_constant) {
     low -= 0.5 * span;
     high += 0.5 * span;
   }

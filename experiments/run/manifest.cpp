@@ -48,8 +48,10 @@ Json machine_json() {
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   json["memory_GB"] = std::round(memory / 1e8) / 10.0;
-  double load[3];
-  json["load_average"] = getloadavg(load, 3) == 3 ? Json(load) : Json(nullptr);
+  double load[3] = {0.0, 0.0, 0.0};
+  const bool is_known = getloadavg(load, 3) == 3;
+  for (double& one : load) one = std::round(100.0 * one) / 100.0;
+  json["load_average"] = is_known ? Json(load) : Json(nullptr);
   // what changes the time or the bits of a threaded BLAS
   json["environment"] = Json::object();
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"})

@@ -88,8 +88,10 @@ page::Picture figure_3(const RunData& data, const RunSummary& summary) {
     if (std::isfinite(summary.contraction.size))
       caption += page::words("run.fig03.contraction",
                              {{"size", page::quantity(1e3 * summary.contraction.size, "mm")},
-                              {"time", page::quantity(summary.contraction.time90, "s")},
-                              {"rise", page::quantity(1e3 * summary.rise.mean, "mm")},
+                              {"time", page::quantity(summary.contraction.time90, "s")}});
+    if (std::isfinite(summary.rise.mean))
+      caption += page::words("run.fig03.periods",
+                             {{"rise", page::quantity(1e3 * summary.rise.mean, "mm")},
                               {"net", page::quantity(-1e3 * summary.net.mean, "mm")}});
     caption += page::words("run.fig03.look");
   }
@@ -155,8 +157,10 @@ page::Picture figure_12(const RunData& data, const RunSummary& summary) {
   Panel panel;
   draw_solid_fraction(data, compaction.initial, "Δ{/:Italic ρ}", Ink::blue, 1.8, panel);
   page::Text caption =
-      page::words("run.fig12.paper", {{"initial", page::number(compaction.initial, 4)},
-                                      {"reference", page::number(compaction.reference, 4)}});
+      page::words("run.fig12.paper", {{"initial", page::number(compaction.initial, 4)}});
+  if (std::isfinite(compaction.reference))
+    caption +=
+        page::words("run.fig12.reference", {{"reference", page::number(compaction.reference, 4)}});
   const std::vector<WallPeriod>& periods = summary.wall.periods;
   if (std::isfinite(compaction.gain) && periods.front().first > 0) {
     // from the first period's begin to the last one's end: its slope is the mean gain

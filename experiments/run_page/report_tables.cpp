@@ -8,7 +8,8 @@ namespace {
 /// quantity | this run | bound or paper | verdict
 class Results {
  public:
-  void group(const char* name) { row(styled(page::marked(name), page::strong), {}, {}, {}); }
+  /// Its name stands above its first row; without rows it does not stand.
+  void group(const char* name) { group_ = name; }
   void bounded(const char* what, double value, double bound, const char* unit = "",
                double factor = 1.0) {
     row(page::marked(what), page::quantity(factor * value, unit),
@@ -30,9 +31,16 @@ class Results {
 
  private:
   void row(page::Text what, page::Text value, page::Text bound, page::Text mark) {
+    // what is not known of this run takes no row
+    const std::string words = plain_words(value);
+    if (words.find_first_not_of("–, ") == std::string::npos) return;
+    if (!group_.empty())
+      table_.rows.push_back({styled(page::marked(group_), page::strong), {}, {}, {}});
+    group_.clear();
     table_.rows.push_back({std::move(what), std::move(value), std::move(bound), std::move(mark)});
   }
   page::Table table_;
+  std::string group_;
 };
 
 page::Text range_of(const Statistics& values, double factor, const char* unit) {
@@ -90,9 +98,10 @@ void add_wall(const RunSummary& summary, Results& results) {
                     page::quantity(1e3 * jammed.speed_max, "mm/s"),
                 styled("moving phases: up to " + page::quantity(1e3 * summary.wall.v_peak, "mm/s"),
                        page::note));
-  results.plain("jammed stretch found in",
-                page::exact(summary.wall.jammed_periods) + " of " +
-                    page::exact(static_cast<double>(summary.wall.periods.size())) + " periods");
+  if (!summary.wall.periods.empty())
+    results.plain("jammed stretch found in",
+                  page::exact(summary.wall.jammed_periods) + " of " +
+                      page::exact(static_cast<double>(summary.wall.periods.size())) + " periods");
   results.group("Motion of the wall");
   results.plain("first contraction", page::quantity(1e3 * summary.contraction.size, "mm"));
   results.compared("90\u202f% of it reached at", page::quantity(summary.contraction.time90, "s"),

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
-#include "platform/error.hpp"
+#include "experiments/view/problem_bodies.hpp"
 #include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/algebra/errors_by_contact.hpp"
@@ -66,27 +67,33 @@ ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend
   return errors;
 }
 
-}  // namespace
-
-bool can_view_problem(const fs::path& file) { return is_there(run_folder_of(file) / "record.h5"); }
-
-ViewData view_of_problem(const fs::path& file, const ErrorQuestion& question) {
-  const fs::path folder = run_folder_of(file);
-  if (!can_view_problem(file))
-    throw Error(file.string() + ": " + folder.string() +
-                " is not the folder of the run it is from: nothing knows the bodies");
-  const CapturedProblem captured = read_captured(file);
+/// The bodies of the run in `folder`, at the frame nearest to a problem's time; nothing where that
+/// is not the run that the problem is from.
+std::optional<ViewData> view_in_run(const fs::path& folder, const CapturedProblem& captured) {
+  if (!is_there(folder / "record.h5")) return std::nullopt;
   ViewData view;
   MotionState state;
   view.system = recorded_system(folder, state);
   view.friction = view.system.friction;
   const std::vector<PoseFrame> frames = read_poses(folder);
-  if (frames.empty()) throw Error(folder.string() + ": no poses are stored there");
+  for (const std::vector<int>* ids : {&captured.id_a, &captured.id_b})
+    for (const int id : *ids)
+      if (id < 0 || static_cast<size_t>(id) >= view.system.bodies.size()) return std::nullopt;
+  if (frames.empty()) return std::nullopt;
   view.frames = {
       *std::min_element(frames.begin(), frames.end(), [&](const PoseFrame& a, const PoseFrame& b) {
         return std::abs(a.time - captured.time) < std::abs(b.time - captured.time);
       })};
   view.contacts = {contacts_of(captured)};
+  return view;
+}
+
+}  // namespace
+
+ViewData view_of_problem(const fs::path& file, const ErrorQuestion& question) {
+  const CapturedProblem captured = read_captured(file);
+  std::optional<ViewData> in_run = view_in_run(run_folder_of(file), captured);
+  ViewData view = in_run ? std::move(*in_run) : bodies_of_problem(captured, contacts_of(captured));
   view.title = printed("Where answers are wrong: step %d, %d contact points", captured.step,
                        captured.problem.contact_count());
   for (const std::string& backend : question.backends)

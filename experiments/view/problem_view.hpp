@@ -18,13 +18,11 @@ struct ErrorQuestion {
   double max_seconds = 1e30;  ///< of one solve: larger budgets have the answer that it reached
 };
 
-/// Whether the folder of the run that a captured problem is from is around it.
-bool can_view_problem(const std::filesystem::path& file);
-
-/// The bodies of the run whose capture/ holds the file, at the stored frame nearest to the
-/// problem's time, with the contacts and forces of the problem, and the judge's error of every
-/// contact under each backend and budget, over the problem's velocity scale. Throws Error where
-/// that run is not there, UnknownSolver, MissingSolver, UnsupportedProblem.
+/// The bodies of a captured problem with its contacts and forces, and the judge's error of every
+/// contact under each backend and budget, over the problem's velocity scale. The bodies are those
+/// of the run whose capture/ holds the file, at the stored frame nearest to the problem's time;
+/// where no run is around the file, what the problem knows of them (problem_bodies.hpp). Throws
+/// UnknownSolver, MissingSolver, UnsupportedProblem, ProblemFileError.
 ViewData view_of_problem(const std::filesystem::path& file, const ErrorQuestion& question);
 
 }  // namespace ballast

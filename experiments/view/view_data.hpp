@@ -38,6 +38,7 @@ struct ViewErrors {
 struct ViewData {
   std::string title;
   MechanicalSystem system;
+  bool has_shapes = true;         ///< false: bodies are drawn about what is known of them
   std::vector<PoseFrame> frames;  ///< at least one
   /// Of each frame, those with a force; empty: none are known.
   std::vector<std::vector<FrameContact>> contacts;

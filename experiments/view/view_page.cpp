@@ -13,9 +13,9 @@ page::Replay replay_of(const ViewData& view) {
   replay.still =
       still_png(view, 0, {.width = 640, .height = 420, .colour = moves ? "speed" : "size"});
   replay.caption = page::words(moves ? "view.motion" : "view.still");
-  if (!view.errors.empty())
-    replay.caption += page::words("view.errors");
-  else if (moves && view.contacts.empty())
+  if (!view.errors.empty()) replay.caption += page::words("view.errors");
+  if (!view.has_shapes) replay.caption += page::words("view.no_shapes");
+  if (view.errors.empty() && moves && view.contacts.empty())
     replay.caption += page::words("view.no_forces");
   return replay;
 }

@@ -97,6 +97,13 @@ TEST_CASE("tables in the browser are what the program computed, sort, and follow
   browser.js(pressed("[name=without_family][value=large]"));
   CHECK_THAT(cells(browser, "#backends .live").get<std::string>(),
              Catch::StartsWith("c coulomb 1 of 1"));
+  // the address keeps the order too, and columns that say nothing are not shown
+  const std::string kept = browser.js("location.hash.slice(1)");
+  CHECK(browser.js("[...document.querySelectorAll('#backends .live th')].some((h) => h.hidden && "
+                   "h.textContent === 'crashes')") == true);
+  browser.open(made.page(), kept, is_drawn);
+  CHECK_THAT(cells(browser, "#backends .live").get<std::string>(),
+             Catch::StartsWith("c coulomb 1 of 1"));
   browser.js(pressed("[name=without_family][value=large]"));
   // sizes, and words of the name
   browser.open(made.page(), "from=15&to=100", is_drawn);
@@ -175,6 +182,8 @@ TEST_CASE("a solve says where in the packing it is wrong: by a page, by a comman
   CHECK(browser.js(commands) == "ballast view folder/y2.dat --solver b --solver auto");
   browser.open(made.page(), "row=z3b4", "document.querySelector('dialog[open]')");
   CHECK(browser.js(commands) == "");
+  CHECK_THAT(browser.js("document.querySelector('dialog').textContent").get<std::string>(),
+             Contains("does not say where its contacts are"));
   CHECK(browser.complaints == std::vector<std::string>{});
 }
 

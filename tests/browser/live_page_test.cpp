@@ -23,6 +23,10 @@ TEST_CASE("every figure of a closed loop tells its values and has a legend that 
         browser.js("document.querySelectorAll('figure canvas').length"));
   CHECK(browser.js("[...document.querySelectorAll('figure svg')].every((s) => "
                    "getComputedStyle(s).display === 'none')") == true);
+  // numbers stand at round places, not where the curves happen to begin
+  CHECK(browser.js("Object.values(Chart.instances).every((c) => { const t = c.scales.x.ticks, "
+                   "s = t[1].value - t[0].value; return t.every((one) => Math.abs(one.value / s - "
+                   "Math.round(one.value / s)) < 1e-6); })") == true);
   // the second point of the second trajectory, by the keyboard
   browser.js("document.querySelector('#live_wall canvas').focus()");
   for (const char* key : {"ArrowRight", "ArrowRight", "ArrowDown"}) browser.key(key);

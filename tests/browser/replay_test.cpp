@@ -188,6 +188,9 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
   browser.js(chosen("threshold", "0", "input"));
   picture(browser);
   CHECK(browser.js("ballastReplay.marks.shownChains") == pairs.size());
+  CHECK_THAT(browser.js("document.getElementById('replay-legend').innerText").get<std::string>(),
+             Contains("displacement since the start / mm") && Contains("force of a pair / N"));
+  CHECK(browser.js("document.getElementById('replay-thresholdtext').textContent") == "0.0 × mean");
   CHECK(browser.js("ballastReplay.options.grains") == "ghost");
   browser.js(chosen("threshold", "2", "input"));
   picture(browser);
@@ -259,6 +262,19 @@ TEST_CASE("narrow, dark, and without 3D") {
     Browser browser(375, 800, true);
     browser.open(box.page(), "play=0&rest=0", is_ready);
     CHECK(browser.js("document.scrollingElement.scrollWidth") == 375);
+    // the words of every legend stand clear of each other, and the load's within the picture
+    for (const char* colour : {"speed", "size", "rotation"}) {
+      browser.js(chosen("colour", colour, "change"));
+      CHECK(browser.js("(() => { const b = [...document.querySelectorAll('#replay-legend .ticks "
+                       "span')].map((s) => s.getBoundingClientRect()); return b.length > 1 && "
+                       "b.every((r, k) => !k || r.left > b[k - 1].right); })()") == true);
+    }
+    browser.js("ballastReplay.setTime(0.01)");
+    picture(browser);
+    CHECK(browser.js("(() => { const l = document.getElementById('replay-load')."
+                     "getBoundingClientRect(), p = document.getElementById('replay-canvas')."
+                     "getBoundingClientRect(); return l.width > 20 && l.left >= p.left && "
+                     "l.right <= p.right && l.top >= p.top; })()") == true);
     CHECK(pixels(browser, "r < 40 && g < 40 && b < 45")["share"] > 0.3);
     CHECK(browser.complaints == std::vector<std::string>{});
   }

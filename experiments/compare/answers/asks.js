@@ -46,6 +46,9 @@ function asks() {
   bar.append(line);
   if (all_families.length > 1) bar.append(switches_of("without_family", "families", all_families));
   bar.append(switches_of("without", "backends", all_solvers), counts);
+  const hint = "The head of a column sorts its table, a name in a legend switches its curves, a " +
+    "time or a point opens its solve. The address keeps the choice.";
+  bar.append(element("p", { class: "note" }, hint));
   const save = (name, list) => download(name, [column_names, ...list.map((row) => row.cells)]
     .map(csv_line).join("\n") + "\n");
   bar.append(element("div", { class: "line" },

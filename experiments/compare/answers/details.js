@@ -14,7 +14,9 @@ const facts_of = (row) => facts_table([
 /// Nothing where the bodies are not known.
 function view_of(row) {
   const page = page_data.views[row.case];
-  if (page === undefined) return [];
+  if (page === undefined)
+    return [element("p", { class: "note" },
+                    "Not to be shown in 3D: the problem does not say where its contacts are.")];
   const words = "Where in the packing it is wrong, contact by contact";
   if (page)
     return [element("p", {}, element("a", { href: `${page}#left=${row.solver}`, class: "view" },

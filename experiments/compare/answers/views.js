@@ -110,6 +110,6 @@ function cost_view({ solvers, cases }) {
   const words = "Time of prepare and solve; only what was solved is drawn. A point opens its " +
     "solve.";
   const told = (curve, point) =>
-    `${curve.title}; ${name} ${number(point.x)}; ${told_row(point.row)}`;
+    `${curve.title}; ${name} ${short_number(point.x)}; ${told_row(point.row)}`;
   return [chooser_line, caption("Cost.", words), chart_of(figure, { opened: open_row, told })];
 }

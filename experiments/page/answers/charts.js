@@ -11,21 +11,24 @@ const axis_of = (axis) => ({
   type: axis.log ? "logarithmic" : "linear",
   min: axis.min,
   max: axis.max,
+  bounds: "ticks",
   border: { color: variable("grey") },
   // a logarithmic axis has more ticks than numbers: lines stand at numbers only
   grid: { color: ({ tick }) => (tick?.label ? variable("grid") : "transparent"), drawTicks: false,
           borderColor: variable("grey") },
   ticks: {
     color: variable("ink"),
+    includeBounds: false,  // numbers stand at round values alone
     padding: 6,
     autoSkipPadding: 12,
     maxRotation: 0,
     callback(value) {
       if (!axis.log) return minus(String(Number(value.toPrecision(6))));
       const power = Math.log10(value), places = Math.log10(this.max / this.min);
-      if (Number.isInteger(Math.round(power * 1e9) / 1e9)) return "10" + raised(Math.round(power));
+      const is_power = Number.isInteger(Math.round(power * 1e9) / 1e9);
+      if (places >= 1.5) return is_power ? "10" + raised(Math.round(power)) : "";
       const first = Math.round(value / 10 ** Math.floor(power));
-      return places < 1.5 && [2, 5].includes(first) ? number(value, 1) : "";
+      return is_power || [2, 5].includes(first) ? number(value, 1) : "";
     },
   },
 });
@@ -55,7 +58,7 @@ function dataset_of(curve) {
 /// A dashed line across, without a name.
 function line_of(line, chart_points) {
   const along = line.vertical ? "y" : "x", across = line.vertical ? "x" : "y";
-  const places = chart_points.map((point) => point[along]);
+  const places = chart_points.map((point) => point[along]).filter((place) => place !== null);
   return {
     label: "", is_line: true, showLine: true,
     pointRadius: 0, pointHitRadius: 0, pointHoverRadius: 0,
@@ -88,6 +91,14 @@ const error_bars = {
   },
 };
 
+/// The x axis: a linear one ends where the curves do.
+function along_of({ x, curves }) {
+  const places = curves.flatMap((curve) => curve.points.map((point) => point.x));
+  if (x.log || !places.length) return x;
+  const low = Math.min(...places), high = Math.max(...places);
+  return high > low ? { ...x, min: x.min ?? low, max: x.max ?? high } : x;
+}
+
 /// The chart as an element. `told` gives the words of a point; `opened`, if there is one, is called
 /// for a point that is clicked. `hidden` is the name of the list in the address bar that holds the
 /// titles switched off.
@@ -109,8 +120,7 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
     animation: false, responsive: true, maintainAspectRatio: false, parsing: false,
     interaction: { mode: "nearest", axis: "xy", intersect: false },
     layout: { padding: { right: 12, top: 8 } },
-    scales: { x: { ...axis_of(figure.x), bounds: figure.x.log ? "ticks" : "data" },
-              y: axis_of(figure.y) },
+    scales: { x: axis_of(along_of(figure)), y: axis_of(figure.y) },
     onHover: (event, [at]) => {
       const found = point_of(at);
       say(found?.point && told(found.curve, found.point));

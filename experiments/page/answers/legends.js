@@ -3,7 +3,8 @@
 /// One switch for each title; curves of one title are switched together.
 function legend_of(figure, is_shown, hidden) {
   const seen = new Map();
-  for (const curve of figure.curves) if (!seen.has(curve.title)) seen.set(curve.title, curve);
+  for (const curve of figure.curves)
+    if (curve.title && !seen.has(curve.title)) seen.set(curve.title, curve);
   const switch_of = (curve) => {
     const swatch = element("span", { class: "swatch dash" + (curve.dash ?? 0),
                                      style: `color:var(--${curve.ink})` });
@@ -25,7 +26,8 @@ function key_walk(figure, is_shown, show, open) {
                   Home: [0, -Infinity], End: [0, Infinity] };
   return (event) => {
     const shown = figure.curves.map((one, k) => k)
-      .filter((k) => is_shown(figure.curves[k]) && figure.curves[k].points.length);
+      .filter((k) => is_shown(figure.curves[k]) &&
+        figure.curves[k].points.some((point) => point.y !== null));
     if (!shown.length) return;
     if (event.key === "Enter" && index >= 0) open({ datasetIndex: curve, index });
     const step = steps[event.key];
@@ -40,6 +42,10 @@ function key_walk(figure, is_shown, show, open) {
       index = points.reduce((best, p, k) =>
         Math.abs(p.x - x) < Math.abs(points[best].x - x) ? k : best, 0);
     index = Math.min(last, Math.max(0, index + step[1]));
-    show({ datasetIndex: curve, index });
+    // over where the curve is broken, to the next value on the way, else back
+    const way = Math.sign(step[1]) || 1;
+    for (const go of [way, -way])
+      while (points[index]?.y === null && points[index + go]) index += go;
+    if (points[index].y !== null) show({ datasetIndex: curve, index });
   };
 }

@@ -24,11 +24,11 @@ function short_number(value) {
   return text.includes(".") ? text.replace(/\.?0+(?=×|$)/, "") : text;
 }
 
-/// A duration in seconds or milliseconds.
+/// A duration in seconds, milliseconds or microseconds (time_of of outcome_tables.cpp).
 function time_words(seconds) {
   if (!Number.isFinite(seconds)) return dash;
-  return seconds < 1 ? number(1e3 * seconds) + narrow_space + "ms"
-                     : number(seconds) + narrow_space + "s";
+  const [factor, unit] = seconds < 1e-4 ? [1e6, "µs"] : seconds < 1 ? [1e3, "ms"] : [1, "s"];
+  return number(factor * seconds) + narrow_space + unit;
 }
 
 /// The value of a cell's text: "2.00×10−4 ms", "3 of 4"; NaN for words.

@@ -6,8 +6,12 @@ function panel_figure(picture, panel) {
   const curve_of = (curve) => ({
     ...curve,
     points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k],
-                                     from: curve.from[k] ?? curve.from[0] })).filter(({ x, y }) =>
-      y !== null && x !== null && (!panel.y.log || y > 0) && (!panel.x.log || x > 0)),
+                                     from: curve.from[k] ?? curve.from[0] }))
+      .filter(({ x }) => x !== null && (!panel.x.log || x > 0))
+      // where a curve has no value it is broken
+      .map((point) => (point.y === null || (panel.y.log && point.y <= 0) ?
+        { ...point, y: null } : point))
+      .filter(({ y }) => y !== null || curve.mark !== "points"),
   });
   return { title: picture.title, x: panel.x, y: panel.y, lines: panel.lines,
            curves: panel.curves.map(curve_of) };

@@ -43,8 +43,16 @@ function make_sortable(table, sorted = () => {}) {
   });
 }
 
-/// The order that a table was given last, by its name: a table that is made anew keeps it.
-const orders = {};
+/// The order that a table was given last stands in the address (sort=name:column:way): a table that
+/// is made anew keeps it, and so does a link.
+function order_of(name) {
+  const kept = choice.list("sort").find((one) => one.startsWith(name + ":"));
+  return kept ? kept.slice(name.length + 1).split(":").map(Number) : null;
+}
+function keep_order(name, column, way) {
+  const others = choice.list("sort").filter((one) => !one.startsWith(name + ":"));
+  choice.set("sort", [...others, `${name}:${column}:${way}`]);
+}
 
 /// A table. Columns: {title, number}. Rows are lists of cells: a string, or {text, value, kind,
 /// open}; `kind` is a class, `open` makes a button of the cell.
@@ -61,8 +69,14 @@ function table_of(name, columns, rows) {
     element("thead", {}, element("tr", {}, ...columns.map((column) =>
       element("th", { class: column.number ? "n" : null }, column.title)))),
     element("tbody", {}, ...rows.map((cells) => element("tr", {}, ...cells.map(cell_of)))));
-  make_sortable(table, (column, way) => { orders[name] = [column, way]; });
-  if (orders[name] && rows.length > 1) sort_table(table, ...orders[name]);
+  make_sortable(table, (column, way) => keep_order(name, column, way));
+  const order = order_of(name);
+  if (order && columns[order[0]] && rows.length > 1) sort_table(table, ...order);
+  // a column that says nothing takes no room
+  columns.forEach((_, k) => {
+    if (rows.length && [...table.tBodies[0].rows].every((row) => !row.cells[k].textContent))
+      for (const row of table.rows) row.cells[k].hidden = true;
+  });
   const wide = columns.length > 8 ? " wide" : "";
   return element("div", { class: "scroll" + wide, tabindex: 0, role: "region",
                           "aria-label": name }, table);

@@ -47,8 +47,10 @@ const colourAt = (ramp, share) => {
 };
 const cssColour = (linear) =>
   "rgb(" + linear.map((c) => Math.round(255 * toSrgb(c))).join(",") + ")";
-const cssGradient = (ramp) => "linear-gradient(90deg," +
-  Array.from({ length: 17 }, (_, k) => cssColour(colourAt(ramp, k / 16))).join(",") + ")";
+// A ramp, or its part between two shares.
+const cssGradient = (ramp, from = 0, to = 1) => "linear-gradient(90deg," +
+  Array.from({ length: 17 }, (_, k) =>
+    cssColour(colourAt(ramp, from + (to - from) * k / 16))).join(",") + ")";
 
 // A colour of the page's style sheet: as it stands there, and in linear light.
 function styleColour(name) {

@@ -207,6 +207,10 @@ class Data {
         else this.high[k] = Math.min(Math.max(...places), free[3 + k] + 2 * most);
       }
     });
+    // by more than a thousandth of the picture, or the load drives it
+    const least = 1e-3 * norm(sub(this.high, this.low));
+    this.wallMoves = this.head.walls.map((wall, w) => wall.driven || this.times.some((t) =>
+      norm(sub(this.wallAt(w, t), this.wallAt(w, this.begin))) > least));
     this.centre = times(add(this.low, this.high), 0.5);
     this.radius = 0.5 * norm(sub(this.high, this.low));
   }

@@ -76,11 +76,12 @@ class Marks {
       if (loop.length < 3) return;
       const corners = loop.flatMap((p) =>
         [...p, dot(sub(p, point), side), dot(sub(p, point), other)]);
-      const colour = wall.driven ? colours.blue.linear : colours.grey.linear;
+      // walls that move are blue
+      const moves = data.wallMoves[w], colour = moves ? colours.blue.linear : colours.grey.linear;
       look.planes.push({ corners: new Float32Array(corners),
-        tint: [...colour, wall.driven ? 0.24 : 0.07] });
-      loop.forEach((p, k) => addRod(rods, p, wall.driven ? -1.1 : -0.75,
-        loop[(k + 1) % loop.length], wall.driven ? -1.1 : -0.75, colour, wall.driven ? 0.9 : 0.6));
+        tint: [...colour, moves ? 0.24 : 0.07] });
+      loop.forEach((p, k) => addRod(rods, p, moves ? -1.1 : -0.75,
+        loop[(k + 1) % loop.length], moves ? -1.1 : -0.75, colour, moves ? 0.9 : 0.6));
       if (wall.driven && data.series.f) this.addLoad(time, wall, loop, rods, colours);
     });
   }

@@ -51,7 +51,7 @@ function buildPanel(data, shades) {
       choice("grains", "grains", [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]],
         "solid"),
       ...hasContacts ? [tick("chains", "force chains"), slider("threshold", "above", 0, 5, 1),
-        tick("points", "contact points")] : [],
+        make("output", { id: "replay-thresholdtext" }), tick("points", "contact points")] : [],
       choice("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], ""),
       slider("cutat", "", 0, 1, 0.5),
       make("span", { class: "views-along" }, "view ",
@@ -64,21 +64,43 @@ function buildPanel(data, shades) {
   element("sentence").hidden = true;
 }
 
-// The ramp of what grains are coloured by.
-function drawLegend(shades, name) {
-  const legend = element("legend"), { words, unit, ramp } = shades.choices[name];
-  legend.hidden = !words;
-  const bar = make("div", { class: "bar" });
-  bar.style.background = cssGradient(ramps[ramp]);
-  if (name === "size")
-    bar.style.background = "linear-gradient(90deg," + [0, 1, 2, 3, 4].map((k) =>
-      `${cssColour(colourAt(ramps[ramp], (k + 0.5) / 5))} ${20 * k}% ${20 * k + 20}%`) + ")";
-  const ticks = make("div", { class: "ticks" }, ...shades.ticks(name).map(([at, text]) => {
+// One ramp of the legend: words, its background, ticks [share, text]. A tick whose words would run
+// into those before is left out; `wide`: the legend's width in pixels.
+function rampLegend(words, background, ticks, wide) {
+  const bar = make("div", { class: "bar" }), row = make("div", { class: "ticks" });
+  bar.style.background = background;
+  let end = -Infinity;
+  for (const [at, text] of ticks) {
+    // about 7 pixels a letter; the first stands on the right of its place, others about theirs
+    const half = 3.5 * text.length, middle = Math.max(at * wide, row.children.length ? 0 : half);
+    if (middle - half < end + 6) continue;
+    end = middle + half;
     const mark = make("span", {}, text);
     mark.style.left = 100 * at + "%";
-    return mark;
-  }));
-  legend.replaceChildren(make("b", {}, words + (unit ? " / " + unit : "")), bar, ticks);
+    row.append(mark);
+  }
+  return [make("b", {}, words), bar, row];
+}
+
+// What colours mean: of grains, of force chains, of contact points.
+function drawLegend(shades, { colour, chains, points }, marks) {
+  const legend = element("legend"), { words, unit, ramp } = shades.choices[colour];
+  const wide = matchMedia("(max-width:40rem)").matches ? 160 : 216, parts = [];
+  const classes = [0, 1, 2, 3, 4].map((k) =>
+    `${cssColour(colourAt(ramps[ramp], (k + 0.5) / 5))} ${20 * k}% ${20 * k + 20}%`);
+  if (words)
+    parts.push(...rampLegend(words + (unit ? " / " + unit : ""), colour === "size" ?
+      "linear-gradient(90deg," + classes + ")" : cssGradient(ramps[ramp]), shades.ticks(colour),
+      wide));
+  if (chains)
+    parts.push(...rampLegend("chains: force of a pair / N", cssGradient(ramps.heat, 0.25, 0.9),
+      [0, 0.25, 0.5, 1].map((share) => [Math.sqrt(share), shown(share * marks.topChain, 2)]),
+      wide));
+  if (points)
+    parts.push(...rampLegend("points: share of friction used", cssGradient(ramps.water, 0.15, 1),
+      [[0, "0"], [0.5, "0.5"], [1, "1"]], wide));
+  legend.hidden = !parts.length;
+  legend.replaceChildren(...parts);
 }
 
 // What is known of a picked grain.

@@ -37,7 +37,7 @@ class Replay {
     this.set({});
     const observer = new ResizeObserver(() => {
       this.plots.layOut(this.colours);
-      this.touched();
+      this.set({});
     });
     observer.observe(element("stage"));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
@@ -94,9 +94,13 @@ class Replay {
     element("cutat").disabled = !options.cut;
     for (const name of ["chains", "points"])
       if (element(name)) element(name).checked = options[name];
-    if (element("threshold")) element("threshold").disabled = !options.chains;
+    if (element("threshold")) {
+      element("threshold").disabled = !options.chains;
+      element("threshold").value = options.threshold;
+      element("thresholdtext").textContent = (+options.threshold).toFixed(1) + " × mean";
+    }
     if (this.errors.isOn) this.errors.drawLegend();
-    else drawLegend(this.shades, options.colour);
+    else drawLegend(this.shades, options, this.marks);
     this.touched();
   }
 
@@ -179,13 +183,21 @@ class Replay {
     const label = element("load"), { load } = this.marks, { f, x } = this.data.series;
     label.hidden = !load;
     if (!load) return;
-    const [left, top] = projected(this.camera.matrix(this.stages[0].aspect), load.tail);
-    label.style.left = 100 * clamp(left, 0.02, 0.98) + "%";
-    label.style.transform = `translate(${left > 0.75 ? -100 : 0}%, -110%)`;
-    label.style.top = 100 * clamp(top, 0.05, 0.9) + "%";
     const line = (one, name) => make("span", { class: one.ink },
-      one.symbol + " = " + shown(this.data.seriesAt(name, this.time)) + " " + one.unit);
+      one.symbol + " = " + steady(this.data.seriesAt(name, this.time), one.values) + " " +
+      one.unit);
     label.replaceChildren(line(f, "f"), line(x, "x"));
+    // beyond the arrow's end, which it does not cover, and within the picture
+    const matrix = this.camera.matrix(this.stages[0].aspect), { clientWidth, clientHeight } =
+      this.stages[0].canvas;
+    const [left, top] = projected(matrix, load.tail), [head] = projected(matrix, load.middle);
+    const { offsetWidth: wide, offsetHeight: high } = label, isRight = left >= head;
+    const x0 = left * clientWidth + (isRight ? 6 : -6 - wide), y0 = top * clientHeight;
+    label.style.left = clamp(x0, 4, Math.max(4, clientWidth - wide - 4)) + "px";
+    // pushed back over the arrow it stands above it
+    const isOver = x0 + wide > clientWidth - 4 || x0 < 4;
+    const top0 = y0 - (isOver ? high + 14 : high / 2);
+    label.style.top = clamp(top0, 4, clientHeight - high - 4) + "px";
   }
 
   // Where software draws, fewer pixels keep the motion smooth. Another size costs as much as some

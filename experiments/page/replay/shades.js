@@ -90,16 +90,14 @@ class Shades {
   ticks(name) {
     const { top, bottom = 0, factor = 1, share } = this.choices[name], ticks = [];
     if (name === "none") return ticks;
-    if (name === "size")
+    if (name === "size") {
+      if (top === bottom) return [[0, shown(factor * top, 3)]];
       return [0, 1, 2, 3, 4, 5].map((k) =>
         [k / 5, shown(factor * (bottom + (top - bottom) * k / 5), 3)]);
-    const step = niceStep(factor * top, name === "speed" || name === "force" ? 8 : 5);
-    let before = -1;
-    for (let v = 0; v <= factor * top * 1.0001; v += step) {
-      const at = share(v / factor, top), text = shown(v, 3);
-      // none where its words would run into those before
-      if (at - before >= 0.06 + 0.027 * text.length) ticks.push([before = at, text]);
     }
+    const step = niceStep(factor * top, name === "speed" || name === "force" ? 8 : 5);
+    for (let v = 0; v <= factor * top * 1.0001; v += step)
+      ticks.push([share(v / factor, top), shown(v, 3)]);
     return ticks;
   }
 }

@@ -68,3 +68,11 @@ function niceStep(span, most) {
 // A number for the reader, with a true minus sign.
 const shown = (value, digits = 3) =>
   Number.isFinite(value) ? String(+value.toPrecision(digits)).replace("-", "\u2212") : "\u2013";
+
+// A value of a curve, with as many places at all times as give the curve's largest three digits.
+const steady = (value, values) => {
+  const most = values.reduce((top, v) => Math.max(top, Math.abs(v)), 0);
+  const places = clamp(2 - Math.floor(Math.log10(most || 1)), 0, 6);
+  const text = value.toFixed(places);
+  return +text === 0 ? text.replace("-", "") : text.replace("-", "\u2212");
+};

@@ -36,6 +36,14 @@ TEST_CASE("axes hold every value, bar and reference line, with room around them"
   CHECK(x_extent(panel).high == 10.0);
 }
 
+TEST_CASE("values that differ in digits that no axis writes are a constant with room around it") {
+  const Panel panel = panel_of({0, 1}, {-6.605827e-15, -6.6058270000001e-15});
+  CHECK(y_extent(panel).low < -1e-10);
+  CHECK(y_extent(panel).high > 1e-10);
+  const Panel great = panel_of({0, 1}, {5e9, 5e9 + 1.0});
+  CHECK(y_extent(great).high - y_extent(great).low > 1e8);
+}
+
 TEST_CASE("what an axis cannot show doesn't stretch it") {
   Panel panel = panel_of({0, 1, 2, not_known}, {not_known, 2, 4, 1e9});
   CHECK(y_extent(panel).high == Approx(4.0 + 0.12));

@@ -61,8 +61,6 @@ TEST_CASE("the error of a captured problem falls with the iterations, contact by
   write_view_page(view, page);
   check_page(read_whole_file(page));
   CHECK_THROWS_AS(view_of_problem(file, {.backends = {"nobody"}}), UnknownSolver);
-  fs::copy_file(file, folder.path() / "alone.hdf5");
-  CHECK_THROWS_AS(view_of_problem(folder.path() / "alone.hdf5", {}), Error);
 }
 
 }  // namespace
