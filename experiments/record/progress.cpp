@@ -80,7 +80,7 @@ double Progress::seconds_left(double now) const {
 std::string Progress::line(double now) const {
   const double elapsed = now - first_clock_,
                fraction = total_ > 0.0 ? std::clamp(time_ / total_, 0.0, 1.0) : 0.0;
-  // in a wide terminal the wall's way stands for the bar, and the error's behind the line
+  // in a wide terminal the wall's way stands for the bar, and the error's beside its number
   const bool is_wide = line_.style() == Style::bar && line_.columns() >= wide_line &&
                        line_.columns() != std::string::npos && writes_unicode();
   std::string text = label_ + " ";
@@ -95,11 +95,12 @@ std::string Progress::line(double now) const {
   if (const double left = seconds_left(now); !std::isnan(left))
     text += "  " + duration_text(left) + " left";
   if (steps_ > 0) text += printed("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));
-  text += printed("  error %.1e m/s  %.0f contacts", error_, contacts_);
-  if (!std::isnan(velocity_)) text += printed("  %.1e m/s rms", velocity_);
-  const size_t used = columns_of(text) + 2;
+  text += printed("  error %.1e m/s", error_);
+  const size_t used = columns_of(text) + 1;
   if (is_wide && !error_trace_.is_flat() && used + least_trace <= line_.columns())
-    text += "  " + error_trace_.text(std::min(trace_columns, line_.columns() - used));
+    text += " " + error_trace_.text(std::min(trace_columns, line_.columns() - used));
+  text += printed("  %.0f contacts", contacts_);
+  if (!std::isnan(velocity_)) text += printed("  %.1e m/s rms", velocity_);
   return text;
 }
 

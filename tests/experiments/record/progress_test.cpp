@@ -107,7 +107,7 @@ TEST_CASE("where the end is not known, neither part nor time left is made up") {
 
 TEST_CASE("in a wide terminal the wall's way stands for the bar, in a narrow one not") {
   setenv("LC_ALL", "C.UTF-8", 1);
-  const auto line = [](size_t columns) {
+  const auto line = [](size_t columns, const char* label = "drive") {
     std::ostringstream out;
     double now = 0.0;
     Progress progress(
@@ -117,7 +117,7 @@ TEST_CASE("in a wide terminal the wall's way stands for the bar, in a narrow one
       now += 0.2;
       record.wall_x = 1e-3 * step;
       record.error_rms = 1e-6 * step;
-      progress.show("drive", 0.01 * step, 1.0, record);
+      progress.show(label, 0.01 * step, 1.0, record);
     }
     progress.finish();
     const std::string text = out.str();
@@ -125,6 +125,9 @@ TEST_CASE("in a wide terminal the wall's way stands for the bar, in a narrow one
   };
   CHECK_THAT(line(120), Contains("x ▁▂▂▃▄▄▅▆▆▇██") && !Contains("[#"));
   CHECK_THAT(line(120), Contains("▅▆▆▇▇▇██"));  // the error's, logarithmic
+  // in the narrowest of the wide ones a long name leaves room for both traces
+  CHECK_THAT(line(99, "vibrated_box_small"),
+             Contains("x ▁▂▂▃▄▄▅▆▆▇██") && Contains("m/s ▃▅▆▆▇▇▇█████"));
   CHECK_THAT(line(90), Contains("[####") && !Contains("▁"));
   setenv("LC_ALL", "C", 1);
   CHECK_THAT(line(120), Contains("[####") && !Contains("▁"));
