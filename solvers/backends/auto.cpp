@@ -25,37 +25,42 @@ namespace {
 constexpr double body_visit = 40.0;
 /// A sweep over a stored W, per entry and per contact: the contact's own solution.
 constexpr double matrix_entry = 1.0, matrix_visit = 60.0;
-/// A Newton step: linearisation and line search per contact; the factorisation over bodies per
-/// unknown, twice that where there are so many that the fill tells.
-constexpr double newton_contact = 300.0, body_unknown = 1000.0, filled_unknowns = 1500.0;
-/// Newton's part in an iteration of `burst`, which counts its sweeps and its steps alike.
-constexpr double burst_steps = 0.05;
+/// What a sweep takes besides, whatever the size.
+constexpr double small_sweep = 1000.0;
+/// Anderson's mixing: its sweep over one without.
+constexpr double mixing_bodies = 2.5, mixing_matrix = 1.6;
+/// A Newton step: linearisation and line search per contact, assembly per unknown, and of the
+/// factorisation per operation. Before those are known it is taken for the fill of packings: as
+/// much as the assembly for so many unknowns.
+constexpr double newton_contact = 750.0, body_unknown = 500.0, front_operation = 0.25;
+constexpr double filled_unknowns = 500.0;
 /// The same of a stored W (newton_matrix.hpp): dense where rows are few or W is nearly full. A
 /// sparse factorisation is mostly bookkeeping, row by row.
 constexpr double few_rows = 200.0, nearly_full = 0.1;
-constexpr double dense_entry = 15.0, dense_cube = 0.05, sparse_row = 8000.0;
+constexpr double dense_entry = 8.0, dense_cube = 0.015;
+constexpr double sparse_row = 3000.0, filled_rows = 600.0;
+/// An interior point's step over Newton's.
+constexpr double interior_factor = 2.0;
 
-/// How fast one way's error has come down.
+/// How fast one way's error has come down with its work.
 class Pace {
  public:
   void begin() { points_.clear(); }
-  void add(int iteration, double error) {
+  void add(double work, double error) {
     if (!points_.empty()) error = std::min(error, points_.back().error);
-    points_.push_back({iteration, error});
+    points_.push_back({work, error});
   }
   double error() const { return points_.empty() ? 1e300 : points_.back().error; }
-  /// ln of the error per iteration, over the later half of the iterations; 0: it stands still.
+  /// ln of the error per work, over the later half of the work; 0: it stands still.
   double rate() const {
     if (points_.empty()) return 0.0;
     const Point& last = points_.back();
     size_t k = points_.size() - 1;
-    while (k > 0 && 2 * points_[k].iteration > last.iteration) --k;
-    const double iterations = last.iteration - points_[k].iteration;
-    return iterations > 0.0 && last.error > 0.0
-               ? std::log(points_[k].error / last.error) / iterations
-               : 0.0;
+    while (k > 0 && 2.0 * points_[k].work > last.work) --k;
+    const double work = last.work - points_[k].work;
+    return work > 0.0 && last.error > 0.0 ? std::log(points_[k].error / last.error) / work : 0.0;
   }
-  /// Iterations to `aim` at that rate.
+  /// Work to `aim` at that rate.
   double left(double aim) const {
     if (!(error() > aim)) return 0.0;
     const double pace = rate();
@@ -64,8 +69,7 @@ class Pace {
 
  private:
   struct Point {
-    int iteration;
-    double error;
+    double work, error;
   };
   std::vector<Point> points_;
 };
@@ -76,12 +80,15 @@ struct Way {
   std::unique_ptr<Solver> solver;
   /// It goes on from the best iterate where that is so much better than its own.
   double takes_best = 0.0;
-  double least_part = 0.5;  ///< of what is expected: the shortest leg
+  double trust = 2.0;  ///< it is taken to need at most so many times the work that it has had
   bool is_prepared = false;
-  double work = 0.0;      ///< of an iteration
-  double expected = 0.0;  ///< iterations, as long as it has not shown its pace
+  bool only_factors = true;  ///< every iteration is a factorisation
+  double work = 0.0;         ///< of an iteration
+  double factorisation = 0;  ///< besides, of one that factors
+  double expected = 0.0;     ///< work, as long as it has not shown its pace
+  double spent = 0.0;        ///< work
   Pace pace;
-  int iterations = 0, stalls = 0;
+  int stalls = 0;
   Impulses at;
 };
 
@@ -90,20 +97,23 @@ class Auto final : public Solver {
   Auto() {
     ways_[conjugate].solver = make_nncg();
     ways_[anderson].solver = make_anderson_pgs({});
-    ways_[newton].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 1e-4});
+    ways_[plain].solver = make_newton({.equation = ContactEquation::alart_curnier});
+    ways_[proximal].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4});
     ways_[burst].solver = make_newton_burst({.start_sweeps = 0, .burst = 50, .endgame = 1e-2});
-    ways_[interior_point].solver = make_interior_point();
-    for (const Kind kind : {conjugate, anderson}) ways_[kind].takes_best = 0.01;
-    for (const Kind kind : {newton, burst}) ways_[kind].takes_best = 0.5;
-    ways_[burst].least_part = 5.0;
-    for (const Kind kind : {newton, interior_point}) ways_[kind].least_part = 2.5;
+    ways_[interior].solver = make_interior_point();
+    for (const Kind kind : {conjugate, anderson}) {
+      ways_[kind].takes_best = 0.01;
+      ways_[kind].trust = 12.0;
+      ways_[kind].only_factors = false;
+    }
+    ways_[burst].only_factors = false;
+    for (const Kind kind : {plain, proximal, burst}) ways_[kind].takes_best = 0.5;
   }
 
   void prepare(const FrictionProblem& problem) override {
     for (Way& way : ways_) way.is_prepared = false;
     // The others are prepared when their turn comes: ordering costs as much as many sweeps.
     prepared(ways_[conjugate], problem);
-    count_work(problem);
   }
 
   void use_threads(int threads) override {
@@ -113,24 +123,32 @@ class Auto final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     for (Way& way : ways_) {
       way.pace.begin();
-      way.iterations = way.stalls = 0;
+      way.spent = 0.0;
+      way.stalls = 0;
       way.at = start;
     }
-    most_promising(budget, 0);
+    count_work(problem);
+    // Iterations may be what is scarce: fewer than fair shares of work would take. Then one is as
+    // dear as another.
+    const double fair = 30.0 + 0.15 * problem.contact_count();
+    is_scarce_ = fair * step_ > budget.max_iterations * sweep_;
+    expect(problem, budget);
     Relay relay(budget, std::move(start));
     // Always the most promising way; its leg ends where another promises more. Whatever the budget,
     // the first leg says how good the start is.
     go(ways_[conjugate], relay, problem, budget);
     while (!relay.over()) {
-      Way& next = ways_[most_promising(budget, relay.iterations())];
+      Way& next = ways_[most_promising(budget)];
       if (next.stalls > most_stalls) break;
+      const bool is_news = learn_step(prepared(next, problem), problem, budget);
+      if (is_news && &ways_[most_promising(budget)] != &next) continue;
       go(next, relay, problem, budget);
     }
     return relay.finish();
   }
 
  private:
-  enum Kind : size_t { conjugate, anderson, newton, burst, interior_point, kinds };
+  enum Kind : size_t { conjugate, anderson, plain, proximal, burst, interior, kinds };
 
   static Solver& prepared(Way& way, const FrictionProblem& problem) {
     if (!way.is_prepared) way.solver->prepare(problem);
@@ -138,110 +156,133 @@ class Auto final : public Solver {
     return *way.solver;
   }
 
-  /// What an iteration of each way costs: of a factorisation, as many operations as of one whose
-  /// bandwidth is the mean filled row's.
+  /// What a sweep and a Newton step cost, as far as sizes tell.
   void count_work(const FrictionProblem& problem) {
     const double contacts = problem.contact_count();
-    double sweep = 0.0, step = 0.0;
+    knows_step_ = false;
     if (problem.has_dynamics) {
-      sweep = body_visit * contacts;
       const double unknowns = problem.dynamics.dof_count();
-      step = body_unknown * unknowns * (1.0 + unknowns / filled_unknowns);
-      step += newton_contact * contacts;
+      sweep_ = small_sweep + body_visit * contacts;
+      step_ =
+          newton_contact * contacts + body_unknown * unknowns * (1.0 + unknowns / filled_unknowns);
     } else {
       const double rows = problem.row_count();
       const double entries = static_cast<double>(problem.delassus.w.nonZeros());
-      sweep = matrix_entry * entries + matrix_visit * contacts;
+      sweep_ = small_sweep + matrix_entry * entries + matrix_visit * contacts;
       const bool is_dense = rows <= few_rows || entries > nearly_full * rows * rows;
       const double dense = dense_entry * entries + dense_cube * rows * rows * rows;
-      const double sparse = sparse_row * rows;
-      step = newton_contact * contacts + (is_dense ? std::min(dense, sparse) : sparse);
+      const double sparse = sparse_row * rows * (1.0 + rows / filled_rows);
+      step_ = newton_contact * contacts + (is_dense ? std::min(dense, sparse) : sparse);
     }
+  }
+
+  /// The first solver that is prepared for factorisations over bodies knows their fill. True: that
+  /// was not known before.
+  bool learn_step(const Solver& solver, const FrictionProblem& problem, const Budget& budget) {
+    const double operations = solver.operations();
+    if (knows_step_ || operations == 0.0) return false;
+    knows_step_ = true;
+    step_ = newton_contact * problem.contact_count() + body_unknown * problem.dynamics.dof_count() +
+            front_operation * operations;
+    expect(problem, budget);
+    return true;
+  }
+
+  /// What each way is expected to need before it has shown its pace.
+  void expect(const FrictionProblem& problem, const Budget& budget) {
+    const double contacts = problem.contact_count();
+    const auto steps = [&](double few, double per_contact) { return few + per_contact * contacts; };
+    const double sweep = is_scarce_ ? 1.0 : sweep_, step = is_scarce_ ? 1.0 : step_;
+    const double mixing = problem.has_dynamics ? mixing_bodies : mixing_matrix;
     ways_[conjugate].work = sweep;
-    ways_[anderson].work = mixing * sweep;
-    ways_[newton].work = step;
-    ways_[burst].work = sweep + burst_steps * step;
-    ways_[interior_point].work = interior_factor * step;
-    ways_[newton].expected = expected_steps + expected_steps_per_contact * contacts;
-    ways_[burst].expected = problem.has_dynamics ? expected_burst : never;
-    ways_[interior_point].expected = expected_interior;
-  }
+    ways_[anderson].work = is_scarce_ ? 1.0 : mixing * sweep;
+    ways_[plain].work = ways_[proximal].work = step;
+    ways_[burst].work = sweep;
+    ways_[burst].factorisation = step - sweep;
+    ways_[interior].work = is_scarce_ ? 1.0 : interior_factor * step;
 
-  /// Work until `way` arrives, as far as one can tell: what its pace says, but not more than twice
-  /// what it has had: nobody knows what comes. So no way falls far behind another.
-  double promise(const Way& way, const Budget& budget, int spent) const {
-    const double rest = budget.max_iterations - spent;
-    if (way.iterations == 0 && way.least_part * way.expected > rest) return never;
-    const double sure = std::max(way.expected, 2.0 * way.iterations);
-    const double needed = way.iterations > 0 ? std::min(sure, way.pace.left(budget.aim())) : sure;
-    return needed * (is_scarce_ ? 1.0 : way.work) * std::pow(4.0, way.stalls);
-  }
-
-  size_t most_promising(const Budget& budget, int spent) {
-    // Sweeps of either kind are first taken to need what the first kind has had.
     const int few = std::clamp(budget.max_iterations / 8, 1, few_sweeps);
+    for (const Kind kind : {conjugate, anderson}) ways_[kind].expected = few * ways_[kind].work;
+    // Over bodies bursts of sweeps are the shortest way more often than not; with a stored W
+    // proximal steps are.
+    const bool has_bodies = problem.has_dynamics;
+    ways_[burst].expected = has_bodies ? steps(4.0, 0.01) * step : never;
+    ways_[plain].expected = steps(16.0, 0.1) * step;
+    ways_[proximal].expected = (has_bodies ? steps(20.0, 0.1) : steps(10.0, 0.03)) * step;
+    ways_[interior].expected = 40.0 * ways_[interior].work;
+  }
+
+  /// Work until `way` arrives, as far as one can tell: what its pace says, but not more than
+  /// `trust` times what it has had: nobody knows what comes. So no way falls far behind another.
+  static double promise(const Way& way, const Budget& budget) {
+    const double sure = std::max(way.expected, way.trust * way.spent);
+    const double needed = way.spent > 0.0 ? std::min(sure, way.pace.left(budget.aim())) : sure;
+    return needed * std::pow(4.0, way.stalls);
+  }
+
+  size_t most_promising(const Budget& budget) {
+    // Where a factorisation is dear, the other kind of sweeps is tried before Newton.
+    const double part = step_ > dear_step * sweep_ ? 0.5 : 1.5;
+    Way& mixed = ways_[anderson];
     const Way& first = ways_[conjugate];
-    ways_[conjugate].expected = few;
-    ways_[anderson].expected = std::max(1.0 * few, 0.6 * first.iterations);
-    // Iterations may be what is scarce: fewer than fair shares of work would take. Then one is as
-    // dear as another.
-    const Way& steps = ways_[newton];
-    is_scarce_ = 3.0 * steps.expected * steps.work > (budget.max_iterations - spent) * first.work;
+    mixed.expected = std::max(mixed.expected, part * first.spent / first.work * mixed.work);
     size_t best = 0;
     for (size_t k = 1; k < kinds; ++k)
-      if (promise(ways_[k], budget, spent) < promise(ways_[best], budget, spent)) best = k;
+      if (promise(ways_[k], budget) < promise(ways_[best], budget)) best = k;
     return best;
   }
 
   /// One leg of `way`: until another is the more promising by far.
   void go(Way& way, Relay& relay, const FrictionProblem& problem, const Budget& budget) {
-    const int before = way.iterations, all_before = relay.iterations();
-    const bool goes_on = &way != &ways_[interior_point];
+    const double before = way.spent;
+    const bool goes_on = &way != &ways_[interior];
     // A leg that is too short shows nothing: Newton's error stands for long before it falls.
-    const double resumed = goes_on ? 0.5 * before : 2.0 * before;
-    const double least = std::max(way.least_part * way.expected, resumed);
+    const double resumed = (goes_on ? 1.5 : 3.0) * before;
+    const double least = before > 0.0 ? resumed : way.expected;
+    int factorisations = 0;
     bool has_left = false;
-    const std::function<bool(int, double)> leave = [&](int iteration, double error) {
-      way.iterations = before + iteration;
-      way.pace.add(way.iterations, error);
-      if (iteration < least) return false;
-      const int spent = all_before + iteration;
-      const Way& other = ways_[most_promising(budget, spent)];
-      has_left = promise(way, budget, spent) > by_far * promise(other, budget, spent);
+    const auto work = [&](int iterations) {
+      return before + iterations * way.work + factorisations * way.factorisation;
+    };
+    const std::function<bool(int, double)> leave = [&](int iterations, double error) {
+      way.spent = work(iterations);
+      way.pace.add(way.spent, error);
+      if (way.spent < least) return false;
+      const Way& other = ways_[most_promising(budget)];
+      has_left = promise(way, budget) > by_far * promise(other, budget);
       return has_left;
     };
     Solver& solver = prepared(way, problem);
     relay.run([&](Impulses best, Budget left) {
       left.leave = &leave;
+      left.factorisations = &factorisations;
       const bool is_own =
-          before > 0 ? relay.error() > way.takes_best * way.pace.error() : way.takes_best < 0.1;
+          before > 0.0 ? relay.error() > way.takes_best * way.pace.error() : way.takes_best < 0.1;
       Solved part = solver.solve(problem, is_own ? way.at : std::move(best), left);
-      way.iterations = before + part.iterations;
+      way.spent = work(part.iterations);
       way.at = part.impulses;
       if (!has_left) ++way.stalls;
+      if (budget.factorisations)
+        *budget.factorisations += way.only_factors ? part.iterations : factorisations;
       return part;
     });
   }
 
-  /// Tuned on generated piles (pile:family, seeds 1 to 40) and on captured stacks, walls, pyramids
-  /// and heaps of boxes; tried on others.
+  // Tuned on generated piles, random graphs (seeds below 1000) and captured stacks, walls, pyramids
+  // and heaps of boxes; tried on others.
   static constexpr double never = 1e300;
   /// Sweeps that are taken to be enough before they have shown their pace.
   static constexpr int few_sweeps = 64;
-  /// A sweep with Anderson's mixing over one without.
-  static constexpr double mixing = 1.5;
-  /// What Newton is expected to need.
-  static constexpr double expected_steps = 10.0, expected_steps_per_contact = 0.05;
-  /// What Newton with bursts of sweeps is taken to need at least.
-  static constexpr double expected_burst = 20.0;
-  /// What an interior point is expected to need, and its step over Newton's.
-  static constexpr double expected_interior = 50.0, interior_factor = 1.5;
+  /// Sweeps that cost as much as a factorisation that is dear.
+  static constexpr double dear_step = 80.0;
   /// Changing ways costs: the other's promise must be so much better.
-  static constexpr double by_far = 1.5;
+  static constexpr double by_far = 2.5;
   /// How often every way may end without arriving and by itself.
   static constexpr int most_stalls = 12;
 
   std::array<Way, kinds> ways_;
+  double sweep_ = 0.0, step_ = 0.0;  ///< work of one
+  bool knows_step_ = false;          ///< step_ is from the fill
   bool is_scarce_ = false;
 };
 

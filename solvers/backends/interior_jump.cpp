@@ -32,7 +32,7 @@ double InteriorJump::run(Course& course, ContactColumns& r, int number, double s
   double best = std::numeric_limits<double>::max(), halved = best;
   int short_steps = 0, slow_steps = 0;
   for (int k = 0; k < most_steps && !course.over(); ++k) {
-    course.spend(1);
+    course.factored();
     const double length = point_.step(to_boundary);
     if (length == 0.0) break;
     const double error = point_.round(rounded_);

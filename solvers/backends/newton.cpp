@@ -29,6 +29,7 @@ class Newton final : public Solver {
   explicit Newton(const NewtonSettings& settings) : settings_(settings) {}
 
   void prepare(const FrictionProblem& problem) override { step_.prepare(problem); }
+  double operations() const override { return step_.operations(); }
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
@@ -78,6 +79,8 @@ class ProximalNewton final : public Solver {
     start_->prepare(problem);
     step_.prepare(problem);
   }
+
+  double operations() const override { return step_.operations(); }
 
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});

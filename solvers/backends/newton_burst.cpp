@@ -53,14 +53,17 @@ class NewtonBurst final : public Solver {
           "unknowns");
     sweeps_->prepare(problem);
     is_ready_ = false;
+    problem_ = &problem;
+    if (settings_.start_sweeps == 0) make_ready();
   }
+
+  double operations() const override { return is_ready_ ? newton_.operations() : 0.0; }
 
   void use_threads(int threads) override { sweeps_->use_threads(threads); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;
     if (settings_.start_sweeps == 0) {
-      make_ready();
       NewtonIterate at = newton_.iterate(start);
       const double error = newton_.settle(at);
       newton_.contacts().to_impulses(at.r, start);
@@ -138,7 +141,7 @@ class NewtonBurst final : public Solver {
       const NewtonIterate before = at;
       newton_.set_centre(at.r, epsilon);
       newton_.linearise(at);
-      course.spend(1);
+      course.factored();
       if (!newton_.step(change_)) {
         epsilon = raised(epsilon, 4.0);
         ++slow;
@@ -246,7 +249,7 @@ class NewtonBurst final : public Solver {
       if (k >= settings_.inner_steps || stalled > most_stalled || (k > 1 && changed > many) ||
           course.over())
         return {false, k};
-      course.spend(1);
+      course.factored();
       if (!newton_.step(change_)) return {false, k};
       // The first step is taken whole: it always raises the residual. Later ones are shortened.
       residual = advance(at, residual, k == 0 ? 1 : 4);

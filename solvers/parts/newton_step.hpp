@@ -26,6 +26,8 @@ class NewtonStep {
   /// tenth, so that flat places can be left, and taken whole with `halvings` = 0.
   bool newton(int halvings);
 
+  /// Of one factorisation (NewtonSystem::operations).
+  double operations() const { return system_.operations(); }
   /// rms over contacts of |F_c| / rho_c [m/s].
   double residual() const { return residual_of(r_, u_); }
   /// The judge's error of the iterate [m/s].

@@ -23,6 +23,7 @@ const double* side_block(const FrictionProblem& problem, int c, int side) {
 }  // namespace
 
 void NewtonSystem::prepare(const ContactOperator& w) {
+  operations_ = 0.0;
   if (w.problem().has_dynamics)
     prepare_bodies(w.problem());
   else
@@ -81,6 +82,7 @@ void NewtonSystem::prepare_bodies(const FrictionProblem& problem) {
   mass_offset_.resize(bodies);
   for (int b = 0; b < bodies; ++b) mass_offset_[b] = find(b, b);
   fronts_.analyse(matrix_, d.dof_begin);
+  operations_ = fronts_.operations();
 }
 
 void NewtonSystem::add_block(const FrictionProblem& problem, int c, int p, int q,

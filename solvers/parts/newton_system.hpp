@@ -30,6 +30,9 @@ class NewtonSystem {
   bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
              const std::vector<double>& alpha, Impulses& dr);
 
+  /// Of a factorisation over bodies (FrontLu::operations); 0 with a stored W.
+  double operations() const { return operations_; }
+
  private:
   void prepare_bodies(const FrictionProblem& problem);
   bool solve_bodies(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
@@ -49,6 +52,7 @@ class NewtonSystem {
   FrontLu fronts_;
   LuFactor factor_;           ///< where a pivot of fronts_ is too small
   NewtonMatrix matrix_form_;  ///< where W is stored
+  double operations_ = 0.0;
   Eigen::VectorXd right_, dv_, u_, rest_, correction_;
 };
 

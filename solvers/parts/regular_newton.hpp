@@ -23,6 +23,7 @@ class RegularNewton {
   const UnitMassContacts& contacts() const { return contacts_; }
   /// For others that solve in the same unknowns: every step() factors it anew.
   UnitMassSystem& system() { return system_; }
+  double operations() const { return system_.operations(); }
 
   /// The iterate with x from r.
   NewtonIterate iterate(const Impulses& r) const;

@@ -21,6 +21,11 @@ class Course {
          const std::function<bool(int, double)>& leave);
 
   void spend(int iterations) { iterations_ += iterations; }
+  /// One iteration that was a factorisation.
+  void factored() {
+    spend(1);
+    if (budget_.factorisations) ++*budget_.factorisations;
+  }
   /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best, or
   /// where it satisfies the other measure that the budget asks for.
   void offer(const Impulses& r, double error);

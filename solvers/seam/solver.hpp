@@ -41,6 +41,9 @@ struct Budget {
   /// Not null: asked with (iterations, error) wherever the error is evaluated; true ends the solve
   /// as stalled. For who has something better to do with the rest of the budget.
   const std::function<bool(int, double)>* leave = nullptr;
+  /// Not null: a solver whose iterations are sweeps and factorisations by turns adds one here for
+  /// each factorisation. For who counts work.
+  int* factorisations = nullptr;
 
   /// The natural map to plan for [m/s]: the tolerance, or where `fclib` expects its own to be
   /// reached.
@@ -87,6 +90,9 @@ class Solver {
   /// Allocation, ordering, symbolic and numeric factorisation: timed apart from solve(). Throws
   /// UnsupportedProblem.
   virtual void prepare(const FrictionProblem& problem) = 0;
+  /// What one of its factorisations costs, known once it is prepared: multiplications and additions
+  /// in dense blocks. 0: it has none, or does not know.
+  virtual double operations() const { return 0.0; }
   /// How many threads prepare() and solve() may use from now on. The same bits whatever their
   /// number; a backend that has no use for more than one ignores it.
   virtual void use_threads(int /*threads*/) {}

@@ -1,7 +1,11 @@
 #include "solvers/backends/auto.hpp"
 
+#include <utility>
+
+#include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/pile_problems.hpp"
 #include "solvers/backends/nncg.hpp"
+#include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 
@@ -22,6 +26,23 @@ FrictionProblem heavy_pile(std::uint64_t seed, bool is_stored) {
 SolverRun solved(std::unique_ptr<Solver> solver, const FrictionProblem& problem,
                  const Budget& budget) {
   return SolverRunner().run(*solver, problem, {}, budget);
+}
+
+struct Work {
+  int sweeps, factorisations;
+};
+
+/// What auto needs until Siconos' measure is below `tolerance`.
+Work work_to(const FrictionProblem& problem, double tolerance) {
+  FclibStop stop(problem, tolerance);
+  int factorisations = 0;
+  const SolverRun run = solved(make_auto(), problem,
+                               {.tolerance = 0.0,
+                                .max_iterations = 1 << 30,
+                                .fclib = &stop,
+                                .factorisations = &factorisations});
+  CHECK(run.success);
+  return {run.solved.iterations - factorisations, factorisations};
 }
 
 }  // namespace
@@ -53,19 +74,20 @@ TEST_CASE("the turns are counted in work, not by the clock: the same bits every 
   CHECK(first.solved.impulses == second.solved.impulses);
 }
 
-TEST_CASE("where a Newton step costs few sweeps, its turn comes before a hundred of them",
+TEST_CASE("where sweeps go round and a Newton step costs few of them, Newton's turn comes soon",
           "[factors]") {
-  // Sweeps with Newton steps between them, over the bodies: the other ways took 200 to 370.
-  const Budget budget{.tolerance = 1e-8 * 0.05, .max_iterations = 1 << 30};
-  PileSettings settings{.contacts = 60,
-                        .redundancy = 0.4,
-                        .mass_ratio = 30.0,
-                        .friction_min = 0.1,
-                        .friction_max = 0.9};
-  for (const std::uint64_t seed : {13u, 15u}) {
-    settings.seed = seed;
-    const SolverRun run = solved(make_auto(), make_pile(settings), budget);
-    CHECK(run.success);
-    CHECK(run.solved.iterations < 120);
-  }
+  // Six contacts. By turns of hundreds of sweeps without plain Newton it took 758 iterations.
+  const Work work = work_to(make_pile(random_pile(203, 10)), 1e-4);
+  CHECK(work.sweeps < 300);
+  CHECK(work.factorisations < 10);
+}
+
+TEST_CASE("where a factorisation fills, other sweeps are tried before it", "[factors]") {
+  // Bodies that touch at random: a Newton step costs as much as hundreds of sweeps, which counting
+  // bodies does not tell.
+  const FrictionProblem problem =
+      make_known_solution({.bodies = 400, .contacts = 1000, .seed = 1}).problem;
+  const Work work = work_to(problem, 1e-8);
+  CHECK(work.factorisations == 0);
+  CHECK(work.sweeps < 700);
 }
