@@ -204,11 +204,13 @@ class Auto final : public Solver {
     const int few = std::clamp(budget.max_iterations / 8, 1, few_sweeps);
     for (const Kind kind : {conjugate, anderson}) ways_[kind].expected = few * ways_[kind].work;
     // Over bodies bursts of sweeps are the shortest way more often than not; with a stored W
-    // proximal steps are.
-    const bool has_bodies = problem.has_dynamics;
-    ways_[burst].expected = has_bodies ? steps(4.0, 0.01) * step : never;
+    // proximal steps are, and where iterations are scarce.
+    const bool bursts = problem.has_dynamics && !is_scarce_;
+    ways_[burst].expected = bursts ? steps(4.0, 0.01) * step : 100.0 * step;
+    if (!problem.has_dynamics) ways_[burst].expected = never;
     ways_[plain].expected = steps(16.0, 0.1) * step;
-    ways_[proximal].expected = (has_bodies ? steps(20.0, 0.1) : steps(10.0, 0.03)) * step;
+    ways_[proximal].expected =
+        (bursts ? steps(20.0, 0.1) : steps(10.0, is_scarce_ ? 0.05 : 0.03)) * step;
     ways_[interior].expected = 40.0 * ways_[interior].work;
   }
 
