@@ -16,6 +16,9 @@
 #include "platform/text.hpp"
 
 namespace ballast {
+
+Command bench_jam_command();
+
 namespace {
 
 /// What all that measure have on their command lines.
@@ -283,7 +286,7 @@ Command bench_command() {
           {},
           {},
           {kernels_command(), step_command(), scaling_command(), accuracy_command(),
-           captured_command(), diff_command()}};
+           captured_command(), bench_jam_command(), diff_command()}};
 }
 
 }  // namespace ballast

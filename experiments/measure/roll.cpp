@@ -19,6 +19,34 @@ std::vector<Displacement> displacements(std::span<const Pose> before, std::span<
   return list;
 }
 
+std::vector<Displacement> period_displacements(std::span<const PoseFrame> frames,
+                                               std::span<const WallPeriod> periods, double h,
+                                               size_t grains) {
+  const auto frame_at = [&](double time) {
+    return std::find_if(frames.begin(), frames.end(), [&](const PoseFrame& frame) {
+      return std::abs(frame.time - time) < 0.6 * h;
+    });
+  };
+  std::vector<Displacement> all;
+  for (const WallPeriod& period : periods) {
+    const auto begin = frame_at(period.begin), end = frame_at(period.end);
+    if (begin == frames.end() || end == frames.end()) continue;
+    const auto moves = displacements(begin->pose, end->pose, grains);
+    all.insert(all.end(), moves.begin(), moves.end());
+  }
+  return all;
+}
+
+double Roll::roundness() const {
+  double weakest = not_known, strongest = 0.0;
+  for (const double side : along) {
+    const double with = circulation < 0.0 ? -side : side;
+    weakest = std::fmin(weakest, with);
+    strongest = std::max(strongest, std::abs(side));
+  }
+  return std::isnan(circulation) || !(strongest > 0.0) ? not_known : weakest / strongest;
+}
+
 bool Roll::goes_round() const {
   return std::all_of(along.begin(), along.end(), [](double a) { return a > 0.0; }) ||
          std::all_of(along.begin(), along.end(), [](double a) { return a < 0.0; });

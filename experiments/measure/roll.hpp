@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "experiments/measure/curve_fit.hpp"
-#include "geometry/shape/pose.hpp"
+#include "experiments/measure/wall_cycles.hpp"
+#include "experiments/record/pose_frame.hpp"
 
 namespace ballast {
 
@@ -23,6 +24,11 @@ struct Displacement {
 /// Of the first `grains` bodies between two states.
 std::vector<Displacement> displacements(std::span<const Pose> before, std::span<const Pose> after,
                                         size_t grains);
+
+/// Over the periods that count, where a frame is stored at both ends (to a step of `h` [s]).
+std::vector<Displacement> period_displacements(std::span<const PoseFrame> frames,
+                                               std::span<const WallPeriod> periods, double h,
+                                               size_t grains);
 
 /// A rectangle in the xz plane; y is averaged over.
 struct XzRectangle {
@@ -37,6 +43,9 @@ struct Roll {
                               not_known};  ///< mean displacement along top, right, bottom, left [m]
   double circulation = not_known;          ///< its integral around the rectangle [m^2]
   bool goes_round() const;                 ///< all four have one sign
+  /// The weakest side over the strongest, in the sense of the circulation: 1 all sides alike,
+  /// negative where a side goes against it.
+  double roundness() const;
 };
 /// Grains within `reach` of a side count for it: about a grain's size [m]. A side without a grain
 /// makes all of it not known.

@@ -48,7 +48,10 @@ enum class Varied {
   shape_fast,               ///< the same at 20 Hz
   size_similar,             ///< number of grains, the box growing in all directions, 5 Hz
   size_wide,                ///< number of grains, the box growing in y alone, 5 Hz
-  reading_frequency         ///< nu in vibrated_box_paper, the most probable reading of the paper
+  reading_frequency,        ///< nu in vibrated_box_paper, the most probable reading of the paper
+  exact_law,                ///< nu: 300 grains, ten samples, Coulomb's law (nncg)
+  convex_law,               ///< nu: the same packings, its convex relaxation (sap)
+  rule_frequency            ///< nu: plain sweeps stopped by LMGC90's rule
 };
 
 struct CampaignSettings {

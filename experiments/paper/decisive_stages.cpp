@@ -178,6 +178,30 @@ void add_sizes(CampaignBuilder& build) {
   }
 }
 
+/// Coulomb's law beside its convex relaxation, paired by packing: as many grains as sap carries.
+void add_laws(CampaignBuilder& build) {
+  constexpr int grains = 300, samples = 10;
+  const double side = std::cbrt(grains / static_cast<double>(build.scene().grains->count));
+  RunSettings s = decisive_run(10.0);
+  s.iterations = 500;
+  s.variant = "similar=" + std::to_string(grains);
+  resize(build, side, side, side, s);
+  const int seeds = std::max(samples, build.seeds());
+  build.point(Varied::exact_law, 10.0, "exact law", s, seeds, all_periods);
+  s.solver = "sap";
+  build.point(Varied::convex_law, 10.0, "convex law", s, seeds, all_periods);
+}
+
+/// What papers of 2000 to 2010 had: plain sweeps until LMGC90's rule is met.
+void add_rule(CampaignBuilder& build) {
+  RunSettings s = decisive_run(10.0);
+  s.solver = "pgs";
+  s.iterations = 25000;
+  s.variant = "rule=lmgc90";
+  s.set = {"solver.change_tolerance=1.666e-4", "solver.change_every=500"};
+  add_frequencies(build, Varied::rule_frequency, {10.0, 60.0}, s);
+}
+
 }  // namespace
 
 const std::vector<GrainKind>& grain_kinds() {
@@ -207,7 +231,8 @@ std::span<const DecisiveStage> decisive_stages() {
   static constexpr DecisiveStage stages[] = {
       {"box", add_box_lengths}, {"reading", add_reading},   {"replicas", add_replicas},
       {"tight", add_tight},     {"deposits", add_deposits}, {"loads", add_loads},
-      {"shapes", add_shapes},   {"sizes", add_sizes},       {"tightest", add_tightest}};
+      {"shapes", add_shapes},   {"sizes", add_sizes},       {"laws", add_laws},
+      {"rule", add_rule},       {"tightest", add_tightest}};
   return stages;
 }
 

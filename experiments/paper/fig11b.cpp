@@ -1,6 +1,7 @@
 // Fig. 11b, beyond the paper: C of Eq. 3 along its right side X. All that is varied falls on one
 // smooth curve, which is not a line.
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/paper/one_curve.hpp"
@@ -156,6 +157,38 @@ page::Table exponents_table(const OneCurve& all) {
   return table;
 }
 
+/// What the grains push with, as measured, and the C that it means: beside the C that is seen. A
+/// row to each point, along X.
+page::Table forces_table(PaperData& data, const OneCurve& all, page::Values& words) {
+  page::Table table = page::words_table("curve.forces");
+  std::vector<const CurvePoint*> along;
+  for (const CurvePoint& point : all.points) along.push_back(&point);
+  std::sort(along.begin(), along.end(),
+            [](const CurvePoint* a, const CurvePoint* b) { return a->x < b->x; });
+  std::vector<double> said, seen;
+  for (const CurvePoint* point : along) {
+    std::vector<double> push, carried, theory;
+    for (const size_t run : point->value.runs)
+      if (const RunObservables* o = data.observables_of(run)) {
+        const RunFacts& facts = o->seen.facts;
+        push.push_back(o->law.push / (facts.grain_mass * facts.gravity));
+        carried.push_back(o->law.carried_mass / facts.grain_mass);
+        theory.push_back(o->law.prefactor);
+      }
+    said.push_back(sample_mean(theory).mean);
+    seen.push_back(prefactor_of(point->value).mean);
+    table.rows.push_back(
+        {all_series()[point->series].name, point->value.label, page::number(to_mm * point->x),
+         words_of(sample_mean(push)), words_of(sample_mean(carried)), words_of(sample_mean(theory)),
+         words_of(prefactor_of(point->value)), page::number(said.back() / seen.back(), 2)});
+  }
+  const Proportion ratio = fit_proportion(seen, said);
+  words.emplace("ratio",
+                page::number(ratio.factor, 2) + " " + page::interval(ratio.low, ratio.high));
+  words.emplace("follows", words_of(fit_power(said, seen)));
+  return table;
+}
+
 page::Text percent_words(double deviation) { return page::number(100.0 * deviation, 2) + " %"; }
 
 page::Values words_for(const OneCurve& all) {
@@ -196,11 +229,12 @@ PaperSection curve_section(PaperData& data) {
     values.push_back(read_values(data, series.varied, section));
   const OneCurve all = one_curve(values);
   if (!all.is_known()) return section;
-  const page::Values words = words_for(all);
+  page::Values words = words_for(all);
+  const page::Table forces = forces_table(data, all, words);
   section.draw("fig11b", {.height = 860, .panels = {prefactor_panel(all), slope_panel(all)}},
                words);
   section.text.push_back(page::words("curve.theory", words));
-  section.tables = {along_table(all), exponents_table(all)};
+  section.tables = {along_table(all), forces, exponents_table(all)};
   const double half = student_t95(all.between.degrees_of_freedom) * all.offset_error;
   section.claim("curve.grouping", words, PaperRange::about(0.0, 0.1),
                 {.value = all.largest_offset,
@@ -209,6 +243,7 @@ PaperSection curve_section(PaperData& data) {
                  .law_p = all.curve_misfit.p});
   section.report("curve.shape", words);
   section.report("curve.bend", words);
+  section.report("curve.push", words);
   return section;
 }
 

@@ -26,6 +26,16 @@ page::Table branch_table(const std::vector<MotionRun>& runs) {
   return table;
 }
 
+/// How f_g grows in the last tenth of the way in, over how it does in the middle of it: 1 for a
+/// line.
+double end_steepness(const MotionRun& run) {
+  WallSettings last_tenth;
+  last_tenth.fit_from = 0.0;
+  last_tenth.fit_to = 0.1;
+  return fit_loop(run.data.steps, run.summary.wall, last_tenth).passive.slope /
+         run.summary.loop.passive.slope;
+}
+
 /// A law describes a branch when it leaves at most a tenth of its variance.
 const PaperRange good_fit = PaperRange::at_least(0.9);
 
@@ -43,15 +53,23 @@ PaperSection fig4_section(PaperData& data) {
                    creep = mean_over(runs, [](const auto&s) { return 1e3 * s.jammed.speed_mean; });
   const SampleMean share =
       mean_over(runs, [](const auto& s) { return s.jammed.speed_mean / s.speed_in.mean; });
-  const page::Values words{
-      {"active", page::number(active.mean)},   {"active_r2", words_of(active)},
-      {"passive", page::number(passive.mean)}, {"passive_r2", words_of(passive)},
-      {"jam", page::number(jam.mean, 2)},      {"smooth", page::number(smooth.mean, 2)},
-      {"creep", page::number(creep.mean, 2)},  {"share", page::number(share.mean, 2)}};
+  std::vector<double> steepness;
+  for (const MotionRun& run : runs) steepness.push_back(end_steepness(run));
+  const SampleMean end = sample_mean(steepness);
+  const page::Values words{{"end", words_of(end)},
+                           {"active", page::number(active.mean)},
+                           {"active_r2", words_of(active)},
+                           {"passive", page::number(passive.mean)},
+                           {"passive_r2", words_of(passive)},
+                           {"jam", page::number(jam.mean, 2)},
+                           {"smooth", page::number(smooth.mean, 2)},
+                           {"creep", page::number(creep.mean, 2)},
+                           {"share", page::number(share.mean, 2)}};
   section.draw("fig4", figure_4(runs.front().data, runs.front().summary).plot, words);
   section.tables = {branch_table(runs)};
   section.claim("fig4.active", words, good_fit, found(active));
   section.claim("fig4.passive", words, good_fit, found(passive));
+  section.claim("fig4.end", words, PaperRange::at_least(1.0), found(end));
   section.claim("fig4.jammed", words, PaperRange::at_most(target::jammed_force), found(jam));
   // jammed samples are chosen by their speed, at most 2 % of v_max: a part of the statement
   section.claim("fig4.rest", words, PaperRange::at_most(0.01), part_of(found(share)));

@@ -1,27 +1,15 @@
 #include "experiments/paper/motion.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace {
 
 /// Below this part of its largest speed a moving wall is neither active nor passive yet.
 constexpr double slow_part = 0.2;
-
-std::vector<std::filesystem::path> state_files(const MotionRun& run) {
-  const std::filesystem::path folder = RunFolder(run.data.folder).states();
-  std::vector<std::filesystem::path> files;
-  if (!is_folder(folder)) return files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".bin") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 }  // namespace
 
@@ -45,7 +33,7 @@ std::vector<MotionRun> read_motion(PaperData& data, PaperSection& section) {
 
 int for_each_state(const MotionRun& run, const std::function<void(const StoredState&)>& see) {
   const WallCycles& wall = run.summary.wall;
-  const std::vector<std::filesystem::path> files = state_files(run);
+  const std::vector<std::filesystem::path> files = RunFolder(run.data.folder).state_files();
   if (files.empty() || wall.periods.empty()) return 0;
   MotionState unused;
   const MechanicalSystem system = system_of_run(run.data.folder, unused);

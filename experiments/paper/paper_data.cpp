@@ -40,7 +40,10 @@ const char* plural_of(Varied varied) {
                                    "kinds of grains at 20 Hz",
                                    "numbers of grains, similar boxes",
                                    "numbers of grains, wider boxes",
-                                   "frequencies, the paper's reading"};
+                                   "frequencies, the paper's reading",
+                                   "frequencies, 300 grains, exact law",
+                                   "frequencies, 300 grains, convex law",
+                                   "frequencies, LMGC90's rule"};
   return words[static_cast<size_t>(varied)];
 }
 

@@ -119,14 +119,8 @@ class StoredPoses {
 
   /// Displacements over whole periods, along a rectangle halfway between the middle and the walls.
   void measure_roll(RunObservables& run) const {
-    std::vector<Displacement> all;
-    for (const WallPeriod& period : cycles_.periods) {
-      const PoseFrame *begin = frame_at(period.begin), *end = frame_at(period.end);
-      if (!begin || !end) continue;
-      const auto moves =
-          displacements(begin->pose, end->pose, static_cast<size_t>(system_.grain_count));
-      all.insert(all.end(), moves.begin(), moves.end());
-    }
+    const std::vector<Displacement> all = period_displacements(
+        frames_, cycles_.periods, scene_.step, static_cast<size_t>(system_.grain_count));
     const double length = scene_.box.length;
     run.roll = roll_of(all, {0.25 * length, 0.75 * length, 0.25 * top_, 0.75 * top_},
                        run.setup.largest_size);

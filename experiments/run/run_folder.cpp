@@ -129,6 +129,15 @@ void RunFolder::clear() const {
 
 fs::path RunFolder::state_at(long step) const { return states() / printed("step_%08ld.bin", step); }
 
+std::vector<fs::path> RunFolder::state_files() const {
+  std::vector<fs::path> files;
+  if (!is_folder(states())) return files;
+  for (const auto& entry : fs::directory_iterator(states()))
+    if (entry.path().extension() == ".bin") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 void RunFolder::reopen(const std::string& scene_text) const {
   if (!has_run())
     throw Error(path_.string() + ": no run to resume: " + scene().filename().string() +

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "platform/file_kind.hpp"
 
@@ -24,6 +25,8 @@ class RunFolder {
   /// Whole states kept at record.state_rate: checkpoint files of single steps.
   std::filesystem::path states() const { return path_ / "states"; }
   std::filesystem::path state_at(long step) const;
+  /// Those that there are, in the order of time.
+  std::vector<std::filesystem::path> state_files() const;
   std::filesystem::path steps_log() const { return path_ / "log" / "steps.bin"; }
   bool has_run() const { return is_there(scene()); }
   /// It holds all of the run of this key: every step, and records that have been closed.

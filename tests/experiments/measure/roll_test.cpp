@@ -35,6 +35,11 @@ TEST_CASE("a turn as of a rigid body goes round, with twice its angle times the 
   CHECK(roll.goes_round());
   CHECK(roll.along[0] == Approx(angle * 0.25));
   CHECK(roll.along[1] == Approx(angle * 0.5));
+  CHECK(roll.roundness() == Approx(0.5));
+  Roll back = roll;
+  back.circulation *= -1.0;
+  for (double& side : back.along) side *= -1.0;
+  CHECK(back.roundness() == Approx(0.5));
 }
 
 TEST_CASE("shear has a circulation and does not go round; a translation has none") {
@@ -42,6 +47,7 @@ TEST_CASE("shear has a circulation and does not go round; a translation has none
   const Roll sheared = roll_of(shear, middle, 0.01);
   CHECK(sheared.circulation == Approx(0.01 * 0.5));
   CHECK_FALSE(sheared.goes_round());
+  CHECK(sheared.roundness() == Approx(0.0).margin(1e-12));
   const Roll carried = roll_of(moved([](const Vec3&) { return Vec3(1, 2, 3); }), middle, 0.01);
   CHECK(carried.circulation == Approx(0.0).margin(1e-12));
   CHECK_FALSE(carried.goes_round());
@@ -52,6 +58,7 @@ TEST_CASE("a side without a grain makes the roll not known") {
   std::erase_if(field, [](const Displacement& d) { return d.place.z() > 0.6; });
   const Roll roll = roll_of(field, middle, 0.01);
   CHECK(std::isnan(roll.circulation));
+  CHECK(std::isnan(roll.roundness()));
   CHECK_FALSE(roll.goes_round());
 }
 
@@ -75,4 +82,25 @@ TEST_CASE("the field's cells hold the means of their grains, and nothing without
   CHECK(std::isnan(field.move_x[3]));
   CHECK(field.x[1] == Approx(0.75));
   CHECK(field.z[2] == Approx(0.75));
+}
+
+TEST_CASE("displacements of whole periods are taken between the frames at their ends") {
+  std::vector<PoseFrame> frames(4);
+  for (int k = 0; k < 4; ++k) {
+    frames[k].time = 0.1 * k;
+    frames[k].pose.resize(2);
+    frames[k].pose[0].position.x() = k * k;
+  }
+  std::vector<WallPeriod> periods(3);
+  periods[0].begin = 0.1;
+  periods[0].end = 0.2;
+  periods[1].begin = 0.2;
+  periods[1].end = 0.30005;  // half a step away
+  periods[2].begin = 0.3;
+  periods[2].end = 0.4;  // no frame there
+  const auto moves = period_displacements(frames, periods, 1e-4, 1);
+  REQUIRE(moves.size() == 2);
+  CHECK(moves[0].move.x() == 3.0);
+  CHECK(moves[1].move.x() == 5.0);
+  CHECK(moves[1].place.x() == 6.5);
 }

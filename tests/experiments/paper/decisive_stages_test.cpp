@@ -39,7 +39,8 @@ TEST_CASE("every decisive value has three samples, at 200 iterations or by its t
   }
   for (const auto& [value, samples] : seeds) {
     const bool is_replica = value.first == Varied::replica || value.first == Varied::replica_fast;
-    CHECK(samples.size() == (is_replica ? 1u : 3u));
+    const bool is_law = value.first == Varied::exact_law || value.first == Varied::convex_law;
+    CHECK(samples.size() == (is_replica ? 1u : is_law ? 10u : 3u));
   }
 }
 
@@ -72,6 +73,31 @@ TEST_CASE("replicas share a packing and differ in the seed of their noise alone"
   }
   CHECK(packings.size() == 1);
   CHECK(noises.size() == 8);
+}
+
+TEST_CASE("both laws drive the same packings, and LMGC90's rule stops plain sweeps") {
+  const Campaign campaign = decisive();
+  std::map<int, std::set<std::string>> packings, solvers;
+  int ruled = 0;
+  for (const CampaignPoint& point : campaign.points) {
+    const Scene scene = scene_of(campaign, point);
+    if (point.varied == Varied::rule_frequency) {
+      CHECK(scene.solver.name == "pgs");
+      CHECK(scene.solver.change_tolerance == 1.666e-4);
+      CHECK(scene.solver.change_every == 500);
+      ++ruled;
+    }
+    if (point.varied != Varied::exact_law && point.varied != Varied::convex_law) continue;
+    CHECK(scene.grains->count == 300);
+    packings[point.seed].insert(packing_key(scene));
+    solvers[point.seed].insert(scene.solver.name);
+  }
+  CHECK(ruled == 6);
+  CHECK(packings.size() == 10);
+  for (const auto& [seed, keys] : packings) {
+    CHECK(keys.size() == 1);
+    CHECK(solvers[seed] == std::set<std::string>{"nncg", "sap"});
+  }
 }
 
 TEST_CASE("the paper's reading is driven as its own scene says") {
