@@ -43,6 +43,27 @@ struct MatrixSearch {
   }
 };
 
+/// When to look at the error. The square of what a sweep changes comes for nothing, and while a
+/// solve goes on it stays in one proportion to the square of the error, within a tenth.
+class SweptChange {
+ public:
+  explicit SweptChange(double aim) : aim_(aim) {}
+
+  /// After a look at the error [m/s].
+  void seen(int sweeps, double square, double error) {
+    next_ = sweeps + apart;
+    enough_ = square * (near * aim_ / error) * (near * aim_ / error);
+  }
+  /// The error is likely to be small enough.
+  bool promises(int sweeps, double square) const { return sweeps >= next_ && square <= enough_; }
+
+ private:
+  static constexpr int apart = 4;  // sweeps between two looks, at least
+  static constexpr double near = 0.97;
+  double aim_, enough_ = -1.0;
+  int next_ = 0;
+};
+
 // One iteration, with r^ the iterate that the last sweep left and r the one it began from:
 //   d = r^ - r (minus the gradient),  beta = |d|^2 / |d before|^2
 //   beta > 1: the search restarts, p = 0, r := r^
@@ -67,7 +88,8 @@ class Nncg final : public Solver {
  private:
   template <typename Search>
   Solved iterate(Search& search, const FrictionProblem& problem, Impulses r, const Budget& budget) {
-    Iteration iteration(budget, {8, 1.2, 1.5});
+    Iteration iteration(budget, {8, 1.3, 1.5});
+    SweptChange change(budget.aim());
     allow_single(search.sweep, budget);
     load(search, problem, r);
     search.sweep.store(problem, r);
@@ -76,10 +98,12 @@ class Nncg final : public Solver {
     bool accelerates = true;
     while (iteration.next()) {
       square_ = search.advance(next_step(accelerates));
-      if (!iteration.error_due()) continue;
+      if (!iteration.error_due() && !change.promises(iteration.count(), square_)) continue;
+      const double swept = square_;
       const double error =
           swept_error(search.sweep, problem, iteration, r, [&] { load(search, problem, r); });
       iteration.evaluated(error, r);
+      change.seen(iteration.count(), swept, error);
       // The search rests where the error grew, until the next look.
       accelerates = !accelerates || error < last_error;
       if (!accelerates) forget(search);

@@ -16,9 +16,9 @@ using Numbers = std::vector<double>;
 /// vibrated_box_small with so few grains that all stages of it together take a second.
 Scene small_scene() {
   const std::vector<std::string> overrides = {
-      "grains.count=12",          "box.length=0.12",          "box.width=0.12",
-      "deposit.lid_time=0.02",    "deposit.settle_time=0.02", "control_volume.margin_x=0.02",
-      "solver.max_iterations=200"};
+      "grains.count=12",           "box.length=0.12",          "box.width=0.12",
+      "deposit.lid_time=0.02",     "deposit.settle_time=0.02", "control_volume.margin_x=0.02",
+      "solver.max_iterations=200", "correction.slop=0"};
   return read_scene(find_scene("vibrated_box_small"), overrides);
 }
 

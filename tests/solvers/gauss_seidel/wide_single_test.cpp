@@ -1,5 +1,7 @@
 // Sweeps in single precision that are made good in double at every look.
 
+#include <cmath>
+
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/backends/nncg.hpp"
@@ -134,5 +136,27 @@ TEST_CASE("single: backends that use it converge far below its rounding") {
                       {.tolerance = tolerance, .max_iterations = 100000, .max_seconds = 1e30});
     CHECK(solved.reason == StopReason::reached_tolerance);
     CHECK(contact_error(problem, solved.impulses).natural_map_rms <= tolerance);
+  }
+}
+
+TEST_CASE("nncg stops soon after its tolerance is reached, after few looks at the error") {
+  const FrictionProblem problem =
+      grain_problem({.grains = 600, .contacts = 2400, .reach = 20, .seed = 8});
+  const auto solver = make_nncg();
+  solver->prepare(problem);
+  const auto solve = [&](double tolerance, int most) {
+    return solver->solve(problem, Impulses::Zero(problem.row_count()),
+                         {.tolerance = tolerance, .max_iterations = most, .keep_history = true});
+  };
+  for (const double relative : {3e-3, 1e-3, 3e-4, 1e-4}) {
+    const double tolerance = relative * velocity_scale(problem);
+    const Solved solved = solve(tolerance, 20000);
+    INFO("relative " << relative << ", iterations " << solved.iterations);
+    REQUIRE(solved.reason == StopReason::reached_tolerance);
+    REQUIRE(solved.iterations > 40);
+    CHECK(solved.own_residual > 0.8 * tolerance);
+    // A tenth fewer would not have been enough.
+    CHECK(solve(tolerance, solved.iterations * 9 / 10).reason == StopReason::iteration_limit);
+    CHECK(solved.history.size() < 6.0 + std::log(solved.iterations) / std::log(1.25));
   }
 }
