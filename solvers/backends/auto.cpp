@@ -103,7 +103,6 @@ class Auto final : public Solver {
     ways_[interior].solver = make_interior_point();
     for (const Kind kind : {conjugate, anderson}) {
       ways_[kind].takes_best = 0.01;
-      ways_[kind].trust = 12.0;
       ways_[kind].only_factors = false;
     }
     ways_[burst].only_factors = false;
@@ -202,13 +201,17 @@ class Auto final : public Solver {
     ways_[interior].work = is_scarce_ ? 1.0 : interior_factor * step;
 
     const int few = std::clamp(budget.max_iterations / 8, 1, few_sweeps);
-    for (const Kind kind : {conjugate, anderson}) ways_[kind].expected = few * ways_[kind].work;
+    for (const Kind kind : {conjugate, anderson}) {
+      ways_[kind].expected = few * ways_[kind].work;
+      // With a stored W, where steps are dear, sweeps that seem to stand still go on longer.
+      ways_[kind].trust = problem.has_dynamics ? 12.0 : 4.0;
+    }
     // Over bodies bursts of sweeps are the shortest way more often than not; with a stored W
     // proximal steps are, and where iterations are scarce.
     const bool bursts = problem.has_dynamics && !is_scarce_;
     ways_[burst].expected = bursts ? steps(4.0, 0.01) * step : 100.0 * step;
     if (!problem.has_dynamics) ways_[burst].expected = never;
-    ways_[plain].expected = steps(16.0, 0.1) * step;
+    ways_[plain].expected = (problem.has_dynamics ? steps(16.0, 0.1) : steps(8.0, 0.02)) * step;
     ways_[proximal].expected =
         (bursts ? steps(20.0, 0.1) : steps(10.0, is_scarce_ ? 0.05 : 0.03)) * step;
     ways_[interior].expected = 40.0 * ways_[interior].work;
