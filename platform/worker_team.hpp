@@ -79,6 +79,9 @@ class WorkerTeam {
   TeamPatience patience_;
 };
 
+/// Of no team the caller is the only member.
+inline int size_of(const WorkerTeam* team) { return team ? team->size() : 1; }
+
 /// By the team, or by the caller alone where there is none.
 template <typename Task>
 void run_parts(WorkerTeam* team, int parts, const Task& task) {

@@ -7,6 +7,7 @@
 #include "experiments/measure/jam_stiffness.hpp"
 #include "platform/csv.hpp"
 #include "platform/text.hpp"
+#include "platform/worker_team.hpp"
 #include "solvers/seam/run_solver.hpp"
 
 namespace ballast {
@@ -87,7 +88,9 @@ class CapturedSolves {
     row.start = start;
     row.tolerance = tolerance;
     const std::unique_ptr<Solver> method = solver.make();
-    method->use_threads(options_.threads);
+    WorkerTeam team;
+    team.resize(options_.threads);
+    method->use_team(&team);
     const double scale = loaded_.facts.velocity_scale;
     const Budget budget{.tolerance = tolerance * scale,
                         .max_iterations = 1 << 30,

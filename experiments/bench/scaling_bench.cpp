@@ -12,6 +12,7 @@
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/pack.hpp"
+#include "platform/worker_team.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -31,8 +32,10 @@ double median_of(std::vector<double> values) {
 /// Wall clock of a sweep [s].
 double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int sweeps,
                      int threads) {
+  WorkerTeam team;
+  team.resize(threads);
   BodySweep sweep;
-  sweep.use_threads(threads);
+  sweep.use_team(&team);
   sweep.prepare(problem);
   sweep.load(problem, start);
   std::vector<double> seconds;
@@ -48,7 +51,9 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
 void solve_again(const std::string& solver, const FrictionProblem& problem, const Impulses& start,
                  const Budget& budget, ScalingPoint& point) {
   const std::unique_ptr<Solver> backend = make_solver(solver);
-  backend->use_threads(point.threads);
+  WorkerTeam team;
+  team.resize(point.threads);
+  backend->use_team(&team);
   SolverRunner runner;
   const SolverRun run = runner.run(*backend, problem, start, budget);
   point.iterations.push_back(run.success ? run.solved.iterations

@@ -66,7 +66,6 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& set
     solver_ = make_change_stopped(std::move(solver_),
                                   {settings.solver.change_tolerance, settings.solver.change_every});
   if (settings.solver.islands) solver_ = make_island_solver(std::move(solver_));
-  solver_->use_threads(settings.solver.threads);
   if (settings.solver.threads > 1) share_work(settings.solver.threads);
 }
 
@@ -74,11 +73,12 @@ int TimeStepper::steps_between_restarts() const {
   return settings_.detection.reuse_motion > 0.0 ? settings_.detection.refresh_steps : 1;
 }
 
-/// Detection, assembly and judgement have the same bits whatever the number of threads.
+/// Detection, assembly, solution and judgement have the same bits whatever the number of threads.
 void TimeStepper::share_work(int threads) {
   constexpr int parts_of_thread = 4;  // work of parts is known beforehand only roughly
   team_ = std::make_unique<WorkerTeam>();
   team_->resize(threads);
+  solver_->use_team(team_.get());
   assembler_.use_team(team_.get());
   runner_.use_team(team_.get());
   detector_.use_team(team_.get(), parts_of_thread * threads);

@@ -76,7 +76,7 @@ class TimeStepper {
   const MechanicalSystem& system_;
   StepSettings settings_;
   int driven_wall_;
-  std::unique_ptr<WorkerTeam> team_;  // for all but the solver, which has its own; null: one thread
+  std::unique_ptr<WorkerTeam> team_;  // null: one thread
   ContactDetector detector_;
   ProblemAssembler assembler_;
   OverlapCorrection correction_;

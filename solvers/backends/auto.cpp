@@ -115,8 +115,8 @@ class Auto final : public Solver {
     prepared(ways_[conjugate], problem);
   }
 
-  void use_threads(int threads) override {
-    for (Way& way : ways_) way.solver->use_threads(threads);
+  void use_team(WorkerTeam* team) override {
+    for (Way& way : ways_) way.solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {

@@ -26,7 +26,7 @@ class GaussSeidel final : public Solver {
       bodies_.prepare(problem);
   }
 
-  void use_threads(int threads) override { bodies_.use_threads(threads); }
+  void use_team(WorkerTeam* team) override { bodies_.use_team(team); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     return problem.has_delassus && !problem.has_dynamics

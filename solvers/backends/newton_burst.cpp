@@ -59,7 +59,7 @@ class NewtonBurst final : public Solver {
 
   double operations() const override { return is_ready_ ? newton_.operations() : 0.0; }
 
-  void use_threads(int threads) override { sweeps_->use_threads(threads); }
+  void use_team(WorkerTeam* team) override { sweeps_->use_team(team); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;

@@ -78,7 +78,7 @@ class Nncg final : public Solver {
     searches_.visit(problem, [&](auto& search) { search.sweep.prepare(problem); });
   }
 
-  void use_threads(int threads) override { searches_.bodies.sweep.use_threads(threads); }
+  void use_team(WorkerTeam* team) override { searches_.bodies.sweep.use_team(team); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     return searches_.visit(

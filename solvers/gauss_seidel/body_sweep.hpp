@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "platform/worker_team.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/gauss_seidel/scalar_sweep.hpp"
 #include "solvers/gauss_seidel/sweep_plan.hpp"
@@ -15,12 +14,16 @@ namespace ballast {
 
 class BodySweep {
  public:
-  BodySweep() : scalar_(plan_, team_), wide_(plan_, team_) {}
+  BodySweep() : scalar_(plan_), wide_(plan_) {}
 
   /// From the next prepare() on, contacts can be swept by a variant: one by one.
   void use_variants() { variants_ = true; }
-  /// How many threads share a sweep from now on (>= 1). The same bits whatever their number.
-  void use_threads(int threads) { team_.resize(threads); }
+  /// Whose members share a sweep from now on; null: the caller alone. The same bits whatever their
+  /// number.
+  void use_team(WorkerTeam* team) {
+    scalar_.use_team(team);
+    wide_.use_team(team);
+  }
 
   /// Records, masses, 1/rho: everything that does not depend on the impulses. `problem` has the
   /// dynamics form.
@@ -57,7 +60,6 @@ class BodySweep {
 
  private:
   SweepPlan plan_;
-  WorkerTeam team_;
   ScalarSweep scalar_;
   WideSweep wide_;
   bool variants_ = false, is_wide_ = false;

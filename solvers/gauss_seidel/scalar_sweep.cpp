@@ -33,10 +33,10 @@ void ScalarSweep::prepare(const FrictionProblem& problem) {
   prepare_ranges(problem);
   prepare_bodies(problem.dynamics);
   // Records do not depend on each other: every thread makes its share.
-  team_.run(team_.size(), [&](int member) {
+  run_parts(team_, size_of(team_), [&](int member) {
     const std::vector<int>& order = plan_.contacts();
-    const size_t begin = order.size() * member / team_.size(),
-                 end = order.size() * (member + 1) / team_.size();
+    const size_t begin = order.size() * member / size_of(team_),
+                 end = order.size() * (member + 1) / size_of(team_);
     for (size_t i = begin; i < end; ++i)
       if (is_one_row_[order[i]])
         prepare_one_row(problem, order[i], record_[order[i]]);
@@ -81,8 +81,9 @@ void ScalarSweep::prepare_ranges(const FrictionProblem& problem) {
 
 template <typename Task>
 void ScalarSweep::for_parts(const Task& task) {
-  team_.run(static_cast<int>(interiors_.size()), [&](int part) { task(interiors_[part]); });
-  team_.run(static_cast<int>(interfaces_.size()), [&](int part) { task(interfaces_[part]); });
+  run_parts(team_, static_cast<int>(interiors_.size()), [&](int part) { task(interiors_[part]); });
+  run_parts(team_, static_cast<int>(interfaces_.size()),
+            [&](int part) { task(interfaces_[part]); });
 }
 
 // Masses factored, and the free velocities in the variables w = L^T v.
@@ -186,11 +187,12 @@ double ScalarSweep::sweep(SearchStep step) {
                       velocity_.data());
   };
   // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
-  team_.run(static_cast<int>(interiors_.size()), [&](int slab) {
+  run_parts(team_, static_cast<int>(interiors_.size()), [&](int slab) {
     move_along(plan_.bodies(slab), step);
     sweep_range(interiors_[slab]);
   });
-  team_.run(static_cast<int>(interfaces_.size()), [&](int k) { sweep_range(interfaces_[k]); });
+  run_parts(team_, static_cast<int>(interfaces_.size()),
+            [&](int k) { sweep_range(interfaces_[k]); });
   double square = 0.0;
   for (const std::vector<Range>* ranges : {&interiors_, &interfaces_})
     for (const Range& range : *ranges) square += range.change_square;

@@ -19,7 +19,10 @@ namespace ballast {
 class ScalarSweep {
  public:
   /// Both outlive the sweep.
-  ScalarSweep(const SweepPlan& plan, WorkerTeam& team) : plan_(plan), team_(team) {}
+  explicit ScalarSweep(const SweepPlan& plan) : plan_(plan) {}
+
+  /// Shares sweeps, looks and preparation; null: one thread.
+  void use_team(WorkerTeam* team) { team_ = team; }
 
   /// As in BodySweep. The plan has been prepared for `problem`.
   void prepare(const FrictionProblem& problem);
@@ -54,7 +57,7 @@ class ScalarSweep {
   void prepare_one_row(const FrictionProblem& problem, int c, int record);
 
   const SweepPlan& plan_;
-  WorkerTeam& team_;
+  WorkerTeam* team_ = nullptr;
   std::vector<MassRoot> roots_;
   std::vector<BodyVelocity>
       free_velocity_;  ///< L^T v_free; then one for each part of the plan that never moves

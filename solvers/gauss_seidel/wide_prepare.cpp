@@ -213,10 +213,10 @@ WideSweep::Range WideSweep::add_groups(Kind<Group>& kind, int nowhere) {
 template <typename Group>
 bool WideSweep::make_records(const FrictionProblem& problem, Kind<Group>& kind,
                              const ExactLoops<Group>& loops) {
-  std::vector<char> made(team_.size(), 1);
-  team_.run(team_.size(), [&](int member) {
-    const size_t begin = kind.groups.size() * member / team_.size(),
-                 end = kind.groups.size() * (member + 1) / team_.size();
+  std::vector<char> made(size_of(team_), 1);
+  run_parts(team_, size_of(team_), [&](int member) {
+    const size_t begin = kind.groups.size() * member / size_of(team_),
+                 end = kind.groups.size() * (member + 1) / size_of(team_);
     for (size_t g = begin; g < end; ++g) {
       Group& k = kind.groups[g];
       GroupFrame& f = kind.frames[g];

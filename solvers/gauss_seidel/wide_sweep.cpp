@@ -120,13 +120,13 @@ double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, SearchS
                          search(state.wall, kernels.wall, part.wall);
   };
   // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
-  team_.run(static_cast<int>(interiors_.size()), [&](int slab) {
+  run_parts(team_, static_cast<int>(interiors_.size()), [&](int slab) {
     const Range bodies = interiors_[slab].bodies;
     kernels.move_bodies(bodies.count, step, state.bodies.data() + bodies.begin,
                         state.before.data() + bodies.begin, state.direction.data() + bodies.begin);
     sweep_part(interiors_[slab]);
   });
-  team_.run(static_cast<int>(interfaces_.size()), [&](int k) {
+  run_parts(team_, static_cast<int>(interfaces_.size()), [&](int k) {
     fetch_shared(state, k);
     sweep_part(interfaces_[k]);
   });

@@ -19,7 +19,10 @@ namespace ballast {
 class WideSweep {
  public:
   /// Both outlive the sweep.
-  WideSweep(const SweepPlan& plan, WorkerTeam& team) : plan_(plan), team_(team) {}
+  explicit WideSweep(const SweepPlan& plan) : plan_(plan) {}
+
+  /// Shares sweeps, looks and preparation; null: one thread.
+  void use_team(WorkerTeam* team) { team_ = team; }
 
   /// The plan has been prepared for `problem`. False, and nothing else may be called: another kind
   /// of problem, or one whose groups would stay empty for the most part.
@@ -113,8 +116,9 @@ class WideSweep {
   /// Calls task(part) for the interiors, then for the interfaces; those of a kind at the same time.
   template <typename Number, typename Task>
   void for_parts(const State<Number>& state, const Task& task) {
-    team_.run(static_cast<int>(interiors_.size()), [&](int slab) { task(interiors_[slab]); });
-    team_.run(static_cast<int>(interfaces_.size()), [&](int k) {
+    run_parts(team_, static_cast<int>(interiors_.size()),
+              [&](int slab) { task(interiors_[slab]); });
+    run_parts(team_, static_cast<int>(interfaces_.size()), [&](int k) {
       fetch_shared(state, k);
       task(interfaces_[k]);
     });
@@ -137,7 +141,7 @@ class WideSweep {
   void leave_single();
 
   const SweepPlan& plan_;
-  WorkerTeam& team_;
+  WorkerTeam* team_ = nullptr;
   const GroupKernels* kernels_ = &group_kernels();
 
   std::vector<MassRoot> roots_;

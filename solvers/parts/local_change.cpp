@@ -61,7 +61,7 @@ class ChangeStopped final : public Solver {
     change_.prepare(problem);
   }
 
-  void use_threads(int threads) override { backend_->use_threads(threads); }
+  void use_team(WorkerTeam* team) override { backend_->use_team(team); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     const Stopwatch watch;

@@ -39,7 +39,7 @@ class IslandSolver final : public Solver {
     if (!is_split_) backend_->prepare(problem);
   }
 
-  void use_threads(int threads) override { backend_->use_threads(threads); }
+  void use_team(WorkerTeam* team) override { backend_->use_team(team); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     if (is_split_ && budget.fclib) {  // a measure of the whole

@@ -23,7 +23,7 @@ struct SolverRun {
 /// Keeps the judge's workspace between calls.
 class SolverRunner {
  public:
-  /// Shares the judge's work (ContactJudge::use_team). Solvers have Solver::use_threads.
+  /// Shares the judge's work (ContactJudge::use_team). Solvers have Solver::use_team.
   void use_team(WorkerTeam* team) { judge_.use_team(team); }
 
   /// Of the last run: what the judge found besides.

@@ -26,6 +26,7 @@ const char* name_of(StopReason reason);
 const char* name_of(ContactLaw law);
 
 class FclibStop;
+class WorkerTeam;
 
 /// When to stop. The error meant is the judge's scaled natural map, rms over contacts, in m/s
 /// (contact_error.hpp).
@@ -93,9 +94,9 @@ class Solver {
   /// What one of its factorisations costs, known once it is prepared: multiplications and additions
   /// in dense blocks. 0: it has none, or does not know.
   virtual double operations() const { return 0.0; }
-  /// How many threads prepare() and solve() may use from now on. The same bits whatever their
-  /// number; a backend that has no use for more than one ignores it.
-  virtual void use_threads(int /*threads*/) {}
+  /// Whose members prepare() and solve() may use from now on; null: the caller alone. The same bits
+  /// whatever their number; a backend that has no use for more than one ignores it.
+  virtual void use_team(WorkerTeam* /*team*/) {}
   /// `start` is the first iterate (zero: cold) and is moved through: its storage comes back as
   /// Solved::impulses, so that a run of many steps does not allocate. `problem` is the one given to
   /// prepare().

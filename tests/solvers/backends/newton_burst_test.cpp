@@ -1,4 +1,5 @@
 #include "solvers/backends/newton_burst.hpp"
+#include "platform/worker_team.hpp"
 
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/nncg.hpp"
@@ -63,7 +64,9 @@ TEST_CASE("Newton takes over from sweeps to the same bits on any number of threa
   Impulses alone;
   for (const int threads : {1, 2}) {
     const auto solver = make_newton_burst({.start_sweeps = 20, .promised_sweeps = 10});
-    solver->use_threads(threads);
+    WorkerTeam team;
+    team.resize(threads);
+    solver->use_team(&team);
     const SolverRun run = SolverRunner().run(*solver, deficient(3), {}, budget);
     CHECK(run.success);
     if (threads == 1) alone = run.solved.impulses;

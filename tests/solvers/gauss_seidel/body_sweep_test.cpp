@@ -1,4 +1,5 @@
 #include "solvers/gauss_seidel/body_sweep.hpp"
+#include "platform/worker_team.hpp"
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
@@ -53,7 +54,9 @@ TEST_CASE(
     sweep->prepare(problem);
     sweep->load(problem, start);
   }
-  fast.use_threads(2);
+  WorkerTeam team;
+  team.resize(2);
+  fast.use_team(&team);
   fast.start_search();
   Eigen::VectorXd fast_state, slow_state;
   slow.save(slow_state);

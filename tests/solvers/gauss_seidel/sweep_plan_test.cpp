@@ -119,7 +119,9 @@ TEST_CASE("the same bits whatever the number of threads") {
     Impulses first;
     for (const int threads : {1, 2, 3, 7}) {
       const auto solver = accelerated ? make_nncg() : make_gauss_seidel({});
-      solver->use_threads(threads);
+      WorkerTeam team;
+      team.resize(threads);
+      solver->use_team(&team);
       solver->prepare(problem);
       const Solved solved = solver->solve(problem, Impulses::Zero(problem.row_count()),
                                           {.tolerance = 0.0, .max_iterations = 40});

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "platform/worker_team.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/backends/nncg.hpp"
@@ -17,11 +18,12 @@ namespace {
 struct Sweep {
   SweepPlan plan;
   WorkerTeam team;
-  WideSweep wide{plan, team};
+  WideSweep wide{plan};
 
   Sweep(const FrictionProblem& problem, bool single, const GroupKernels& kernels = group_kernels(),
         int threads = 1) {
     team.resize(threads);
+    wide.use_team(&team);
     plan.prepare(problem);
     wide.use_kernels(kernels);
     REQUIRE(wide.prepare(problem));

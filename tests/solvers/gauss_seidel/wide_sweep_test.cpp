@@ -1,6 +1,7 @@
 // The sweep in groups against the sweep contact after contact.
 
 #include "solvers/gauss_seidel/wide_sweep.hpp"
+#include "platform/worker_team.hpp"
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
@@ -17,12 +18,13 @@ namespace {
 struct Wide {
   SweepPlan plan;
   WorkerTeam team;
-  WideSweep sweep{plan, team};
+  WideSweep sweep{plan};
   bool fits;
 
   explicit Wide(const FrictionProblem& problem, const GroupKernels& kernels = group_kernels(),
                 int threads = 1) {
     team.resize(threads);
+    sweep.use_team(&team);
     plan.prepare(problem);
     sweep.use_kernels(kernels);
     fits = sweep.prepare(problem);
@@ -31,8 +33,7 @@ struct Wide {
 
 struct Scalar {
   SweepPlan plan;
-  WorkerTeam team;
-  ScalarSweep sweep{plan, team};
+  ScalarSweep sweep{plan};
 
   explicit Scalar(const FrictionProblem& problem) {
     plan.prepare(problem);
