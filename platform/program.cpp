@@ -19,8 +19,10 @@ namespace ballast {
 namespace fs = std::filesystem;
 namespace {
 
-/// How many threads OpenBLAS and OpenMP take.
-constexpr const char* algebra_threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"};
+/// How many threads OpenBLAS and OpenMP take. CHOLMOD asks for four whatever the second says: they
+/// wait for each other, spinning, wherever another program has a core. The third forbids it.
+constexpr const char* algebra_threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
+                                           "OMP_THREAD_LIMIT"};
 
 /// A program, its arguments and its environment as exec wants them: made before the fork, after
 /// which no memory may be asked for when there are threads.
@@ -186,7 +188,7 @@ std::vector<std::string> own_words() {
 
 void restart_with_one_algebra_thread() {
   std::vector<std::string> words = own_words();
-  if (getenv(algebra_threads[0]) || words.empty()) return;
+  if (std::ranges::all_of(algebra_threads, getenv) || words.empty()) return;
   for (const char* name : algebra_threads) setenv(name, "1", 0);
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

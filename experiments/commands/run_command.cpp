@@ -96,6 +96,7 @@ void tell_end(const RunEnd& end, ExitCode code, const std::vector<std::string>& 
 }
 
 ExitCode run_scene(RunRequest& request) {
+  restart_with_one_algebra_thread();
   request.run.again = command_that_goes_on();
   request.run.telling = request.is_json    ? Telling::program
                         : request.is_quiet ? Telling::nobody

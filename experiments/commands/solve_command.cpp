@@ -12,6 +12,7 @@
 #include "experiments/compare/compare_options.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/files/solution_file.hpp"
@@ -226,6 +227,7 @@ MakeSolver maker_of(SolveOptions& options) {
 }
 
 ExitCode solve(SolveOptions& options) {
+  restart_with_one_algebra_thread();
   options.make = maker_of(options);
   if (std::isinf(options.tolerance))
     throw UsageError("solve: --tolerance: expected a finite number");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -128,9 +129,13 @@ class Auto final : public Solver {
     }
     count_work(problem);
     // Iterations may be what is scarce: fewer than fair shares of work would take. Then one is as
-    // dear as another.
+    // dear as another; but of thousands, sweeps may use a part as they are: most arrive.
     const double fair = 30.0 + 0.15 * problem.contact_count();
-    is_scarce_ = fair * step_ > budget.max_iterations * sweep_;
+    const bool can_end = fair * step_ > budget.max_iterations * sweep_;
+    const int part = budget.max_iterations <= few_iterations ? 0 : budget.max_iterations / 4;
+    scarce_from_ = can_end ? part : std::numeric_limits<int>::max();
+    is_scarce_ = scarce_from_ == 0;
+    used_ = 0;
     expect(problem, budget);
     Relay relay(budget, std::move(start));
     // Always the most promising way; its leg ends where another promises more. Whatever the budget,
@@ -142,6 +147,7 @@ class Auto final : public Solver {
       const bool is_news = learn_step(prepared(next, problem), problem, budget);
       if (is_news && &ways_[most_promising(budget)] != &next) continue;
       go(next, relay, problem, budget);
+      if (!is_scarce_ && used_ >= scarce_from_) count_iterations(problem, budget);
     }
     return relay.finish();
   }
@@ -185,6 +191,16 @@ class Auto final : public Solver {
             front_operation * operations;
     expect(problem, budget);
     return true;
+  }
+
+  /// From here on iterations are what is scarce. Every way begins to count anew.
+  void count_iterations(const FrictionProblem& problem, const Budget& budget) {
+    is_scarce_ = true;
+    for (Way& way : ways_) {
+      way.pace.begin();
+      way.spent = 0.0;
+    }
+    expect(problem, budget);
   }
 
   /// What each way is expected to need before it has shown its pace.
@@ -252,6 +268,7 @@ class Auto final : public Solver {
     const std::function<bool(int, double)> leave = [&](int iterations, double error) {
       way.spent = work(iterations);
       way.pace.add(way.spent, error);
+      if (!is_scarce_ && used_ + iterations >= scarce_from_) return has_left = true;
       if (way.spent < least) return false;
       const Way& other = ways_[most_promising(budget)];
       has_left = promise(way, budget) > by_far * promise(other, budget);
@@ -266,6 +283,7 @@ class Auto final : public Solver {
       Solved part = solver.solve(problem, is_own ? way.at : std::move(best), left);
       way.spent = work(part.iterations);
       way.at = part.impulses;
+      used_ += part.iterations;
       if (!has_left) ++way.stalls;
       if (budget.factorisations)
         *budget.factorisations += way.only_factors ? part.iterations : factorisations;
@@ -278,6 +296,8 @@ class Auto final : public Solver {
   static constexpr double never = 1e300;
   /// Sweeps that are taken to be enough before they have shown their pace.
   static constexpr int few_sweeps = 64;
+  /// Of so few every iteration counts from the first.
+  static constexpr int few_iterations = 500;
   /// Sweeps that cost as much as a factorisation that is dear.
   static constexpr double dear_step = 80.0;
   /// Changing ways costs: the other's promise must be so much better.
@@ -289,6 +309,7 @@ class Auto final : public Solver {
   double sweep_ = 0.0, step_ = 0.0;  ///< work of one
   bool knows_step_ = false;          ///< step_ is from the fill
   bool is_scarce_ = false;
+  int used_ = 0, scarce_from_ = 0;  ///< iterations; scarce from so many on
 };
 
 }  // namespace

@@ -109,11 +109,12 @@ TEST_CASE("a program beside us has one thread of linear algebra, where nothing e
   const std::string kept = old ? old : "";
   unsetenv("OPENBLAS_NUM_THREADS");
   setenv("OMP_NUM_THREADS", "2", 1);
-  BackgroundProgram program("/bin/sh", {"-c", "echo $OPENBLAS_NUM_THREADS $OMP_NUM_THREADS"}, log);
+  BackgroundProgram program(
+      "/bin/sh", {"-c", "echo $OPENBLAS_NUM_THREADS $OMP_NUM_THREADS $OMP_THREAD_LIMIT"}, log);
   CHECK(status_of(program) == 0);
   unsetenv("OMP_NUM_THREADS");
   if (old) setenv("OPENBLAS_NUM_THREADS", kept.c_str(), 1);
-  CHECK(read_whole_file(log) == "1 2\n");
+  CHECK(read_whole_file(log) == "1 2 1\n");
 }
 
 TEST_CASE("what cannot be started says so in the log") {

@@ -63,6 +63,22 @@ TEST_CASE("where iterations are scarce, sweeps leave them to Newton while there 
   CHECK(by_sweeps < 5);
 }
 
+TEST_CASE("of thousands of iterations sweeps that arrive take what they need; the rest is Newton's",
+          "[factors]") {
+  const auto pile = [](double redundancy, double mass_ratio) {
+    return make_pile(
+        {.contacts = 1500, .redundancy = redundancy, .mass_ratio = mass_ratio, .seed = 3});
+  };
+  int factorisations = 0;
+  const Budget thousands{
+      .tolerance = 1e-7, .max_iterations = 10000, .factorisations = &factorisations};
+  CHECK(solved(make_auto(), pile(0.5, 100.0), thousands).success);
+  CHECK(factorisations == 0);
+  CHECK_FALSE(solved(make_nncg(), pile(0.7, 10.0), thousands).success);
+  CHECK(solved(make_auto(), pile(0.7, 10.0), thousands).success);
+  CHECK(factorisations > 0);
+}
+
 TEST_CASE("the turns are counted in work, not by the clock: the same bits every time",
           "[factors]") {
   const FrictionProblem problem = heavy_pile(7, true);
