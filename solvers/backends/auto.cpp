@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "solvers/backends/anderson_pgs.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
@@ -14,6 +13,7 @@
 #include "solvers/backends/newton.hpp"
 #include "solvers/backends/newton_burst.hpp"
 #include "solvers/backends/nncg.hpp"
+#include "solvers/backends/work_pace.hpp"
 #include "solvers/seam/relay.hpp"
 
 namespace ballast {
@@ -43,38 +43,6 @@ constexpr double sparse_row = 3000.0, filled_rows = 600.0;
 /// An interior point's step over Newton's.
 constexpr double interior_factor = 2.0;
 
-/// How fast one way's error has come down with its work.
-class Pace {
- public:
-  void begin() { points_.clear(); }
-  void add(double work, double error) {
-    if (!points_.empty()) error = std::min(error, points_.back().error);
-    points_.push_back({work, error});
-  }
-  double error() const { return points_.empty() ? 1e300 : points_.back().error; }
-  /// ln of the error per work, over the later half of the work; 0: it stands still.
-  double rate() const {
-    if (points_.empty()) return 0.0;
-    const Point& last = points_.back();
-    size_t k = points_.size() - 1;
-    while (k > 0 && 2.0 * points_[k].work > last.work) --k;
-    const double work = last.work - points_[k].work;
-    return work > 0.0 && last.error > 0.0 ? std::log(points_[k].error / last.error) / work : 0.0;
-  }
-  /// Work to `aim` at that rate.
-  double left(double aim) const {
-    if (!(error() > aim)) return 0.0;
-    const double pace = rate();
-    return pace > 0.0 && aim > 0.0 ? std::log(error() / aim) / pace : 1e300;
-  }
-
- private:
-  struct Point {
-    double work, error;
-  };
-  std::vector<Point> points_;
-};
-
 /// One way to the solution, from an iterate of its own: where another way has come to misleads
 /// accelerated sweeps more often than it helps them.
 struct Way {
@@ -88,7 +56,7 @@ struct Way {
   double factorisation = 0;  ///< besides, of one that factors
   double expected = 0.0;     ///< work, as long as it has not shown its pace
   double spent = 0.0;        ///< work
-  Pace pace;
+  WorkPace pace;
   int stalls = 0;
   Impulses at;
 };
