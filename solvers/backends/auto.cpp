@@ -103,7 +103,6 @@ class Auto final : public Solver {
     const int part = budget.max_iterations <= few_iterations ? 0 : budget.max_iterations / 4;
     scarce_from_ = can_end ? part : std::numeric_limits<int>::max();
     is_scarce_ = scarce_from_ == 0;
-    used_ = 0;
     expect(problem, budget);
     Relay relay(budget, std::move(start));
     // Always the most promising way; its leg ends where another promises more. Whatever the budget,
@@ -115,7 +114,7 @@ class Auto final : public Solver {
       const bool is_news = learn_step(prepared(next, problem), problem, budget);
       if (is_news && &ways_[most_promising(budget)] != &next) continue;
       go(next, relay, problem, budget);
-      if (!is_scarce_ && used_ >= scarce_from_) count_iterations(problem, budget);
+      if (!is_scarce_ && relay.iterations() >= scarce_from_) count_iterations(problem, budget);
     }
     return relay.finish();
   }
@@ -236,7 +235,7 @@ class Auto final : public Solver {
     const std::function<bool(int, double)> leave = [&](int iterations, double error) {
       way.spent = work(iterations);
       way.pace.add(way.spent, error);
-      if (!is_scarce_ && used_ + iterations >= scarce_from_) return has_left = true;
+      if (!is_scarce_ && relay.iterations() + iterations >= scarce_from_) return has_left = true;
       if (way.spent < least) return false;
       const Way& other = ways_[most_promising(budget)];
       has_left = promise(way, budget) > by_far * promise(other, budget);
@@ -251,7 +250,6 @@ class Auto final : public Solver {
       Solved part = solver.solve(problem, is_own ? way.at : std::move(best), left);
       way.spent = work(part.iterations);
       way.at = part.impulses;
-      used_ += part.iterations;
       if (!has_left) ++way.stalls;
       if (budget.factorisations)
         *budget.factorisations += way.only_factors ? part.iterations : factorisations;
@@ -277,7 +275,7 @@ class Auto final : public Solver {
   double sweep_ = 0.0, step_ = 0.0;  ///< work of one
   bool knows_step_ = false;          ///< step_ is from the fill
   bool is_scarce_ = false;
-  int used_ = 0, scarce_from_ = 0;  ///< iterations; scarce from so many on
+  int scarce_from_ = 0;  ///< so many iterations of the whole solve
 };
 
 }  // namespace

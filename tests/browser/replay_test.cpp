@@ -11,8 +11,8 @@
 #include "experiments/view/problem_view.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/text.hpp"
-#include "problems/files/captured_problem.hpp"
 #include "tests/support/browser.hpp"
+#include "tests/support/captured_run.hpp"
 
 namespace ballast {
 namespace {
@@ -218,15 +218,7 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
 TEST_CASE("two backends' errors stand side by side, and the worst contact is found") {
   if (Browser::is_missing()) return;
   const TemporaryFolder place;
-  RunOptions options;
-  options.scene = "settled_rest";
-  options.overrides = {"scene.duration=0.01"};
-  options.output = place.path() / "run";
-  options.capture = "every=5";
-  run(options);
-  fs::path file;
-  for (const auto& entry : fs::recursive_directory_iterator(options.output / "capture"))
-    if (is_captured(entry.path())) file = entry.path();
+  const fs::path file = captured_run(place.path() / "run");
   const ViewData view =
       view_of_problem(file, {.backends = {"pgs", "auto"}, .iterations = {1, 10, 100}});
   write_view_page(view, place.path() / "errors.html");

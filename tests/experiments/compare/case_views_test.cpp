@@ -1,9 +1,9 @@
 #include "experiments/compare/case_views.hpp"
 
 #include "experiments/compare/compare_options.hpp"
-#include "experiments/run/run.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/captured_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace ballast {
@@ -13,15 +13,9 @@ namespace fs = std::filesystem;
 
 TEST_CASE("captured cases are seen in 3D with the backends that gave an answer, others are not") {
   const TemporaryFolder place;
-  RunOptions run_options;
-  run_options.scene = "settled_rest";
-  run_options.overrides = {"scene.duration=0.01"};
-  run_options.output = place.path() / "run";
-  run_options.capture = "every=5";
-  run(run_options);
-  const std::string captured = (place.path() / "run" / "capture").string();
-  for (const auto& entry : fs::directory_iterator(captured))
-    fs::copy_file(entry.path(), place.path() / "alone.hdf5", fs::copy_options::overwrite_existing);
+  const fs::path file = captured_run(place.path() / "run");
+  const std::string captured = file.parent_path().string();
+  fs::copy_file(file, place.path() / "alone.hdf5");
 
   CompareOptions options;
   options.solvers = parse_solvers("pgs,jacobi,nncg");

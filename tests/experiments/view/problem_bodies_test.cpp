@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "experiments/run/run.hpp"
 #include "experiments/view/problem_view.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/captured_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace ballast {
@@ -62,14 +62,7 @@ TEST_CASE("a lever is read from H, however the bodies are turned") {
 
 TEST_CASE("a problem alone knows where its bodies are: there where the run has them") {
   const TemporaryFolder folder;
-  RunOptions options;
-  options.scene = "settled_rest";
-  options.overrides = {"scene.duration=0.01"};
-  options.output = folder.path() / "run";
-  options.capture = "every=5";
-  run(options);
-  fs::path file;
-  for (const auto& entry : fs::directory_iterator(options.output / "capture")) file = entry.path();
+  const fs::path file = captured_run(folder.path() / "run");
   const ErrorQuestion question{.backends = {"pgs"}, .iterations = {10}};
   const ViewData in_run = view_of_problem(file, question);
   fs::copy_file(file, folder.path() / "alone.hdf5");
