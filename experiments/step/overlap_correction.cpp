@@ -38,6 +38,14 @@ OverlapCorrection::OverlapCorrection(const MechanicalSystem& system, const Corre
   displacement_.setZero(static_cast<Eigen::Index>(inverse_mass_.size()));
 }
 
+/// 1 / (H_N M^-1 H_N^T) of a contact; zero where nothing of it can be displaced.
+double OverlapCorrection::stiffness_of(const FrictionProblem& problem, int c) const {
+  double compliance = 0.0;
+  for_normal_row(problem, c,
+                 [&](int dof, double row) { compliance += row * row * inverse_mass_[dof]; });
+  return compliance > 0.0 ? 1.0 / compliance : 0.0;
+}
+
 /// min 1/2 d.M d subject to next_gap + H_N d >= wanted at every point, d the bodies' displacements.
 double OverlapCorrection::apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
                                 std::span<const ContactPoint> contacts, const Eigen::VectorXd& v,
@@ -48,7 +56,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
       contacts.begin(), contacts.end(), [&](const ContactPoint& c) { return c.gap < tolerated; });
   if (nothing_overlaps) return 0.0;
 
-  // A row for each contact point: how far its bodies must be moved apart, and how stiff that is.
+  // A row for each contact point: how far its bodies must be moved apart.
   rows_.clear();
   for (int c = 0; c < problem.contact_count(); ++c) {
     const ContactPoint& contact = contacts[assembler.detected()[c]];
@@ -56,16 +64,19 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
     // a fraction of the overlap goes; a point that is open or within the slop may close to the
     // slop, no further
     const double wanted = tolerated + (1.0 - spec_.fraction) * std::min(0.0, next_gap - tolerated);
-    double compliance = 0.0;
-    for_normal_row(problem, c,
-                   [&](int dof, double row) { compliance += row * row * inverse_mass_[dof]; });
-    if (compliance > 0.0) rows_.push_back({c, wanted - next_gap, 1.0 / compliance, 0.0});
+    rows_.push_back({c, wanted - next_gap, -1.0, 0.0});
   }
 
   // Projected Gauss-Seidel on displacements: pushes only push (>= 0), heavy bodies move less.
   displacement_.setZero();
+  is_displaced_.assign(problem.dynamics.body_count(), 0);
+  const auto displaced = [this](int body) { return body >= 0 && is_displaced_[body]; };
   for (int sweep = 0; sweep < spec_.sweeps; ++sweep) {
     for (Row& row : rows_) {
+      // Of most points nothing is asked, and no neighbour has come nearer.
+      const int a = problem.dynamics.body_a[row.contact], b = problem.dynamics.body_b[row.contact];
+      if (row.target <= 0.0 && !displaced(a) && !displaced(b)) continue;
+      if (row.stiffness < 0.0) row.stiffness = stiffness_of(problem, row.contact);
       double moved = 0.0;
       for_normal_row(problem, row.contact, [&](int dof, double coefficient) {
         moved += coefficient * displacement_[dof];
@@ -75,6 +86,8 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
       const double change = push - row.push;
       if (change == 0.0) continue;
       row.push = push;
+      for (const int body : {a, b})
+        if (body >= 0) is_displaced_[body] = 1;
       for_normal_row(problem, row.contact, [&](int dof, double coefficient) {
         displacement_[dof] += inverse_mass_[dof] * coefficient * change;
       });

@@ -32,14 +32,17 @@ class OverlapCorrection {
                MotionState& state);
 
  private:
+  double stiffness_of(const FrictionProblem& problem, int c) const;
+
   const MechanicalSystem& system_;
   CorrectionSpec spec_;
   std::vector<double> inverse_mass_;  // per unknown; 0 for driven walls
   Eigen::VectorXd displacement_;
+  std::vector<char> is_displaced_;  // per body of the problem
   struct Row {
     int contact;
     double target;     // least H_N d [m]
-    double stiffness;  // 1 / (H_N M^-1 H_N^T)
+    double stiffness;  // 1 / (H_N M^-1 H_N^T); negative: not yet computed
     double push;       // accumulated multiplier [kg m]
   };
   std::vector<Row> rows_;

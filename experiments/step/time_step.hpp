@@ -62,6 +62,8 @@ class TimeStepper {
   void warm_start(Impulses& rows) const { assembler_.to_rows(carried_, rows); }
   const DetectionCounters& detection_counters() const { return resting_.counters(detector_); }
   const ContactError& error() const { return error_; }
+  /// For what is done between steps; null: there is one thread.
+  WorkerTeam* team() const { return team_.get(); }
 
  private:
   void share_work(int threads);

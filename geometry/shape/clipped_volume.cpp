@@ -7,11 +7,11 @@ namespace ballast {
 namespace {
 
 /// Six times the volume between the origin and a flat polygon, positive when it is
-/// counter-clockwise seen from beyond.
-double sixfold_cone(std::span<const Vec3> polygon) {
+/// counter-clockwise seen from beyond. corner(k): its k-th of `count` corners.
+template <typename Corner>
+double sixfold_cone(size_t count, const Corner& corner) {
   double sum = 0.0;
-  for (size_t k = 2; k < polygon.size(); ++k)
-    sum += polygon[0].dot(polygon[k - 1].cross(polygon[k]));
+  for (size_t k = 2; k < count; ++k) sum += corner(0).dot(corner(k - 1).cross(corner(k)));
   return sum;
 }
 
@@ -85,19 +85,28 @@ double BoxClipper::cut_volume(const Polyhedron& polyhedron, Cuts cuts) {
   }
   double sixfold = 0.0;
   for (int f = 0; f < polyhedron.face_count(); ++f)
-    sixfold += sixfold_cone(clip_face(polyhedron.face(f), cuts));
+    sixfold += sixfold_part(polyhedron.face(f), cuts);
   return sixfold / 6.0;
 }
 
-/// The part of a face within all half-spaces: Sutherland & Hodgman, one half-space after the other.
-std::span<const Vec3> BoxClipper::clip_face(std::span<const int> loop, Cuts cuts) {
+/// Six times the volume between the apex and the part of a face within all half-spaces.
+double BoxClipper::sixfold_part(std::span<const int> loop, Cuts cuts) {
   // A face wholly beyond one half-space is gone; half-spaces that hold all its corners need no cut.
   unsigned any = 0, all = ~0u;
   for (const int v : loop) {
     any |= outside_[v];
     all &= outside_[v];
   }
-  if (all != 0) return {};
+  if (all != 0) return 0.0;
+  if (any == 0)
+    return sixfold_cone(loop.size(), [&](size_t k) -> const Vec3& { return points_[loop[k]]; });
+  clip_face(loop, cuts, any);
+  return sixfold_cone(polygon_.size(), [&](size_t k) -> const Vec3& { return polygon_[k]; });
+}
+
+/// Makes polygon_ the part of a face within the half-spaces named by the bits of `any`: Sutherland
+/// & Hodgman, one half-space after the other.
+void BoxClipper::clip_face(std::span<const int> loop, Cuts cuts, unsigned any) {
   polygon_.clear();
   for (const int v : loop) polygon_.push_back(points_[v]);
   for (size_t k = 0; k < cuts.size(); ++k) {
@@ -117,7 +126,6 @@ std::span<const Vec3> BoxClipper::clip_face(std::span<const int> loop, Cuts cuts
     }
     std::swap(polygon_, next_polygon_);
   }
-  return polygon_;
 }
 
 }  // namespace ballast

@@ -32,7 +32,8 @@ class BoxClipper {
   /// At most one cut in each direction.
   using Cuts = std::span<const HalfSpace>;
   double cut_volume(const Polyhedron& polyhedron, Cuts cuts);
-  std::span<const Vec3> clip_face(std::span<const int> loop, Cuts cuts);
+  double sixfold_part(std::span<const int> loop, Cuts cuts);
+  void clip_face(std::span<const int> loop, Cuts cuts, unsigned any);
 
   std::vector<Vec3> world_;        // vertices, world frame [m]
   std::vector<Vec3> points_;       // vertices, from the apex o

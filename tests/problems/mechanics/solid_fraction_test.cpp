@@ -52,6 +52,24 @@ TEST_CASE("solid fraction: a wall of cubes fills the box, wherever the box lies"
   }
 }
 
+TEST_CASE("solid fraction: the same bits whoever shares the work") {
+  Random random(11);
+  std::vector<Vec3> places;
+  for (int k = 0; k < 100; ++k)
+    places.emplace_back(random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 4));
+  MotionState state;
+  const MechanicalSystem system = cubes(places, state);
+  ControlVolume alone(Vec3(0.3, 0.3, 0.3), Vec3(3.3, 3.1, 3.7));
+  const double expected = alone.solid_fraction(system, state);
+  for (const int threads : {1, 2, 3}) {
+    WorkerTeam team;
+    team.resize(threads);
+    ControlVolume shared(alone.lo(), alone.hi());
+    CHECK(shared.solid_fraction(system, state, &team) == expected);
+    CHECK(alone.solid_fraction(system, state, &team) == expected);
+  }
+}
+
 TEST_CASE("a control volume without volume is refused") {
   CHECK_THROWS_AS(ControlVolume(Vec3(0, 0, 0), Vec3(1, -1, 1)), std::invalid_argument);
   CHECK_THROWS_AS(ControlVolume(Vec3(0, 0, 0), Vec3(1, 0, 1)), std::invalid_argument);
