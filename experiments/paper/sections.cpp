@@ -25,6 +25,17 @@ PaperSection packing_section(PaperData& data);
 PaperSection looseness_section(PaperData& data);
 PaperSection sensitivity_section(PaperData& data);
 PaperSection investigation_section(PaperData& data);  ///< why exponents, C and compaction differ
+// the decisive stages, each section under its stage's name
+PaperSection box_section(PaperData& data);       ///< C against L/H
+PaperSection replicas_section(PaperData& data);  ///< the floor of chaos
+PaperSection tight_section(PaperData& data);     ///< solver error and exponents
+PaperSection deposits_section(PaperData& data);
+PaperSection loads_section(PaperData& data);
+PaperSection shapes_section(PaperData& data);
+PaperSection sizes_section(PaperData& data);
+PaperSection laws_section(PaperData& data);
+PaperSection rule_section(PaperData& data);
+PaperSection reading_section(PaperData& data);  ///< both scenes beside the paper
 
 namespace {
 
@@ -54,7 +65,23 @@ std::vector<ReportSection> make_table() {
            investigation_section,
            false,
            {frequency, force, gravity, size, iterations, iterations_fast, time_step, time_step_fast,
-            loose_frequency, rough_frequency, strong_frequency, lid}}};
+            loose_frequency, rough_frequency, strong_frequency, lid}},
+          {"box", box_section, false, {box_length, box_length_fast}},
+          {"replicas", replicas_section, false, {replica, replica_fast}},
+          {"tight", tight_section, false, {tight_frequency}},
+          {"deposits",
+           deposits_section,
+           false,
+           {pressed_frequency, placed_rough_frequency, placed_frequency, pressed_rough_frequency}},
+          {"loads",
+           loads_section,
+           false,
+           {light_frequency, light_strong_frequency, light_half_frequency}},
+          {"shapes", shapes_section, false, {shape, shape_fast}},
+          {"sizes", sizes_section, false, {size_similar, size_wide}},
+          {"laws", laws_section, false, {exact_law, convex_law}},
+          {"rule", rule_section, false, {rule_frequency}},
+          {"reading", reading_section, false, {reading_frequency}}};
 }
 
 constexpr const char* every_section = "all";

@@ -83,7 +83,8 @@ class Drive {
   void measure(StepRecord& record) {
     const Stopwatch watch;
     if (run_.control_volume)
-      record.solid_fraction = run_.control_volume->solid_fraction(run_.system, run_.state, stepper_.team());
+      record.solid_fraction =
+          run_.control_volume->solid_fraction(run_.system, run_.state, stepper_.team());
     if (capture_) capture_->observe(stepper_, run_.state, record);
     record.seconds_other += watch.seconds();
   }

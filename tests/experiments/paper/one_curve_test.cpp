@@ -21,7 +21,7 @@ struct Law {
 /// Three samples of one setting; the packings have offsets of their own.
 VariedValue value_of(double value, double nu, double force, double g, double wall, const Law& law,
                      Random& random) {
-  VariedValue result{value, "", 3, {}, {1, 2, 3}};
+  VariedValue result{value, "", 3, {}, {1, 2, 3}, {}};
   for (int seed = 1; seed <= 3; ++seed) {
     Observation seen;
     seen.facts.frequency = nu;

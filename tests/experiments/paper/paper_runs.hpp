@@ -77,6 +77,7 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
   manifest.summary("wall_mass_kg", scene.drive.wall_mass_over_grains * mass);
   manifest.summary("frequency_Hz", scene.drive.frequency);
   manifest.summary("solid_fraction_initial", 0.50);
+  manifest.summary("packing_top_m", 0.46);
   manifest.summary(steps_left_entry, 0.0);
   manifest.write(folder / "manifest.json");
 }
