@@ -43,13 +43,17 @@ constexpr double sparse_row = 3000.0, filled_rows = 600.0;
 /// An interior point's step over Newton's.
 constexpr double interior_factor = 2.0;
 
+/// Way::trust of sweeps; where iterations may be scarce; of bursts, which arrive the most often of
+/// Newton's ways though their error may stand for long; of others.
+constexpr double moderate = 4.0, little = 12.0, reliable = 0.25, doubtful = 2.0;
+
 /// One way to the solution, from an iterate of its own: where another way has come to misleads
 /// accelerated sweeps more often than it helps them.
 struct Way {
   std::unique_ptr<Solver> solver;
   /// It goes on from the best iterate where that is so much better than its own.
   double takes_best = 0.0;
-  double trust = 2.0;  ///< it is taken to need at most so many times the work that it has had
+  double trust = doubtful;  ///< it is taken to need at most so many times the work that it has had
   bool is_prepared = false;
   bool only_factors = true;  ///< every iteration is a factorisation
   double work = 0.0;         ///< of an iteration
@@ -68,23 +72,20 @@ class Auto final : public Solver {
     ways_[anderson].solver = make_anderson_pgs({});
     ways_[plain].solver = make_newton({.equation = ContactEquation::alart_curnier});
     ways_[proximal].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4});
-    ways_[burst].solver = make_newton_burst({.start_sweeps = 0, .burst = 50, .endgame = 1e-2});
+    choose_bursts(true);
     ways_[interior].solver = make_interior_point();
-    for (const Kind kind : {conjugate, anderson}) {
-      ways_[kind].takes_best = 0.01;
-      ways_[kind].only_factors = false;
-    }
-    ways_[burst].only_factors = false;
+    for (const Kind kind : {conjugate, anderson}) ways_[kind].takes_best = 0.01;
     for (const Kind kind : {plain, proximal, burst}) ways_[kind].takes_best = 0.5;
+    for (const Kind kind : {conjugate, anderson, burst}) ways_[kind].only_factors = false;
   }
 
   void prepare(const FrictionProblem& problem) override {
     for (Way& way : ways_) way.is_prepared = false;
-    // The others are prepared when their turn comes: ordering costs as much as many sweeps.
-    prepared(ways_[conjugate], problem);
+    prepared(ways_[conjugate], problem);  // the others when their turn comes: ordering is dear
   }
 
   void use_team(WorkerTeam* team) override {
+    team_ = team;
     for (Way& way : ways_) way.solver->use_team(team);
   }
 
@@ -96,17 +97,17 @@ class Auto final : public Solver {
       way.at = start;
     }
     count_work(problem);
-    // Iterations may be what is scarce: fewer than fair shares of work would take. Then one is as
-    // dear as another; but of thousands, sweeps may use a part as they are: most arrive.
-    const double fair = 30.0 + 0.15 * problem.contact_count();
+    // Iterations may be scarce: fewer than fair shares of work would take. Then one is as dear as
+    // another; but of thousands, sweeps may use a part as they are: most arrive.
+    const double fair = 100.0 + 0.15 * problem.contact_count();
     const bool can_end = fair * step_ > budget.max_iterations * sweep_;
     const int part = budget.max_iterations <= few_iterations ? 0 : budget.max_iterations / 4;
     scarce_from_ = can_end ? part : std::numeric_limits<int>::max();
     is_scarce_ = scarce_from_ == 0;
+    if (has_bursts_ == can_end) choose_bursts(!can_end);
     expect(problem, budget);
     Relay relay(budget, std::move(start));
-    // Always the most promising way; its leg ends where another promises more. Whatever the budget,
-    // the first leg says how good the start is.
+    // Always the most promising way; its leg ends where another promises more.
     go(ways_[conjugate], relay, problem, budget);
     while (!relay.over()) {
       Way& next = ways_[most_promising(budget)];
@@ -128,6 +129,15 @@ class Auto final : public Solver {
     return *way.solver;
   }
 
+  /// Bursts until proximal steps are much faster; hardly any where iterations may be scarce.
+  void choose_bursts(bool many) {
+    Way& way = ways_[burst];
+    has_bursts_ = many;
+    way.solver = make_newton_burst({.start_sweeps = 0, .burst = 50, .endgame = many ? 1e-4 : 1e-2});
+    way.solver->use_team(team_);
+    way.is_prepared = false;
+  }
+
   /// What a sweep and a Newton step cost, as far as sizes tell.
   void count_work(const FrictionProblem& problem) {
     const double contacts = problem.contact_count();
@@ -146,6 +156,8 @@ class Auto final : public Solver {
       const double sparse = sparse_row * rows * (1.0 + rows / filled_rows);
       step_ = newton_contact * contacts + (is_dense ? std::min(dense, sparse) : sparse);
     }
+    // Mixing is cheap with a stored W. Where a factorisation is dear it is tried before.
+    mixed_part_ = problem.has_dynamics && step_ < dear_step * sweep_ ? 2.0 : 0.5;
   }
 
   /// The first solver that is prepared for factorisations over bodies knows their fill. True: that
@@ -170,7 +182,7 @@ class Auto final : public Solver {
     expect(problem, budget);
   }
 
-  /// What each way is expected to need before it has shown its pace.
+  /// What each way is taken to need before it has shown its pace.
   void expect(const FrictionProblem& problem, const Budget& budget) {
     const double contacts = problem.contact_count();
     const auto steps = [&](double few, double per_contact) { return few + per_contact * contacts; };
@@ -186,18 +198,18 @@ class Auto final : public Solver {
     const int few = std::clamp(budget.max_iterations / 8, 1, few_sweeps);
     for (const Kind kind : {conjugate, anderson}) {
       ways_[kind].expected = few * ways_[kind].work;
-      // With a stored W, where steps are dear, sweeps that seem to stand still go on longer.
-      ways_[kind].trust = problem.has_dynamics ? 12.0 : 4.0;
+      ways_[kind].trust = has_bursts_ || !problem.has_dynamics ? moderate : little;
     }
     // Over bodies bursts of sweeps are the shortest way more often than not; with a stored W
     // proximal steps are, and where iterations are scarce.
     const bool bursts = problem.has_dynamics && !is_scarce_;
     ways_[burst].expected = bursts ? steps(4.0, 0.01) * step : 100.0 * step;
     if (!problem.has_dynamics) ways_[burst].expected = never;
-    ways_[plain].expected = (problem.has_dynamics ? steps(16.0, 0.1) : steps(8.0, 0.02)) * step;
+    ways_[plain].expected = steps(problem.has_dynamics ? 16.0 : 30.0, 0.1) * step;
     ways_[proximal].expected =
         (bursts ? steps(20.0, 0.1) : steps(10.0, is_scarce_ ? 0.05 : 0.03)) * step;
     ways_[interior].expected = 40.0 * ways_[interior].work;
+    ways_[burst].trust = has_bursts_ ? reliable : doubtful;
   }
 
   /// Work until `way` arrives, as far as one can tell: what its pace says, but not more than
@@ -209,11 +221,8 @@ class Auto final : public Solver {
   }
 
   size_t most_promising(const Budget& budget) {
-    // Where a factorisation is dear, the other kind of sweeps is tried before Newton.
-    const double part = step_ > dear_step * sweep_ ? 0.5 : 1.5;
-    Way& mixed = ways_[anderson];
-    const Way& first = ways_[conjugate];
-    mixed.expected = std::max(mixed.expected, part * first.spent / first.work * mixed.work);
+    Way &first = ways_[conjugate], &mixed = ways_[anderson];
+    mixed.expected = std::max(mixed.expected, mixed_part_ * first.spent / first.work * mixed.work);
     size_t best = 0;
     for (size_t k = 1; k < kinds; ++k)
       if (promise(ways_[k], budget) < promise(ways_[best], budget)) best = k;
@@ -265,7 +274,7 @@ class Auto final : public Solver {
   /// Of so few every iteration counts from the first.
   static constexpr int few_iterations = 500;
   /// Sweeps that cost as much as a factorisation that is dear.
-  static constexpr double dear_step = 80.0;
+  static constexpr double dear_step = 120.0;
   /// Changing ways costs: the other's promise must be so much better.
   static constexpr double by_far = 2.5;
   /// How often every way may end without arriving and by itself.
@@ -273,8 +282,11 @@ class Auto final : public Solver {
 
   std::array<Way, kinds> ways_;
   double sweep_ = 0.0, step_ = 0.0;  ///< work of one
-  bool knows_step_ = false;          ///< step_ is from the fill
+  double mixed_part_ = 0.0;  ///< mixed sweeps are taken to need, of what plain ones have had
+  bool knows_step_ = false;  ///< step_ is from the fill
   bool is_scarce_ = false;
+  bool has_bursts_ = true;  ///< many of them
+  WorkerTeam* team_ = nullptr;
   int scarce_from_ = 0;  ///< so many iterations of the whole solve
 };
 

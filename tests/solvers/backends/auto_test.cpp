@@ -107,3 +107,29 @@ TEST_CASE("where a factorisation fills, other sweeps are tried before it", "[fac
   CHECK(work.factorisations == 0);
   CHECK(work.sweeps < 700);
 }
+
+TEST_CASE("bursts of sweeps between Newton steps go on though their error stands for long",
+          "[factors]") {
+  // Left after the first steps for plain and proximal Newton: 49 factorisations and 1885 sweeps.
+  const Work work = work_to(make_pile(random_pile(22, 1000)), 1e-8);
+  CHECK(work.factorisations < 35);
+  CHECK(work.sweeps < 1100);
+}
+
+TEST_CASE("with a stored W plain Newton's turn comes after proximal steps", "[factors]") {
+  // Where it came first: 98 and 140 factorisations.
+  for (const std::uint64_t seed : {12, 29}) {
+    const PileSettings settings = random_pile(seed, 1000);
+    REQUIRE(settings.is_stored);
+    CHECK(work_to(make_pile(settings), 1e-8).factorisations < 70);
+  }
+}
+
+TEST_CASE("sweeps that come down slowly are not left early for Newton", "[factors]") {
+  // With little trust in them: 29 factorisations.
+  const FrictionProblem problem =
+      make_known_solution({.bodies = 100, .contacts = 300, .mass_ratio = 1e2, .seed = 4}).problem;
+  const Work work = work_to(problem, 1e-8);
+  CHECK(work.factorisations == 0);
+  CHECK(work.sweeps < 2600);
+}
