@@ -16,8 +16,6 @@
 
 namespace ballast {
 
-std::string help_file(const std::string& name);  // of experiments/commands/help
-
 namespace {
 
 void print_failure(std::ostream& err, const std::string& what) {
@@ -58,20 +56,16 @@ void add_word(CLI::App& app, const Word& word) {
   for (const std::string& other : word.needs) option->needs(app.get_option(other));
 }
 
-/// What --help says after the options: built in by CMake, without its last line end.
-std::string help_text(const std::string& command) {
-  std::string text = help_file(command + ".txt");
-  if (!text.empty()) text.pop_back();
-  return text;
-}
-
-/// Tells CLI11 of a command; when it is the one that is named, `chosen` is set.
-void add_command(CLI::App& app, const Command& command, const Command*& chosen) {
+/// Tells CLI11 of the command `path`, "compare merge"; when it is the one that is named, `chosen`
+/// is set.
+void add_command(CLI::App& app, const std::string& path, const Command& command,
+                 const Command*& chosen) {
   CLI::App* added = app.add_subcommand(command.name, command.meaning);
   if (!command.alias.empty()) added->alias(command.alias);
-  if (const std::string text = help_text(command.name); !text.empty()) added->footer(text);
+  added->footer(help_text(path));  // else CLI11 hands down that of the command above
   for (const Word& word : command.words) add_word(*added, word);
-  for (const Command& part : command.parts) add_command(*added, part, chosen);
+  for (const Command& part : command.parts)
+    add_command(*added, path + ' ' + part.name, part, chosen);
   // A subcommand is called back before the command above it, which then has nothing to do.
   if (command.act)
     added->require_subcommand(0, 1)->callback([&command, &chosen] {
@@ -169,7 +163,7 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
   program.set_version_flag("--version", build_line());
   const std::vector<Command> all = commands();
   const Command* chosen = nullptr;
-  for (const Command& command : all) add_command(program, command, chosen);
+  for (const Command& command : all) add_command(program, command.name, command, chosen);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

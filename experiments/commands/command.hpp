@@ -88,8 +88,7 @@ Rule into(Value& value, Parser parser) {
   return parsed([&value, parser](const std::string& text) { value = parser(text); });
 }
 
-/// One command of the program. What its --help says after the options is help/<name>.txt; where
-/// there is no such file, that of the command above it.
+/// One command of the program.
 struct Command {
   std::string name, meaning;
   std::vector<Word> words;
@@ -102,6 +101,10 @@ struct Command {
 
 /// All, in the order of --help, with their defaults. A new command is its file and a row here.
 std::vector<Command> commands();
+
+/// What --help says after the options of "ballast", "run" or "compare merge": help/run.txt,
+/// help/compare_merge.txt, without its last line end; empty where there is no such file.
+std::string help_text(std::string path);
 
 /// The whole program: parses, acts, and turns every failure into one line "ballast: ..." on `err`
 /// and an exit code.

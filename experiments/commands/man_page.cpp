@@ -7,9 +7,6 @@
 #include "experiments/run/build_info.hpp"
 
 namespace ballast {
-
-std::string help_file(const std::string& name);  // of experiments/commands/help
-
 namespace {
 
 /// Text that troff takes as it is: no requests, no escapes, hyphens that can be copied.
@@ -33,9 +30,9 @@ std::string entry(const std::string& name, const std::string& meaning) {
 }
 
 /// Examples and notes, line by line.
-std::string notes(const std::string& command) {
-  const std::string text = help_file(command + ".txt");
-  return text.empty() ? "" : ".PP\n.nf\n" + troff_text(text) + ".fi\n";
+std::string notes(const std::string& path) {
+  const std::string text = help_text(path);
+  return text.empty() ? "" : ".PP\n.nf\n" + troff_text(text) + "\n.fi\n";
 }
 
 std::string section_of(const std::string& path, const Command& command) {
@@ -43,7 +40,7 @@ std::string section_of(const std::string& path, const Command& command) {
   if (!command.alias.empty()) text += "Also: " + troff_text(command.alias) + ".\n";
   for (const Word& word : command.words)
     text += entry(word.name, word.meaning + (word.is_required ? " (required)" : ""));
-  text += notes(command.name);
+  text += notes(path);
   for (const Command& part : command.parts) text += section_of(path + ' ' + part.name, part);
   return text;
 }

@@ -111,6 +111,7 @@ RunFacts facts_of(const RunData& data) {
   if (!data.scene) return facts;
   const Scene& scene = *data.scene;
   if (!std::isfinite(facts.step)) facts.step = scene.step;
+  if (scene.solver.tolerance > 0.0) facts.tolerance = scene.solver.tolerance;
   facts.gravity = scene.gravity.norm();
   facts.has_packing = scene.grains.has_value();
   bool has_driven = scene.grains.has_value();

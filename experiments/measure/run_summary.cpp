@@ -61,10 +61,11 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
   summary.error_mean_relative = summary.error_rms.mean / scale;
   summary.error_max_relative = summary.error_rms.max / scale;
   summary.error_worst_contact = summary.error_max.max / scale;
-  if (summary.error_rms.samples && std::isfinite(scale)) {
-    const auto above = std::count_if(rms.begin(), rms.end(),
-                                     [&](double e) { return e > target::error_mean * scale; });
-    summary.above_target =
+  const double tolerance = summary.facts.tolerance * scale;
+  if (summary.error_rms.samples && std::isfinite(tolerance)) {
+    const auto above =
+        std::count_if(rms.begin(), rms.end(), [&](double e) { return e > tolerance; });
+    summary.above_tolerance =
         static_cast<double>(above) / static_cast<double>(summary.error_rms.samples);
   }
   // the deepest overlap and when it was

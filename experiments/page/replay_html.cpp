@@ -9,19 +9,20 @@
 
 namespace ballast {
 
-std::string replay_file(const std::string& name);  // of experiments/page/replay
+std::string replay_file(const std::string& name);   // of experiments/page/replay
+std::string answers_file(const std::string& name);  // of experiments/page/answers
 
 namespace page {
 namespace {
 
 /// The modules in the order in which they build upon each other.
-constexpr std::array modules = {"vector.js", "colour.js", "decode.js", "data.js",  "camera.js",
-                                "shader.js", "mesh.js",   "light.js",  "rods.js",  "drawing.js",
-                                "rest.js",   "shades.js", "marks.js",  "pick.js",  "plots.js",
-                                "panel.js",  "errors.js", "input.js",  "replay.js"};
+constexpr std::array modules = {"vector.js", "colour.js", "decode.js",  "data.js",  "camera.js",
+                                "shader.js", "mesh.js",   "light.js",   "rods.js",  "drawing.js",
+                                "rest.js",   "shades.js", "marks.js",   "pick.js",  "plots.js",
+                                "panel.js",  "errors.js", "address.js", "input.js", "replay.js"};
 
 std::string script() {
-  std::string code = "(() => {\n\"use strict\";\n";
+  std::string code = "(() => {\n\"use strict\";\n" + answers_file("choice.js");
   for (const char* name : modules) code += replay_file(name);
   return code + "})();\n";
 }

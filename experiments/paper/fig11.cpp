@@ -20,6 +20,7 @@ VariedCurve points_on_eq3(const std::vector<VariedValue>& values) {
     points.y.push_back(1e3 * rise.mean);
     points.error.push_back(1e3 * rise.error);
     points.errors_from += rise.samples - 1;
+    points.origins.push_back(value.origin());
   }
   return points;
 }
@@ -61,6 +62,7 @@ Panel eq3_panel(const std::vector<VariedCurve>& parts, const VariedCurve& all, d
       shown.x.push_back(parts[b].x[k]);
       shown.y.push_back(parts[b].y[k]);
       shown.error.push_back(parts[b].error[k]);
+      shown.origins.push_back(parts[b].origins[k]);
     }
     if (shown.x.empty()) continue;
     Curve curve = points_of(shown, is_inset ? "" : all_series()[b].title, all_series()[b].ink);

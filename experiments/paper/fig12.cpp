@@ -37,9 +37,11 @@ PaperSection fig12_section(PaperData& data) {
   if (runs.empty()) return section;
   constexpr Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::purple, Ink::orange};
   Panel panel;
-  for (size_t k = 0; k < runs.size(); ++k)
+  for (size_t k = 0; k < runs.size(); ++k) {
     draw_solid_fraction(runs[k].data, runs[k].summary.compaction.initial,
                         "sample " + std::to_string(k + 1), inks[k % std::size(inks)], 1.6, panel);
+    panel.curves.back().origins = {runs[k].origin};
+  }
   const auto mean = [&](double Compaction::*value) {
     return mean_over(runs, [&](const RunSummary& s) { return s.compaction.*value; });
   };

@@ -31,6 +31,7 @@ VariedCurve known_points(const std::vector<VariedValue>& values, double Observat
     known.y.push_back(all.y[k]);
     known.error.push_back(all.error[k]);
     known.errors_from = all.errors_from;
+    known.origins.push_back(all.origins[k]);
   }
   return known;
 }

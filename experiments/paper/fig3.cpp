@@ -79,7 +79,7 @@ void add_motion(const std::vector<MotionRun>& runs, PaperSection& section) {
                            {"rise", words_of(rise)},
                            {"net", words_of(net)},
                            {"rise_mean", page::number(rise.mean)}};
-  section.draw("fig3", motion_figure(runs.front()), words);
+  section.draw("fig3", of_run(runs.front(), motion_figure(runs.front())), words);
   section.claim("fig3.first", words, PaperRange::at_most(paper_lag), found(time));
   section.claim("fig3.slow", words, PaperRange::at_least(0.0), found(net));
 }

@@ -65,7 +65,8 @@ PaperSection fig4_section(PaperData& data) {
                            {"smooth", page::number(smooth.mean, 2)},
                            {"creep", page::number(creep.mean, 2)},
                            {"share", page::number(share.mean, 2)}};
-  section.draw("fig4", figure_4(runs.front().data, runs.front().summary).plot, words);
+  const MotionRun& shown = runs.front();
+  section.draw("fig4", of_run(shown, figure_4(shown.data, shown.summary).plot), words);
   section.tables = {branch_table(runs)};
   section.claim("fig4.active", words, good_fit, found(active));
   section.claim("fig4.passive", words, good_fit, found(passive));

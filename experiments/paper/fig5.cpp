@@ -121,7 +121,8 @@ PaperSection fig5_section(PaperData& data) {
                           page::number(1e3 * model.rise_from_jam),
                           page::number(1e3 * s.speed_in.mean), page::number(1e3 * model.speed_in),
                           page::percent(speeds.back())});
-    if (drawn.panels.empty() && !model.last.time.empty()) drawn = draw(runs[k], model);
+    if (drawn.panels.empty() && !model.last.time.empty())
+      drawn = of_run(runs[k], draw(runs[k], model));
   }
   const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds),
                    jam = sample_mean(from_jam);

@@ -17,10 +17,16 @@ std::vector<PairForce> StoredState::pairs() const {
   return pair_forces(at.memory.contacts, at.memory.impulses, step);
 }
 
+Figure of_run(const MotionRun& run, Figure figure) {
+  for (Panel& panel : figure.panels)
+    for (Curve& curve : panel.curves) curve.origins = {run.origin};
+  return figure;
+}
+
 std::vector<MotionRun> read_motion(PaperData& data, PaperSection& section) {
   std::vector<MotionRun> runs;
   for (const size_t run : data.motion()) {
-    MotionRun motion{data.read(run), {}};
+    MotionRun motion{data.read(run), {}, origin_of_runs({run})};
     motion.summary = summarise(motion.data.steps, motion.data.facts);
     runs.push_back(std::move(motion));
   }

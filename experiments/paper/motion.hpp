@@ -13,7 +13,11 @@ namespace ballast {
 struct MotionRun {
   RunData data;
   RunSummary summary;
+  std::string origin;  ///< for Curve::origins
 };
+
+/// A figure of one run alone: all its curves open that run.
+Figure of_run(const MotionRun& run, Figure figure);
 
 /// Finished 5 Hz runs; what is missing is noted in `section`.
 std::vector<MotionRun> read_motion(PaperData& data, PaperSection& section);

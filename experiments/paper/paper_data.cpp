@@ -122,7 +122,7 @@ const Observation* PaperData::observation(const CampaignPoint& point) {
               .first->second;
 }
 
-std::string VariedValue::origin() const {
+std::string origin_of_runs(const std::vector<size_t>& runs) {
   std::string name = "runs";
   for (const size_t run : runs) name += ' ' + std::to_string(run);
   return name;

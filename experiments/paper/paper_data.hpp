@@ -13,6 +13,9 @@
 
 namespace ballast {
 
+/// For Curve::origins: "runs 3 14", numbers in the campaign.
+std::string origin_of_runs(const std::vector<size_t>& runs);
+
 /// One value of what is varied, with what its seeds gave.
 struct VariedValue {
   double value = 0.0;
@@ -20,8 +23,8 @@ struct VariedValue {
   int planned = 0;                   ///< seeds that the campaign has
   std::vector<Observation> samples;  ///< seeds that are finished
   std::vector<int> seeds;            ///< theirs, growing
-  std::vector<size_t> runs;          ///< theirs, in the campaign
-  std::string origin() const;        ///< for Curve::origins: "runs 3 14"
+  std::vector<size_t> runs = {};     ///< theirs, in the campaign
+  std::string origin() const { return origin_of_runs(runs); }
   SampleMean mean(double Observation::*quantity) const;
   const Observation* of_seed(int seed) const;  ///< null: not finished
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/run_page/figures.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -23,16 +24,15 @@ page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   panel.curves = {
       column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
       column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
-  const bool has_bounds = *summary.facts.has_packing;  // they are the vibrated box's
-  if (is_relative && has_bounds)
-    panel.lines = {{target::error_mean, "10^{−3}: bound on the mean", false, Ink::grey},
-                   {target::error_max, "10^{−2}: bound on every step", false, Ink::grey}};
+  const double tolerance = summary.facts.tolerance;
+  if (is_relative && std::isfinite(tolerance))
+    panel.lines = {{tolerance, printed("%g: tolerance", tolerance), false, Ink::grey}};
   page::Text caption = page::words("run.error");
   caption += page::words(is_relative ? "run.error.relative" : "run.error.absolute",
                          {{"scale", page::quantity(scale, "m/s")},
                           {"mean", page::number(summary.error_mean_relative)},
                           {"max", page::number(summary.error_max_relative)}});
-  if (is_relative && has_bounds) caption += page::words("run.error.box");
+  if (is_relative && *summary.facts.has_packing) caption += page::words("run.error.box");
   return run_picture("error", 420, {panel}, caption);
 }
 

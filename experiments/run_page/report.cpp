@@ -83,6 +83,7 @@ void write_report(const std::filesystem::path& folder) {
   page.lede = lede_of(data, summary);
   page.notices.heading = "To be known before reading";
   page.notices.items.assign(data.notices.begin(), data.notices.end());
+  page.answers = {.are_given = true, .with_curves = true};
   page.add({"motion", "What happens", {replay}});
   page.add({"results", "The run in numbers", {results_table(summary)}});
   page.add(pictures("paper", has_packing ? "What the paper shows" : "Motion of the wall",

@@ -88,6 +88,9 @@ class Browser {
       call("Input.dispatchMouseEvent",
            {{"type", type}, {"x", x}, {"y", y}, {"button", "left"}, {"clickCount", 1}});
   }
+  void hover(double x, double y) {
+    call("Input.dispatchMouseEvent", {{"type", "mouseMoved"}, {"x", x}, {"y", y}});
+  }
   void key(const std::string& name, const std::string& text = {}) {
     for (const char* type : {"keyDown", "keyUp"})
       call("Input.dispatchKeyEvent", {{"type", type}, {"key", name}, {"text", text}});

@@ -3,6 +3,8 @@
 
 const page_data = JSON.parse(document.getElementById("page-data").textContent);
 document.documentElement.classList.add("answers");
-for (const table of document.querySelectorAll("main table:not(.facts)")) make_sortable(table);
+// tables whose first column has no head are in groups
+for (const table of document.querySelectorAll("main table:not(.facts)"))
+  if (table.tHead?.rows[0].cells[0].textContent) make_sortable(table);
 draw_pictures(page_data.pictures ?? []);
 show_origins(page_data.origins ?? {});

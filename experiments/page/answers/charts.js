@@ -141,7 +141,9 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
     Chart.defaults.font.family = getComputedStyle(said).fontFamily;
     Chart.defaults.font.size = 13;
     Chart.defaults.color = variable("ink");
-    const sets = figure.curves.map((curve) => ({ ...dataset_of(curve), hidden: !is_shown(curve) }));
+    // later curves stand above earlier ones, as in the drawn figure
+    const sets = figure.curves.map((curve, k) => ({ ...dataset_of(curve), order: -k,
+                                                    hidden: !is_shown(curve) }));
     if (all.length) sets.push(...(figure.lines ?? []).map((line) => line_of(line, all)));
     chart = new Chart(canvas, { type: "line", data: { datasets: sets }, options: options(),
                                 plugins: [error_bars] });

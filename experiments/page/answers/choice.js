@@ -8,6 +8,15 @@ const choice = (() => {
     text = location.hash.slice(1);
     // an address without "=" leads to a section of the page: nothing is chosen by it
     values = new URLSearchParams(text.includes("=") ? text : "");
+    values.delete("");
+  };
+  const write = () => {
+    // an empty address would lead to the top of the page
+    const next = values.toString() || (text && "=");
+    if (next === text) return;
+    text = next;
+    // not history.replaceState: some browsers refuse it to files
+    location.replace("#" + text);
   };
   read();
   addEventListener("hashchange", () => {
@@ -21,12 +30,17 @@ const choice = (() => {
     has: (name, value) => values.getAll(name).includes(value),
     /// A string, a list, or null: nothing chosen.
     set(name, value) {
-      values.delete(name);
-      for (const one of [value ?? []].flat()) values.append(name, one);
-      text = values.toString();
-      // not history.replaceState: some browsers refuse it to files
-      location.replace("#" + text);
+      this.keep({ [name]: value });
       for (const tell of listeners) tell();
+    },
+    /// Several at once, which the page shows already: its listeners are not told.
+    keep(changes) {
+      read();  // a replay in the page keeps its own there
+      for (const [name, value] of Object.entries(changes)) {
+        values.delete(name);
+        for (const one of [value ?? []].flat()) values.append(name, one);
+      }
+      write();
     },
     toggle(name, value) {
       const list = values.getAll(name);

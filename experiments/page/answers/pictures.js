@@ -43,6 +43,8 @@ function draw_pictures(pictures) {
     drawn.classList.add("still");
     const made = picture_charts(picture);
     drawn.after(...made.map((chart) => chart.element));
-    made.forEach((chart) => chart.draw());
+    // a replay's first picture comes first
+    if (document.getElementById("replay")) made.forEach((chart) => setTimeout(chart.draw));
+    else made.forEach((chart) => chart.draw());
   }
 }

@@ -2,20 +2,33 @@
 
 const viewAngle = 28 * Math.PI / 180;
 
+// The yaw and pitch of the views along the axes.
+const axisViews = { x: [0, 0], "-x": [180, 0], y: [90, 0], "-y": [-90, 0], z: [-90, 90],
+  "-z": [-90, -90] };
+
 class Camera {
   constructor(data) {
     this.data = data;
     this.home();
   }
   home() {
-    const { centre, radius } = this.data;
-    Object.assign(this, { target: [...centre], yaw: -52, pitch: 20, distance: 3.9 * radius });
+    this.homeDistance = 3.9 * this.data.radius;
+    Object.assign(this, { target: [...this.data.centre], yaw: -52, pitch: 20,
+      distance: this.homeDistance });
   }
   // From where along an axis: "x", "-x", ...
   along(name) {
-    const [yaw, pitch] = { x: [0, 0], "-x": [180, 0], y: [90, 0], "-y": [-90, 0],
-      z: [-90, 90], "-z": [-90, -90] }[name];
+    if (!(name in axisViews)) return;
+    const [yaw, pitch] = axisViews[name];
     Object.assign(this, { target: [...this.data.centre], yaw, pitch });
+  }
+  // Along which axis one looks now; empty: along none.
+  name() {
+    return Object.keys(axisViews).find((name) =>
+      axisViews[name][0] === this.yaw && axisViews[name][1] === this.pitch) || "";
+  }
+  isCentred() {
+    return this.target.every((v, k) => v === this.data.centre[k]);
   }
   get eye() {
     const yaw = this.yaw * Math.PI / 180, pitch = this.pitch * Math.PI / 180;

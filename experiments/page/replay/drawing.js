@@ -1,6 +1,6 @@
 // One canvas and all that is drawn into it with WebGL 2.
 
-const slots = { states: 0, ramp: 1, shadow: 2, picture: 3 };  // texture units
+const slots = { states: 0, ramp: 1, shadow: 2, picture: 3, rods: 4 };  // texture units
 
 class Stage {
   constructor(canvas, data, mesh) {

@@ -46,28 +46,38 @@ class ErrorView {
   }
 
   // What the page's address says: #left=pgs&right=auto&budget=100
-  readAddress() {
-    const said = new URLSearchParams(location.hash.slice(1));
+  read() {
     const { iterations } = this.solves[0], last = this.solves.length - 1;
     const asked = ["left", "right"].map((side) =>
-      this.solves.findIndex((solve) => solve.backend === said.get(side)));
+      this.solves.findIndex((solve) => solve.backend === choice.get(side)));
     if (asked[0] >= 0) this.shown = [asked[0], asked[0] === last ? 0 : last];
     if (asked[1] >= 0) this.shown[1] = asked[1];
-    const within = iterations.filter((budget) => budget <= +said.get("budget")).length;
+    const within = iterations.filter((budget) => budget <= +choice.get("budget")).length;
     if (within) this.budget = within - 1;
+    ["left", "right"].forEach((side, k) => {
+      if (element(side)) element(side).value = this.shown[k];
+    });
+    element("budget").value = this.budget;
+    this.say();
+  }
+
+  // The same as it is now.
+  words() {
+    if (!this.isOn) return {};
+    const [left, right] = this.shown.map((k) => this.solves[k].backend);
+    return { left, right, budget: String(this.solves[0].iterations[this.budget]) };
   }
 
   // The controls: who is shown where, the budget, the way to the worst contact.
   build(replay) {
     if (!this.isOn) return;
-    this.readAddress();
     const place = element("errors"), { iterations } = this.solves[0];
     const names = this.solves.map((solve, k) => [String(k), solve.backend]);
     const two = this.solves.length > 1;
     place.hidden = false;
     place.replaceChildren(
-      choice("left", two ? "left" : "backend", names, String(this.shown[0])),
-      ...two ? [choice("right", "right", names, String(this.shown[1]))] : [],
+      selection("left", two ? "left" : "backend", names, String(this.shown[0])),
+      ...two ? [selection("right", "right", names, String(this.shown[1]))] : [],
       make("label", {}, "iterations", make("input", { id: "replay-budget", type: "range", min: "0",
         max: String(iterations.length - 1), step: "1", value: String(this.budget),
         "aria-label": "iterations" })),

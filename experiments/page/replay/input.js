@@ -88,7 +88,10 @@ function listenToPanel(replay) {
     replay.setPlaying(false);
     replay.setTime(+slider_.value);
   });
-  on("rate", "change", (select) => { replay.rate = +select.value; });
+  on("rate", "change", (select) => {
+    replay.rate = +select.value;
+    replay.touched();
+  });
   on("colour", "change", (select) => replay.set({ colour: select.value }));
   on("grains", "change", (select) => replay.set({ grains: select.value }));
   on("chains", "change", (box) => replay.set({ chains: box.checked,

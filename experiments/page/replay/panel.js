@@ -8,7 +8,7 @@ function make(tag, attributes = {}, ...children) {
   made.append(...children);
   return made;
 }
-const choice = (id, words, options, chosen) => {
+const selection = (id, words, options, chosen) => {
   const select = make("select", { id: "replay-" + id },
     ...options.map(([value, text]) => make("option", { value, selected: value === chosen }, text)));
   return make("label", {}, words, select);
@@ -44,15 +44,15 @@ function buildPanel(data, shades) {
       button("on", "\u25b8\u25b8", "One stored frame on"),
       slider("time", "", data.begin, data.end, data.begin),
       make("output", { id: "replay-clock" }),
-      choice("rate", "speed", [["0.01", "1/100"], ["0.02", "1/50"], ["0.05", "1/20"],
+      selection("rate", "speed", [["0.01", "1/100"], ["0.02", "1/50"], ["0.05", "1/20"],
         ["0.1", "1/10"], ["0.2", "1/5"], ["0.5", "1/2"], ["1", "1"], ["2", "2"]], "0.2")),
     make("div", { class: "controls" },
-      choice("colour", "colour", colours, moves ? "speed" : "size"),
-      choice("grains", "grains", [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]],
+      selection("colour", "colour", colours, moves ? "speed" : "size"),
+      selection("grains", "grains", [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]],
         "solid"),
       ...hasContacts ? [tick("chains", "force chains"), slider("threshold", "above", 0, 5, 1),
         make("output", { id: "replay-thresholdtext" }), tick("points", "contact points")] : [],
-      choice("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], ""),
+      selection("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], ""),
       slider("cutat", "", 0, 1, 0.5),
       make("span", { class: "views-along" }, "view ",
         ...[["home", "home"], ["x", "x"], ["-x", "\u2212x"], ["y", "y"], ["-y", "\u2212y"],

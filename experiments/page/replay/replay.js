@@ -1,5 +1,4 @@
-// The replay itself: one time, one camera, and what the reader has chosen. A page's address may say
-// where to begin: #t=0.3&colour=displacement&cut=y:0.5&chains=1&view=x&play=0
+// The replay itself: one time, one camera, and what the reader has chosen.
 
 class Replay {
   constructor(data) {
@@ -19,8 +18,9 @@ class Replay {
     this.options.colour = element("colour").value;
     this.mesh = new Mesh(data);
     this.errors = new ErrorView(data);
-    this.errors.build(this);
     if (this.errors.isOn) Object.assign(this.options, { colour: "none", grains: "ghost" });
+    this.address = new Address(this);
+    this.errors.build(this);
     this.stages = ["canvas", "second"].filter(element).map((id) =>
       new Stage(element(id), data, this.mesh));
     this.plots = new Plots(element("plots"), data, (time) => {
@@ -28,7 +28,7 @@ class Replay {
       this.setTime(time);
     });
     this.readStyle();
-    this.readAddress();
+    this.address.read();
     for (const { canvas } of this.stages) {
       listenToPointer(canvas, this);
       listenToKeys(canvas, this);
@@ -60,28 +60,6 @@ class Replay {
     const names = ["paper", "ink", "soft", "rule", "grid", "grey", "blue", "vermilion", "green",
       "purple", "orange"];
     this.colours = Object.fromEntries(names.map((name) => [name, styleColour(name)]));
-  }
-
-  readAddress() {
-    const said = new URLSearchParams(location.hash.slice(1)), has = (name) => said.has(name);
-    for (const name of ["colour", "grains"]) if (has(name)) this.options[name] = said.get(name);
-    for (const name of ["chains", "points"])
-      if (said.get(name) === "1") Object.assign(this.options, { [name]: true, grains: "ghost" });
-    if (has("threshold")) this.options.threshold = +said.get("threshold");
-    if (has("cut")) {
-      const [axis, at] = said.get("cut").split(":");
-      Object.assign(this.options, { cut: axis, cutAt: at ? +at : 0.5 });
-    }
-    if (has("grains")) this.options.grains = said.get("grains");
-    if (has("pick")) this.options.picked = +said.get("pick");
-    // for tests: the quick picture alone
-    if (said.get("rest") === "0") for (const stage of this.stages) stage.canRest = false;
-    if (has("view")) this.camera.along(said.get("view"));
-    for (const name of ["yaw", "pitch"]) if (has(name)) this.camera[name] = +said.get(name);
-    if (has("zoom")) this.camera.zoom(1 / +said.get("zoom"));
-    this.time = has("t") ? clamp(+said.get("t"), this.data.begin, this.data.end) : this.data.begin;
-    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    if (!calm && said.get("play") !== "0" && this.data.times.length > 1) this.setPlaying(true);
   }
 
   // Changes what the reader has chosen, and shows it in the panel.
@@ -146,6 +124,7 @@ class Replay {
   touched() {
     this.isStale = true;
     this.restFrom = performance.now() + 180;
+    this.address.touched();
   }
 
   // All that a stage draws at this moment.
@@ -169,13 +148,20 @@ class Replay {
       if (stage.software || !stage.canRest) drawQuick(stage, stage.look, this.moving);
       else drawResting(stage, stage.look, 9);
     });
+    // where software draws, words and curves cost as much as the bodies
+    const isHasty = this.playing && this.stages[0].look.isHasty;
+    if (!isHasty || this.frames % 4 === 0) this.tellTime();
+    this.isStale = false;
+    ++this.frames;
+  }
+
+  // The time in all that stands around the picture.
+  tellTime() {
     element("time").value = this.time;
     element("clock").textContent = this.time.toFixed(3) + " s";
     drawFacts(this.data, this.options.picked, this.time);
     this.placeLoad();
     if (this.data.head.plots.length) this.plots.draw(this.time);
-    this.isStale = false;
-    ++this.frames;
   }
 
   // The words beside the load's arrow.

@@ -1,28 +1,31 @@
 // Rods between balls, many in one call: chains, contact points, normals, edges, arrows.
 
+const rodsInRow = 256;  // of the texture that holds them, three texels each
+
 class Rods {
   constructor(stage) {
     this.stage = stage;
-    const gl = stage.gl;
-    const corners = new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]);
-    ({ array: this.array } = stage.vertices(corners, 8, [[0, 2, gl.FLOAT, 0]]));
-    this.buffer = gl.createBuffer();
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    for (const place of [1, 2, 3]) {
-      gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, 4, gl.FLOAT, false, 48, 16 * (place - 1));
-      gl.vertexAttribDivisor(place, 1);
-    }
+    this.rows = this.count = 0;
   }
 
   // `rods`: 12 numbers each: from and its radius, to and its radius, colour.
   set(rods) {
     const gl = this.stage.gl;
     this.count = rods.length / 12;
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(rods), gl.DYNAMIC_DRAW);
+    const rows = Math.ceil(this.count / rodsInRow);
+    if (rows > this.rows) {
+      this.rows = 2 * rows;
+      gl.deleteTexture(this.texture ?? null);
+      this.texture = this.stage.texture("rods", gl.RGBA32F, 3 * rodsInRow, this.rows);
+      this.numbers = new Float32Array(12 * rodsInRow * this.rows);
+    }
+    if (!rows) return;
+    this.numbers.set(rods);
+    gl.activeTexture(gl.TEXTURE0 + slots.rods);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 3 * rodsInRow, rows, gl.RGBA, gl.FLOAT, this.numbers);
   }
 
+  // Two triangles each. Not by instances: software draws every instance as if by a call of its own.
   draw(light, look, camera, encode, width, height) {
     if (!this.count) return;
     const { gl } = this.stage, at = this.stage.use("rod");
@@ -30,9 +33,9 @@ class Rods {
     gl.uniform2f(at.pixels, width, height);
     gl.uniform1f(at.lens, 0.5 * height / Math.tan(look.camera.angle(width / height) / 2));
     gl.uniform1i(at.encode, encode ? 1 : 0);
-    gl.bindVertexArray(this.array);
+    gl.bindVertexArray(this.stage.nothing);
     gl.enable(gl.BLEND);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+    gl.drawArrays(gl.TRIANGLES, 0, 6 * this.count);
   }
 }
 

@@ -195,10 +195,7 @@ void main() {
 // A rod between two balls of any radii: chains, normals, points, edges, arrows. Negative radii are
 // pixels. Drawn as a rectangle that faces the eye.
 const rodVertex = `
-layout(location = 0) in vec2 side;
-layout(location = 1) in vec4 from;
-layout(location = 2) in vec4 to;
-layout(location = 3) in vec4 tint;
+uniform highp sampler2D rods;
 uniform mat4 camera;
 uniform vec2 pixels;
 uniform float lens;
@@ -208,6 +205,12 @@ flat out vec4 hue;
 out vec2 spot;  // along the rod from its first end and across it [pixels]
 ` + lightText + `
 void main() {
+  // six corners of two triangles: x 0 at the first end, 1 at the other; y -1 or 1 across
+  int c = gl_VertexID % 6, rod = gl_VertexID / 6;
+  vec2 side = vec2(c == 1 || c == 2 || c == 4, c == 2 || c == 4 || c == 5 ? 1 : -1);
+  ivec2 place = ivec2(rod % 256 * 3, rod / 256);
+  vec4 from = texelFetch(rods, place, 0), to = texelFetch(rods, place + ivec2(1, 0), 0);
+  vec4 tint = texelFetch(rods, place + ivec2(2, 0), 0);
   vec4 a = camera * vec4(from.xyz, 1.), b = camera * vec4(to.xyz, 1.);
   vec2 s = (a.xy / a.w * .5 + .5) * pixels, t = (b.xy / b.w * .5 + .5) * pixels;
   radii = vec2(from.w < 0. ? -from.w : max(from.w * lens / a.w, .6),

@@ -95,6 +95,7 @@ TEST_CASE("facts come from the manifest, what it lacks from the scene") {
   CHECK(data.facts.f_max == 7.0);
   CHECK(data.facts.gravity == Approx(9.81));
   CHECK(data.facts.frequency == 5.0);
+  CHECK(data.facts.tolerance == 0.01);
   CHECK(data.facts.wall_mass == Approx(50.0));
   CHECK(*data.facts.has_wall);
 }

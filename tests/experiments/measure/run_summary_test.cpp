@@ -153,7 +153,9 @@ TEST_CASE("error, overlap and cost") {
   auto steps = synthetic_box();
   steps[1234].penetration_max = 3e-4;
   steps[2345].error_rms = 0.05;
-  const RunSummary summary = summarise(steps, facts_of({}));
+  RunFacts facts = facts_of({});
+  facts.tolerance = 1e-3;
+  const RunSummary summary = summarise(steps, facts);
   const double scale = 9.81 * 2e-4;
   CHECK(summary.facts.velocity_scale == Approx(scale));
   CHECK(summary.error_max_relative == Approx(0.05 / scale));
@@ -163,7 +165,7 @@ TEST_CASE("error, overlap and cost") {
     above += step.error_rms > 1e-3 * scale;
   }
   CHECK(summary.error_mean_relative == Approx(sum / 5000.0 / scale));
-  CHECK(summary.above_target == Approx(above / 5000.0));
+  CHECK(summary.above_tolerance == Approx(above / 5000.0));
   CHECK(summary.penetration_max == 3e-4);
   CHECK(summary.penetration_max_time == steps[1234].time);
   double shares = 0.0;

@@ -99,6 +99,12 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
         "../runs/" + data.folder(value.runs[1]).filename().string() + "/report.html");
   CHECK(origin["links"][0][1] == campaign.runs[value.runs[1]].planned.name);
   CHECK(origin["commands"][0][0] == "ballast report " + data.folder(value.runs[0]).string());
+  for (const char* figure : {"fig11", "fig13"}) {
+    INFO(figure);
+    for (const PaperSection& other : make_sections(data, figure))
+      for (const Curve& curve : other.figures.at(0).plot.panels[0].curves)
+        CHECK((curve.mark == Mark::points) == (curve.origins.size() == curve.x.size()));
+  }
   if (page::can_answer()) CHECK_THAT(html, Catch::Contains('"' + value.origin() + '"'));
   CHECK_THAT(text("data/fig09.csv"),
              Catch::StartsWith("panel,y_label,curve,x_label,x,y,y_error,y_low\n"));

@@ -42,12 +42,15 @@ TEST_CASE("costs are stacked: each phase stands on the one before, and the top i
              Contains("stretches of 4.00\u202fms"));
 }
 
-TEST_CASE("errors are drawn over g h when gravity is known, with their bounds") {
-  const BoxRun box = box_run();
+TEST_CASE("errors are drawn over g h when gravity is known, with the tolerance") {
+  BoxRun box = box_run();
+  CHECK(find(diagnostic_figures(box.data, box.summary), "error")->plot.panels.at(0).lines.empty());
+  box.summary.facts.tolerance = 0.01;
   const auto figures = diagnostic_figures(box.data, box.summary);
   REQUIRE(find(figures, "error"));
   const Panel& panel = find(figures, "error")->plot.panels.at(0);
-  CHECK(panel.lines.size() == 2);
+  REQUIRE(panel.lines.size() == 1);
+  CHECK(panel.lines[0].value == 0.01);
   const double largest =
       *std::max_element(panel.curves.at(1).y.begin(), panel.curves.at(1).y.end());
   CHECK(largest == Approx(box.summary.error_max_relative));

@@ -1,6 +1,7 @@
 #include "experiments/run_page/report_tables.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/catch.hpp"
@@ -35,6 +36,28 @@ TEST_CASE("numbers stand beside their bounds, in the same unit, with a verdict")
   CHECK(row_of(table, "before the drive") ==
         std::vector<std::string>{"before the drive", "0.5010", "0.50", "paper"});
   for (const auto& row : table.rows) CHECK(row.size() == table.head.size());
+}
+
+TEST_CASE("errors are judged by what the scene asks of each step") {
+  const RunData data = box_run().data;
+  const auto rows = [&](double tolerance) {
+    RunFacts facts = data.facts;
+    facts.tolerance = tolerance;
+    RunSummary summary = summarise(data.steps, facts);
+    summary.error_mean_relative = 0.009;
+    summary.error_max_relative = 0.08;
+    const page::Table table = results_table(summary);
+    return std::array{row_of(table, "error, rms"), row_of(table, "the same: worst step")};
+  };
+  const auto [mean, worst] = rows(0.01);
+  CHECK(mean[2] == "≤\u00a00.01");
+  CHECK(mean[3] == "✓ met");
+  CHECK(worst[2] == "≤\u00a00.01");
+  CHECK(worst[3] == "✗ missed");
+  CHECK(rows(0.001)[0][3] == "✗ missed");
+  // a scene that asks for nothing is not judged
+  CHECK(rows(not_known)[0][2].empty());
+  CHECK(rows(not_known)[0][3].empty());
 }
 
 TEST_CASE("what is not known takes no row, and a group without rows no heading") {
