@@ -52,16 +52,8 @@ const char* variable_of(Ink ink) {
   return names[static_cast<size_t>(ink)];
 }
 
-/// A title without the backslashes of plain_text.
-std::string unescaped(const std::string& text) {
-  std::string plain;
-  for (size_t at = 0; at < text.size(); ++at)
-    if (text[at] != '\\' || ++at < text.size()) plain += text[at];
-  return plain;
-}
-
 Json curve_json(const Curve& curve) {
-  return {{"title", unescaped(curve.title)},
+  return {{"title", label_html(curve.title)},
           {"ink", variable_of(curve.ink)},
           {"dash", curve.dashed ? 1 + curve.fineness : 0},
           {"width", curve.width},
@@ -84,7 +76,8 @@ Json picture_json(const Figure& figure) {
     Json curves = Json::array(), lines = Json::array();
     for (const Curve& curve : panel.curves) curves.push_back(curve_json(curve));
     for (const ReferenceLine& line : panel.lines)
-      lines.push_back({{"value", line.value}, {"vertical", line.vertical}});
+      lines.push_back(
+          {{"value", line.value}, {"vertical", line.vertical}, {"label", label_html(line.label)}});
     panels.push_back({{"x", axis_json(panel.x_label, panel.log_x, panel.x_min, panel.x_max)},
                       {"y", axis_json(panel.y_label, panel.log_y, panel.y_min, panel.y_max)},
                       {"curves", curves},

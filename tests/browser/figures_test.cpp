@@ -4,7 +4,8 @@
 #include "experiments/page/html.hpp"
 #include "experiments/page/plot.hpp"
 #include "platform/atomic_file.hpp"
-#include "tests/support/browser.hpp"
+#include "platform/text.hpp"
+#include "tests/browser/driven_box.hpp"
 
 namespace ballast {
 namespace {
@@ -16,8 +17,10 @@ page::Page wide_page() {
   page::Picture picture;
   Panel panel{.x_label = "x", .y_label = "y", .y_min = 0.0, .y_max = 2.0};
   const std::vector<double> x{0, 1, 2}, y{1, 1, 1};
-  panel.curves = {{.x = x, .y = y, .title = "below", .ink = Ink::blue, .width = 2.0},
-                  {.x = x, .y = y, .title = "above", .ink = Ink::vermilion, .width = 4.0}};
+  panel.curves = {
+      {.x = x, .y = y, .title = "below", .ink = Ink::blue, .width = 2.0},
+      {.x = x, .y = y, .title = "above {/:Italic f}_g", .ink = Ink::vermilion, .width = 4.0}};
+  panel.lines = {{1.5, "asked: {/:Italic x}"}};
   picture.plot = {.name = "two", .title = "Two curves", .panels = {panel}};
   page::Table table;
   table.head = {"figure", "paper", "agreement", "Ballast", "taken as", "judged by"};
@@ -44,8 +47,40 @@ TEST_CASE("later curves stand above earlier ones, and no column is cut where the
   CHECK(browser.js("(() => { const c = Chart.getChart(document.querySelector('#two canvas')), "
                    "{ x, y } = c.scales; return [...c.ctx.getImageData(x.getPixelForValue(0.5), "
                    "y.getPixelForValue(1), 1, 1).data]; })()") == Json{0xd5, 0x5e, 0x00, 0xff});
+  CHECK(browser.js("[...document.querySelectorAll('.switch')].map((s) => s.textContent)") ==
+        Json{"below", "above f_g"});
+  // words stand above the line, in the colour of what is aside
+  CHECK(browser.js("(() => { const c = Chart.getChart(document.querySelector('#two canvas')), "
+                   "y = c.scales.y.getPixelForValue(1.5), right = c.chartArea.right; const b = "
+                   "c.ctx.getImageData(right - 60, y - 15, 56, 12).data; let dark = 0; "
+                   "for (let k = 0; k < b.length; k += 4) dark += b[k + 3] > 0 && b[k] < 140; "
+                   "return dark > 20; })()") == true);
   CHECK(browser.js("(() => { const s = document.querySelector('.scroll'); return s.scrollWidth <= "
                    "s.clientWidth; })()") == true);
+  CHECK(browser.complaints == std::vector<std::string>{});
+}
+
+TEST_CASE("the figures of a run tell the values under the pointer") {
+  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
+  const DrivenBox box;
+  Browser browser(1400, 900);
+  browser.open(box.page(), "play=0", is_ready);
+  browser.wait_for(
+      "document.querySelector('#error canvas') && "
+      "Chart.getChart(document.querySelector('#error canvas'))");
+  // the rms error of the tenth step
+  const Json spot = browser.js(
+      "(() => { const c = document.querySelector('#error canvas'); c.scrollIntoView({block: "
+      "'center'}); const p = Chart.getChart(c).getDatasetMeta(1).data[9], b = "
+      "c.getBoundingClientRect(); return [b.left + p.x, b.top + p.y]; })()");
+  browser.hover(spot[0], spot[1]);
+  browser.wait_for("document.querySelector('#error .said').textContent.includes('rms')");
+  const std::string said = browser.js("document.querySelector('#error .said').textContent");
+  CHECK_THAT(said, Catch::Contains(printed("t %.3g", box.steps[9].time)));
+  // tables in groups keep their order; others sort
+  CHECK(browser.js("document.querySelectorAll('#results .sort').length") == 0);
+  CHECK(browser.js("document.querySelectorAll('#cost-table .sort').length") == 3);
+  CHECK(browser.js("document.scrollingElement.scrollWidth") == 1400);
   CHECK(browser.complaints == std::vector<std::string>{});
 }
 

@@ -4,16 +4,11 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/page/html.hpp"
-#include "experiments/page/plot.hpp"
 #include "experiments/record/force_log.hpp"
-#include "experiments/record/recorder.hpp"
-#include "experiments/run/run.hpp"
-#include "experiments/run_page/report.hpp"
 #include "experiments/view/problem_view.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/text.hpp"
-#include "tests/support/browser.hpp"
+#include "tests/browser/driven_box.hpp"
 #include "tests/support/captured_run.hpp"
 
 namespace ballast {
@@ -22,30 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = Browser::Json;
 using Catch::Matchers::Contains;
-
-constexpr const char* is_ready = "window.ballastReplay || window.ballastReplayError";
-
-/// A small box that was driven for 20 ms, with its page and its record.
-struct DrivenBox {
-  DrivenBox() {
-    RunOptions options;
-    options.scene = "vibrated_box_small";
-    options.overrides = {"scene.duration=0.02", "record.pose_rate=500", "record.forces=true",
-                         "drive.f_max_over_weight=30"};
-    options.output = place.path() / "run";
-    run(options);
-    write_report(options.output);
-    folder = options.output;
-    frames = read_poses(folder);
-    steps = read_steps(folder);
-  }
-  fs::path page() const { return folder / "report.html"; }
-
-  const TemporaryFolder place;
-  fs::path folder;
-  std::vector<PoseFrame> frames;
-  std::vector<StepRecord> steps;
-};
 
 /// The picture's pixels that `test` (an expression of r, g, b: 0 to 255) holds of: how many, and
 /// between which columns.
@@ -64,21 +35,6 @@ Json pixels(Browser& browser, const std::string& test) {
     }
     return { share: count / (width * height), first, last, width, height };
   })())");
-}
-
-/// A number that is another for every other picture.
-Json picture(Browser& browser) {
-  return browser.js(
-      "ballastReplay.pixels().bytes.reduce((sum, v, k) => (sum + v * (k % 9973)) % 1e9, 0)");
-}
-
-std::string clicked(const std::string& id) {
-  return "document.getElementById('replay-" + id + "').click()";
-}
-
-std::string chosen(const std::string& id, const std::string& value, const std::string& event) {
-  return "(() => { const e = document.getElementById('replay-" + id + "'); e.value = '" + value +
-         "'; e.dispatchEvent(new Event('" + event + "')); })()";
 }
 
 }  // namespace
@@ -214,81 +170,6 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
   const std::string facts = browser.js("document.getElementById('replay-facts').innerText");
   CHECK_THAT(facts, Contains("grain " + spot[0].dump()) && Contains("mass") &&
                         Contains("velocity") && Contains("touches"));
-  CHECK(browser.complaints == std::vector<std::string>{});
-}
-
-TEST_CASE("what is chosen stands in the address, and shows the same again") {
-  if (Browser::is_missing()) return;
-  const DrivenBox box;
-  Browser browser(900, 700);
-  browser.open(box.page(), "play=0&rest=0", is_ready);
-  const Json first = picture(browser);
-  browser.js(chosen("colour", "rotation", "change"));
-  browser.js(clicked("chains"));
-  browser.js(chosen("threshold", "2", "input"));
-  browser.js(chosen("cut", "y", "change"));
-  browser.js(chosen("cutat", "0.3", "input"));
-  browser.js(chosen("time", "0.011", "input"));
-  browser.js(clicked("view-x"));
-  browser.js(
-      "ballastReplay.camera.turn(12, 3); ballastReplay.camera.pan(0.1, 0.05); "
-      "ballastReplay.camera.zoom(0.8); ballastReplay.touched()");
-  // the camera stands in the address with five digits: not to the pixel the same
-  const auto looks = [&] {
-    return browser.js("Array.from(ballastReplay.pixels().bytes.filter((v, k) => k % 397 === 0))");
-  };
-  CHECK(picture(browser) != first);
-  const Json seen = looks();
-  browser.wait_for("location.hash.includes('t=0.011') && location.hash.includes('at=')");
-  const std::string hash = browser.js("location.hash.slice(1)");
-  CHECK_THAT(hash, Contains("colour=rotation") && Contains("chains=1") && Contains("threshold=2") &&
-                       Contains("cut=y%3A0.3") && Contains("rest=0"));
-  browser.open(box.page(), hash, is_ready);
-  const Json again = looks();
-  REQUIRE(again.size() == seen.size());
-  int others = 0;
-  for (size_t k = 0; k < seen.size(); ++k)
-    others += std::abs(seen[k].get<int>() - again[k].get<int>()) > 20;
-  CHECK(others < static_cast<int>(seen.size()) / 50);
-  CHECK(browser.js("['colour', 'threshold', 'cut', 'cutat', 'grains'].map((id) => "
-                   "document.getElementById('replay-' + id).value)") ==
-        Json{"rotation", "2", "y", "0.3", "ghost"});
-  CHECK(browser.js("document.getElementById('replay-chains').checked") == true);
-  CHECK(browser.js("document.getElementById('replay-clock').textContent") == "0.011 s");
-  // another address in the same page
-  browser.js("location.hash = 'play=0&rest=0&view=y'");
-  browser.wait_for("ballastReplay.options.colour === 'speed'");
-  CHECK(browser.js("ballastReplay.camera.name()") == "y");
-  CHECK(browser.js("ballastReplay.options.chains") == false);
-  // a view along an axis is named; what is as at first is left out
-  browser.js(clicked("viewz"));
-  browser.wait_for("location.hash.includes('view=z')");
-  CHECK(browser.js("location.hash.slice(1).split('&').sort()") ==
-        Json{"play=0", "rest=0", "view=z"});
-  CHECK(browser.complaints == std::vector<std::string>{});
-}
-
-TEST_CASE("the figures of a run tell the values under the pointer") {
-  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
-  const DrivenBox box;
-  Browser browser(1400, 900);
-  browser.open(box.page(), "play=0", is_ready);
-  browser.wait_for(
-      "document.querySelector('#error canvas') && "
-      "Chart.getChart(document.querySelector('#error canvas'))");
-  // the rms error of the tenth step
-  const Json spot = browser.js(
-      "(() => { const c = document.querySelector('#error canvas'); c.scrollIntoView({block: "
-      "'center'}); const p = Chart.getChart(c).getDatasetMeta(1).data[9], b = "
-      "c.getBoundingClientRect(); return [b.left + p.x, b.top + p.y]; })()");
-  browser.hover(spot[0], spot[1]);
-  browser.wait_for("document.querySelector('#error .said').textContent.includes('rms')");
-  const std::string said = browser.js("document.querySelector('#error .said').textContent");
-  CHECK_THAT(said, Contains(printed("t %.3g", box.steps[9].time)));
-  // tables in groups keep their order; others sort
-  CHECK(browser.js("document.querySelectorAll('#results .sort').length") == 0);
-  CHECK(browser.js("document.querySelectorAll('#cost-table .sort').length") == 3);
-  CHECK(browser.js("document.scrollingElement.scrollWidth") == 1400);
   CHECK(browser.complaints == std::vector<std::string>{});
 }
 

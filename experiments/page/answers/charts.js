@@ -3,7 +3,7 @@
 // A figure is {title, x, y, curves, lines}. Axes: {label, log, min, max}; a label is HTML of the
 // page's own. Curves: {title, ink, dash, width, mark: "line" | "points", stepped, points}, where a
 // point is {x, y, ...} with what `told(curve, point)` and `opened(point)` need. Lines: {value,
-// vertical}. Curves of one title are switched together by the legend.
+// vertical, label}. Curves of one title are switched together by the legend.
 
 const charts = new Set();
 
@@ -55,12 +55,12 @@ function dataset_of(curve) {
   };
 }
 
-/// A dashed line across, without a name.
+/// A dashed line across, which no legend names.
 function line_of(line, chart_points) {
   const along = line.vertical ? "y" : "x", across = line.vertical ? "x" : "y";
   const places = chart_points.map((point) => point[along]).filter((place) => place !== null);
   return {
-    label: "", is_line: true, showLine: true,
+    label: "", is_line: true, line, showLine: true,
     pointRadius: 0, pointHitRadius: 0, pointHoverRadius: 0,
     data: [Math.min(...places), Math.max(...places)].map((place) => (
       { [along]: place, [across]: line.value })),
@@ -88,6 +88,28 @@ const error_bars = {
         ctx.stroke();
       });
     });
+  },
+};
+
+/// The words of lines across, at their right or upper ends.
+const line_words = {
+  id: "line_words",
+  afterDatasetsDraw({ ctx, chartArea, data, scales: { x, y } }) {
+    Object.assign(ctx, { fillStyle: variable("soft"), strokeStyle: variable("paper"),
+                         lineWidth: 4 });
+    const write = (words, place, height) => {
+      ctx.strokeText(words, place, height);
+      ctx.fillText(words, place, height);
+    };
+    ctx.font = `12px ${Chart.defaults.font.family}`;
+    for (const { line } of data.datasets) {
+      if (!line?.label) continue;
+      const at = (line.vertical ? x : y).getPixelForValue(line.value);
+      const is_left = line.vertical && at < (chartArea.left + chartArea.right) / 2;
+      ctx.textAlign = is_left ? "left" : "right";
+      if (line.vertical) write(line.label, at + (is_left ? 5 : -5), chartArea.top + 12);
+      else if (at > chartArea.top) write(line.label, chartArea.right - 4, at - 5);
+    }
   },
 };
 
@@ -146,7 +168,7 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
                                                     hidden: !is_shown(curve) }));
     if (all.length) sets.push(...(figure.lines ?? []).map((line) => line_of(line, all)));
     chart = new Chart(canvas, { type: "line", data: { datasets: sets }, options: options(),
-                                plugins: [error_bars] });
+                                plugins: [error_bars, line_words] });
   };
   const keys = key_walk(figure, is_shown, (at) => {
     const found = point_of(at);
@@ -165,6 +187,8 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
   up.innerHTML = figure.y.label;
   along.innerHTML = figure.x.label;
   const refresh = () => {
+    // a replay beside it changes the address, too
+    if (figure.curves.every((curve, k) => chart?.isDatasetVisible(k) === is_shown(curve))) return;
     figure.curves.forEach((curve, k) => chart?.setDatasetVisibility(k, is_shown(curve)));
     chart?.update("none");
     for (const one of legend.children)

@@ -5,6 +5,7 @@
 function panel_figure(picture, panel) {
   const curve_of = (curve) => ({
     ...curve,
+    title: plain(curve.title.replaceAll("<sub>", "_")),
     points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k],
                                      from: curve.from[k] ?? curve.from[0] }))
       .filter(({ x }) => x !== null && (!panel.x.log || x > 0))
@@ -13,7 +14,8 @@ function panel_figure(picture, panel) {
         { ...point, y: null } : point))
       .filter(({ y }) => y !== null || curve.mark !== "points"),
   });
-  return { title: picture.title, x: panel.x, y: panel.y, lines: panel.lines,
+  const lines = panel.lines.map((line) => ({ ...line, label: plain(line.label) }));
+  return { title: picture.title, x: panel.x, y: panel.y, lines,
            curves: panel.curves.map(curve_of) };
 }
 
@@ -43,8 +45,14 @@ function draw_pictures(pictures) {
     drawn.classList.add("still");
     const made = picture_charts(picture);
     drawn.after(...made.map((chart) => chart.element));
-    // a replay's first picture comes first
-    if (document.getElementById("replay")) made.forEach((chart) => setTimeout(chart.draw));
-    else made.forEach((chart) => chart.draw());
+    made.forEach((chart) => after_replay(chart.draw));
   }
+}
+
+/// A replay's first picture comes first.
+function after_replay(draw) {
+  const waits = document.getElementById("replay") && !window.ballastReplay &&
+    !window.ballastReplayError;
+  if (waits) setTimeout(after_replay, 50, draw);
+  else draw();
 }

@@ -1,5 +1,5 @@
-// What the reader has chosen stands in the page's address behind #, so that a link or a reload shows
-// the same (`choice` of answers/choice.js keeps it):
+// What the reader has chosen stands in the page's address behind #, so that a link or a reload
+// shows the same (`choice` of answers/choice.js keeps it):
 // #t=0.3&colour=displacement&cut=y:0.5&chains=1&view=x&play=0. What is as it was at first is left
 // out.
 
@@ -41,7 +41,8 @@ class Address {
     Object.assign(replay.options, options);
     camera.home();
     for (const name of ["chains", "points"])
-      if (choice.get(name) === "1") Object.assign(replay.options, { [name]: true, grains: "ghost" });
+      if (choice.get(name) === "1")
+        Object.assign(replay.options, { [name]: true, grains: "ghost" });
     for (const name of ["colour", "grains"])
       said(name, (value) => { replay.options[name] = value; });
     said("threshold", (value) => { replay.options.threshold = +value; });

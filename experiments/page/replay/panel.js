@@ -48,8 +48,8 @@ function buildPanel(data, shades) {
         ["0.1", "1/10"], ["0.2", "1/5"], ["0.5", "1/2"], ["1", "1"], ["2", "2"]], "0.2")),
     make("div", { class: "controls" },
       selection("colour", "colour", colours, moves ? "speed" : "size"),
-      selection("grains", "grains", [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]],
-        "solid"),
+      selection("grains", "grains",
+        [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]], "solid"),
       ...hasContacts ? [tick("chains", "force chains"), slider("threshold", "above", 0, 5, 1),
         make("output", { id: "replay-thresholdtext" }), tick("points", "contact points")] : [],
       selection("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], ""),
@@ -88,10 +88,11 @@ function drawLegend(shades, { colour, chains, points }, marks) {
   const wide = matchMedia("(max-width:40rem)").matches ? 160 : 216, parts = [];
   const classes = [0, 1, 2, 3, 4].map((k) =>
     `${cssColour(colourAt(ramps[ramp], (k + 0.5) / 5))} ${20 * k}% ${20 * k + 20}%`);
+  const ticks = shades.ticks(colour), ground = colour !== "size" ? cssGradient(ramps[ramp]) :
+    ticks.length > 1 ? "linear-gradient(90deg," + classes + ")" :
+      cssColour(colourAt(ramps[ramp], 0.5));  // all of one size
   if (words)
-    parts.push(...rampLegend(words + (unit ? " / " + unit : ""), colour === "size" ?
-      "linear-gradient(90deg," + classes + ")" : cssGradient(ramps[ramp]), shades.ticks(colour),
-      wide));
+    parts.push(...rampLegend(words + (unit ? " / " + unit : ""), ground, ticks, wide));
   if (chains)
     parts.push(...rampLegend("chains: force of a pair / N", cssGradient(ramps.heat, 0.25, 0.9),
       [0, 0.25, 0.5, 1].map((share) => [Math.sqrt(share), shown(share * marks.topChain, 2)]),

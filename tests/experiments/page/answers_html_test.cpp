@@ -58,7 +58,7 @@ TEST_CASE("curves stand in the page as numbers, and nothing in them ends their e
   CHECK(panel["x"]["label"] == "<i>t</i>&nbsp; (s)");
   CHECK(panel["y"] == Json{{"label", ""}, {"log", true}, {"min", 1e-3}});
   const Json& curve = panel["curves"][0];
-  CHECK(curve["title"] == "a_b</script>");
+  CHECK(curve["title"] == "a_b&lt;/script&gt;");  // as labels are, HTML
   CHECK(curve["ink"] == "blue");
   CHECK(curve["y"] == Json{nullptr, 0.33333});
   CHECK(panel["lines"][0]["value"] == 0.5);
