@@ -36,6 +36,7 @@ PaperSection sizes_section(PaperData& data);
 PaperSection laws_section(PaperData& data);
 PaperSection rule_section(PaperData& data);
 PaperSection reading_section(PaperData& data);  ///< both scenes beside the paper
+PaperSection theory_section(PaperData& data);   ///< C against its theory, over all of them
 
 namespace {
 
@@ -81,7 +82,11 @@ std::vector<ReportSection> make_table() {
           {"sizes", sizes_section, false, {size_similar, size_wide}},
           {"laws", laws_section, false, {exact_law, convex_law}},
           {"rule", rule_section, false, {rule_frequency}},
-          {"reading", reading_section, false, {reading_frequency}}};
+          {"reading", reading_section, false, {reading_frequency}},
+          {"theory",
+           theory_section,
+           false,
+           {frequency, force, gravity, wall_mass, box_length, box_length_fast}}};
 }
 
 constexpr const char* every_section = "all";

@@ -51,7 +51,7 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
   const Campaign campaign = make_campaign({});
   PaperData nothing(campaign, folder.path());
   const auto empty = make_sections(nothing, "all");
-  CHECK(empty.size() == 26);
+  CHECK(empty.size() == 27);
   for (const PaperSection& section : empty) {
     INFO(section.id);
     CHECK_FALSE(section.notes.empty());

@@ -26,6 +26,7 @@ namespace ballast {
 struct PaperLaw {
   double prefactor = 0.02;
   std::function<double(const Scene&)> excess = [](const Scene&) { return 0.0; };
+  double offset = 0.0, slope = 1.0;  ///< f_g = offset [N] + slope f(t)
 };
 
 /// A wall that goes out by the law in every period and back, jammed for half of it; solid fraction
@@ -48,7 +49,7 @@ inline std::vector<StepRecord> scaled_record(const Scene& scene, const PaperLaw&
     s.wall_v = inside < 1.0
                    ? rise * 2.0 * std::numbers::pi * nu * std::sin(2.0 * std::numbers::pi * inside)
                    : 0.0;
-    s.wall_force = s.load;
+    s.wall_force = law.offset + law.slope * s.load;
     s.solid_fraction = s.time < 0.2 ? 0.50 + 0.1 * s.time : 0.52 + gain * nu * (s.time - 0.2);
     s.error_rms = 1e-6;
     s.seconds_solve = 1e-3;

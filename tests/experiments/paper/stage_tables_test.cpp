@@ -152,3 +152,33 @@ TEST_CASE("sizes, laws, shapes, loads, rule and the second scene each have their
   CHECK(
       found_of(section_named(data, "tight"), "exponents of ν: error").starts_with("Δx_max −1.80"));
 }
+
+TEST_CASE("C against its theory: the force that the grains push with gives it, point by point") {
+  using enum Varied;
+  const TemporaryFolder folder;
+  PaperLaw law = steep_law(0.0);
+  law.offset = 200.0;
+  law.slope = 0.4;
+  PaperData data = written(folder, {frequency, wall_mass, box_length}, law);
+  // F = 200 N/(1 - 0.4), M = m_w 0.4/(1 - 0.4), 200 kg of grains
+  const auto theory = [](double wall) {
+    const double force = 200.0 / 0.6 / (200.0 * 9.81), carried = wall * 0.4 / 0.6;
+    return 9.0 / (4.0 * M_PI * M_PI) * force * force * (1.0 + wall) / (wall + carried);
+  };
+  const std::vector<VariedValue> walls = data.values(wall_mass);
+  REQUIRE(walls.size() == 4);
+  for (const VariedValue& value : walls)
+    CHECK(mean_of(data, value, theory_of).mean == Approx(theory(value.value)).epsilon(0.02));
+  const PaperSection section = section_named(data, "theory");
+  REQUIRE(section.figures.size() == 1);
+  // ten frequencies, three masses of the wall beside the one that they share, five boxes
+  size_t points = 0;
+  for (const std::vector<page::Text>& row : section.tables[0].rows) {
+    points += std::stoul(plain_words(row[1]));
+    if (plain_words(row[0]) == "L/H")
+      CHECK(std::stod(plain_words(row[2])) == Approx(law.prefactor / theory(0.5)).epsilon(0.03));
+  }
+  CHECK(points == 18);
+  const std::string found = found_of(section, "C against its theory, 18 distinct points");
+  CHECK(found.starts_with("C as seen is "));
+}
