@@ -47,24 +47,6 @@ constexpr double interior_factor = 2.0;
 /// Newton's ways though their error may stand for long; of others.
 constexpr double moderate = 4.0, little = 12.0, reliable = 0.25, doubtful = 2.0;
 
-/// One way to the solution, from an iterate of its own: where another way has come to misleads
-/// accelerated sweeps more often than it helps them.
-struct Way {
-  std::unique_ptr<Solver> solver;
-  /// It goes on from the best iterate where that is so much better than its own.
-  double takes_best = 0.0;
-  double trust = doubtful;  ///< it is taken to need at most so many times the work that it has had
-  bool is_prepared = false;
-  bool only_factors = true;  ///< every iteration is a factorisation
-  double work = 0.0;         ///< of an iteration
-  double factorisation = 0;  ///< besides, of one that factors
-  double expected = 0.0;     ///< work, as long as it has not shown its pace
-  double spent = 0.0;        ///< work
-  WorkPace pace;
-  int stalls = 0;
-  Impulses at;
-};
-
 class Auto final : public Solver {
  public:
   Auto() {
@@ -98,13 +80,13 @@ class Auto final : public Solver {
     }
     count_work(problem);
     // Iterations may be scarce: fewer than fair shares of work would take. Then one is as dear as
-    // another; but of thousands, sweeps may use a part as they are: most arrive.
+    // another; but of thousands, the first half is used by what work costs: most sweeps arrive.
     const double fair = 100.0 + 0.15 * problem.contact_count();
     const bool can_end = fair * step_ > budget.max_iterations * sweep_;
-    const int part = budget.max_iterations <= few_iterations ? 0 : budget.max_iterations / 4;
+    const int part = budget.max_iterations <= few_iterations ? 0 : budget.max_iterations / 2;
     scarce_from_ = can_end ? part : std::numeric_limits<int>::max();
     is_scarce_ = scarce_from_ == 0;
-    if (has_bursts_ == can_end) choose_bursts(!can_end);
+    if (has_bursts_ == is_scarce_) choose_bursts(!is_scarce_);
     expect(problem, budget);
     Relay relay(budget, std::move(start));
     // Always the most promising way; its leg ends where another promises more.
@@ -115,7 +97,6 @@ class Auto final : public Solver {
       const bool is_news = learn_step(prepared(next, problem), problem, budget);
       if (is_news && &ways_[most_promising(budget)] != &next) continue;
       go(next, relay, problem, budget);
-      if (!is_scarce_ && relay.iterations() >= scarce_from_) count_iterations(problem, budget);
     }
     return relay.finish();
   }
@@ -175,6 +156,7 @@ class Auto final : public Solver {
   /// From here on iterations are what is scarce. Every way begins to count anew.
   void count_iterations(const FrictionProblem& problem, const Budget& budget) {
     is_scarce_ = true;
+    choose_bursts(false);
     for (Way& way : ways_) {
       way.pace.begin();
       way.spent = 0.0;
@@ -203,7 +185,7 @@ class Auto final : public Solver {
     // Over bodies bursts of sweeps are the shortest way more often than not; with a stored W
     // proximal steps are, and where iterations are scarce.
     const bool bursts = problem.has_dynamics && !is_scarce_;
-    ways_[burst].expected = bursts ? steps(4.0, 0.01) * step : 100.0 * step;
+    ways_[burst].expected = (bursts ? steps(4.0, 0.01) : 30.0) * step;
     if (!problem.has_dynamics) ways_[burst].expected = never;
     ways_[plain].expected = steps(problem.has_dynamics ? 16.0 : 30.0, 0.1) * step;
     ways_[proximal].expected =
@@ -264,6 +246,7 @@ class Auto final : public Solver {
         *budget.factorisations += way.only_factors ? part.iterations : factorisations;
       return part;
     });
+    if (!is_scarce_ && relay.iterations() >= scarce_from_) count_iterations(problem, budget);
   }
 
   // Tuned on generated piles, random graphs (seeds below 1000) and captured stacks, walls, pyramids

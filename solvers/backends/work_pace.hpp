@@ -1,10 +1,13 @@
 #pragma once
-// The pace of a solver that is one of several ways to a solution (auto.hpp).
+// Several ways to one solution, and the pace of each (auto.hpp).
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <vector>
+
+#include "solvers/seam/solver.hpp"
 
 namespace ballast {
 
@@ -38,6 +41,24 @@ class WorkPace {
     double work, error;
   };
   std::vector<Point> points_;
+};
+
+/// One way to the solution, from an iterate of its own: where another way has come to misleads
+/// accelerated sweeps more often than it helps them.
+struct Way {
+  std::unique_ptr<Solver> solver;
+  /// It goes on from the best iterate where that is so much better than its own.
+  double takes_best = 0.0;
+  double trust = 2.0;  ///< it is taken to need at most so many times the work that it has had
+  bool is_prepared = false;
+  bool only_factors = true;  ///< every iteration is a factorisation
+  double work = 0.0;         ///< of an iteration
+  double factorisation = 0;  ///< besides, of one that factors
+  double expected = 0.0;     ///< work, as long as it has not shown its pace
+  double spent = 0.0;        ///< work
+  WorkPace pace;
+  int stalls = 0;
+  Impulses at;
 };
 
 }  // namespace ballast

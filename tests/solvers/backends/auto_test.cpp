@@ -79,6 +79,22 @@ TEST_CASE("of thousands of iterations sweeps that arrive take what they need; th
   CHECK(factorisations > 0);
 }
 
+TEST_CASE("sweeps that will arrive keep the iterations, though a quarter of them is used",
+          "[factors]") {
+  // nncg needs 40 % of them. Once a quarter was used, every iteration counted as much as another:
+  // factorisations took over.
+  const FrictionProblem pile =
+      make_pile({.contacts = 1500, .redundancy = 0.5, .mass_ratio = 100.0, .seed = 3});
+  const Budget plenty{.tolerance = 1e-7, .max_iterations = 10000};
+  const int needed = solved(make_nncg(), pile, plenty).solved.iterations;
+  int factorisations = 0;
+  const Budget enough{
+      .tolerance = 1e-7, .max_iterations = needed * 5 / 2, .factorisations = &factorisations};
+  REQUIRE(enough.max_iterations > 500);
+  CHECK(solved(make_auto(), pile, enough).success);
+  CHECK(factorisations == 0);
+}
+
 TEST_CASE("the turns are counted in work, not by the clock: the same bits every time",
           "[factors]") {
   const FrictionProblem problem = heavy_pile(7, true);
