@@ -55,7 +55,7 @@ PaperSection box_section(PaperData& data) {
               .x_max = 3.0,
               .lines = {{paper::prefactor, "the paper’s 0.01", false, Ink::grey}},
               .x_ticks = {0.5, 1.0, 2.0, 3.0}};
-  std::vector<StageCase> cases;
+  std::vector<RunGroup> cases;
   for (DrivenBoxes& boxes : all) {
     boxes.values = read_values(data, boxes.varied, section);
     if (boxes.values.empty()) continue;

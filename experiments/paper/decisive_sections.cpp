@@ -10,7 +10,6 @@ namespace ballast {
 namespace {
 
 double frequency_of(const RunObservables& run) { return run.seen.facts.frequency; }
-double speed_of(const RunObservables& run) { return run.seen.speed_in; }
 /// Of a cube of as many grains, in grains.
 double side_of(const RunObservables& run) { return std::cbrt(run.setup.grains); }
 
@@ -20,18 +19,18 @@ struct CaseNames {
   const char* name;
   bool own = true;
 };
-std::vector<StageCase> read_cases(PaperData& data, std::span<const CaseNames> names,
-                                  PaperSection& section) {
-  std::vector<StageCase> cases;
+std::vector<RunGroup> read_cases(PaperData& data, std::span<const CaseNames> names,
+                                 PaperSection& section) {
+  std::vector<RunGroup> cases;
   for (const auto& [varied, name, own] : names) {
-    StageCase found{name, own ? read_values(data, varied, section) : data.values(varied)};
+    RunGroup found{name, own ? read_values(data, varied, section) : data.values(varied)};
     if (!found.values.empty()) cases.push_back(std::move(found));
   }
   return cases;
 }
 
-/// The values that the first case has too.
-std::vector<VariedValue> values_between(const StageCase& of, double low, double high) {
+/// Its values within [low, high].
+std::vector<VariedValue> values_between(const RunGroup& of, double low, double high) {
   std::vector<VariedValue> kept;
   for (const VariedValue& value : of.values)
     if (value.value >= low && value.value <= high) kept.push_back(value);
@@ -40,9 +39,9 @@ std::vector<VariedValue> values_between(const StageCase& of, double low, double 
 
 /// Exponents in nu over 5 to 60 Hz, sample by sample.
 page::Table exponents_table(PaperData& data, const std::string& name,
-                            const std::vector<StageCase>& cases) {
+                            const std::vector<RunGroup>& cases) {
   page::Table table = page::words_table(name);
-  for (const StageCase& row : cases) {
+  for (const RunGroup& row : cases) {
     const std::vector<VariedValue> values = values_between(row, 5.0, fast_frequency);
     if (values.size() < 3) continue;
     const SampleMean rise = exponent_by_sample(data, values, frequency_of, rise_of);
@@ -56,10 +55,10 @@ page::Table exponents_table(PaperData& data, const std::string& name,
 /// What every other case does to Delta x_max, beside `reference` at the same value, and how likely
 /// so large a change is by chance: alone, and among all of the table.
 page::Table changes_table(PaperData& data, const std::string& name,
-                          const std::vector<StageCase>& cases, const StageCase& reference) {
+                          const std::vector<RunGroup>& cases, const RunGroup& reference) {
   page::Table table = page::words_table(name);
   std::vector<double> chances;
-  for (const StageCase& row : cases)
+  for (const RunGroup& row : cases)
     for (const VariedValue& value : row.values) {
       const VariedValue* same = reference.at(value.value);
       if (&row == &reference || !same) continue;
@@ -104,7 +103,7 @@ PaperSection section_of(const char* stage) {
 /// A stage of frequencies: every run, exponents, and changes from the first case.
 PaperSection frequency_stage(PaperData& data, const char* stage, std::span<const CaseNames> names) {
   PaperSection section = section_of(stage);
-  const std::vector<StageCase> cases = read_cases(data, names, section);
+  const std::vector<RunGroup> cases = read_cases(data, names, section);
   if (cases.empty()) return section;
   const std::string name = stage;
   add_table(stage_table(data, name + ".table", cases), section);
@@ -162,22 +161,22 @@ PaperSection loads_section(PaperData& data) {
       {Varied::light_strong_frequency, "f_max = 12 m g"},
       {Varied::light_half_frequency, "f_max = 6 m g, all at half scale"}};
   PaperSection section = section_of("loads");
-  const std::vector<StageCase> cases = read_cases(data, names, section);
+  const std::vector<RunGroup> cases = read_cases(data, names, section);
   if (!cases.empty()) add_table(stage_table(data, "loads.table", cases), section);
   return section;
 }
 
 PaperSection shapes_section(PaperData& data) {
   PaperSection section = section_of("shapes");
-  std::vector<StageCase> cases;
+  std::vector<RunGroup> cases;
   // One case for each frequency, its values the kinds of grains.
   for (const auto& [varied, name] :
        {std::pair{Varied::shape, "5 Hz"}, std::pair{Varied::shape_fast, "20 Hz"}})
-    if (StageCase found{name, read_values(data, varied, section)}; !found.values.empty())
+    if (RunGroup found{name, read_values(data, varied, section)}; !found.values.empty())
       cases.push_back(std::move(found));
   if (cases.empty()) return section;
   add_table(stage_table(data, "shapes.table", cases), section);
-  for (const StageCase& driven : cases) {
+  for (const RunGroup& driven : cases) {
     const VariedValue& base = driven.values.front();
     if (base.value != 0.0) continue;  // the campaign's own grains are not driven yet
     for (const VariedValue& kind : driven.values) {
@@ -199,12 +198,12 @@ PaperSection sizes_section(PaperData& data) {
   static constexpr CaseNames names[] = {{Varied::size_similar, "similar boxes, H/L fixed"},
                                         {Varied::size_wide, "wider boxes, H/d fixed"}};
   PaperSection section = section_of("sizes");
-  std::vector<StageCase> cases = read_cases(data, names, section);
+  std::vector<RunGroup> cases = read_cases(data, names, section);
   if (cases.empty()) return section;
   // The campaign's own box belongs to both.
-  const StageCase base{"", data.values(Varied::pressed_frequency)};
+  const RunGroup base{"", data.values(Varied::pressed_frequency)};
   if (const VariedValue* own = base.at(motion_frequency))
-    for (StageCase& sizes : cases) {
+    for (RunGroup& sizes : cases) {
       VariedValue value = *own;
       value.value =
           mean_of(data, value, [](const RunObservables& run) { return run.setup.grains; }).mean;
@@ -214,7 +213,7 @@ PaperSection sizes_section(PaperData& data) {
                 [](const VariedValue& a, const VariedValue& b) { return a.value < b.value; });
     }
   add_table(stage_table(data, "sizes.table", cases), section);
-  for (const StageCase& sizes : cases)
+  for (const RunGroup& sizes : cases)
     section.report("sizes.claim", {{"case", sizes.name},
                                    {"exponent", words_with_interval(exponent_by_sample(
                                                     data, sizes.values, side_of, rise_of))}});
@@ -225,7 +224,7 @@ PaperSection laws_section(PaperData& data) {
   static constexpr CaseNames names[] = {{Varied::exact_law, "Coulomb’s law"},
                                         {Varied::convex_law, "its convex relaxation"}};
   PaperSection section = section_of("laws");
-  const std::vector<StageCase> cases = read_cases(data, names, section);
+  const std::vector<RunGroup> cases = read_cases(data, names, section);
   if (cases.empty()) return section;
   add_table(stage_table(data, "laws.table", cases), section);
   if (cases.size() < 2) return section;
@@ -245,7 +244,7 @@ PaperSection rule_section(PaperData& data) {
       {Varied::rule_frequency, "LMGC90’s rule"},
       {Varied::pressed_frequency, "200 iterations a step", false}};
   PaperSection section = section_of("rule");
-  const std::vector<StageCase> cases = read_cases(data, names, section);
+  const std::vector<RunGroup> cases = read_cases(data, names, section);
   if (cases.empty() || cases.front().name != names[0].name) return section;
   add_table(stage_table(data, "rule.table", cases), section);
   add_table(changes_table(data, "rule.changes", cases, cases.back()), section);

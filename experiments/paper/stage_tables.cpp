@@ -8,7 +8,6 @@ namespace ballast {
 namespace {
 
 double error_of(const RunObservables& run) { return run.seen.error_mean; }
-double speed_of(const RunObservables& run) { return run.seen.speed_in; }
 double net_of(const RunObservables& run) { return run.seen.net; }
 double solid_of(const RunObservables& run) { return run.seen.solid_initial; }
 double gain_of(const RunObservables& run) { return run.seen.gain; }
@@ -17,16 +16,11 @@ double time90_of(const RunObservables& run) { return run.seen.first_time90; }
 }  // namespace
 
 double rise_of(const RunObservables& run) { return run.seen.rise; }
+double speed_of(const RunObservables& run) { return run.seen.speed_in; }
 double prefactor_of_run(const RunObservables& run) { return run.prefactor(); }
 double theory_of(const RunObservables& run) { return run.law.prefactor; }
 double push_of(const RunObservables& run) {
   return run.law.push / (run.seen.facts.grain_mass * run.seen.facts.gravity);
-}
-
-const VariedValue* StageCase::at(double value) const {
-  const auto found = std::find_if(values.begin(), values.end(),
-                                  [&](const VariedValue& v) { return v.value == value; });
-  return found == values.end() ? nullptr : &*found;
 }
 
 std::span<const StageColumn> stage_columns() {
@@ -47,12 +41,12 @@ SampleMean mean_of(PaperData& data, const VariedValue& value, RunMeasure measure
 }
 
 page::Table stage_table(PaperData& data, const std::string& name,
-                        const std::vector<StageCase>& cases) {
+                        const std::vector<RunGroup>& cases) {
   page::Text heads;
   for (const StageColumn& column : stage_columns())
     add_to_list(heads, page::marked(column.head), " || ");
   page::Table table = page::words_table(name, {{"columns", heads}});
-  for (const StageCase& row : cases)
+  for (const RunGroup& row : cases)
     for (const VariedValue& value : row.values) {
       table.rows.push_back({row.name, value.label, samples_of(value)});
       for (const StageColumn& column : stage_columns())

@@ -1,26 +1,19 @@
 #pragma once
-// What the sections of the decisive stages share: one table over their cases, and what a case
-// changes, sample by sample.
+// What the sections of the decisive stages share: one table over their groups of runs, and what a
+// group changes, sample by sample.
 
 #include <string>
 #include <vector>
 
-#include "experiments/paper/sections.hpp"
+#include "experiments/paper/run_groups.hpp"
 
 namespace ballast {
-
-/// Runs that were set alike but for one value: a row of such a table for each value.
-struct StageCase {
-  std::string name;
-  std::vector<VariedValue> values = {};  ///< growing
-
-  const VariedValue* at(double value) const;  ///< null: none is finished
-};
 
 /// A measure of a run, SI units; NaN: not known.
 using RunMeasure = double (*)(const RunObservables& run);
 
 double rise_of(const RunObservables& run);           ///< Delta x_max [m]
+double speed_of(const RunObservables& run);          ///< v_max [m/s]
 double prefactor_of_run(const RunObservables& run);  ///< C = Delta x_max / X
 double theory_of(const RunObservables& run);         ///< C by F and M as measured (force_law.hpp)
 double push_of(const RunObservables& run);           ///< F/(m g)
@@ -36,9 +29,9 @@ std::span<const StageColumn> stage_columns();
 /// Mean over the finished samples of a value.
 SampleMean mean_of(PaperData& data, const VariedValue& value, RunMeasure measure);
 
-/// A row for each case and value. words(name) is "caption, then case || {columns}".
+/// A row for each group and value. words(name) is "caption, then case || {columns}".
 page::Table stage_table(PaperData& data, const std::string& name,
-                        const std::vector<StageCase>& cases);
+                        const std::vector<RunGroup>& cases);
 
 /// ln of `measure` at `to` less that at `from`, over the samples that both have.
 Difference log_change(PaperData& data, const VariedValue& from, const VariedValue& to,

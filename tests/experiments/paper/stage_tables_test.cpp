@@ -55,7 +55,7 @@ TEST_CASE("stage tables: exponents of samples and what a case changes") {
   PaperLaw law = steep_law(0.3);
   law.excess = [](const Scene& scene) { return scene.deposit.friction > 0.7 ? 0.1 : 0.3; };
   PaperData data = written(folder, {pressed_frequency, pressed_rough_frequency}, law);
-  const StageCase smooth{"smooth", data.values(pressed_frequency)},
+  const RunGroup smooth{"smooth", data.values(pressed_frequency)},
       rough{"rough", data.values(pressed_rough_frequency)};
   REQUIRE(smooth.values.size() == 4);
   const SampleMean exponent = exponent_by_sample(data, smooth.values, frequency_of, rise_of);
