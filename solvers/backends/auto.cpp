@@ -43,7 +43,7 @@ constexpr double sparse_row = 3000.0, filled_rows = 600.0;
 /// An interior point's step over Newton's.
 constexpr double interior_factor = 2.0;
 
-/// Way::trust of sweeps; where iterations may be scarce; of bursts, which arrive the most often of
+/// Way::trust of sweeps; where iterations are scarce; of bursts, which arrive the most often of
 /// Newton's ways though their error may stand for long; of others.
 constexpr double moderate = 4.0, little = 12.0, reliable = 0.25, doubtful = 2.0;
 
@@ -54,7 +54,7 @@ class Auto final : public Solver {
     ways_[anderson].solver = make_anderson_pgs({});
     ways_[plain].solver = make_newton({.equation = ContactEquation::alart_curnier});
     ways_[proximal].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4});
-    choose_bursts(true);
+    set_scarce(false);
     ways_[interior].solver = make_interior_point();
     for (const Kind kind : {conjugate, anderson}) ways_[kind].takes_best = 0.01;
     for (const Kind kind : {plain, proximal, burst}) ways_[kind].takes_best = 0.5;
@@ -85,8 +85,7 @@ class Auto final : public Solver {
     const bool can_end = fair * step_ > budget.max_iterations * sweep_;
     const int part = budget.max_iterations <= few_iterations ? 0 : budget.max_iterations / 2;
     scarce_from_ = can_end ? part : std::numeric_limits<int>::max();
-    is_scarce_ = scarce_from_ == 0;
-    if (has_bursts_ == is_scarce_) choose_bursts(!is_scarce_);
+    if (is_scarce_ != (scarce_from_ == 0)) set_scarce(!is_scarce_);
     expect(problem, budget);
     Relay relay(budget, std::move(start));
     // Always the most promising way; its leg ends where another promises more.
@@ -110,11 +109,13 @@ class Auto final : public Solver {
     return *way.solver;
   }
 
-  /// Bursts until proximal steps are much faster; hardly any where iterations may be scarce.
-  void choose_bursts(bool many) {
+  /// Are iterations what is scarce? Then hardly any bursts; else until proximal steps are much
+  /// faster.
+  void set_scarce(bool is_scarce) {
+    is_scarce_ = is_scarce;
     Way& way = ways_[burst];
-    has_bursts_ = many;
-    way.solver = make_newton_burst({.start_sweeps = 0, .burst = 50, .endgame = many ? 1e-4 : 1e-2});
+    const double endgame = is_scarce ? 1e-2 : 1e-4;
+    way.solver = make_newton_burst({.start_sweeps = 0, .burst = 50, .endgame = endgame});
     way.solver->use_team(team_);
     way.is_prepared = false;
   }
@@ -155,8 +156,7 @@ class Auto final : public Solver {
 
   /// From here on iterations are what is scarce. Every way begins to count anew.
   void count_iterations(const FrictionProblem& problem, const Budget& budget) {
-    is_scarce_ = true;
-    choose_bursts(false);
+    set_scarce(true);
     for (Way& way : ways_) {
       way.pace.begin();
       way.spent = 0.0;
@@ -180,7 +180,7 @@ class Auto final : public Solver {
     const int few = std::clamp(budget.max_iterations / 8, 1, few_sweeps);
     for (const Kind kind : {conjugate, anderson}) {
       ways_[kind].expected = few * ways_[kind].work;
-      ways_[kind].trust = has_bursts_ || !problem.has_dynamics ? moderate : little;
+      ways_[kind].trust = is_scarce_ && problem.has_dynamics ? little : moderate;
     }
     // Over bodies bursts of sweeps are the shortest way more often than not; with a stored W
     // proximal steps are, and where iterations are scarce.
@@ -191,7 +191,7 @@ class Auto final : public Solver {
     ways_[proximal].expected =
         (bursts ? steps(20.0, 0.1) : steps(10.0, is_scarce_ ? 0.05 : 0.03)) * step;
     ways_[interior].expected = 40.0 * ways_[interior].work;
-    ways_[burst].trust = has_bursts_ ? reliable : doubtful;
+    ways_[burst].trust = is_scarce_ ? doubtful : reliable;
   }
 
   /// Work until `way` arrives, as far as one can tell: what its pace says, but not more than
@@ -268,7 +268,6 @@ class Auto final : public Solver {
   double mixed_part_ = 0.0;  ///< mixed sweeps are taken to need, of what plain ones have had
   bool knows_step_ = false;  ///< step_ is from the fill
   bool is_scarce_ = false;
-  bool has_bursts_ = true;  ///< many of them
   WorkerTeam* team_ = nullptr;
   int scarce_from_ = 0;  ///< so many iterations of the whole solve
 };

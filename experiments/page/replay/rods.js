@@ -1,7 +1,5 @@
 // Rods between balls, many in one call: chains, contact points, normals, edges, arrows.
 
-const rodsInRow = 256;  // of the texture that holds them, three texels each
-
 class Rods {
   constructor(stage) {
     this.stage = stage;

@@ -194,6 +194,7 @@ void main() {
 
 // A rod between two balls of any radii: chains, normals, points, edges, arrows. Negative radii are
 // pixels. Drawn as a rectangle that faces the eye.
+const rodsInRow = 256;  // of the texture that holds them, three texels each
 const rodVertex = `
 uniform highp sampler2D rods;
 uniform mat4 camera;
@@ -208,7 +209,7 @@ void main() {
   // six corners of two triangles: x 0 at the first end, 1 at the other; y -1 or 1 across
   int c = gl_VertexID % 6, rod = gl_VertexID / 6;
   vec2 side = vec2(c == 1 || c == 2 || c == 4, c == 2 || c == 4 || c == 5 ? 1 : -1);
-  ivec2 place = ivec2(rod % 256 * 3, rod / 256);
+  ivec2 place = ivec2(rod % ${rodsInRow} * 3, rod / ${rodsInRow});
   vec4 from = texelFetch(rods, place, 0), to = texelFetch(rods, place + ivec2(1, 0), 0);
   vec4 tint = texelFetch(rods, place + ivec2(2, 0), 0);
   vec4 a = camera * vec4(from.xyz, 1.), b = camera * vec4(to.xyz, 1.);
