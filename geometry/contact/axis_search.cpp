@@ -28,7 +28,7 @@ AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
   for (const CollisionShape& shape : shapes) {
     faces = std::max(faces, shape.faces().padded());
     vertices = std::max(vertices, shape.vertices().padded());
-    edges = std::max(edges, shape.edges().size());
+    edges = std::max(edges, shape.edge_ends().size());
   }
   heights_.resize(vertices);
   for (Side& side : side_) {
@@ -112,8 +112,8 @@ void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& a
   // Points near the facet bound the directions near its own best: of two edges the ends, of a face
   // its corners and the vertex over it.
   if (axis.feature.kind == AxisKind::edges) {
-    const CollisionShape::Edge& edge_a = pair.shape[0]->edges()[axis.feature.a];
-    const CollisionShape::Edge& edge_b = pair.shape[1]->edges()[axis.feature.b];
+    const CollisionShape::EdgeEnds& edge_a = pair.shape[0]->edge_ends()[axis.feature.a];
+    const CollisionShape::EdgeEnds& edge_b = pair.shape[1]->edge_ends()[axis.feature.b];
     for (const int v : {edge_b.tail, edge_b.head})
       add_witness(pair, 0, pair.other[0] * pair.shape[1]->vertices().xyz(v));
     for (const int v : {edge_a.tail, edge_a.head})
@@ -122,13 +122,12 @@ void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& a
   }
   const int own = axis.feature.reference();
   add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(axis.support));
-  const std::span<const CollisionShape::Corner> corners =
-      pair.shape[own]->corners(axis.feature.face());
+  const CollisionShape& shape = *pair.shape[own];
+  const int face = axis.feature.face(), corners = shape.corner_count(face);
   // A few of a large face's corners are enough.
-  const size_t stride = 1 + (corners.size() - 1) / 4;
-  for (size_t k = 0; k < corners.size(); k += stride)
-    add_witness(pair, 1 - own,
-                pair.other[1 - own] * pair.shape[own]->vertices().xyz(corners[k].vertex));
+  const int stride = 1 + (corners - 1) / 4;
+  for (int k = 0; k < corners; k += stride)
+    add_witness(pair, 1 - own, pair.other[1 - own] * shape.corner(face, k).position);
 }
 
 /// Evaluates faces of body `own`, the one with the highest bound first, until no bound reaches the
@@ -166,7 +165,7 @@ void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   // 1e-8: the normal of nearly parallel edges is known to rounding / kParallelSine only.
   const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.bounds().unevenness;
   side.edges.clear();
-  const std::span<const CollisionShape::Edge> edges = shape.edges();
+  const std::span<const CollisionShape::EdgeEnds> edges = shape.edge_ends();
   for (size_t e = 0; e < edges.size(); ++e) {
     const double* heights = side.heights.data();
     double low = 0.0, high = 1.0;
@@ -189,7 +188,7 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
   const Mat3& rotation = pair.other[0].rotation;
   turned_.clear();
   for (const int e : side_[1].edges) {
-    const CollisionShape::Edge& edge = b.edges()[e];
+    const CollisionShape::Edge edge = b.edge(e);
     turned_.push_back({e, rotation * edge.along, -(rotation * edge.left_normal),
                        -(rotation * edge.right_normal)});
   }
@@ -197,7 +196,7 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
   // its own rounding.
   const double blur = 1e-12;
   for (const int ea : side_[0].edges) {
-    const CollisionShape::Edge& edge = a.edges()[ea];
+    const CollisionShape::Edge edge = a.edge(ea);
     const double length_blur = blur * pair.size();
     for (const TurnedEdge& other : turned_) {
       // Two edges make a facet where each separates the ends of the other's arc: four signs.

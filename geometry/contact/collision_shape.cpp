@@ -77,14 +77,20 @@ CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
   for (int v = 0; v < polyhedron.vertex_count(); ++v) vertices_.set(v, polyhedron.vertex(v), 0.0);
   const std::vector<int> patch = merge_coplanar(polyhedron);
   build_faces(polyhedron, patch);
-  build_sides(polyhedron, patch);
+  build_edges(polyhedron, patch);
   build_vertex_faces(polyhedron, patch);
   build_ball(polyhedron);
-  faces_.shrink_to_fit();  // thousands of shapes are kept
-  edges_.shrink_to_fit();
-  corners_.shrink_to_fit();
-  vertex_begin_.shrink_to_fit();
-  vertex_faces_.shrink_to_fit();
+  vertex_faces_.shrink_to_fit();  // thousands of shapes are kept
+}
+
+void CollisionShape::write(int f, FaceTable& table) const {
+  table.face = face(f);
+  table.corners.clear();
+  table.sides.clear();
+  for (int k = 0; k < corner_count(f); ++k) {
+    table.corners.push_back(corner(f, k));
+    table.sides.push_back(side(f, k));
+  }
 }
 
 /// Number of the patch that each face belongs to; patches are numbered by their first face. A face
@@ -113,8 +119,10 @@ std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
 void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   const int count = 1 + *std::max_element(patch.begin(), patch.end());
   const SortedByKey by_patch = sorted_by_key(patch, count);
-  face_rows_ = AffineRows(count, -kFar);
+  faces_ = AffineRows(count, -kFar);
   const FrontSearch search(polyhedron.vertices());
+  first_corner_.reserve(static_cast<size_t>(count) + 1);
+  corners_.reserve(2 * static_cast<size_t>(polyhedron.edge_count()));
   // A patch of one face is that face. Of several the outline is the polygon, and
   // its area vector gives the normal.
   for (int p = 0; p < count; ++p) {
@@ -131,86 +139,85 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
     const auto look = [&](int v) { return offset = std::max(offset, vertices_.value(v, normal)); };
     for (const int v : loop) look(v);
     search.visit_higher(normal, offset, look);
-    face_rows_.set(p, normal, -offset);
-    faces_.push_back(
-        {normal, offset, 1.0, static_cast<int>(corners_.size()), static_cast<int>(loop.size())});
+    faces_.set(p, normal, -offset);
+    first_corner_.push_back(static_cast<int>(corners_.size()));
     for (const int v : loop) {
-      corners_.push_back({v, -1, polyhedron.vertex(v)});
+      corners_.push_back({v, -1});
       bounds_.unevenness = std::max(bounds_.unevenness, offset - vertices_.value(v, normal));
     }
   }
+  first_corner_.push_back(static_cast<int>(corners_.size()));
   measure_isolation();
 }
 
 /// The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
 void CollisionShape::measure_isolation() {
   std::vector<Vec3> normals;
-  for (const Face& face : faces_) normals.push_back(face.normal);
+  for (int f = 0; f < faces_.count(); ++f) normals.push_back(faces_.xyz(f));
   const FrontSearch search(normals);
+  isolation_.assign(normals.size(), 1.0);
   // Cosines nearer to each other than this may be out of order for their roundings.
   constexpr double slack = 1e-14, sixty_degrees = 0.5;
-  for (size_t f = 0; f < faces_.size(); ++f) {
+  for (size_t f = 0; f < normals.size(); ++f) {
     double floor = sixty_degrees - slack;
     search.visit_higher(normals[f], floor, [&](int g) {
       const Vec3& other = normals[static_cast<size_t>(g)];
       const double cosine = normals[f].dot(other);
       if (static_cast<size_t>(g) == f || cosine < sixty_degrees) return floor;
       const double sine = normals[f].cross(other).norm();  // <= angle
-      faces_[f].isolation = std::min(faces_[f].isolation, sine);
+      isolation_[f] = std::min(isolation_[f], sine);
       return floor = std::max(floor, cosine - slack);
     });
   }
 }
 
-/// Writes the edges between patches, and for each of them a side of the two faces beside it.
-void CollisionShape::build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch) {
-  sides_.resize(corners_.size());
+/// Writes the edges between patches, and where they stand in the loops of the two faces beside.
+void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   const FrontSearch search(polyhedron.vertices());
-  const auto add_side = [&](int f, int from, int to) {
-    const auto first = corners_.begin() + faces_[f].first_corner;
-    const auto corner =
-        std::find_if(first, corners_.end(), [&](const Corner& c) { return c.vertex == from; });
-    corner->edge = static_cast<int>(edges_.size());
-    // With the face on the left of its side, along x normal points
-    // out of the face within its plane.
-    const Vec3 outward =
-        (polyhedron.vertex(to) - polyhedron.vertex(from)).cross(faces_[f].normal).normalized();
-    const double offset =
-        std::max(outward.dot(polyhedron.vertex(from)), outward.dot(polyhedron.vertex(to)));
-    sides_[corner - corners_.begin()] = {outward, offset};
+  edges_.reserve(corners_.size() / 2);
+  drop_.reserve(corners_.size() / 2);
+  const auto enter = [&](int f, int from) {
+    const auto first = corners_.begin() + first_corner_[f];
+    std::find_if(first, corners_.end(), [&](const CornerLinks& c) {
+      return c.vertex == from;
+    })->edge = static_cast<int>(edges_.size());
   };
   for (const Polyhedron::Edge& edge : polyhedron.edges()) {
-    const int left = patch[edge.left], right = patch[edge.right];
-    if (left == right) continue;
-    add_side(left, edge.tail, edge.head);
-    add_side(right, edge.head, edge.tail);
-    const Vec3 &left_normal = faces_[left].normal, &right_normal = faces_[right].normal;
-    // Edge::drop: the common normal with an edge u is n = p left_normal + q right_normal with p, q
-    // = |right_normal.u|, |left_normal.u| times length / (sine |along x u|), so that the least sum
-    // of a vertex's depths below both faces bounds its depth along n.
-    // It is the highest vertex along the sum of the normals.
-    double below = kFar, floor = -kFar;
-    const double offsets = faces_[left].offset + faces_[right].offset;
-    const double rounding = 1e-14 * (std::abs(offsets) + polyhedron.circumradius());
-    const auto look = [&](int v) {
-      if (v == edge.tail || v == edge.head) return floor;
-      below = std::min(below, faces_[left].offset - left_normal.dot(polyhedron.vertex(v)) +
-                                  faces_[right].offset - right_normal.dot(polyhedron.vertex(v)));
-      return floor = offsets - below - rounding;
-    };
-    for (const int f : {left, right})
-      for (const Corner& corner : corners(f)) look(corner.vertex);
-    search.visit_higher(left_normal + right_normal, floor, look);
-    const Vec3& tail = polyhedron.vertex(edge.tail);
-    const Vec3 along = polyhedron.vertex(edge.head) - tail;
-    const double length = along.norm(), sine = left_normal.cross(right_normal).norm();
-    edges_.push_back({tail, along, left_normal, right_normal, length, below * length / sine,
-                      edge.tail, edge.head, left, right});
+    const EdgeEnds ends{edge.tail, edge.head, patch[edge.left], patch[edge.right]};
+    if (ends.left == ends.right) continue;
+    enter(ends.left, ends.tail);
+    enter(ends.right, ends.head);
+    edges_.push_back(ends);
+    drop_.push_back(drop_below(ends, polyhedron, search));
   }
+}
+
+/// Edge::drop: the common normal with an edge u is n = p left_normal + q right_normal with p, q
+/// = |right_normal.u|, |left_normal.u| times length / (sine |along x u|), so that the least sum
+/// of a vertex's depths below both faces bounds its depth along n.
+double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron,
+                                  const FrontSearch& search) const {
+  const Face left = face(edge.left), right = face(edge.right);
+  // It is the highest vertex along the sum of the normals.
+  double below = kFar, floor = -kFar;
+  const double offsets = left.offset + right.offset;
+  const double rounding = 1e-14 * (std::abs(offsets) + polyhedron.circumradius());
+  const auto look = [&](int v) {
+    if (v == edge.tail || v == edge.head) return floor;
+    below = std::min(below, left.offset - left.normal.dot(polyhedron.vertex(v)) + right.offset -
+                                right.normal.dot(polyhedron.vertex(v)));
+    return floor = offsets - below - rounding;
+  };
+  for (const int f : {edge.left, edge.right})
+    for (int k = 0; k < corner_count(f); ++k) look(corner(f, k).vertex);
+  search.visit_higher(left.normal + right.normal, floor, look);
+  const double length = (polyhedron.vertex(edge.head) - polyhedron.vertex(edge.tail)).norm();
+  return below * length / left.normal.cross(right.normal).norm();
 }
 
 void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron,
                                         const std::vector<int>& patch) {
+  vertex_begin_.reserve(static_cast<size_t>(polyhedron.vertex_count()) + 1);
   vertex_begin_.assign(1, 0);
   for (int v = 0; v < polyhedron.vertex_count(); ++v) {
     for (const int f : polyhedron.vertex_faces(v)) vertex_faces_.push_back(patch[f]);
@@ -229,8 +236,8 @@ void CollisionShape::build_ball(const Polyhedron& polyhedron) {
   mean /= static_cast<double>(polyhedron.vertex_count());
   const auto radius_about = [&](const Vec3& centre) {
     double nearest = kFar;
-    for (const Face& face : faces_)
-      nearest = std::min(nearest, face.offset - face.normal.dot(centre));
+    for (int f = 0; f < faces_.count(); ++f)
+      nearest = std::min(nearest, face(f).offset - face(f).normal.dot(centre));
     return nearest;
   };
   if (radius_about(mean) > radius_about(Vec3::Zero())) bounds_.ball_centre = mean;

@@ -2,6 +2,7 @@
 // A convex polyhedron laid out for contact detection, in tables that vector instructions run
 // through.
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "geometry/shape/polyhedron.hpp"
 
 namespace ballast {
+
+class FrontSearch;
 
 /// Rows (x, y, z, w) stored column by column, padded to a multiple of 8 rows. A row stands for the
 /// affine function d -> (x, y, z).d + w.
@@ -49,27 +52,33 @@ struct alignas(64) BodyBounds {
 /// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated
 /// boxes) are one face here, so that a contact patch does not end at a diagonal. Frame: that of the
 /// polyhedron [m].
+///
+/// Kept are positions, planes and which feature borders on which: of thousands of shapes, each with
+/// its own grain, few are in the cache, and each byte counts. Whatever follows from them, the
+/// records of faces, edges, corners and sides, is computed when it is asked for, always to the same
+/// bits.
 class CollisionShape {
  public:
   /// Two faces whose normals differ by less than this angle [rad] are one.
   static constexpr double coplanar_angle = 1e-9;
 
-  // Each record holds everything that a visit to the feature needs, in one place: of 1200 shapes
-  // only a few are in the cache.
   struct Face {
     Vec3 normal;       ///< outward, unit
     double offset;     ///< support of the whole polyhedron along the normal
     double isolation;  ///< smallest angle between this normal and any other face's, up to 1 [rad]
-    int first_corner, corner_count;
   };
-  struct Edge {
+  /// What an edge joins: its ends and, seen from outside, the face `left`, which runs tail -> head,
+  /// and the face `right`.
+  struct EdgeEnds {
+    int tail, head, left, right;
+  };
+  struct Edge : EdgeEnds {
     Vec3 from, along;                ///< the tail, and head - tail
-    Vec3 left_normal, right_normal;  ///< outward; seen from outside, face `left` runs tail -> head
+    Vec3 left_normal, right_normal;  ///< outward
     double length;
     /// Along the unit normal n of this edge and another one, u, every vertex but the two ends lies
     /// at least drop min(|left_normal.u|, |right_normal.u|) / |along x u| below the edge [m].
     double drop;
-    int tail, head, left, right;
   };
   /// Corner k of a face's loop and the edge from there to corner k+1.
   struct Corner {
@@ -82,11 +91,18 @@ class CollisionShape {
     double offset;
   };
 
-  /// A face with its loop, whether it stands in the tables or in a copy of them.
+  /// A face with its loop, written out.
   struct FaceView {
     const Face& face;
     std::span<const Corner> corners;
     std::span<const Side> sides;
+  };
+  /// Room for a face of any number of corners.
+  struct FaceTable {
+    Face face;
+    std::vector<Corner> corners;
+    std::vector<Side> sides;
+    FaceView view() const { return {face, corners, sides}; }
   };
 
   explicit CollisionShape(const Polyhedron& polyhedron);
@@ -95,17 +111,15 @@ class CollisionShape {
   const AffineRows& vertices() const { return vertices_; }
   /// Rows (outward unit normal, -offset): the signed distance of a point to each face's plane.
   /// Padding is far inside.
-  const AffineRows& faces() const { return face_rows_; }
-  const Face& face(int f) const { return faces_[f]; }
-  std::span<const Edge> edges() const { return edges_; }
+  const AffineRows& faces() const { return faces_; }
+  Face face(int f) const { return {faces_.xyz(f), -faces_.w(f), isolation_[f]}; }
+  std::span<const EdgeEnds> edge_ends() const { return edges_; }
+  Edge edge(int e) const;
+  int corner_count(int f) const { return first_corner_[f + 1] - first_corner_[f]; }
+  Corner corner(int f, int k) const;
+  Side side(int f, int k) const;
+  void write(int f, FaceTable& table) const;
 
-  std::span<const Corner> corners(int f) const {
-    return {corners_.data() + faces_[f].first_corner, corner_span(f)};
-  }
-  std::span<const Side> sides(int f) const {
-    return {sides_.data() + faces_[f].first_corner, corner_span(f)};
-  }
-  FaceView view(int f) const { return {faces_[f], corners(f), sides(f)}; }
   /// Faces that have v in their plane, ascending.
   std::span<const int> vertex_faces(int v) const {
     return {vertex_faces_.data() + vertex_begin_[v],
@@ -115,21 +129,46 @@ class CollisionShape {
   double circumradius() const { return bounds_.circumradius; }
 
  private:
-  size_t corner_span(int f) const { return static_cast<size_t>(faces_[f].corner_count); }
+  struct CornerLinks {
+    int vertex, edge;
+  };
   std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
   void build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void measure_isolation();
-  void build_sides(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  void build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  double drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron,
+                    const FrontSearch& search) const;
   void build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_ball(const Polyhedron& polyhedron);
 
-  AffineRows vertices_, face_rows_;
-  std::vector<Face> faces_;
-  std::vector<Edge> edges_;
-  std::vector<Corner> corners_;
-  std::vector<Side> sides_;
+  AffineRows vertices_, faces_;
+  std::vector<double> isolation_;  // of each face
+  std::vector<EdgeEnds> edges_;
+  std::vector<double> drop_;  // of each edge
+  std::vector<int> first_corner_;
+  std::vector<CornerLinks> corners_;  // of all faces
   std::vector<int> vertex_begin_, vertex_faces_;
   BodyBounds bounds_;
 };
+
+inline CollisionShape::Edge CollisionShape::edge(int e) const {
+  const EdgeEnds& ends = edges_[e];
+  const Vec3 from = vertices_.xyz(ends.tail), along = vertices_.xyz(ends.head) - from;
+  return {ends, from, along, faces_.xyz(ends.left), faces_.xyz(ends.right), along.norm(), drop_[e]};
+}
+
+inline CollisionShape::Corner CollisionShape::corner(int f, int k) const {
+  const CornerLinks& links = corners_[first_corner_[f] + k];
+  return {links.vertex, links.edge, vertices_.xyz(links.vertex)};
+}
+
+inline CollisionShape::Side CollisionShape::side(int f, int k) const {
+  // With the face on the left of its side, along x normal points out of the face within its plane.
+  const CornerLinks* loop = corners_.data() + first_corner_[f];
+  const Vec3 from = vertices_.xyz(loop[k].vertex);
+  const Vec3 to = vertices_.xyz(loop[k + 1 < corner_count(f) ? k + 1 : 0].vertex);
+  const Vec3 outward = (to - from).cross(faces_.xyz(f)).normalized();
+  return {outward, std::max(outward.dot(from), outward.dot(to))};
+}
 
 }  // namespace ballast

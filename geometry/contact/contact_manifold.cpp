@@ -31,27 +31,28 @@ int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
 std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair,
                                                        const SeparatingAxis& axis, double alert,
                                                        int max_points) {
-  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
   const AxisFeature& feature = axis.feature;
   if (feature.kind == AxisKind::edges) {
-    const CollisionShape::Edge &edge_a = a.edges()[feature.a], &edge_b = b.edges()[feature.b];
-    const EdgesMeeting meeting(pair, axis, edge_a, edge_b);
-    if (meeting.is_sharp() ||
-        is_lone_crossing(pair, axis, meeting, edge_of_face(a, feature.a, meeting.face_a),
-                         edge_of_face(b, feature.b, meeting.face_b), alert))
-      return lone_point(pair, axis, edges_cross(pair, axis, edge_a, edge_b));
-    return points(pair, axis, meeting,
-                  {edge_a, edge_b, a.view(meeting.face_a), b.view(meeting.face_b)}, alert,
-                  max_points);
+    const CollisionShape::Edge a = pair.shape[0]->edge(feature.a),
+                               b = pair.shape[1]->edge(feature.b);
+    const EdgesMeeting meeting(pair, axis, a, b);
+    if (meeting.is_sharp()) return lone_point(pair, axis, edges_cross(pair, axis, a, b));
+    pair.shape[0]->write(meeting.face_a, face_of_[0]);
+    pair.shape[1]->write(meeting.face_b, face_of_[1]);
+    const CollisionShape::FaceView beside_a = face_of_[0].view(), beside_b = face_of_[1].view();
+    if (is_lone_crossing(pair, axis, meeting, edge_of_face(a, feature.a, beside_a),
+                         edge_of_face(b, feature.b, beside_b), alert))
+      return lone_point(pair, axis, edges_cross(pair, axis, a, b));
+    return points(pair, axis, meeting, {a, b, beside_a, beside_b}, alert, max_points);
   }
   const int reference = feature.reference(), face = feature.face();
-  const CollisionShape& other = *pair.shape[1 - reference];
-  const CollisionShape::FaceView own = pair.shape[reference]->view(face);
+  const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
   const Vec3 vertex = other.vertices().xyz(axis.support);
   if (is_lone_vertex(pair, axis, alert))
-    return lone_point(pair, axis, vertex_on_face(pair, axis, own.face, vertex));
-  return points(pair, axis,
-                {own, other.view(incident_face(pair, reference, face, axis.support)), vertex},
+    return lone_point(pair, axis, vertex_on_face(pair, axis, own.face(face), vertex));
+  own.write(face, face_of_[reference]);
+  other.write(incident_face(pair, reference, face, axis.support), face_of_[1 - reference]);
+  return points(pair, axis, {face_of_[reference].view(), face_of_[1 - reference].view(), vertex},
                 alert, max_points);
 }
 

@@ -53,6 +53,7 @@ class ContactManifold {
   void reduce(int max_points, double size);
 
   FaceClipper clipper_;
+  CollisionShape::FaceTable face_of_[2];  // the pair's faces, out of the shapes' tables
   // Within reach, in the order of the polygon's corners; in the frame of the reference body.
   std::vector<ClippedPoint> candidates_;
   std::vector<int> by_key_;  // candidates in the order of their keys

@@ -88,8 +88,8 @@ CarriedContact::CarriedContact(const ShapePair& pair, const SeparatingAxis& axis
   if (kind_ == AxisKind::face_of_a) first_ = normal;
   if (kind_ == AxisKind::face_of_b) first_ = pair.other[1].rotation * normal;
   if (kind_ == AxisKind::edges) {
-    first_ = pair.shape[0]->edges()[axis.feature.a].along;
-    second_ = pair.shape[1]->edges()[axis.feature.b].along;
+    first_ = pair.shape[0]->edge(axis.feature.a).along;
+    second_ = pair.shape[1]->edge(axis.feature.b).along;
     if (first_.cross(pair.other[0].rotation * second_).dot(normal) < 0.0) second_ = -second_;
   }
 }

@@ -17,11 +17,11 @@ bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double al
          axis.separation + axis.clearance > alert + thickness;
 }
 
-EdgeOfFace edge_of_face(const CollisionShape& shape, int edge, int face) {
-  const std::span<const CollisionShape::Corner> corners = shape.corners(face);
+EdgeOfFace edge_of_face(const CollisionShape::Edge& edge, int index,
+                        const CollisionShape::FaceView& face) {
   int own = 0;
-  while (corners[own].edge != edge) ++own;
-  return {shape.edges()[edge], shape.sides(face), own};
+  while (face.corners[own].edge != index) ++own;
+  return {edge, face.sides, own};
 }
 
 /// Over the faces' common part the height between them is a linear function. It is least at the

@@ -25,7 +25,9 @@ struct EdgeOfFace {
   std::span<const CollisionShape::Side> sides;
   int own;  ///< the side that stands on the edge
 };
-EdgeOfFace edge_of_face(const CollisionShape& shape, int edge, int face);
+/// `index`: of the edge in its shape.
+EdgeOfFace edge_of_face(const CollisionShape::Edge& edge, int index,
+                        const CollisionShape::FaceView& face);
 
 /// The axis is two edges, flat on one another, and their crossing is the only point within `alert`
 /// [m]: all other corners of the common part of the two faces (`meeting`'s) are out of reach.

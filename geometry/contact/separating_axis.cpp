@@ -43,22 +43,6 @@ Vec3 refined_cross(const Vec3& u, const Vec3& v) {
 
 }  // namespace
 
-SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature,
-                         const CollisionShape::Face& face,
-                         std::span<const CollisionShape::Side> sides, const Vec3& vertex,
-                         double separation) {
-  const int own = feature.reference();
-  SeparatingAxis axis;
-  axis.feature = feature;
-  axis.separation = separation;
-  axis.direction = own == 0 ? face.normal : Vec3(-(pair.other[0].rotation * face.normal));
-  const Vec3 support = pair.other[own] * vertex;
-  axis.inside = pair.size();
-  for (const CollisionShape::Side& side : sides)
-    axis.inside = std::min(axis.inside, side.offset - side.outward.dot(support));
-  return axis;
-}
-
 SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
                          const CollisionShape::Edge& a, const CollisionShape::Edge& b,
                          const EdgeSeparation& found) {
@@ -83,7 +67,7 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
 }
 
 FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& heights) {
-  const CollisionShape::Face& face = pair.shape[own]->face(f);
+  const CollisionShape::Face face = pair.shape[own]->face(f);
   const AffineRows& vertices = pair.shape[1 - own]->vertices();
   // s(n) = min_B n.x - max_A n.x, and max_A is the face's own offset: the lowest vertex of the
   // other body over the face is all that is looked for.
@@ -127,7 +111,7 @@ std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape:
 std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb,
                                               Heights& heights) {
   const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
-  const CollisionShape::Edge &edge_a = a.edges()[ea], &edge_b = b.edges()[eb];
+  const CollisionShape::Edge edge_a = a.edge(ea), edge_b = b.edge(eb);
   std::optional<EdgeFacet> facet = edge_facet(pair, edge_a, edge_b);
   if (!facet || !facet->nearly_parallel) return facet;
   // The direction of nearly parallel edges is uncertain by rounding / sine: the edges may not be
@@ -150,14 +134,15 @@ std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFea
     const std::optional<EdgeSeparation> found =
         edge_separation(pair, feature.a, feature.b, heights);
     if (!found) return std::nullopt;
-    return edge_axis(pair, feature, pair.shape[0]->edges()[feature.a],
-                     pair.shape[1]->edges()[feature.b], *found);
+    return edge_axis(pair, feature, pair.shape[0]->edge(feature.a), pair.shape[1]->edge(feature.b),
+                     *found);
   }
   const int own = feature.reference(), f = feature.face();
   const FaceSeparation found = face_separation(pair, own, f, heights);
-  SeparatingAxis axis =
-      face_axis(pair, feature, pair.shape[own]->face(f), pair.shape[own]->sides(f),
-                pair.shape[1 - own]->vertices().xyz(found.support), found.separation);
+  const CollisionShape& shape = *pair.shape[own];
+  SeparatingAxis axis = face_axis(
+      pair, feature, shape.face(f), shape.corner_count(f), [&](int k) { return shape.side(f, k); },
+      pair.shape[1 - own]->vertices().xyz(found.support), found.separation);
   axis.support = found.support;
   axis.clearance = found.clearance;
   return axis;

@@ -153,11 +153,24 @@ inline double face_separation_at(const PairFrame& pair, int own, const Collision
                                  double height) {
   return height + (face.normal.dot(pair.other[own].position) - face.offset);
 }
-/// Leaves support and clearance to the caller. `vertex`: the other body's lowest one over the face,
-/// in its own frame.
+/// Leaves support and clearance to the caller. `side_at`: side k of the face, of `sides`. `vertex`:
+/// the other body's lowest one over the face, in its own frame.
+template <class SideAt>
 SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature,
-                         const CollisionShape::Face& face,
-                         std::span<const CollisionShape::Side> sides, const Vec3& vertex,
-                         double separation);
+                         const CollisionShape::Face& face, int sides, const SideAt& side_at,
+                         const Vec3& vertex, double separation) {
+  const int own = feature.reference();
+  SeparatingAxis axis;
+  axis.feature = feature;
+  axis.separation = separation;
+  axis.direction = own == 0 ? face.normal : Vec3(-(pair.other[0].rotation * face.normal));
+  const Vec3 support = pair.other[own] * vertex;
+  axis.inside = pair.size();
+  for (int k = 0; k < sides; ++k) {
+    const CollisionShape::Side& side = side_at(k);
+    axis.inside = std::min(axis.inside, side.offset - side.outward.dot(support));
+  }
+  return axis;
+}
 
 }  // namespace ballast

@@ -39,14 +39,15 @@ LowestCorner lowest_corner(const FaceCopy& face, const Vec3& direction) {
 }  // namespace
 
 bool FaceCopy::take(const CollisionShape& shape, int f) {
-  const CollisionShape::FaceView of = shape.view(f);
   index = -1;
-  if (of.corners.size() > most) return false;
+  if (shape.corner_count(f) > static_cast<int>(most)) return false;
   index = f;
-  count = static_cast<int>(of.corners.size());
-  face = of.face;
-  std::copy(of.sides.begin(), of.sides.end(), side.begin());
-  std::copy(of.corners.begin(), of.corners.end(), corner.begin());
+  count = shape.corner_count(f);
+  face = shape.face(f);
+  for (int k = 0; k < count; ++k) {
+    side[k] = shape.side(f, k);
+    corner[k] = shape.corner(f, k);
+  }
   return true;
 }
 
@@ -56,14 +57,13 @@ void TouchingPair::record(const ShapePair& pair, const SeparatingAxis& axis, dou
   feature_ = axis.feature;
   if (feature_.kind != AxisKind::edges) return record_faces(pair, axis.support, turn, heights);
   Edges& edges = contact_.emplace<Edges>();
-  edges.a = pair.shape[0]->edges()[feature_.a];
-  edges.b = pair.shape[1]->edges()[feature_.b];
+  edges.a = pair.shape[0]->edge(feature_.a);
+  edges.b = pair.shape[1]->edge(feature_.b);
   const EdgesMeeting meeting(pair, axis, edges.a, edges.b);
-  const auto take = [](Edges::Beside& beside, const CollisionShape& shape, int edge, int face) {
-    if (beside.face.take(shape, face)) beside.own = edge_of_face(shape, edge, face).own;
-  };
-  take(edges.beside_a, *pair.shape[0], feature_.a, meeting.face_a);
-  take(edges.beside_b, *pair.shape[1], feature_.b, meeting.face_b);
+  if (edges.beside_a.face.take(*pair.shape[0], meeting.face_a))
+    edges.beside_a.own = edge_of_face(edges.a, feature_.a, edges.beside_a.face.view()).own;
+  if (edges.beside_b.face.take(*pair.shape[1], meeting.face_b))
+    edges.beside_b.own = edge_of_face(edges.b, feature_.b, edges.beside_b.face.view()).own;
 }
 
 void TouchingPair::record_faces(const ShapePair& pair, int support, double turn, Heights& heights) {
@@ -125,7 +125,9 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
   if (separation > alert) return Look::apart;
   // The axis and its proof.
   const CollisionShape::Corner& support = faces.incident.corner[low.place];
-  axis = face_axis(pair, feature_, reference.face, reference.sides, support.position, separation);
+  const auto side_at = [&](int k) -> const CollisionShape::Side& { return reference.sides[k]; };
+  axis = face_axis(pair, feature_, reference.face, static_cast<int>(reference.sides.size()),
+                   side_at, support.position, separation);
   axis.support = support.vertex;
   axis.clearance = clearance;
   if (!is_proved_best(pair, reference.face.isolation, axis)) return Look::undecided;

@@ -36,7 +36,8 @@ TEST_CASE("tables agree with the polyhedron they come from") {
     const CollisionShape& shape = collision_pool()[s];
     const double small = 1e-14;
     REQUIRE(shape.vertices().count() == polyhedron.vertex_count());
-    const int vertices = shape.vertices().count(), edges = static_cast<int>(shape.edges().size());
+    const int vertices = shape.vertices().count(),
+              edges = static_cast<int>(shape.edge_ends().size());
     CHECK(vertices - edges + shape.faces().count() == 2);
     CHECK(shape.bounds().unevenness <= small);
     for (int f = 0; f < shape.faces().count(); ++f) {
@@ -46,16 +47,16 @@ TEST_CASE("tables agree with the polyhedron they come from") {
             Approx(normal.dot(support_vertex(polyhedron, normal))).epsilon(1e-13));
       CHECK(normal.dot(shape.bounds().ball_centre) + shape.faces().w(f) <=
             -shape.bounds().ball_radius + small);
-      for (int k = 0; k < shape.face(f).corner_count; ++k) {
-        const int corner = shape.corners(f)[k].vertex,
-                  next = shape.corners(f)[(k + 1) % shape.face(f).corner_count].vertex;
-        const CollisionShape::Side& side = shape.sides(f)[k];
-        const CollisionShape::Edge& edge = shape.edges()[shape.corners(f)[k].edge];
+      for (int k = 0; k < shape.corner_count(f); ++k) {
+        const int corner = shape.corner(f, k).vertex,
+                  next = shape.corner(f, (k + 1) % shape.corner_count(f)).vertex;
+        const CollisionShape::Side side = shape.side(f, k);
+        const CollisionShape::Edge edge = shape.edge(shape.corner(f, k).edge);
         CHECK(std::minmax(corner, next) == std::minmax(edge.tail, edge.head));
         CHECK((edge.left == f ? edge.tail : edge.head) == corner);
         CHECK((edge.left == f || edge.right == f));
         CHECK(std::abs(side.outward.dot(normal)) <= small);
-        for (const auto& [v, e, p] : shape.corners(f))
+        for (const auto& [v, e, p] : face_table(shape, f).corners)
           CHECK(side.outward.dot(shape.vertices().xyz(v)) - side.offset <= small);
         const auto faces = shape.vertex_faces(corner);
         CHECK(std::find(faces.begin(), faces.end(), f) != faces.end());
@@ -68,9 +69,9 @@ TEST_CASE("tables agree with the polyhedron they come from") {
 TEST_CASE("coplanar triangles become one face") {
   const CollisionShape box(triangulated_box(Vec3(1, 2, 3)));
   CHECK(box.faces().count() == 6);
-  CHECK(box.edges().size() == 12);
+  CHECK(box.edge_ends().size() == 12);
   for (int f = 0; f < 6; ++f) {
-    CHECK(box.face(f).corner_count == 4);
+    CHECK(box.corner_count(f) == 4);
     CHECK(box.face(f).isolation == Approx(1.0));
   }
   for (int v = 0; v < 8; ++v) CHECK(box.vertex_faces(v).size() == 3);
@@ -114,20 +115,21 @@ TEST_CASE("what is found by searching is what a look at all faces and vertices f
     const Polyhedron polyhedron = convex_hull(points);
     const CollisionShape shape(polyhedron);
     for (int f = 0; f < shape.faces().count(); ++f) {
-      const CollisionShape::Face& face = shape.face(f);
+      const CollisionShape::Face face = shape.face(f);
       double offset = -1e30, isolation = 1.0;
       for (int v = 0; v < polyhedron.vertex_count(); ++v)
         offset = std::max(offset, shape.vertices().value(v, face.normal));
       for (int g = 0; g < shape.faces().count(); ++g) {
-        const Vec3& other = shape.face(g).normal;
+        const Vec3 other = shape.face(g).normal;
         if (g != f && face.normal.dot(other) >= 0.5)
           isolation = std::min(isolation, face.normal.cross(other).norm());
       }
       CHECK(face.offset == offset);
       CHECK(face.isolation == isolation);
     }
-    for (const CollisionShape::Edge& edge : shape.edges()) {
-      const CollisionShape::Face &left = shape.face(edge.left), &right = shape.face(edge.right);
+    for (size_t e = 0; e < shape.edge_ends().size(); ++e) {
+      const CollisionShape::Edge edge = shape.edge(static_cast<int>(e));
+      const CollisionShape::Face left = shape.face(edge.left), right = shape.face(edge.right);
       double below = 1e100;
       for (int v = 0; v < polyhedron.vertex_count(); ++v)
         if (v != edge.tail && v != edge.head)

@@ -150,8 +150,9 @@ TEST_CASE("the short cut for one vertex on a face returns what clipping returns"
     // all incident faces at the touching vertex together see all that comes near the reference face
     std::vector<std::uint64_t> keys;
     for (const int incident : pair.shape[1 - reference]->vertex_faces(found.axis.support)) {
-      const auto corners = clipper.clip(pair, reference, pair.shape[reference]->view(face),
-                                        pair.shape[1 - reference]->view(incident), 1e-9 * c.size());
+      const auto corners =
+          clipper.clip(pair, reference, face_table(*pair.shape[reference], face).view(),
+                       face_table(*pair.shape[1 - reference], incident).view(), 1e-9 * c.size());
       set_heights(corners, pair.shape[reference]->face(face));
       for (const ClippedPoint& p : corners)
         if (p.height <= alert) keys.push_back(p.key);

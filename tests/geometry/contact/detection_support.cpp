@@ -107,6 +107,12 @@ const std::vector<Polyhedron>& shape_pool() {
   return pool;
 }
 
+CollisionShape::FaceTable face_table(const CollisionShape& shape, int face) {
+  CollisionShape::FaceTable table;
+  shape.write(face, table);
+  return table;
+}
+
 const std::vector<CollisionShape>& collision_pool() {
   static const std::vector<CollisionShape> pool(shape_pool().begin(), shape_pool().end());
   return pool;

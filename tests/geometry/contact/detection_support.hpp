@@ -14,6 +14,8 @@ namespace ballast::testing {
 const std::vector<Polyhedron>& shape_pool();
 /// The same shapes laid out for detection, in the same order.
 const std::vector<CollisionShape>& collision_pool();
+/// A face of the shape with its loop.
+CollisionShape::FaceTable face_table(const CollisionShape& shape, int face);
 
 Polyhedron prism(int sides, double radius, double height);
 /// A box whose sides are split into two triangles each.

@@ -23,9 +23,9 @@ std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int r
   const double doubtful = 1e-7 * pair.size();
   const auto inside_sides = [&](const Vec3& p, int except) {
     double worst = -1.0;
-    for (int k = 0; k < own.face(face).corner_count; ++k)
+    for (int k = 0; k < own.corner_count(face); ++k)
       if (k != except)
-        worst = std::max(worst, own.sides(face)[k].outward.dot(p) - own.sides(face)[k].offset);
+        worst = std::max(worst, own.side(face, k).outward.dot(p) - own.side(face, k).offset);
     clear &= std::abs(worst) > doubtful;
     return worst < 0.0;
   };
@@ -39,30 +39,30 @@ std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int r
                 : feature_key(PointKind::vertex_of_b, 0, index);
   };
   std::map<std::uint64_t, Vec3> points;
-  const int count = other.face(incident).corner_count;
+  const int count = other.corner_count(incident);
   for (int i = 0; i < count; ++i) {
-    const Vec3 p = pose * other.vertices().xyz(other.corners(incident)[i].vertex);
-    const Vec3 q = pose * other.vertices().xyz(other.corners(incident)[(i + 1) % count].vertex);
+    const Vec3 p = pose * other.vertices().xyz(other.corner(incident, i).vertex);
+    const Vec3 q = pose * other.vertices().xyz(other.corner(incident, (i + 1) % count).vertex);
     if (inside_sides(p, -1))
-      points[key(PointKind::vertex_of_b, -1, other.corners(incident)[i].vertex)] = p;
-    for (int k = 0; k < own.face(face).corner_count; ++k) {
-      const CollisionShape::Side& side = own.sides(face)[k];
+      points[key(PointKind::vertex_of_b, -1, other.corner(incident, i).vertex)] = p;
+    for (int k = 0; k < own.corner_count(face); ++k) {
+      const CollisionShape::Side side = own.side(face, k);
       const double at_p = side.outward.dot(p) - side.offset,
                    at_q = side.outward.dot(q) - side.offset;
       if (at_p * at_q >= 0.0) continue;
       const Vec3 crossing = p + at_p / (at_p - at_q) * (q - p);
       if (inside_sides(crossing, k))
-        points[key(PointKind::edges, own.corners(face)[k].edge, other.corners(incident)[i].edge)] =
+        points[key(PointKind::edges, own.corner(face, k).edge, other.corner(incident, i).edge)] =
             crossing;
     }
   }
   const Vec3 up = own.faces().xyz(face), n = pose.rotation * other.faces().xyz(incident);
-  const Vec3 on_plane = pose * other.vertices().xyz(other.corners(incident)[0].vertex);
-  for (const auto& [v, e, position] : own.corners(face)) {
+  const Vec3 on_plane = pose * other.vertices().xyz(other.corner(incident, 0).vertex);
+  for (const auto& [v, e, position] : face_table(own, face).corners) {
     const Vec3 corner = position;
     const Vec3 p = corner + up * (n.dot(on_plane - corner) / n.dot(up));
     double worst = -1.0;
-    for (const CollisionShape::Side& side : other.sides(incident))
+    for (const CollisionShape::Side& side : face_table(other, incident).sides)
       worst = std::max(
           worst, side.outward.dot(pose.rotation.transpose() * (p - pose.position)) - side.offset);
     clear &= std::abs(worst) > doubtful;
@@ -94,8 +94,8 @@ TEST_CASE("clipping finds the corners that the definition names, under the same 
     bool clear = true;
     const auto expected = clipped_by_definition(pair, reference, face, incident, clear);
     if (!clear) continue;
-    const auto found =
-        clipper.clip(pair, reference, own.view(face), other.view(incident), 1e-9 * c.size());
+    const auto found = clipper.clip(pair, reference, face_table(own, face).view(),
+                                    face_table(other, incident).view(), 1e-9 * c.size());
     ++compared;
     corners += static_cast<int>(found.size());
     empty += found.empty();
@@ -123,8 +123,9 @@ TEST_CASE("corners on a side stay corners: equal boxes") {
   Random random(5);
   for (double noise : {0.0, 1e-15, 1e-10}) {
     const Vec3 shift(noise * random.uniform(-1, 1), noise * random.uniform(-1, 1), 1.0);
-    const auto points = clipper.clip(ShapePair(box, box, {Mat3::Identity(), shift}), 0,
-                                     box.view(top), box.view(bottom), 1e-9);
+    const auto points =
+        clipper.clip(ShapePair(box, box, {Mat3::Identity(), shift}), 0, face_table(box, top).view(),
+                     face_table(box, bottom).view(), 1e-9);
     REQUIRE(points.size() == 4);
     for (const ClippedPoint& p : points) CHECK(p.key < 8);  // vertices of b
   }

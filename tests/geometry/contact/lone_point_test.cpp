@@ -39,8 +39,9 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
     int others = 0;
     const CollisionShape& other = *pair.shape[1 - reference];
     for (int f = 0; f < other.faces().count(); ++f) {
-      const auto corners = clipper.clip(pair, reference, pair.shape[reference]->view(face),
-                                        other.view(f), clipping_thickness(c.size()));
+      const auto corners =
+          clipper.clip(pair, reference, face_table(*pair.shape[reference], face).view(),
+                       face_table(other, f).view(), clipping_thickness(c.size()));
       set_heights(corners, pair.shape[reference]->face(face));
       for (const ClippedPoint& p : corners)
         others += p.key != vertex_key(1 - reference, axis->support) && p.height <= reach;
@@ -65,25 +66,26 @@ TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their cr
     const std::optional<SeparatingAxis> axis = best_axis(pair);
     if (!axis || axis->feature.kind != AxisKind::edges) continue;
     const AxisFeature feature = axis->feature;
-    const CollisionShape::Edge &a = pair.shape[0]->edges()[feature.a],
-                               &b = pair.shape[1]->edges()[feature.b];
+    const CollisionShape::Edge a = pair.shape[0]->edge(feature.a),
+                               b = pair.shape[1]->edge(feature.b);
     const EdgesMeeting meeting(pair, *axis, a, b);
     if (meeting.is_sharp()) continue;
     const int reference = meeting.reference(), face = meeting.reference_face();
     const Vec3 direction =
         reference == 0 ? axis->direction : Vec3(-(pair.other[1].rotation * axis->direction));
+    const CollisionShape::FaceTable beside_a = face_table(*pair.shape[0], meeting.face_a),
+                                    beside_b = face_table(*pair.shape[1], meeting.face_b);
     const auto corners =
-        clipper.clip_along(pair, reference, pair.shape[reference]->view(face),
-                           pair.shape[1 - reference]->view(meeting.incident_face()), direction,
+        clipper.clip_along(pair, reference, reference == 0 ? beside_a.view() : beside_b.view(),
+                           reference == 0 ? beside_b.view() : beside_a.view(), direction,
                            clipping_thickness(c.size()));
     set_heights(corners, pair.shape[reference]->face(face), direction);
     const auto crossing = feature_key(PointKind::edges, feature.a, feature.b);
     int others = 0;
     for (const ClippedPoint& p : corners) others += p.key != crossing && p.height <= reach;
     alone += others == 0;
-    if (!is_lone_crossing(pair, *axis, meeting,
-                          edge_of_face(*pair.shape[0], feature.a, meeting.face_a),
-                          edge_of_face(*pair.shape[1], feature.b, meeting.face_b), reach))
+    if (!is_lone_crossing(pair, *axis, meeting, edge_of_face(a, feature.a, beside_a.view()),
+                          edge_of_face(b, feature.b, beside_b.view()), reach))
       continue;
     ++proved;
     if (others > 0) FAIL_CHECK("case " << i << ": " << others << " other corners within reach");

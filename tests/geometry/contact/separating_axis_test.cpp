@@ -61,8 +61,8 @@ TEST_CASE("crossed edges: the gap along their common normal") {
   const ShapePair pair(rod, rod, b_in_a);
   Heights heights = scratch();
   std::vector<SeparatingAxis> found;
-  for (size_t ea = 0; ea < rod.edges().size(); ++ea) {
-    for (size_t eb = 0; eb < rod.edges().size(); ++eb) {
+  for (size_t ea = 0; ea < rod.edge_ends().size(); ++ea) {
+    for (size_t eb = 0; eb < rod.edge_ends().size(); ++eb) {
       const AxisFeature feature{AxisKind::edges, static_cast<int>(ea), static_cast<int>(eb)};
       const auto axis = evaluate_axis(pair, feature, heights);
       if (axis && axis->separation > 0.0) found.push_back(*axis);
@@ -89,18 +89,18 @@ TEST_CASE("two edges form a facet exactly if both are supports along their commo
     const ShapePair pair = c.pair();
     const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
     const Polyhedron &poly_a = shape_pool()[c.a], &poly_b = shape_pool()[c.b];
-    for (size_t ea = 0; ea < a.edges().size(); ++ea) {
-      for (size_t eb = 0; eb < b.edges().size(); ++eb) {
-        const Vec3 along_b = c.b_in_a.rotation * b.edges()[eb].along;
-        const Vec3 cross = a.edges()[ea].along.cross(along_b);
-        if (cross.norm() < 1e-3 * a.edges()[ea].along.norm() * along_b.norm()) continue;
+    for (size_t ea = 0; ea < a.edge_ends().size(); ++ea) {
+      for (size_t eb = 0; eb < b.edge_ends().size(); ++eb) {
+        const Vec3 along_b = c.b_in_a.rotation * b.edge(eb).along;
+        const Vec3 cross = a.edge(ea).along.cross(along_b);
+        if (cross.norm() < 1e-3 * a.edge(ea).along.norm() * along_b.norm()) continue;
         double worst_margin = -1.0;  // how well supported, over the two directions
         for (double sign : {1.0, -1.0}) {
           const Vec3 n = sign * cross.normalized(), n_b = -(c.b_in_a.rotation.transpose() * n);
           const double lacks_a =
-              n.dot(support_vertex(poly_a, n) - a.vertices().xyz(a.edges()[ea].tail));
+              n.dot(support_vertex(poly_a, n) - a.vertices().xyz(a.edge(ea).tail));
           const double lacks_b =
-              n_b.dot(support_vertex(poly_b, n_b) - b.vertices().xyz(b.edges()[eb].tail));
+              n_b.dot(support_vertex(poly_b, n_b) - b.vertices().xyz(b.edge(eb).tail));
           worst_margin = std::max(worst_margin, -std::max(lacks_a, lacks_b));
         }
         if (std::abs(worst_margin) < 1e-10 && worst_margin < -1e-15) continue;  // too close to tell
@@ -125,8 +125,8 @@ TEST_CASE("seen from the other body every axis is the same") {
     const AxisFeature feature =
         i % 2 ? AxisFeature{AxisKind::face_of_a, random.below(pair.shape[0]->faces().count()), -1}
               : AxisFeature{AxisKind::edges,
-                            random.below(static_cast<int>(pair.shape[0]->edges().size())),
-                            random.below(static_cast<int>(pair.shape[1]->edges().size()))};
+                            random.below(static_cast<int>(pair.shape[0]->edge_ends().size())),
+                            random.below(static_cast<int>(pair.shape[1]->edge_ends().size()))};
     const auto axis = evaluate_axis(pair, feature, heights);
     const auto other = evaluate_axis(swapped, mirrored(feature), heights);
     if (!axis || !other) continue;
@@ -162,8 +162,8 @@ TEST_CASE("an axis proved to be the best is the best") {
     };
     for (int f = 0; f < pair.shape[0]->faces().count(); ++f) check({AxisKind::face_of_a, f, -1});
     for (int f = 0; f < pair.shape[1]->faces().count(); ++f) check({AxisKind::face_of_b, -1, f});
-    for (size_t ea = 0; ea < pair.shape[0]->edges().size(); ++ea) {
-      for (size_t eb = 0; eb < pair.shape[1]->edges().size(); ++eb)
+    for (size_t ea = 0; ea < pair.shape[0]->edge_ends().size(); ++ea) {
+      for (size_t eb = 0; eb < pair.shape[1]->edge_ends().size(); ++eb)
         check({AxisKind::edges, static_cast<int>(ea), static_cast<int>(eb)});
     }
     if (placement != Placement::near_touching) continue;
