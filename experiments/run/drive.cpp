@@ -13,6 +13,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/kept_memory.hpp"
 
 namespace ballast {
 namespace {
@@ -26,14 +27,14 @@ long steps_between(double rate, double h) {
 class Drive {
  public:
   Drive(const ResolvedScene& resolved, const DriveOrder& order, const StepSettings& settings,
-        PreparedRun& run)
+        PreparedRun& run, Recorder& recorder)
       : scene_(resolved.scene),
         key_(resolved.key),
         order_(order),
         h_(settings.h),
         run_(run),
         stepper_(run.system, settings, run.driven_wall),
-        recorder_(order.folder.path(), run.system, run.state.step, scene_.record.forces),
+        recorder_(recorder),
         pose_every_(steps_between(scene_.record.pose_rate, h_)),
         state_every_(steps_between(scene_.record.state_rate, h_)),
         progress_(order.telling) {
@@ -45,6 +46,7 @@ class Drive {
   }
 
   DriveEnd loop() {
+    give_memory_back();  // of making shapes
     const Stopwatch watch;
     Stopwatch since_saved;
     DriveEnd end = DriveEnd::finished;
@@ -70,10 +72,6 @@ class Drive {
     save();
     progress_.finish();
     return end;
-  }
-
-  void finish_records(const std::string& scene_text, const std::string& manifest_text) {
-    recorder_.finish(scene_text, manifest_text);
   }
 
  private:
@@ -116,7 +114,7 @@ class Drive {
   double h_;
   PreparedRun& run_;
   TimeStepper stepper_;
-  Recorder recorder_;
+  Recorder& recorder_;
   long pose_every_, state_every_;
   std::optional<ParaviewSeries> paraview_;
   std::optional<StepCapture> capture_;
@@ -142,10 +140,12 @@ DriveEnd drive(const ResolvedScene& resolved, const DriveOrder& order, PreparedR
   const StepSettings settings = step_settings(resolved.scene);
   manifest.summary("step_s", settings.h);
   manifest.summary("velocity_scale_m_s", settings.velocity_scale());
-  Drive drive(resolved, order, settings, run);
+  Recorder recorder(order.folder.path(), run.system, run.state.step, resolved.scene.record.forces);
   const Stopwatch watch;
   const long first = run.state.step;
-  const DriveEnd end = drive.loop();
+  // What the steps need is given back before the record is put together in memory.
+  const DriveEnd end = Drive(resolved, order, settings, run, recorder).loop();
+  give_memory_back();
   if (run.state.step > first)
     manifest.summary("ms_per_step",
                      1e3 * watch.seconds() / static_cast<double>(run.state.step - first));
@@ -154,7 +154,7 @@ DriveEnd drive(const ResolvedScene& resolved, const DriveOrder& order, PreparedR
   manifest.summary("peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024.0);
   manifest.summary(steps_left_entry,
                    static_cast<double>(resolved.scene.step_count() - run.state.step));
-  drive.finish_records(resolved.text, manifest.text());
+  recorder.finish(resolved.text, manifest.text());
   note_record(order.folder, settings.velocity_scale(), manifest);
   return end;
 }

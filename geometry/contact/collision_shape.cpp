@@ -217,10 +217,11 @@ double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhe
 
 void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron,
                                         const std::vector<int>& patch) {
+  const SortedByKey faces = polyhedron.faces_by_vertex();
   vertex_begin_.reserve(static_cast<size_t>(polyhedron.vertex_count()) + 1);
   vertex_begin_.assign(1, 0);
   for (int v = 0; v < polyhedron.vertex_count(); ++v) {
-    for (const int f : polyhedron.vertex_faces(v)) vertex_faces_.push_back(patch[f]);
+    for (const int f : faces.of(v)) vertex_faces_.push_back(patch[f]);
     const auto begin = vertex_faces_.begin() + vertex_begin_.back();
     std::sort(begin, vertex_faces_.end());
     vertex_faces_.erase(std::unique(begin, vertex_faces_.end()), vertex_faces_.end());

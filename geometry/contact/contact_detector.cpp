@@ -107,8 +107,8 @@ void ContactDetector::State::check(std::span<const Pose> poses,
   }
 }
 
-/// Deals the bodies out to the parts, so that each has about the same work. The memory of touching
-/// pairs comes into the order of the list; that of pairs no longer listed is dropped.
+/// Deals the bodies out to the parts, so that each has about the same work. The memory of pairs no
+/// longer listed is dropped.
 void ContactDetector::State::share() {
   // A plane looks at all bodies: as much work as one pair for every 64 of them.
   const size_t plane_work = 1 + bodies.shapes.size() / 64;
@@ -118,7 +118,9 @@ void ContactDetector::State::share() {
   };
   size_t total = 0, passed = 0;
   for (int a = 0; a < bodies.count(); ++a) total += work_of(a);
-  for (DetectionPart& part : parts) part.lay_aside();
+  for (const CandidatePair& pair : broad_phase.pairs())
+    if (pair.touching >= 0) parts[part_of[pair.a]].keep(pair);
+  for (DetectionPart& part : parts) part.drop_others();
   // Neighbours in the list stay together: a part is a run of bodies, and the parts' contacts, one
   // after the other, are in the order that one part alone would give.
   int begin = 0;
@@ -131,7 +133,8 @@ void ContactDetector::State::share() {
     const int first = broad_phase.first(begin), last = broad_phase.first(end);
     parts[k].take_range(begin, end, static_cast<size_t>(last - first));
     for (CandidatePair& pair : broad_phase.pairs().subspan(first, last - first))
-      if (pair.touching >= 0) parts[k].adopt(pair, parts[part_of[pair.a]]);
+      if (pair.touching >= 0 && part_of[pair.a] != static_cast<int>(k))
+        parts[k].adopt(pair, parts[part_of[pair.a]]);
     begin = end;
   }
   for (size_t k = 0; k < parts.size(); ++k)

@@ -16,20 +16,39 @@ DetectionPart::DetectionPart(const DetectedBodies& bodies, const DetectionSettin
 void DetectionPart::take_range(int begin, int end, size_t pairs) {
   begin_ = begin;
   end_ = end;
+  // Room for all, though half of them touch: pages that nobody writes on take no memory.
   records_.touching.reserve(pairs);
   if (bodies_.holds()) records_.held.reserve(pairs);
+  records_.is_kept.reserve(pairs);
+  records_.vacant.reserve(pairs);
 }
 
-void DetectionPart::lay_aside() {
-  std::swap(records_, laid_aside_);
-  records_.touching.clear();
-  records_.held.clear();
+void DetectionPart::drop_others() {
+  records_.vacant.clear();
+  for (size_t place = records_.is_kept.size(); place-- > 0;)
+    if (!std::exchange(records_.is_kept[place], 0))
+      records_.vacant.push_back(static_cast<int>(place));
 }
 
-void DetectionPart::adopt(CandidatePair& pair, const DetectionPart& from) {
-  const int old = std::exchange(pair.touching, static_cast<int>(records_.touching.size()));
-  records_.touching.push_back(from.laid_aside_.touching[old]);
-  if (bodies_.holds()) records_.held.push_back(from.laid_aside_.held[old]);
+void DetectionPart::adopt(CandidatePair& pair, DetectionPart& from) {
+  const int old = std::exchange(pair.touching, new_place());
+  records_.touching[pair.touching] = from.records_.touching[old];
+  if (bodies_.holds()) records_.held[pair.touching] = from.records_.held[old];
+  from.records_.vacant.push_back(old);
+}
+
+/// Holds no points yet.
+int DetectionPart::new_place() {
+  if (records_.vacant.empty()) {
+    records_.touching.emplace_back();
+    if (bodies_.holds()) records_.held.emplace_back();
+    records_.is_kept.push_back(0);
+    return static_cast<int>(records_.touching.size()) - 1;
+  }
+  const int place = records_.vacant.back();
+  records_.vacant.pop_back();
+  if (bodies_.holds()) records_.held[place].drop();
+  return place;
 }
 
 void DetectionPart::drop_held() {
@@ -222,11 +241,7 @@ bool DetectionPart::append_held(const CandidatePair& candidate, const RelativePo
 
 void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair,
                              const SeparatingAxis& axis, double turn) {
-  if (candidate.touching < 0) {
-    candidate.touching = static_cast<int>(records_.touching.size());
-    records_.touching.emplace_back();
-    if (bodies_.holds()) records_.held.emplace_back();
-  }
+  if (candidate.touching < 0) candidate.touching = new_place();
   records_.touching[candidate.touching].record(pair, axis, turn, heights_);
 }
 

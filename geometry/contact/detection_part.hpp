@@ -20,15 +20,16 @@ class DetectionPart {
  public:
   DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings);
 
-  /// From now on its bodies are begin <= a < end, with this number of pairs. The memory of their
-  /// pairs comes by adopt().
+  /// From now on its bodies are begin <= a < end, with this number of pairs. The memory of those
+  /// that were another part's comes by adopt().
   void take_range(int begin, int end, size_t pairs);
   int begin() const { return begin_; }
   int end() const { return end_; }
-  /// Lays aside the memory of touching pairs, until the part that each of them belongs to next
-  /// adopts it.
-  void lay_aside();
-  void adopt(CandidatePair& pair, const DetectionPart& from);
+  /// Of the memories of touching pairs only those named by keep() stay after drop_others().
+  void keep(const CandidatePair& pair) { records_.is_kept[pair.touching] = 1; }
+  void drop_others();
+  /// Takes over the memory of a pair.
+  void adopt(CandidatePair& pair, DetectionPart& from);
   void drop_held();
 
   /// Appends the contacts of its range, sorted by (body_a, body_b, feature).
@@ -57,10 +58,15 @@ class DetectionPart {
   double bound_use(const CandidatePair& pair) const;
   bool boxes_within_reach(const CandidatePair& pair, double alert) const;
 
+  /// The memories of touching pairs. Each stays at its place, and the places of pairs that are no
+  /// longer listed are given to the next ones.
   struct Records {
     std::vector<TouchingPair> touching;
-    std::vector<HeldManifold> held;
+    std::vector<HeldManifold> held;  // if points are held on to
+    std::vector<int> vacant;
+    std::vector<char> is_kept;
   };
+  int new_place();
 
   const DetectedBodies& bodies_;
   const DetectionSettings& settings_;
@@ -68,8 +74,8 @@ class DetectionPart {
   AxisSearch search_;
   ContactManifold manifold_;
   Heights heights_;
-  Records records_, laid_aside_;  // of touching pairs
-  std::vector<int> chosen_;       // candidate pairs that must be looked at
+  Records records_;
+  std::vector<int> chosen_;  // candidate pairs that must be looked at
   DetectionCounters counters_;
 };
 

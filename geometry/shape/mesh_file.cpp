@@ -72,15 +72,12 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
 
 /// Whether two neighbouring faces lie in one plane: contact patches want them as one polygon.
 bool has_coplanar_neighbours(const Polyhedron& polyhedron) {
-  return std::any_of(polyhedron.edges().begin(), polyhedron.edges().end(),
-                     [&](const Polyhedron::Edge& edge) {
-                       const std::span<const int> loop = polyhedron.face(edge.right);
-                       return std::all_of(loop.begin(), loop.end(), [&](int v) {
-                         const Vec3 arm = polyhedron.vertex(v) - polyhedron.vertex(edge.tail);
-                         return std::abs(polyhedron.normal(edge.left).dot(arm)) <=
-                                1e-9 * polyhedron.circumradius();
-                       });
-                     });
+  return std::ranges::any_of(polyhedron.edges(), [&](const Polyhedron::Edge& edge) {
+    return std::ranges::all_of(polyhedron.face(edge.right), [&](int v) {
+      const Vec3 arm = polyhedron.vertex(v) - polyhedron.vertex(edge.tail);
+      return std::abs(polyhedron.normal(edge.left).dot(arm)) <= 1e-9 * polyhedron.circumradius();
+    });
+  });
 }
 
 }  // namespace

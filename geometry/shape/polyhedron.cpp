@@ -42,8 +42,7 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   mesh_checks::check_indices(vertex_count(), faces);
   mesh_checks::check_distinct(vertices_, tolerance * size_);
   build_faces(faces);
-  build_edges();
-  build_vertex_faces();
+  join_faces();
   check_one_piece();
   const std::vector<double> thinness = build_planes(tolerance);
   check_convex(tolerance, thinness);
@@ -67,9 +66,8 @@ void Polyhedron::build_faces(const std::vector<std::vector<int>>& faces) {
 }
 
 /// Each face runs along its edges once: a half-edge. The two half-edges between the same vertices
-/// make an edge. Edges come out ordered by (smaller vertex, larger vertex), from the smaller to the
-/// larger.
-void Polyhedron::build_edges() {
+/// make an edge, and neighbours of their faces.
+void Polyhedron::join_faces() {
   struct HalfEdge {
     int low, high;  // its ends
     bool downwards;
@@ -117,21 +115,35 @@ void Polyhedron::build_edges() {
       invalid(At{.face = std::max(up.face, down.face)}, "faces ", up.face, " and ", down.face,
               " run along edge ", up.low, "-", up.high,
               " in the same direction: one of them is turned over");
-    edges_.push_back({up.low, up.high, up.face, down.face});
     face_neighbours_[up.slot] = down.face;
     face_neighbours_[down.slot] = up.face;
     i = end;
   }
 }
 
-/// The faces around each vertex, stored like the loops.
-void Polyhedron::build_vertex_faces() {
+std::vector<Polyhedron::Edge> Polyhedron::edges() const {
+  std::vector<Edge> edges;
+  edges.reserve(face_vertices_.size() / 2);
+  for (int f = 0; f < face_count(); ++f) {
+    const std::span<const int> loop = face(f), across = face_neighbours(f);
+    for (size_t k = 0; k < loop.size(); ++k) {
+      const int to = loop[k + 1 < loop.size() ? k + 1 : 0];
+      if (loop[k] < to) edges.push_back({loop[k], to, f, across[k]});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& g) {
+    return std::tie(e.tail, e.head) < std::tie(g.tail, g.head);
+  });
+  return edges;
+}
+
+SortedByKey Polyhedron::faces_by_vertex() const {
   SortedByKey by_vertex = sorted_by_key(face_vertices_, vertex_count());
   std::vector<int> face_of(face_vertices_.size());
   for (int f = 0; f < face_count(); ++f)
     std::fill(face_of.begin() + face_begin_[f], face_of.begin() + face_begin_[f + 1], f);
-  for (const int slot : by_vertex.order) vertex_faces_.push_back(face_of[slot]);
-  vertex_face_begin_ = std::move(by_vertex.begin);
+  for (int& slot : by_vertex.order) slot = face_of[slot];
+  return by_vertex;
 }
 
 /// Faces connected across edges and Euler's V - E + F = 2: together they leave only the sphere, as

@@ -6,11 +6,12 @@
 
 #include "geometry/shape/invalid_polyhedron.hpp"
 #include "geometry/shape/pose.hpp"
+#include "geometry/shape/sorted_by_key.hpp"
 
 namespace ballast {
 
 /// Convex polyhedron, immutable, in its own frame [m]. Built once, shared by all bodies of its
-/// shape.
+/// shape. Thousands are kept: what follows from the faces is made when it is asked for.
 class Polyhedron {
  public:
   /// One undirected edge: its ends and the two faces that meet there. Seen from outside, face
@@ -41,7 +42,7 @@ class Polyhedron {
 
   int vertex_count() const { return static_cast<int>(vertices_.size()); }
   int face_count() const { return static_cast<int>(normals_.size()); }
-  int edge_count() const { return static_cast<int>(edges_.size()); }
+  int edge_count() const { return static_cast<int>(face_vertices_.size() / 2); }
 
   std::span<const Vec3> vertices() const { return vertices_; }
   const Vec3& vertex(int v) const { return vertices_[v]; }
@@ -62,12 +63,10 @@ class Polyhedron {
   double offset(int f) const { return offsets_[f]; }
   std::span<const Vec3> normals() const { return normals_; }
 
-  std::span<const Edge> edges() const { return edges_; }
-  /// Faces that meet at v, ascending.
-  std::span<const int> vertex_faces(int v) const {
-    return {vertex_faces_.data() + vertex_face_begin_[v],
-            static_cast<size_t>(vertex_face_begin_[v + 1] - vertex_face_begin_[v])};
-  }
+  /// Ordered by (tail, head), tail < head; made anew at every call.
+  std::vector<Edge> edges() const;
+  /// Of each vertex the faces that meet there, ascending; made anew at every call.
+  SortedByKey faces_by_vertex() const;
 
   /// Largest distance origin-vertex, and the radius of the largest ball around the origin inside
   /// the solid (negative when the origin lies outside) [m].
@@ -76,8 +75,7 @@ class Polyhedron {
 
  private:
   void build_faces(const std::vector<std::vector<int>>& faces);
-  void build_edges();
-  void build_vertex_faces();
+  void join_faces();
   void check_one_piece() const;
   std::vector<double> build_planes(double tolerance);
   void check_convex(double tolerance, const std::vector<double>& thinness) const;
@@ -88,8 +86,6 @@ class Polyhedron {
   std::vector<int> face_begin_, face_vertices_, face_neighbours_;
   std::vector<Vec3> normals_;
   std::vector<double> offsets_;
-  std::vector<Edge> edges_;
-  std::vector<int> vertex_face_begin_, vertex_faces_;
   double circumradius_ = 0.0, inradius_ = 0.0;
 };
 

@@ -62,9 +62,10 @@ struct Corner {
 
 std::vector<Corner> find_corners(const Polyhedron& hull, const std::vector<int>& group) {
   std::vector<Corner> corners;
+  const SortedByKey faces = hull.faces_by_vertex();
   for (int v = 0; v < hull.vertex_count(); ++v) {
     Corner corner{hull.vertex(v), {}};
-    for (const int f : hull.vertex_faces(v)) corner.groups.push_back(group[static_cast<size_t>(f)]);
+    for (const int f : faces.of(v)) corner.groups.push_back(group[static_cast<size_t>(f)]);
     std::sort(corner.groups.begin(), corner.groups.end());
     corner.groups.erase(std::unique(corner.groups.begin(), corner.groups.end()),
                         corner.groups.end());

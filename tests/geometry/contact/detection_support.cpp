@@ -216,8 +216,8 @@ PairCase edges_together(double angle, Random& random) {
   const int count = static_cast<int>(shape_pool().size());
   PairCase c{random.below(count), random.below(count), turned(Quat::Identity(), Vec3::Zero())};
   const Polyhedron &a = shape_pool()[c.a], &b = shape_pool()[c.b];
-  const Polyhedron::Edge& ea = a.edges()[random.below(a.edge_count())];
-  const Polyhedron::Edge& eb = b.edges()[random.below(b.edge_count())];
+  const Polyhedron::Edge ea = a.edges()[random.below(a.edge_count())];
+  const Polyhedron::Edge eb = b.edges()[random.below(b.edge_count())];
   const Vec3 along_a = a.vertex(ea.head) - a.vertex(ea.tail),
              along_b = b.vertex(eb.head) - b.vertex(eb.tail);
   const Vec3 out_a = (a.normal(ea.left) + a.normal(ea.right)).normalized();

@@ -29,6 +29,7 @@ void check_topology(const Polyhedron& p) {
     }
   }
   REQUIRE(directed.size() == 2 * p.edges().size());
+  REQUIRE(directed.size() == 2 * static_cast<size_t>(p.edge_count()));
   for (const auto& edge : p.edges()) {
     CHECK(edge.tail < edge.head);
     for (const auto& [face, from, to] : {std::tuple(edge.left, edge.tail, edge.head),
@@ -38,8 +39,9 @@ void check_topology(const Polyhedron& p) {
       CHECK(loop[(at + 1) % loop.size()] == to);
     }
   }
+  const SortedByKey by_vertex = p.faces_by_vertex();
   for (int v = 0; v < p.vertex_count(); ++v) {
-    const auto faces = p.vertex_faces(v);
+    const auto faces = by_vertex.of(v);
     CHECK(std::vector<int>(faces.begin(), faces.end()) ==
           std::vector<int>(touching[v].begin(), touching[v].end()));
   }
