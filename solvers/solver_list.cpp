@@ -16,6 +16,7 @@
 #include "solvers/backends/newton.hpp"
 #include "solvers/backends/newton_burst.hpp"
 #include "solvers/backends/nlopt.hpp"
+#include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/backends/nncg.hpp"
 #include "solvers/backends/pyramid_lemke.hpp"
 #include "solvers/backends/sap.hpp"
@@ -51,6 +52,8 @@ constexpr SolverEntry rows[] = {
      [] { return make_gauss_seidel({.variant = {.order = SweepOrder::random}}); }},
     {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)",
      ContactLaw::coulomb, [] { return make_nncg(); }},
+    {"nesterov_pgs", "pgs with Nesterov's momentum, restarted (O'Donoghue, Candes 2015)",
+     ContactLaw::coulomb, [] { return make_nesterov_pgs(); }},
     {"jacobi", "damped block Jacobi, each contact solved exactly: the parallel baseline",
      ContactLaw::coulomb, [] { return make_jacobi(); }},
     {"anderson_pgs", "pgs with safeguarded Anderson acceleration (Walker, Ni 2011)",

@@ -10,9 +10,9 @@
 #include "solvers/backends/anderson_pgs.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/backends/interior_point.hpp"
+#include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/backends/newton.hpp"
 #include "solvers/backends/newton_burst.hpp"
-#include "solvers/backends/nncg.hpp"
 #include "solvers/backends/work_pace.hpp"
 #include "solvers/seam/relay.hpp"
 
@@ -50,20 +50,20 @@ constexpr double moderate = 4.0, little = 12.0, reliable = 0.25, doubtful = 2.0;
 class Auto final : public Solver {
  public:
   Auto() {
-    ways_[conjugate].solver = make_nncg();
+    ways_[momentum].solver = make_nesterov_pgs();
     ways_[anderson].solver = make_anderson_pgs({});
     ways_[plain].solver = make_newton({.equation = ContactEquation::alart_curnier});
     ways_[proximal].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4});
     set_scarce(false);
     ways_[interior].solver = make_interior_point();
-    for (const Kind kind : {conjugate, anderson}) ways_[kind].takes_best = 0.01;
+    for (const Kind kind : {momentum, anderson}) ways_[kind].takes_best = 0.01;
     for (const Kind kind : {plain, proximal, burst}) ways_[kind].takes_best = 0.5;
-    for (const Kind kind : {conjugate, anderson, burst}) ways_[kind].only_factors = false;
+    for (const Kind kind : {momentum, anderson, burst}) ways_[kind].only_factors = false;
   }
 
   void prepare(const FrictionProblem& problem) override {
     for (Way& way : ways_) way.is_prepared = false;
-    prepared(ways_[conjugate], problem);  // the others when their turn comes: ordering is dear
+    prepared(ways_[momentum], problem);  // the others when their turn comes: ordering is dear
   }
 
   void use_team(WorkerTeam* team) override {
@@ -89,7 +89,7 @@ class Auto final : public Solver {
     expect(problem, budget);
     Relay relay(budget, std::move(start));
     // Always the most promising way; its leg ends where another promises more.
-    go(ways_[conjugate], relay, problem, budget);
+    go(ways_[momentum], relay, problem, budget);
     while (!relay.over()) {
       Way& next = ways_[most_promising(budget)];
       if (next.stalls > most_stalls) break;
@@ -101,7 +101,7 @@ class Auto final : public Solver {
   }
 
  private:
-  enum Kind : size_t { conjugate, anderson, plain, proximal, burst, interior, kinds };
+  enum Kind : size_t { momentum, anderson, plain, proximal, burst, interior, kinds };
 
   static Solver& prepared(Way& way, const FrictionProblem& problem) {
     if (!way.is_prepared) way.solver->prepare(problem);
@@ -170,7 +170,7 @@ class Auto final : public Solver {
     const auto steps = [&](double few, double per_contact) { return few + per_contact * contacts; };
     const double sweep = is_scarce_ ? 1.0 : sweep_, step = is_scarce_ ? 1.0 : step_;
     const double mixing = problem.has_dynamics ? mixing_bodies : mixing_matrix;
-    ways_[conjugate].work = sweep;
+    ways_[momentum].work = sweep;
     ways_[anderson].work = is_scarce_ ? 1.0 : mixing * sweep;
     ways_[plain].work = ways_[proximal].work = step;
     ways_[burst].work = sweep;
@@ -178,7 +178,7 @@ class Auto final : public Solver {
     ways_[interior].work = is_scarce_ ? 1.0 : interior_factor * step;
 
     const int few = std::clamp(budget.max_iterations / 8, 1, few_sweeps);
-    for (const Kind kind : {conjugate, anderson}) {
+    for (const Kind kind : {momentum, anderson}) {
       ways_[kind].expected = few * ways_[kind].work;
       ways_[kind].trust = is_scarce_ && problem.has_dynamics ? little : moderate;
     }
@@ -203,7 +203,7 @@ class Auto final : public Solver {
   }
 
   size_t most_promising(const Budget& budget) {
-    Way &first = ways_[conjugate], &mixed = ways_[anderson];
+    Way &first = ways_[momentum], &mixed = ways_[anderson];
     mixed.expected = std::max(mixed.expected, mixed_part_ * first.spent / first.work * mixed.work);
     size_t best = 0;
     for (size_t k = 1; k < kinds; ++k)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/backends/nncg.hpp"
+#include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/parts/newton_step.hpp"
 #include "solvers/seam/iteration.hpp"
 
@@ -73,7 +73,7 @@ class Newton final : public Solver {
 class ProximalNewton final : public Solver {
  public:
   explicit ProximalNewton(const ProximalNewtonSettings& settings)
-      : settings_(settings), start_(settings.accelerated ? make_nncg() : make_gauss_seidel({})) {}
+      : settings_(settings), start_(settings.accelerated ? make_nesterov_pgs() : make_gauss_seidel({})) {}
 
   void prepare(const FrictionProblem& problem) override {
     start_->prepare(problem);

@@ -22,7 +22,7 @@ std::unique_ptr<Solver> make_newton(const NewtonSettings& settings);
 struct ProximalNewtonSettings {
   ContactEquation equation = ContactEquation::alart_curnier;
   int start_sweeps = 200;        ///< before the first step
-  bool accelerated = false;      ///< sweeps go along nncg's search
+  bool accelerated = false;      ///< sweeps have nesterov_pgs' momentum
   int mending_sweeps = 50;       ///< after a proximal step that failed
   double first_weight = 1e-3;    ///< alpha rho of the first proximal step
   double inner_reduction = 0.5;  ///< of the residual that an inner Newton must reach

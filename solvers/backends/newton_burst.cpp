@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "solvers/backends/interior_jump.hpp"
-#include "solvers/backends/nncg.hpp"
+#include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/parts/regular_newton.hpp"
 #include "solvers/seam/course.hpp"
 
@@ -44,7 +44,7 @@ class SweepPace {
 class NewtonBurst final : public Solver {
  public:
   explicit NewtonBurst(const NewtonBurstSettings& settings)
-      : settings_(settings), sweeps_(make_nncg()) {}
+      : settings_(settings), sweeps_(make_nesterov_pgs()) {}
 
   void prepare(const FrictionProblem& problem) override {
     if (!problem.has_dynamics)

@@ -19,9 +19,8 @@ struct GroupLoops {
 
   /// Every contact once.
   void (*sweep)(const Group* groups, Impulses* impulses, int count, Body* bodies);
-  /// The same; each impulse first moves along its search direction: p := beta p + gain change, y +=
-  /// beta p (the old p). The bodies must have moved before. Returns the sum over contacts of
-  /// |change|^2.
+  /// The same; each impulse first takes the step of the search (search_step.hpp). The bodies must
+  /// have taken it before. Returns the sum over contacts of |change|^2.
   double (*search)(const Group* groups, Impulses* impulses, Search* search, SearchStep step,
                    int count, Body* bodies);
   /// All impulses push their bodies once.
@@ -43,8 +42,7 @@ struct ExactLoops : GroupLoops<Group> {
                   Single* single);
 };
 
-/// `count` bodies that follow each other take the step: p := beta p + gain (w - before), w += beta
-/// p (the old p), before := w.
+/// `count` bodies that follow each other take the step of the search.
 template <typename Number>
 using MoveBodies = void (*)(int count, SearchStep step, BodyRow<Number>* w, BodyRow<Number>* before,
                             BodyRow<Number>* direction);

@@ -52,10 +52,11 @@ BALLAST_INLINE void load_impulses(const Impulses& impulses, GroupSearch* search,
   for (int i = 0; i < rows; ++i) {
     r[i] = V::load(impulses.y[i] + lane);
     if constexpr (Search) {
-      const V along = V::all(step.beta) * V::load(search->direction[i] + lane);
+      const V change = V::load(search->change[i] + lane);
+      const V along =
+          V::all(step.beta) * V::load(search->direction[i] + lane) + V::all(step.ahead) * change;
       r[i] = r[i] + along;
-      (along + V::all(step.gain) * V::load(search->change[i] + lane))
-          .store(search->direction[i] + lane);
+      (along + V::all(step.gain) * change).store(search->direction[i] + lane);
     }
   }
 }
@@ -243,10 +244,12 @@ BALLAST_INLINE void push_loop(const Group* groups, const Impulses* impulses, int
 template <typename V, typename Number>
 BALLAST_INLINE void move_bodies_loop(int count, SearchStep step, Number* __restrict w,
                                      Number* __restrict before, Number* __restrict direction) {
-  const Number beta = static_cast<Number>(step.beta), gain = static_cast<Number>(step.gain);
+  const Number beta = static_cast<Number>(step.beta), gain = static_cast<Number>(step.gain),
+               ahead = static_cast<Number>(step.ahead);
   for (int i = 0; i < 8 * count; ++i) {
-    const Number along = beta * direction[i], moved = w[i] + along;
-    direction[i] = along + gain * (w[i] - before[i]);
+    const Number change = w[i] - before[i], along = beta * direction[i] + ahead * change,
+                 moved = w[i] + along;
+    direction[i] = along + gain * change;
     w[i] = moved;
     before[i] = moved;
   }

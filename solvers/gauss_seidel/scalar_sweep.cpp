@@ -163,14 +163,13 @@ void ScalarSweep::start_search() {
 
 /// A slab's velocities, by the thread that sweeps its interior next: they stay in its cache.
 void ScalarSweep::move_along(std::span<const int> bodies, SearchStep step) {
-  // `before` is the velocity with which the last sweep began, x - before what it changed. The
-  // search's direction p becomes beta p + gain (x - before), and the velocity goes along beta p.
+  // `before` is the velocity with which the last sweep began.
   for (const int b : bodies)
     for (int i = 0; i < body_width; ++i) {
       double &x = velocity_[b].w[i], &p = velocity_direction_[b].w[i],
              &before = velocity_before_[b].w[i];
-      const double along = step.beta * p;
-      p = along + step.gain * (x - before);
+      const double change = x - before, along = step.beta * p + step.ahead * change;
+      p = along + step.gain * change;
       x += along;
       before = x;
     }

@@ -3,10 +3,10 @@
 
 namespace ballast {
 
-/// With x the iterate that the last sweep left and `before` the one that it began from: p := beta p
-/// + gain (x - before), x += beta p (the old p), before := x.
+/// With x the iterate that the last sweep left, `before` the one that it began from and d = x -
+/// before: the iterate moves by m = beta p + ahead d. Then p := m + gain d, x += m, before := x.
 struct SearchStep {
-  double beta = 0.0, gain = 0.0;
+  double beta = 0.0, gain = 0.0, ahead = 0.0;
 };
 
 }  // namespace ballast

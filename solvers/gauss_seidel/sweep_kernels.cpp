@@ -64,12 +64,13 @@ BALLAST_INLINE void fetch(const Record* records, int now, int count, const BodyV
 BALLAST_INLINE void move_along(const SearchStep& step, FrictionImpulse& r, ImpulseSearch& search) {
   const Vector4 x = *reinterpret_cast<const Lanes4*>(r.y),
                 before = *reinterpret_cast<const Lanes4*>(search.before);
-  const Vector4 p = step.beta * *reinterpret_cast<const Lanes4*>(search.direction);
+  const Vector4 change = x - before;
+  const Vector4 p =
+      step.beta * *reinterpret_cast<const Lanes4*>(search.direction) + step.ahead * change;
   using Bits = long long __attribute__((vector_size(32)));
   constexpr Bits three = {-1, -1, -1, 0};
   const Vector4 moved = x + p;
-  *reinterpret_cast<Lanes4*>(search.direction) =
-      (Vector4)((Bits)(p + step.gain * (x - before)) & three);
+  *reinterpret_cast<Lanes4*>(search.direction) = (Vector4)((Bits)(p + step.gain * change) & three);
   *reinterpret_cast<Lanes4*>(search.before) = (Vector4)((Bits)moved & three);
   for (int i = 0; i < 3; ++i) r.y[i] = moved[i];
 }
@@ -120,8 +121,8 @@ double sweep_one_row(const OneRowRecord* records, double* impulses, OneRowSearch
   for (int c = 0; c < count; ++c) {
     fetch(records, c, count, velocity);
     double &x = impulses[c], &p = search[c].direction;
-    const double along = step.beta * p;
-    p = along + step.gain * (x - search[c].before);
+    const double change = x - search[c].before, along = step.beta * p + step.ahead * change;
+    p = along + step.gain * change;
     x += along;
     search[c].before = x;
     relax(records[c], x, velocity);

@@ -4,7 +4,7 @@
 
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/pile_problems.hpp"
-#include "solvers/backends/nncg.hpp"
+#include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
@@ -49,7 +49,7 @@ Work work_to(const FrictionProblem& problem, double tolerance) {
 
 TEST_CASE("where iterations are scarce, sweeps leave them to Newton while there are enough",
           "[factors]") {
-  const Budget scarce{.tolerance = 1e-7, .max_iterations = 400};
+  const Budget scarce{.tolerance = 1e-7, .max_iterations = 300};
   int by_sweeps = 0, by_auto = 0;
   for (const bool is_stored : {false, true})
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -57,7 +57,7 @@ TEST_CASE("where iterations are scarce, sweeps leave them to Newton while there 
       const SolverRun run = solved(make_auto(), problem, scarce);
       CHECK(run.solved.iterations <= scarce.max_iterations);
       by_auto += run.success;
-      by_sweeps += solved(make_nncg(), problem, scarce).success;
+      by_sweeps += solved(make_nesterov_pgs(), problem, scarce).success;
     }
   CHECK(by_auto == 10);
   CHECK(by_sweeps < 5);
@@ -74,19 +74,19 @@ TEST_CASE("of thousands of iterations sweeps that arrive take what they need; th
       .tolerance = 1e-7, .max_iterations = 10000, .factorisations = &factorisations};
   CHECK(solved(make_auto(), pile(0.5, 100.0), thousands).success);
   CHECK(factorisations == 0);
-  CHECK_FALSE(solved(make_nncg(), pile(0.7, 10.0), thousands).success);
-  CHECK(solved(make_auto(), pile(0.7, 10.0), thousands).success);
+  CHECK_FALSE(solved(make_nesterov_pgs(), pile(0.8, 1000.0), thousands).success);
+  CHECK(solved(make_auto(), pile(0.8, 1000.0), thousands).success);
   CHECK(factorisations > 0);
 }
 
 TEST_CASE("sweeps that will arrive keep the iterations, though a quarter of them is used",
           "[factors]") {
-  // nncg needs 40 % of them. Once a quarter was used, every iteration counted as much as another:
+  // Sweeps need 40 % of them. Once a quarter was used, every iteration counted as much as another:
   // factorisations took over.
   const FrictionProblem pile =
       make_pile({.contacts = 1500, .redundancy = 0.5, .mass_ratio = 100.0, .seed = 3});
   const Budget plenty{.tolerance = 1e-7, .max_iterations = 10000};
-  const int needed = solved(make_nncg(), pile, plenty).solved.iterations;
+  const int needed = solved(make_nesterov_pgs(), pile, plenty).solved.iterations;
   int factorisations = 0;
   const Budget enough{
       .tolerance = 1e-7, .max_iterations = needed * 5 / 2, .factorisations = &factorisations};
@@ -117,11 +117,14 @@ TEST_CASE("where sweeps go round and a Newton step costs few of them, Newton's t
 TEST_CASE("where a factorisation fills, other sweeps are tried before it", "[factors]") {
   // Bodies that touch at random: a Newton step costs as much as hundreds of sweeps, which counting
   // bodies does not tell.
-  const FrictionProblem problem =
-      make_known_solution({.bodies = 400, .contacts = 1000, .seed = 1}).problem;
-  const Work work = work_to(problem, 1e-8);
-  CHECK(work.factorisations == 0);
-  CHECK(work.sweeps < 700);
+  int sweeps = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Work work =
+        work_to(make_known_solution({.bodies = 400, .contacts = 1000, .seed = seed}).problem, 1e-8);
+    CHECK(work.factorisations == 0);
+    sweeps += work.sweeps;
+  }
+  CHECK(sweeps < 1800);
 }
 
 TEST_CASE("bursts of sweeps between Newton steps go on though their error stands for long",

@@ -2,7 +2,7 @@
 #include "platform/worker_team.hpp"
 
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/backends/nncg.hpp"
+#include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
@@ -44,13 +44,13 @@ TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[fact
   CHECK(run.success);
 }
 
-TEST_CASE("where sweeps are enough it is nncg, bit for bit", "[factors]") {
+TEST_CASE("where sweeps are enough it is nesterov_pgs, bit for bit", "[factors]") {
   KnownSolutionSettings settings;
   settings.bodies = 60;
   settings.contacts = 90;
   const FrictionProblem problem = make_known_solution(settings).problem;
   const Budget budget{.tolerance = 1e-3, .max_iterations = 5000};
-  const auto sweeps = make_nncg(), solver = make_newton_burst();
+  const auto sweeps = make_nesterov_pgs(), solver = make_newton_burst();
   const SolverRun by_sweeps = SolverRunner().run(*sweeps, problem, {}, budget);
   const SolverRun run = SolverRunner().run(*solver, problem, {}, budget);
   REQUIRE(by_sweeps.success);

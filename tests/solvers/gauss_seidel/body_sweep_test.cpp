@@ -22,7 +22,7 @@ class Twin {
   double sweep(BodySweep& sweep, SearchStep step, Eigen::Index impulses) {
     Eigen::VectorXd x;
     sweep.save(x);
-    const Eigen::VectorXd along = step.beta * direction_;
+    const Eigen::VectorXd along = step.beta * direction_ + step.ahead * (x - before_);
     direction_ = along + step.gain * (x - before_);
     x += along;
     before_ = x;
@@ -64,8 +64,14 @@ TEST_CASE(
   slow.impulse_weights(weights);
   Twin twin(slow_state.size());
 
-  for (const SearchStep step :
-       {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.3, 1.0}, {0.0, 1.0}, {0.9, 1.0}}) {
+  for (const SearchStep step : {SearchStep{0.0, 0.0},
+                                {0.0, 1.0},
+                                {0.7, 1.0},
+                                {0.3, 1.0},
+                                {0.0, 1.0},
+                                {0.9, 1.0},
+                                {0.5, 0.0, 0.5},
+                                {0.6, 0.2, 0.3}}) {
     const double fast_square = fast.sweep(step),
                  slow_square = twin.sweep(slow, step, weights.size());
     CHECK(fast_square == Approx(slow_square).epsilon(1e-12));

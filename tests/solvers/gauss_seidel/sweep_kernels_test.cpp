@@ -137,7 +137,7 @@ TEST_CASE("kernels: along a search every impulse moves by the formula and is the
   std::vector<ImpulseSearch> search(Chain::contacts);
   std::vector<OneRowSearch> one_row_search(Chain::contacts);
   std::vector<Eigen::Vector4d> before(Chain::contacts, Eigen::Vector4d::Zero()), p = before;
-  for (const SearchStep step : {SearchStep{0.0, 1.0}, {0.6, 1.0}, {0.3, 0.5}}) {
+  for (const SearchStep step : {SearchStep{0.0, 1.0}, {0.6, 1.0}, {0.3, 0.5}, {0.5, 0.2, 0.4}}) {
     const double square =
         sweep_friction(fast.friction.data(), fast.impulses.data(), search.data(), step,
                        Chain::contacts, fast.velocity.data()) +
@@ -151,7 +151,7 @@ TEST_CASE("kernels: along a search every impulse moves by the formula and is the
       return Eigen::Vector4d(y[0], y[1], y[2], twin.one_row_impulses[c]);
     };
     for (int c = 0; c < Chain::contacts; ++c) {
-      const Eigen::Vector4d x = state(c), along = step.beta * p[c];
+      const Eigen::Vector4d x = state(c), along = step.beta * p[c] + step.ahead * (x - before[c]);
       p[c] = along + step.gain * (x - before[c]);
       before[c] = moved[c] = x + along;
       for (int i = 0; i < 3; ++i) twin.impulses[c].y[i] = moved[c][i];

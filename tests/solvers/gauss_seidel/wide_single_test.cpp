@@ -70,7 +70,7 @@ TEST_CASE("single: the same bits on every instruction set, with any number of th
       single.wide.start_search();
       std::vector<double> errors;
       for (int k = 0; k < 20; ++k) {
-        single.wide.sweep(SearchStep{k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0});
+        single.wide.sweep(SearchStep{k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0, k < 9 ? 0.0 : 0.4});
         if (k % 5 == 4) errors.push_back(single.wide.error());
       }
       CHECK(single.wide.is_single());

@@ -130,7 +130,7 @@ TEST_CASE("wide: the same bits on every instruction set, with any number of thre
       wide.sweep.load(problem, r);
       wide.sweep.start_search();
       double square = 0.0;
-      for (const SearchStep step : {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.4, 1.0}})
+      for (const SearchStep step : {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.4, 0.5, 0.3}})
         square += wide.sweep.sweep(step);
       for (int k = 0; k < 20; ++k) wide.sweep.sweep();
       wide.sweep.store(problem, r);
@@ -157,12 +157,18 @@ TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step
   slow.sweep.impulse_weights(weights);
   slow.sweep.save(x);
   Eigen::VectorXd before = x, direction = Eigen::VectorXd::Zero(x.size());
-  for (const SearchStep step :
-       {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.3, 1.0}, {0.0, 1.0}, {0.9, 1.0}}) {
+  for (const SearchStep step : {SearchStep{0.0, 0.0},
+                                {0.0, 1.0},
+                                {0.7, 1.0},
+                                {0.3, 1.0},
+                                {0.0, 1.0},
+                                {0.9, 1.0},
+                                {0.5, 0.0, 0.5},
+                                {0.6, 0.2, 0.3}}) {
     const double square = fast.sweep.sweep(step);
     // The twin: the formula on impulses and velocities as one vector.
     slow.sweep.save(x);
-    const Eigen::VectorXd along = step.beta * direction;
+    const Eigen::VectorXd along = step.beta * direction + step.ahead * (x - before);
     direction = along + step.gain * (x - before);
     before = x + along;
     slow.sweep.restore(before);

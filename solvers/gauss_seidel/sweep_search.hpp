@@ -1,0 +1,123 @@
+#pragma once
+// Gauss-Seidel sweeps accelerated by a search: after each sweep the iterate goes on in a direction
+// made of what the sweeps before have changed. Only swept iterates, which lie in the cones, are
+// ever judged or returned.
+
+#include <utility>
+
+#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/gauss_seidel/either_form.hpp"
+#include "solvers/gauss_seidel/swept_error.hpp"
+#include "solvers/seam/iteration.hpp"
+
+namespace ballast {
+
+/// The sweep over bodies along its search: velocities are linear in the impulses and take the same
+/// combination of their own past, so that nothing is recomputed.
+struct BodySearch {
+  BodySweep sweep;
+
+  void start() { sweep.start_search(); }
+  /// Moves along the search, then sweeps. Returns the square of what the sweep changed.
+  double advance(SearchStep step) { return sweep.sweep(step); }
+};
+
+/// The same over a stored W, whose sweep keeps impulses alone.
+struct MatrixSearch {
+  DelassusSweep sweep;
+  Eigen::VectorXd swept, before, direction;
+
+  void start() {
+    sweep.save(before);
+    direction.setZero(before.size());
+  }
+  double advance(SearchStep step) {
+    sweep.save(swept);
+    before = swept - before;
+    direction = step.beta * direction + step.ahead * before;
+    swept += direction;
+    direction += step.gain * before;
+    before = swept;
+    sweep.restore(swept);
+    sweep.sweep();
+    sweep.save(swept);
+    return (swept - before).squaredNorm();
+  }
+};
+
+/// When to look at the error. The square of what a sweep changes comes for nothing, and while a
+/// solve goes on it stays in one proportion to the square of the error, within a tenth.
+class SweptChange {
+ public:
+  explicit SweptChange(double aim) : aim_(aim) {}
+
+  /// After a look at the error [m/s].
+  void seen(int sweeps, double square, double error) {
+    next_ = sweeps + apart;
+    enough_ = square * (near * aim_ / error) * (near * aim_ / error);
+  }
+  /// The error is likely to be small enough.
+  bool promises(int sweeps, double square) const { return sweeps >= next_ && square <= enough_; }
+
+ private:
+  static constexpr int apart = 4;  // sweeps between two looks, at least
+  static constexpr double near = 0.97;
+  double aim_, enough_ = -1.0;
+  int next_ = 0;
+};
+
+/// The backend that a rule makes of it. `Rule` has
+///   void forget();                    the search begins at the current iterate
+///   SearchStep next(double square);   of the next sweep; square: what the last one changed
+///   bool gives_up(double error);      told at each look: the search begins anew
+template <typename Rule>
+class SweepSearch final : public Solver {
+ public:
+  void prepare(const FrictionProblem& problem) override {
+    searches_.visit(problem, [&](auto& search) { search.sweep.prepare(problem); });
+  }
+
+  void use_team(WorkerTeam* team) override { searches_.bodies.sweep.use_team(team); }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    return searches_.visit(
+        problem, [&](auto& search) { return iterate(search, problem, std::move(start), budget); });
+  }
+
+ private:
+  template <typename Search>
+  Solved iterate(Search& search, const FrictionProblem& problem, Impulses r, const Budget& budget) {
+    Iteration iteration(budget, {8, 1.3, 1.5});
+    SweptChange change(budget.aim());
+    Rule rule;
+    const auto begin = [&] {
+      rule.forget();
+      search.start();
+    };
+    const auto load = [&] {
+      search.sweep.load(problem, r);
+      begin();
+    };
+    allow_single(search.sweep, budget);
+    load();
+    search.sweep.store(problem, r);
+    const double first_error = search.sweep.error();
+    rule.gives_up(first_error);
+    iteration.evaluated(first_error, r);
+    double square = 0.0;
+    while (iteration.next()) {
+      square = search.advance(rule.next(square));
+      if (!iteration.error_due() && !change.promises(iteration.count(), square)) continue;
+      const double error = swept_error(search.sweep, problem, iteration, r, load);
+      iteration.evaluated(error, r);
+      change.seen(iteration.count(), square, error);
+      if (rule.gives_up(error)) begin();
+    }
+    return iteration.finish(std::move(r));
+  }
+
+  EitherForm<BodySearch, MatrixSearch> searches_;
+};
+
+}  // namespace ballast

@@ -1,0 +1,119 @@
+#include "solvers/backends/nesterov_pgs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/pile_problems.hpp"
+#include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+
+namespace {
+
+FrictionProblem slender_pile(int contacts) {
+  return make_pile({.contacts = contacts, .active = 1.0, .slenderness = 20.0, .seed = 3});
+}
+
+/// So many iterations of the backend, from no impulses.
+Impulses after(const FrictionProblem& problem, int iterations) {
+  const auto solver = make_nesterov_pgs();
+  solver->prepare(problem);
+  Budget budget;
+  budget.tolerance = 0.0;
+  budget.max_iterations = iterations;
+  return solver->solve(problem, Impulses::Zero(problem.row_count()), budget).impulses;
+}
+
+/// The same by the book: whole iterates and all squares kept, each sweep from x + beta (x - x
+/// before).
+template <typename Sweep>
+Impulses by_the_book(const FrictionProblem& problem, int iterations, Eigen::Index impulses,
+                     int& restarts, int& limited) {
+  Sweep sweep;
+  sweep.prepare(problem);
+  sweep.load(problem, Impulses::Zero(problem.row_count()));
+  Eigen::VectorXd x, before, from;
+  sweep.save(x);
+  before = from = x;
+  std::vector<double> squares;  // of the search
+  for (int k = 0, vain = 0, rest = 0; k < iterations; ++k) {
+    sweep.restore(from);
+    sweep.sweep();
+    before = x;
+    sweep.save(x);
+    const Eigen::Index count = impulses > 0 ? impulses : x.size();
+    squares.push_back((x - from).head(count).squaredNorm());
+    const double now = squares.back(), least = *std::min_element(squares.begin(), squares.end());
+    const int j = static_cast<int>(squares.size()) - 1;
+    const bool circles = rest == 0 && now > 1.3 * least;
+    if (circles) {
+      vain = j < 6 ? vain + 1 : 0;
+      rest = vain == 3 ? 33 : 0;
+      if (rest > 0) vain = 0;
+      ++restarts;
+    }
+    if (rest > 0) --rest;
+    if (circles || rest > 0 || j == 0) {
+      squares = {now};
+      from = x;
+      continue;
+    }
+    const int sweeps = std::min(j, 8);
+    const double factor = std::pow(now / squares[j - sweeps], 1.0 / sweeps);
+    limited += factor < j / (j + 2.0);
+    from = x + std::min(j / (j + 2.0), factor) * (x - before);
+  }
+  sweep.restore(x);
+  Impulses r = Impulses::Zero(problem.row_count());
+  sweep.store(problem, r);
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("nesterov_pgs: its iterates are those of the formula, over bodies and over W") {
+  const FrictionProblem problem = make_known_solution({.bodies = 40, .contacts = 120}).problem;
+  BodySweep sized;
+  sized.prepare(problem);
+  Eigen::VectorXd weights;
+  sized.impulse_weights(weights);
+  int restarts = 0, limited = 0;
+  for (const int iterations : {1, 2, 3, 7, 25, 120}) {
+    const Impulses expected =
+        by_the_book<BodySweep>(problem, iterations, weights.size(), restarts, limited);
+    CHECK((after(problem, iterations) - expected).norm() <= 1e-11 * expected.norm());
+  }
+  CHECK(restarts > 0);  // both rules have come into it
+  CHECK(limited > 0);
+
+  FrictionProblem stored = problem;
+  stored.delassus.w = delassus_matrix(problem);
+  free_contact_velocity(problem, stored.delassus.q);
+  stored.has_delassus = true;
+  stored.has_dynamics = false;
+  for (const int iterations : {1, 2, 3, 7, 25, 120}) {
+    const Impulses expected = by_the_book<DelassusSweep>(stored, iterations, 0, restarts, limited);
+    CHECK((after(stored, iterations) - expected).norm() <= 1e-11 * expected.norm());
+  }
+}
+
+TEST_CASE("nesterov_pgs: a chain of bodies takes less than half of the sweeps without momentum") {
+  const FrictionProblem problem = slender_pile(1500);
+  const auto iterations = [&](Solver& solver) {
+    solver.prepare(problem);
+    Budget budget;
+    budget.tolerance = 1e-6;
+    const Solved solved = solver.solve(problem, Impulses::Zero(problem.row_count()), budget);
+    CHECK(solved.reason == StopReason::reached_tolerance);
+    CHECK(contact_error(problem, solved.impulses).natural_map_rms <= 1e-6);
+    return solved.iterations;
+  };
+  CHECK(2 * iterations(*make_nesterov_pgs()) < iterations(*make_gauss_seidel({})));
+}
