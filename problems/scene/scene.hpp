@@ -124,7 +124,7 @@ struct DriveSpec {
 /// The paper's box is the default: it is known how it moves with these numbers. Other scenes have
 /// those of SolverSpec::for_any_scene().
 struct SolverSpec {
-  std::string name = "nncg";
+  std::string name = "nesterov_pgs";
   double tolerance = 1e-3;  ///< natural map rms, in g h (in m/s where there is no gravity)
   int max_iterations = 200;
   double max_seconds = 1e30;  ///< per step: breaks reproducibility, so off

@@ -47,9 +47,14 @@ class Momentum {
     age_ = 0;
     squares_[0] = least_ = square;
   }
+  /// Over the last 1, 2, 4 or 8 sweeps: their roots are square roots, which are the same on every
+  /// machine.
   double mean_factor(double square) const {
-    const int sweeps = std::min(age_, window - 1);
-    return std::pow(square / squares_[(age_ - sweeps) % window], 1.0 / sweeps);
+    int sweeps = 1;
+    while (2 * sweeps <= std::min(age_, window - 1)) sweeps *= 2;
+    double factor = square / squares_[(age_ - sweeps) % window];
+    for (int root = sweeps; root > 1; root /= 2) factor = std::sqrt(factor);
+    return factor;
   }
 
   static constexpr double rise = 1.3;     ///< of |d|^2, over the least one of its search

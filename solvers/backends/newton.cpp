@@ -73,7 +73,8 @@ class Newton final : public Solver {
 class ProximalNewton final : public Solver {
  public:
   explicit ProximalNewton(const ProximalNewtonSettings& settings)
-      : settings_(settings), start_(settings.accelerated ? make_nesterov_pgs() : make_gauss_seidel({})) {}
+      : settings_(settings),
+        start_(settings.accelerated ? make_nesterov_pgs() : make_gauss_seidel({})) {}
 
   void prepare(const FrictionProblem& problem) override {
     start_->prepare(problem);

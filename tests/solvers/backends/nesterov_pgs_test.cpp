@@ -65,7 +65,7 @@ Impulses by_the_book(const FrictionProblem& problem, int iterations, Eigen::Inde
       from = x;
       continue;
     }
-    const int sweeps = std::min(j, 8);
+    const int sweeps = j >= 8 ? 8 : j >= 4 ? 4 : j >= 2 ? 2 : 1;
     const double factor = std::pow(now / squares[j - sweeps], 1.0 / sweeps);
     limited += factor < j / (j + 2.0);
     from = x + std::min(j / (j + 2.0), factor) * (x - before);
