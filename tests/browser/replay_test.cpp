@@ -140,7 +140,8 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
   browser.js(chosen("cut", "", "change"));
   // every pair of bodies that push on each other is a chain
   std::set<std::pair<int, int>> pairs;
-  for (const FrameContact& contact : read_record_forces(box.folder / "record.h5").back())
+  const auto forces = read_record_forces(box.folder / "record.h5");
+  for (const FrameContact& contact : forces.back())
     pairs.emplace(contact.body_a, contact.body_b);
   browser.js(clicked("chains"));
   browser.js(chosen("threshold", "0", "input"));

@@ -21,6 +21,7 @@ TEST_CASE("captured cases are seen in 3D with the backends that gave an answer, 
   options.solvers = parse_solvers("pgs,jacobi,nncg");
   options.tolerances = {1e-3};
   options.max_seconds = 5.0;
+  options.limits.memory_MB = 0.0;  // sanitizers reserve terabytes
   options.folder = place.path() / "compare";
   const auto cases =
       compare_cases({captured, (place.path() / "alone.hdf5").string(), "known:contacts=5,count=1"});
