@@ -14,11 +14,11 @@
 namespace ballast {
 
 struct NewtonBurstSettings {
-  int start_sweeps = 500;  ///< before the first Newton step, at least; 0: none
+  int start_sweeps = 2000;  ///< before the first Newton step, at least; 0: none
   /// Newton's turn comes where sweeps promise to need more than so many others: what a
   /// factorisation for some thousand contacts and the first Newton steps cost.
   int promised_sweeps = 2000;
-  int burst = 400;  ///< sweeps after a Newton step, at most
+  int burst = 200;  ///< sweeps after a Newton step, at most
   int jump = 200;   ///< sweeps before a jump, where the proximal steps are stuck
   /// The compliance to begin with, as a part of lambda_max(W_cc).
   double epsilon = 3e-4;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <iostream>
+
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
@@ -120,6 +122,7 @@ TEST_CASE("a program beside us has one thread of linear algebra, where nothing e
 TEST_CASE("what cannot be started says so in the log") {
   const TemporaryFolder folder;
   const fs::path log = folder.path() / "log", absent = folder.path() / "absent";
+  std::cout.flush();  // ThreadSanitizer's _exit writes what the child's copy of it holds
   BackgroundProgram program(absent, {}, log);
   CHECK(status_of(program) == 127);
   CHECK(last_line(log) == absent.string() + ": cannot be started: No such file or directory");
