@@ -1,7 +1,6 @@
 // answers_html of html.hpp: the script of a page whose tables sort and whose figures answer, with
 // its data and the library that draws.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -38,7 +37,8 @@ Json short_numbers(const std::vector<double>& values) {
 
 Json axis_json(const std::string& label, bool is_log, const std::optional<double>& low,
                const std::optional<double>& high) {
-  Json axis = {{"label", label_html(label)}, {"log", is_log}};
+  const Text words = label_words(label);
+  Json axis = {{"label", html_of(words)}, {"words", plain_words(words)}, {"log", is_log}};
   if (low) axis["min"] = *low;
   if (high) axis["max"] = *high;
   return axis;
@@ -53,21 +53,19 @@ const char* variable_of(Ink ink) {
 }
 
 Json curve_json(const Curve& curve) {
-  return {{"title", label_html(curve.title)},
+  const bool is_area = curve.mark == Mark::area;
+  return {{"title", plain_words(label_words(curve.title))},
           {"ink", variable_of(curve.ink)},
           {"dash", curve.dashed ? 1 + curve.fineness : 0},
           {"width", curve.width},
-          {"mark", curve.mark == Mark::points ? "points" : "line"},
+          {"mark", is_area                      ? "area"
+                   : curve.mark == Mark::points ? "points"
+                                                : "line"},
           {"x", short_numbers(curve.x)},
           {"y", short_numbers(curve.y)},
           {"error", short_numbers(curve.y_error)},
+          {"low", short_numbers(curve.y_low)},
           {"from", curve.origins}};
-}
-
-/// Areas are not drawn by charts: such a figure stays as it is.
-bool is_of_lines(const Panel& panel) {
-  return std::all_of(panel.curves.begin(), panel.curves.end(),
-                     [](const Curve& curve) { return curve.mark != Mark::area; });
 }
 
 Json picture_json(const Figure& figure) {
@@ -76,8 +74,9 @@ Json picture_json(const Figure& figure) {
     Json curves = Json::array(), lines = Json::array();
     for (const Curve& curve : panel.curves) curves.push_back(curve_json(curve));
     for (const ReferenceLine& line : panel.lines)
-      lines.push_back(
-          {{"value", line.value}, {"vertical", line.vertical}, {"label", label_html(line.label)}});
+      lines.push_back({{"value", line.value},
+                       {"vertical", line.vertical},
+                       {"label", plain_words(label_words(line.label))}});
     panels.push_back({{"x", axis_json(panel.x_label, panel.log_x, panel.x_min, panel.x_max)},
                       {"y", axis_json(panel.y_label, panel.log_y, panel.y_min, panel.y_max)},
                       {"curves", curves},
@@ -93,9 +92,7 @@ std::string data_of(const Page& page) {
     Json& pictures = data["pictures"] = Json::array();
     for (const Section& section : page.sections)
       for (const Block& block : section.blocks)
-        if (const auto* picture = std::get_if<Picture>(&block);
-            picture &&
-            std::all_of(picture->plot.panels.begin(), picture->plot.panels.end(), is_of_lines))
+        if (const auto* picture = std::get_if<Picture>(&block))
           pictures.push_back(picture_json(picture->plot));
   }
   // no "<" can end the element or begin a comment in it
@@ -105,44 +102,9 @@ std::string data_of(const Page& page) {
   return json;
 }
 
-/// Reads a label from left to right.
-struct LabelReader {
-  std::string_view text;
-  size_t at = 0;
-
-  std::string until(char end) {
-    std::string html;
-    while (at < text.size() && text[at] != end) html += next();
-    ++at;
-    return html;
-  }
-
-  std::string next() {
-    const char c = text[at++];
-    if (c == '\\' && at < text.size()) return escaped_html(text.substr(at++, 1));
-    if ((c == '_' || c == '^') && at < text.size()) {
-      const std::string tag = c == '_' ? "sub>" : "sup>";
-      return '<' + tag + next() + "</" + tag;
-    }
-    if (c == '{') {
-      const bool is_italic = text.substr(at).starts_with("/:Italic ");
-      if (is_italic) at = text.find(' ', at) + 1;
-      const std::string inner = until('}');
-      return is_italic ? "<i>" + inner + "</i>" : inner;
-    }
-    // a letter with all its bytes; a second blank would be lost
-    const size_t begin = at - 1;
-    while (at < text.size() && (text[at] & 0xC0) == 0x80) ++at;
-    if (c == ' ' && at < text.size() && text[at] == ' ') return "&nbsp;";
-    return escaped_html(text.substr(begin, at - begin));
-  }
-};
-
 }  // namespace
 
 bool can_answer() { return !chart_library().empty(); }
-
-std::string label_html(std::string_view enhanced) { return LabelReader{enhanced}.until('\0'); }
 
 std::string answers_html(const Page& page) {
   if (!page.answers.are_given || !can_answer()) return {};

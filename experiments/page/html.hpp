@@ -34,7 +34,4 @@ std::string answers_html(const Page& page);
 /// Is the library that draws built in (Chart.js)?
 bool can_answer();
 
-/// gnuplot's enhanced text ("{/:Italic f}_{max}") as HTML.
-std::string label_html(std::string_view enhanced);
-
 }  // namespace ballast::page

@@ -116,6 +116,37 @@ size_t utf8_length(std::string_view text) {
   return length;
 }
 
+/// Reads a plot's label from left to right.
+struct LabelReader {
+  std::string_view text;
+  size_t at = 0;
+
+  Text until(char end) {
+    Text words;
+    while (at < text.size() && text[at] != end) words += next();
+    ++at;
+    return words;
+  }
+
+  Text next() {
+    const char c = text[at++];
+    if (c == '\\' && at < text.size()) return std::string(1, text[at++]);
+    if ((c == '_' || c == '^') && at < text.size())
+      return styled(next(), c == '_' ? subscript : superscript);
+    if (c == '{') {
+      const bool is_italic = text.substr(at).starts_with("/:Italic ");
+      if (is_italic) at = text.find(' ', at) + 1;
+      return styled(until('}'), is_italic ? symbol : 0);
+    }
+    // of two blanks a page would show one
+    if (c == ' ' && text.substr(at).starts_with(' ')) return "\u00a0";
+    // a letter with all its bytes
+    const size_t length = std::max<size_t>(1, utf8_length(text.substr(--at)));
+    at += length;
+    return std::string(text.substr(at - length, length));
+  }
+};
+
 /// "−4" as "⁻⁴"; empty when a character has no raised form.
 std::string raised(const std::string& text) {
   static const std::map<std::string, std::string> forms = {
@@ -205,6 +236,8 @@ std::string plot_label(const Text& text) {
   }
   return label;
 }
+
+Text label_words(std::string_view label) { return LabelReader{label}.until('\0'); }
 
 std::string clean_utf8(std::string_view text) {
   std::string result;

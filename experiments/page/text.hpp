@@ -65,6 +65,8 @@ std::string plain_words(const Text& text);
 
 /// As a label of a plot (gnuplot's enhanced text).
 std::string plot_label(const Text& text);
+/// The same backwards: gnuplot's enhanced text ("{/:Italic f}_{max}") as words.
+Text label_words(std::string_view label);
 
 /// The text with what is no UTF-8 and every control character except line breaks and tabs replaced
 /// by U+FFFD.

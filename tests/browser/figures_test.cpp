@@ -77,6 +77,25 @@ TEST_CASE("the figures of a run tell the values under the pointer") {
   browser.wait_for("document.querySelector('#error .said').textContent.includes('rms')");
   const std::string said = browser.js("document.querySelector('#error .said').textContent");
   CHECK_THAT(said, Catch::Contains(printed("t %.3g", box.steps[9].time)));
+  // the time that the largest phase of the tenth step took, told anywhere within its area
+  const StepRecord& step = box.steps[9];
+  browser.wait_for("Chart.getChart(document.querySelector('#cost canvas'))");
+  const Json inside = browser.js(
+      "(() => { const c = document.querySelector('#cost canvas'); c.scrollIntoView({block: "
+      "'center'}); const { data: { datasets }, scales: { x, y } } = Chart.getChart(c), b = "
+      "c.getBoundingClientRect(), set = datasets.find((s) => s.label === 'solver'), "
+      "p = set.data[9]; return [b.left + x.getPixelForValue(p.x), b.top + "
+      "y.getPixelForValue(0.9 * p.low + 0.1 * p.y), set.borderColor]; })()");
+  browser.hover(inside[0], inside[1]);
+  browser.wait_for("document.querySelector('#cost .said').textContent.includes('solver')");
+  const std::string cost = browser.js("document.querySelector('#cost .said').textContent");
+  CHECK_THAT(cost, Catch::Contains(printed("t %.3g", step.time)));
+  CHECK(parsed_number(cost.substr(cost.find("clock ") + 6, 4)).value() ==
+        Approx(1e3 * step.seconds_solve).margin(0.01));
+  CHECK(browser.js("(() => { const c = document.querySelector('#cost canvas'), b = "
+                   "c.getBoundingClientRect(); return [...c.getContext('2d').getImageData(" +
+                   inside[0].dump() + " - b.left, " + inside[1].dump() +
+                   " - b.top, 1, 1).data]; })()") == Json{0x00, 0x72, 0xb2, 0xff});
   // tables in groups keep their order; others sort
   CHECK(browser.js("document.querySelectorAll('#results .sort').length") == 0);
   CHECK(browser.js("document.querySelectorAll('#cost-table .sort').length") == 3);

@@ -205,6 +205,26 @@ TEST_CASE("two backends' errors stand side by side, and the worst contact is fou
   CHECK(browser.complaints == std::vector<std::string>{});
 }
 
+TEST_CASE("what is most wrong stands out from a light and a dark ground") {
+  if (Browser::is_missing()) return;
+  const TemporaryFolder place;
+  const fs::path file = captured_run(place.path() / "run");
+  write_view_page(view_of_problem(file, {.backends = {"pgs"}, .iterations = {1}}),
+                  place.path() / "errors.html");
+  for (const bool is_dark : {false, true}) {
+    Browser browser(900, 700, is_dark);
+    browser.open(place.path() / "errors.html", "rest=0", is_ready);
+    // contrast of the largest ball with the ground, as the accessibility guidelines count it
+    const double contrast = browser.js(
+        "(() => { const { rods, paper } = ballastReplay.look(0), balls = []; for (let k = 0; "
+        "k < rods.length; k += 12) balls.push(rods.slice(k, k + 12)); const ball = balls.sort("
+        "(a, b) => b[3] - a[3])[0], light = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b + "
+        "0.05, two = [light(ball.slice(8)), light(paper)]; return Math.max(...two) / "
+        "Math.min(...two); })()");
+    CHECK(contrast > 4.5);
+  }
+}
+
 TEST_CASE("narrow, dark, and without 3D") {
   if (Browser::is_missing()) return;
   const DrivenBox box;

@@ -1,9 +1,10 @@
 // One chart: Chart.js draws, and this tells it what, reads out values and listens to keys.
 //
 // A figure is {title, x, y, curves, lines}. Axes: {label, log, min, max}; a label is HTML of the
-// page's own. Curves: {title, ink, dash, width, mark: "line" | "points", stepped, points}, where a
-// point is {x, y, ...} with what `told(curve, point)` and `opened(point)` need. Lines: {value,
-// vertical, label}. Curves of one title are switched together by the legend.
+// page's own. Curves: {title, ink, dash, width, mark: "line" | "points" | "area", stepped,
+// points}, where a point is {x, y, ...} with what `told(curve, point)` and `opened(point)` need;
+// an area's has its lower bound `low`. Lines: {value, vertical, label}. Curves of one title are
+// switched together by the legend.
 
 const charts = new Set();
 
@@ -34,11 +35,12 @@ const axis_of = (axis) => ({
 });
 
 function dataset_of(curve) {
-  const colour = variable(curve.ink), is_points = curve.mark === "points";
+  const colour = variable(curve.ink), { mark = "line" } = curve, is_points = mark === "points";
   return {
     label: curve.title,
     data: curve.points,
-    showLine: !is_points,
+    showLine: mark === "line",
+    is_area: mark === "area",
     stepped: curve.stepped ? "before" : false,
     borderColor: colour,
     backgroundColor: colour,
@@ -54,6 +56,43 @@ function dataset_of(curve) {
     pointHitRadius: 8,
   };
 }
+
+/// What is between the points of areas and their lower bounds, below all else.
+const areas = {
+  id: "areas",
+  beforeDatasetsDraw(chart) {
+    const { ctx, scales: { x, y }, chartArea: { left, top, width, height } } = chart;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(left, top, width, height);
+    ctx.clip();
+    chart.data.datasets.forEach((set, k) => {
+      if (!set.is_area || !chart.isDatasetVisible(k)) return;
+      const points = set.data.filter((point) => point.y !== null);
+      const place = (point, height_) =>
+        [x.getPixelForValue(point.x), y.getPixelForValue(Math.max(height_, y.min))];
+      ctx.fillStyle = set.borderColor;
+      ctx.beginPath();
+      for (const point of points) ctx.lineTo(...place(point, point.y));
+      for (const point of points.reverse()) ctx.lineTo(...place(point, point.low));
+      ctx.fill();
+    });
+    ctx.restore();
+  },
+};
+
+/// The point of the area that is under the pointer, otherwise the nearest of all.
+Chart.Interaction.modes.held = (chart, event, options, is_final) => {
+  const { x, y } = chart.scales, at = x.getValueForPixel(event.x), up = y.getValueForPixel(event.y);
+  for (const [datasetIndex, set] of chart.data.datasets.entries()) {
+    if (!set.is_area || !chart.isDatasetVisible(datasetIndex)) continue;
+    const away = set.data.map((point) => Math.abs(point.x - at));
+    const index = away.indexOf(Math.min(...away)), { y: high, low } = set.data[index];
+    if (low <= up && up < high)
+      return [{ element: chart.getDatasetMeta(datasetIndex).data[index], datasetIndex, index }];
+  }
+  return Chart.Interaction.modes.nearest(chart, event, options, is_final);
+};
 
 /// A dashed line across, which no legend names.
 function line_of(line, chart_points) {
@@ -140,7 +179,7 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
   };
   const options = () => ({
     animation: false, responsive: true, maintainAspectRatio: false, parsing: false,
-    interaction: { mode: "nearest", axis: "xy", intersect: false },
+    interaction: { mode: "held", axis: "xy", intersect: false },
     layout: { padding: { right: 12, top: 8 } },
     scales: { x: axis_of(along_of(figure)), y: axis_of(figure.y) },
     onHover: (event, [at]) => {
@@ -168,7 +207,7 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
                                                     hidden: !is_shown(curve) }));
     if (all.length) sets.push(...(figure.lines ?? []).map((line) => line_of(line, all)));
     chart = new Chart(canvas, { type: "line", data: { datasets: sets }, options: options(),
-                                plugins: [error_bars, line_words] });
+                                plugins: [areas, error_bars, line_words] });
   };
   const keys = key_walk(figure, is_shown, (at) => {
     const found = point_of(at);

@@ -6,7 +6,7 @@ function legend_of(figure, is_shown, hidden) {
   for (const curve of figure.curves)
     if (curve.title && !seen.has(curve.title)) seen.set(curve.title, curve);
   const switch_of = (curve) => {
-    const swatch = element("span", { class: "swatch dash" + (curve.dash ?? 0),
+    const swatch = element("span", { class: `swatch dash${curve.dash ?? 0} ${curve.mark ?? ""}`,
                                      style: `color:var(--${curve.ink})` });
     const made = button("", () => choice.toggle(hidden, curve.title),
                         { class: "switch", "data-title": curve.title,

@@ -5,33 +5,32 @@
 function panel_figure(picture, panel) {
   const curve_of = (curve) => ({
     ...curve,
-    title: plain(curve.title.replaceAll("<sub>", "_")),
     points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k],
-                                     from: curve.from[k] ?? curve.from[0] }))
+                                     low: curve.low[k], from: curve.from[k] ?? curve.from[0] }))
       .filter(({ x }) => x !== null && (!panel.x.log || x > 0))
       // where a curve has no value it is broken
       .map((point) => (point.y === null || (panel.y.log && point.y <= 0) ?
         { ...point, y: null } : point))
       .filter(({ y }) => y !== null || curve.mark !== "points"),
   });
-  const lines = panel.lines.map((line) => ({ ...line, label: plain(line.label) }));
-  return { title: picture.title, x: panel.x, y: panel.y, lines,
+  return { title: picture.title, x: panel.x, y: panel.y, lines: panel.lines,
            curves: panel.curves.map(curve_of) };
 }
 
-const plain = (html) => new DOMParser().parseFromString(html, "text/html").body.textContent;
-
 function picture_charts(picture) {
   return picture.panels.map((panel) => {
-    const quantity = (label, value) => {
-      const words = plain(label).trim(), unit = /\s*\(([^()]*)\)$/.exec(words);
-      const name = unit ? words.slice(0, unit.index) : words;
-      return `${name} ${short_number(value)}${unit ? narrow_space + unit[1] : ""}`;
+    const quantity = ({ words }, ...values) => {
+      const unit = /\s*\(([^()]*)\)$/.exec(words), name = words.slice(0, unit?.index).trim();
+      return `${name} ${values.map(short_number).join(" to ")}` +
+        (unit ? narrow_space + unit[1] : "");
     };
+    // one area is a band; several stand on each other, and each is as high as its own value
+    const is_stack = panel.curves.filter((curve) => curve.mark === "area").length > 1;
+    const heights = ({ y, low = null }) => low === null ? [y] : is_stack ? [y - low] : [low, y];
     const opens = panel.curves.some((curve) => curve.from.length);
     return chart_of(panel_figure(picture, panel), {
-      told: (curve, { x, y, error }) =>
-        `${curve.title}; ${quantity(panel.x.label, x)}; ${quantity(panel.y.label, y)}` +
+      told: (curve, { x, error, ...point }) =>
+        `${curve.title}; ${quantity(panel.x, x)}; ${quantity(panel.y, ...heights(point))}` +
         (error ? ` ± ${short_number(error)}` : ""),
       opened: opens ? ({ from }) => choice.set("origin", from) : null,
     });

@@ -41,6 +41,18 @@ const ramps = {
   stone: rampOf([[0.72, 0.008, 70], [0.80, 0.02, 78], [0.87, 0.024, 88]]),
 };
 
+// Marks (force chains, points, errors) begin near the ground's lightness and end far from it: on a
+// dark ground their ramps run backwards.
+const markRamps = {};
+const isDark = (paper) => paper[1] < 0.2;
+function suitMarks(paper) {
+  for (const name of ["heat", "water"]) {
+    const texels = Array.from({ length: 256 }, (_, k) => ramps[name].subarray(4 * k, 4 * k + 4));
+    if (isDark(paper)) texels.reverse();
+    markRamps[name] = Float32Array.from(texels.flatMap((texel) => [...texel]));
+  }
+}
+
 const colourAt = (ramp, share) => {
   const k = 4 * Math.round(255 * clamp(share, 0, 1));
   return [ramp[k], ramp[k + 1], ramp[k + 2]];

@@ -30,7 +30,7 @@ class ErrorView {
       const place = this.data.contactPlace(c), share = clamp(this.share(picture, c), 0, 1);
       if (cut && dot(cut, place) > cut[3]) continue;
       const radius = size * (0.06 + 0.28 * share * share);
-      addRod(rods, place, radius, place, radius, colourAt(ramps.heat, share));
+      addRod(rods, place, radius, place, radius, colourAt(markRamps.heat, share));
       if (c !== this.worst) continue;
       const n = times(this.data.contactNormal(c), 1.2 * size);
       addRod(rods, sub(place, n), 0.03 * size, add(place, n), 0.03 * size, [0.02, 0.45, 0.5]);
@@ -118,7 +118,7 @@ class ErrorView {
 
   drawLegend() {
     const legend = element("legend"), bar = make("div", { class: "bar" });
-    bar.style.background = cssGradient(ramps.heat);
+    bar.style.background = cssGradient(markRamps.heat);
     const [low, high] = errorDecades;
     const ticks = [low, low + 2, low + 4, high].map((decade) => {
       const mark = make("span", {}, decade ? "1e\u2212" + -decade : "1");

@@ -61,6 +61,7 @@ class Marks {
 
   addWalls(time, look, rods, colours) {
     const { data } = this, { low, high, centre, radius } = data, ground = [];
+    const thin = isDark(look.paper) ? 0.4 : 1;  // light on dark covers more
     look.cell = niceStep(2 * radius, 8);
     const reach = (look.isHasty ? 1.4 : 2.7) * radius;
     for (let k = 0; k < 40; ++k) {
@@ -79,7 +80,7 @@ class Marks {
       // walls that move are blue
       const moves = data.wallMoves[w], colour = moves ? colours.blue.linear : colours.grey.linear;
       look.planes.push({ corners: new Float32Array(corners),
-        tint: [...colour, moves ? 0.24 : 0.07] });
+        tint: [...colour, thin * (moves ? 0.24 : 0.07)] });
       loop.forEach((p, k) => addRod(rods, p, moves ? -1.1 : -0.75,
         loop[(k + 1) % loop.length], moves ? -1.1 : -0.75, colour, moves ? 0.9 : 0.6));
       if (wall.driven && data.series.f) this.addLoad(time, wall, loop, rods, colours);
@@ -112,7 +113,7 @@ class Marks {
       if (cut && dot(cut, from) > cut[3] && dot(cut, to) > cut[3]) continue;
       const width = 0.24 * this.meanReach * Math.min(force / this.topChain, 1.3);
       addRod(rods, from, width, to, width,
-        colourAt(ramps.heat, 0.25 + 0.65 * Math.sqrt(force / this.topChain)));
+        colourAt(markRamps.heat, 0.25 + 0.65 * Math.sqrt(force / this.topChain)));
       ++this.shownChains;
     }
   }
@@ -126,7 +127,7 @@ class Marks {
       if (picked >= 0 && a[c] !== picked && b[c] !== picked) continue;
       const place = this.data.contactPlace(c), n = times(this.data.contactNormal(c), 0.3 * size);
       if (cut && dot(cut, place) > cut[3]) continue;
-      const colour = colourAt(ramps.water, 0.15 + 0.85 * mobilised[c] / 255);
+      const colour = colourAt(markRamps.water, 0.15 + 0.85 * mobilised[c] / 255);
       addRod(rods, place, 0.09 * size, place, 0.09 * size, colour);
       addRod(rods, sub(place, n), 0.02 * size, add(place, n), 0.02 * size, colour);
       ++this.shownPoints;

@@ -94,12 +94,12 @@ function drawLegend(shades, { colour, chains, points }, marks) {
   if (words)
     parts.push(...rampLegend(words + (unit ? " / " + unit : ""), ground, ticks, wide));
   if (chains)
-    parts.push(...rampLegend("chains: force of a pair / N", cssGradient(ramps.heat, 0.25, 0.9),
+    parts.push(...rampLegend("chains: force of a pair / N", cssGradient(markRamps.heat, 0.25, 0.9),
       [0, 0.25, 0.5, 1].map((share) => [Math.sqrt(share), shown(share * marks.topChain, 2)]),
       wide));
   if (points)
-    parts.push(...rampLegend("points: share of friction used", cssGradient(ramps.water, 0.15, 1),
-      [[0, "0"], [0.5, "0.5"], [1, "1"]], wide));
+    parts.push(...rampLegend("points: share of friction used",
+      cssGradient(markRamps.water, 0.15, 1), [[0, "0"], [0.5, "0.5"], [1, "1"]], wide));
   legend.hidden = !parts.length;
   legend.replaceChildren(...parts);
 }

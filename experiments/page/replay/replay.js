@@ -43,7 +43,7 @@ class Replay {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       this.readStyle();
       this.plots.layOut(this.colours);
-      this.touched();
+      this.set({});
     });
     // what nobody sees is not drawn
     this.isSeen = true;
@@ -60,6 +60,7 @@ class Replay {
     const names = ["paper", "ink", "soft", "rule", "grid", "grey", "blue", "vermilion", "green",
       "purple", "orange"];
     this.colours = Object.fromEntries(names.map((name) => [name, styleColour(name)]));
+    suitMarks(this.colours.paper.linear);
   }
 
   // Changes what the reader has chosen, and shows it in the panel.
