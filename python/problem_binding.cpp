@@ -146,6 +146,10 @@ double scale_of(const FrictionProblem& problem) {
 py::dict solve(const FrictionProblem& problem, const std::string& name, double tolerance,
                bool is_absolute, const std::optional<Doubles>& start, int max_iterations,
                double max_seconds) {
+  // NaN is refused by the same comparisons
+  if (!(tolerance >= 0.0)) throw std::invalid_argument("tolerance: expected a number >= 0");
+  if (max_iterations < 0) throw std::invalid_argument("max_iterations: expected a number >= 0");
+  if (!(max_seconds >= 0.0)) throw std::invalid_argument("max_seconds: expected a number >= 0");
   const Impulses from = start ? impulses_of(problem, *start) : Impulses();
   const auto solver = make_solver(name);
   SolverRun run;

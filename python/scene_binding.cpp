@@ -34,6 +34,7 @@ class SteppedScene {
 
   /// Steps `count` times; calls back after each, and stops where that returns False.
   py::dict step(long count, const py::object& callback, const py::object& self) {
+    if (count < 0) throw std::invalid_argument("count: expected a number >= 0");
     StepRecord record;
     bool goes_on = true;
     for (long k = 0; k < count && goes_on; ++k) {

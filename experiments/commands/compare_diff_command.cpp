@@ -1,6 +1,7 @@
 // `ballast compare diff`: what a change did to a comparison, with an exit code for whoever watches
 // over it.
 
+#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -21,12 +22,14 @@ struct DiffOptions {
   bool shows_all = false;
 };
 
-void print_change(const ChangedSolve& solve) {
+/// `width`: of the longest case's name.
+void print_change(const ChangedSolve& solve, int width) {
   const bool has_both = solve.before > 0.0 && solve.after > 0.0;
   const std::string ratio = has_both ? printed("%.2f", solve.after / solve.before) : "-";
-  std::cout << printed("%-34.34s %-14s %-8g%-6s%12.4g%12.4g%8s%8.2f  %s\n", solve.case_name.c_str(),
-                       solve.solver.c_str(), solve.tolerance, name_of(solve.start), solve.before,
-                       solve.after, ratio.c_str(), solve.spread, name_of(solve.change));
+  std::cout << printed("%-*s %-14s %-8g%-6s%12.4g%12.4g%8s%8.2f  %s\n", width,
+                       solve.case_name.c_str(), solve.solver.c_str(), solve.tolerance,
+                       name_of(solve.start), solve.before, solve.after, ratio.c_str(), solve.spread,
+                       name_of(solve.change));
 }
 
 ExitCode diff(const DiffOptions& options) {
@@ -40,11 +43,14 @@ ExitCode diff(const DiffOptions& options) {
   }
   const std::vector<ChangedSolve> changes = compare_diff(before.rows, after.rows, least);
   std::map<Change, int> counts;
-  std::cout << printed("%-34s %-14s %-8s%-6s%12s%12s%8s%8s  %s\n", "case", "solver", "tol", "start",
-                       "before_s", "after_s", "ratio", "spread", "change");
+  int width = 34;
+  for (const ChangedSolve& solve : changes)
+    width = std::max(width, static_cast<int>(solve.case_name.size()));
+  std::cout << printed("%-*s %-14s %-8s%-6s%12s%12s%8s%8s  %s\n", width, "case", "solver", "tol",
+                       "start", "before_s", "after_s", "ratio", "spread", "change");
   for (const ChangedSolve& solve : changes) {
     ++counts[solve.change];
-    if (solve.change != Change::same || options.shows_all) print_change(solve);
+    if (solve.change != Change::same || options.shows_all) print_change(solve, width);
   }
   std::string summary;
   for (const auto& [change, count] : counts)

@@ -27,8 +27,8 @@ LoadedCase load_captured(const fs::path& file) {
   loaded.describe_contact = [captured](int c) {
     if (c < 0) return std::string();
     const size_t k = static_cast<size_t>(c);
-    return printed("contact %d (bodies %d and %d, gap %.2g m)", c, captured->id_a[k],
-                   captured->id_b[k], captured->gap[k]);
+    return printed("contact %d (bodies %d and %d, gap %.3g µm)", c, captured->id_a[k],
+                   captured->id_b[k], 1e6 * captured->gap[k]);
   };
   return loaded;
 }

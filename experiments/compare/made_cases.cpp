@@ -43,11 +43,16 @@ class MadeWord {
     values_.erase(found);
     return value;
   }
-  int take_count(const char* name, int otherwise, int least) {
-    return static_cast<int>(std::lround(take(name, otherwise, least)));
+  /// Of what takes memory there may be a million.
+  int take_count(const char* name, int otherwise, int least, int most = 1'000'000) {
+    const double value = take(name, otherwise, least);
+    if (value > most) fail(name + (": at most " + std::to_string(most)));
+    return static_cast<int>(std::lround(value));
   }
   /// Of the first case; the others follow one by one.
-  std::uint64_t take_seed() { return static_cast<std::uint64_t>(take_count("seed", 1, 0)); }
+  std::uint64_t take_seed() {
+    return static_cast<std::uint64_t>(take_count("seed", 1, 0, 1'000'000'000));
+  }
 
   void finish() const {
     if (!values_.empty())

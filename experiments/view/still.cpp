@@ -184,7 +184,8 @@ void set_view(StillOptions& options, const std::string& word) {
     std::tie(options.yaw, options.pitch) = found->second;
   } else if (const auto yaw = parsed_number(parts[0]); parts.size() == 2 && yaw) {
     const auto pitch = parsed_number(parts[1]);
-    if (!pitch) throw std::invalid_argument("'" + parts[1] + "' is no angle");
+    if (!pitch || !std::isfinite(*yaw) || !std::isfinite(*pitch))
+      throw std::invalid_argument("'" + word + "' is no pair of angles");
     options.yaw = *yaw;
     options.pitch = *pitch;
   } else {

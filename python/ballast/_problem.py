@@ -19,6 +19,11 @@ def _require_shape(matrix: Any, rows: int, columns: int, name: str) -> None:
                          f"must be {rows} x {columns}")
 
 
+def _require_real(*arrays: Any) -> None:
+    if any(np.iscomplexobj(array) for array in arrays):
+        raise ValueError("expected real numbers, got complex ones")
+
+
 class Problem:
     """A friction problem. Made by from_delassus, from_bodies or read; it does not change."""
 
@@ -29,6 +34,7 @@ class Problem:
     def from_delassus(cls, W: Any, q: np.ndarray, mu: np.ndarray) -> "Problem":
         """From W [1/kg], dense or sparse, (3n, 3n), positive semidefinite; q [m/s], (3n) or (n, 3);
         mu, (n). Raises ValueError and InvalidProblem, which names the entry."""
+        _require_real(W, q, mu)
         W = sparse.csr_matrix(W)
         W.sum_duplicates()
         _require_shape(W, 3 * len(mu), 3 * len(mu), "W")
@@ -39,6 +45,7 @@ class Problem:
                     f: Optional[np.ndarray] = None, w: Optional[np.ndarray] = None) -> "Problem":
         """From M [kg, kg m^2], (d, d), symmetric positive definite; H, (3n, d), with u = H v + w;
         mu, (n); v_free [m/s, rad/s], (d), or f = M v_free; w [m/s], (3n), zero if left out."""
+        _require_real(M, H, mu, v_free, f, w)
         M = sparse.csc_matrix(M)
         transposed = sparse.csc_matrix(sparse.csr_matrix(H).T)
         if (v_free is None) == (f is None):

@@ -71,6 +71,10 @@ class Problems(unittest.TestCase):
         make, bodies = ballast.Problem.from_delassus, ballast.Problem.from_bodies
         eye, q = np.eye(3), np.array([-1.0, 0, 0])
         up = np.array([[0.0, 3, 0], [0, 0, 0], [0, 0, 0]])
+
+        def solve(**settings):
+            return ballast.solve(make(eye, q, [0.5]), "pgs", **settings)
+
         cases = [
             (ValueError, "q has 3 entries, must have 6", lambda: make(np.eye(6), q, [0.5, 0.5])),
             (ValueError, "W: is 6 x 6, must be 3 x 3", lambda: make(np.eye(6), q, [0.5])),
@@ -99,6 +103,13 @@ class Problems(unittest.TestCase):
             (ballast.UnknownSolver, "no solver is called",
              lambda: ballast.solve(make(eye, q, [0.5]), "psg")),
             (ValueError, "r has 4 entries", lambda: ballast.judge(make(eye, q, [0.5]), np.ones(4))),
+            (ValueError, "complex", lambda: make(eye * 1j, q, [0.5])),
+            (ValueError, "complex", lambda: bodies(eye, eye, [0.5], f=q * 1j)),
+            (ValueError, "tolerance: expected", lambda: solve(tolerance=-1)),
+            (ValueError, "tolerance: expected", lambda: solve(tolerance=np.nan)),
+            (ValueError, "max_iterations: expected", lambda: solve(max_iterations=-1)),
+            (ValueError, "max_seconds: expected", lambda: solve(max_seconds=np.nan)),
+            (ValueError, "count: expected", lambda: ballast.Scene("sliding_cube").step(-1)),
             (ballast.Error, "no scene of this name", lambda: ballast.Scene("zeno_bal")),
         ]
         for kind, words, call in cases:

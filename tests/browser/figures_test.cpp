@@ -1,5 +1,7 @@
 // Figures and tables of any page in a real browser.
 
+#include <cmath>
+
 #include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/page/plot.hpp"
@@ -21,12 +23,19 @@ page::Page wide_page() {
       {.x = x, .y = y, .title = "below", .ink = Ink::blue, .width = 2.0},
       {.x = x, .y = y, .title = "above {/:Italic f}_g", .ink = Ink::vermilion, .width = 4.0}};
   panel.lines = {{1.5, "asked: {/:Italic x}"}};
-  picture.plot = {.name = "two", .title = "Two curves", .panels = {panel}};
+  // two pieces: what is between them has neither x nor y
+  const double none = std::nan("");
+  panel.curves.push_back({.x = {0, 0.5, none, 1.5, 2},
+                          .y = {0.5, 0.5, none, 0.5, 0.5},
+                          .title = "pieces",
+                          .ink = Ink::black,
+                          .width = 4.0});
   page::Table table;
   table.head = {"figure", "paper", "agreement", "Ballast", "taken as", "judged by"};
   const std::string found = "exponent 0.863 [0.836, 0.890] (R² 0.9956, 22 points), χ²/dof 4.0";
   table.rows = {{"Fig. 11, Eq. 3", "one line through all the series that were varied", "partly",
                  found, "0.495 … 0.505", found + "; the law misses the points"}};
+  picture.plot = {.name = "two", .title = "Two curves", .panels = {panel}};
   page::Page page{.title = "Wide"};
   page.answers = {.are_given = true, .with_curves = true};
   page.add({"table", "Table", {table}});
@@ -48,7 +57,14 @@ TEST_CASE("later curves stand above earlier ones, and no column is cut where the
                    "{ x, y } = c.scales; return [...c.ctx.getImageData(x.getPixelForValue(0.5), "
                    "y.getPixelForValue(1), 1, 1).data]; })()") == Json{0xd5, 0x5e, 0x00, 0xff});
   CHECK(browser.js("[...document.querySelectorAll('.switch')].map((s) => s.textContent)") ==
-        Json{"below", "above f_g"});
+        Json{"below", "above f_g", "pieces"});
+  // a curve is broken where it has no value
+  for (const auto& [x, is_drawn] : {std::pair{0.25, true}, {0.95, false}, {1.75, true}})
+    CHECK(browser.js(printed("(() => { const c = Chart.getChart(document.querySelector('#two "
+                             "canvas')), { x, y } = c.scales; return c.ctx.getImageData("
+                             "x.getPixelForValue(%g), y.getPixelForValue(0.5), 1, 1).data[3] === "
+                             "255; })()",
+                             x)) == is_drawn);
   // words stand above the line, in the colour of what is aside
   CHECK(browser.js("(() => { const c = Chart.getChart(document.querySelector('#two canvas')), "
                    "y = c.scales.y.getPixelForValue(1.5), right = c.chartArea.right; const b = "

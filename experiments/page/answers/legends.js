@@ -8,6 +8,8 @@ function legend_of(figure, is_shown, hidden) {
   const switch_of = (curve) => {
     const swatch = element("span", { class: `swatch dash${curve.dash ?? 0} ${curve.mark ?? ""}`,
                                      style: `color:var(--${curve.ink})` });
+    if (curve.mark === "line")
+      swatch.style.borderTopWidth = `${Math.max(1.5, curve.width)}px`;
     const made = button("", () => choice.toggle(hidden, curve.title),
                         { class: "switch", "data-title": curve.title,
                           "aria-pressed": String(is_shown(curve)) });

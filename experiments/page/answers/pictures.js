@@ -7,8 +7,9 @@ function panel_figure(picture, panel) {
     ...curve,
     points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k],
                                      low: curve.low[k], from: curve.from[k] ?? curve.from[0] }))
-      .filter(({ x }) => x !== null && (!panel.x.log || x > 0))
       // where a curve has no value it is broken
+      .map((point, k, all) => (point.x === null ? { x: all[k - 1]?.x ?? null, y: null } : point))
+      .filter(({ x }) => x !== null && (!panel.x.log || x > 0))
       .map((point) => (point.y === null || (panel.y.log && point.y <= 0) ?
         { ...point, y: null } : point))
       .filter(({ y }) => y !== null || curve.mark !== "points"),

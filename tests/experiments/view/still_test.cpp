@@ -56,7 +56,7 @@ TEST_CASE("views and colours by name") {
   StillOptions options;
   set_view(options, "30,-12.5");
   CHECK((options.yaw == 30.0 && options.pitch == -12.5));
-  for (const char* word : {"w", "1", "1,b", "1,2,3"})
+  for (const char* word : {"w", "1", "1,b", "1,2,3", "nan,3", "30,inf"})
     CHECK_THROWS_AS(set_view(options, word), std::invalid_argument);
   set_colour(options, "size");
   CHECK(options.colour == "size");
