@@ -76,6 +76,30 @@ TEST_CASE("later curves stand above earlier ones, and no column is cut where the
   CHECK(browser.complaints == std::vector<std::string>{});
 }
 
+TEST_CASE("a logarithmic axis ends beside its points, and only round values have numbers") {
+  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
+  const TemporaryFolder folder;
+  page::Picture picture;
+  Panel panel{.x_label = "x", .y_label = "y", .log_x = true, .log_y = true};
+  panel.curves = {{.x = {0.006, 0.02, 0.036}, .y = {6, 7, 9}, .mark = Mark::points}};
+  panel.lines = {{.value = 0.02, .vertical = true}};
+  picture.plot = {.name = "log", .title = "Logarithms", .panels = {panel}};
+  page::Page page{.title = "Logarithms"};
+  page.answers = {.are_given = true, .with_curves = true};
+  page.add({"figure", "Figure", {picture}});
+  page::draw_pictures(page, folder.path(), {.with_pdf = false});
+  write_whole_file(folder.path() / "page.html", html_of(page));
+  Browser browser(1400, 900);
+  browser.open(folder.path() / "page.html", "", "document.querySelector('#log canvas')");
+  const auto numbers = [&](const std::string& axis) {
+    return browser.js("Chart.getChart(document.querySelector('#log canvas')).scales." + axis +
+                      ".ticks.map((tick) => tick.label).filter(Boolean)");
+  };
+  CHECK(numbers("x") == Json{"0.01", "0.02"});
+  CHECK(numbers("y") == Json{"6", "7", "8", "9"});
+  CHECK(browser.complaints == std::vector<std::string>{});
+}
+
 TEST_CASE("the figures of a run tell the values under the pointer") {
   if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
   const DrivenBox box;

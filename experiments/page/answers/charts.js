@@ -27,9 +27,11 @@ const axis_of = (axis) => ({
       if (!axis.log) return minus(String(Number(value.toPrecision(6))));
       const power = Math.log10(value), places = Math.log10(this.max / this.min);
       const is_power = Number.isInteger(Math.round(power * 1e9) / 1e9);
-      if (places >= 1.5) return is_power ? "10" + raised(Math.round(power)) : "";
-      const first = Math.round(value / 10 ** Math.floor(power));
-      return is_power || [2, 5].includes(first) ? number(value, 1) : "";
+      if (places >= 2) return is_power ? "10" + raised(Math.round(power)) : "";
+      const first = value / 10 ** Math.floor(power), digit = Math.round(first);
+      // the axis' own ends are not round
+      const is_round = Math.abs(first - digit) < 1e-6 && (places < 0.7 || [2, 5].includes(digit));
+      return is_power || is_round ? number(value, 1) : "";
     },
   },
 });

@@ -1,6 +1,15 @@
 // Figures that were drawn by gnuplot become charts: the same curves, whose numbers stand in the
 // page. In print the drawn ones stay.
 
+/// A logarithmic axis ends beside what it shows, not at the next powers of ten.
+function log_range(axis, places) {
+  const shown = places.filter((place) => place > 0);
+  if (!axis.log || !shown.length) return axis;
+  const low = Math.min(...shown), high = Math.max(...shown);
+  const beside = Math.max((high / low) ** 0.04, 1.1);
+  return { ...axis, min: axis.min ?? low / beside, max: axis.max ?? high * beside };
+}
+
 /// A panel's curves from the page's data: x and y are lists there.
 function panel_figure(picture, panel) {
   const curve_of = (curve) => ({
@@ -14,8 +23,11 @@ function panel_figure(picture, panel) {
         { ...point, y: null } : point))
       .filter(({ y }) => y !== null || curve.mark !== "points"),
   });
-  return { title: picture.title, x: panel.x, y: panel.y, lines: panel.lines,
-           curves: panel.curves.map(curve_of) };
+  const curves = panel.curves.map(curve_of), points = curves.flatMap((curve) => curve.points);
+  const across = panel.lines.filter((line) => !line.vertical).map((line) => line.value);
+  return { title: picture.title, x: log_range(panel.x, points.map(({ x }) => x)),
+           y: log_range(panel.y, [...points.map(({ y }) => y), ...across]), lines: panel.lines,
+           curves };
 }
 
 function picture_charts(picture) {
