@@ -43,7 +43,7 @@ struct ScalingRequest : BenchRequest {
   ScalingOptions scaling;
 };
 struct AccuracyRequest : BenchRequest {
-  std::string solvers_text = "nncg,pgs,anderson_pgs,apgd", tolerances_text = "1e-2,1e-3",
+  std::string solvers_text = "nesterov_pgs,nncg,pgs,apgd", tolerances_text = "1e-2,1e-3",
               iterations_text = "20,50,100,200";
   AccuracyOptions accuracy;
 };
@@ -137,7 +137,7 @@ ExitCode bench_accuracy(const AccuracyRequest& request) {
 
 struct CapturedRequest : BenchRequest {
   std::vector<std::string> files;
-  std::string solvers_text = "nncg,newton_burst", tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6",
+  std::string solvers_text = "nesterov_pgs,newton_burst", tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6",
               starts_text = "warm", within_text = "0.25,1,5";
   CapturedOptions captured;
 };

@@ -22,7 +22,7 @@ TEST_CASE("the tables say unit, default, what is expected and meaning") {
   for (const char* row : {
            "| `scene.step` | s | `2e-4` | a number > 0 | step h; at most the duration |\n",
            "| `gravity.direction` |  | `[0, 0, -1]` | three finite numbers | any length",
-           "| `solver.name` |  | `\"nncg\"` | a text | as listed",
+           "| `solver.name` |  | `\"nesterov_pgs\"` | a text | as listed",
            "| `solver.max_seconds` | s | `1e30` | a number > 0 | wall clock",
            "| `grains.count` |  | required | a whole number from 1 to 1000000 | ",
            "| `grains.density` | kg/m³ | `2700` | a number > 0 | ",

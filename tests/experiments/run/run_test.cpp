@@ -176,7 +176,7 @@ TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is"
         1);  // no lock, no part left
   options.deposit_only = false;
   options.begin_or_resume = true;
-  options.max_seconds = 0.1;
+  options.max_seconds = 0.01;
   int stops = 0;
   for (; run(options).code == ExitCode::time_limit; ++stops) {
     REQUIRE(stops < 100);
