@@ -14,6 +14,10 @@ inline void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
 }
 
+/// From here on, until keep_freed_memory(), every block of 128 kB or more goes back to the system
+/// as soon as it is freed: for the time in which arrays grow to their size, each time by a copy.
+inline void return_large_blocks() { mallopt(M_MMAP_THRESHOLD, 128 << 10); }
+
 /// After much has been made and freed: gives the pages that nothing stands on back to the system,
 /// also those between what stays.
 inline void give_memory_back() { malloc_trim(0); }

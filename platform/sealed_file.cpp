@@ -19,11 +19,13 @@ void write_sealed_file(const std::filesystem::path& file, const SealedKind& kind
   Packer head;
   head.fixed(kind.magic);
   head.numbers(kind.format, this_byte_order, std::uint64_t{body.size()});
-  std::string bytes = head.bytes();
-  bytes += body;
   Packer checksum;
-  checksum.number(fnv1a(bytes));
-  write_whole_file(file, bytes + checksum.bytes());
+  checksum.number(fnv1a(body, fnv1a(head.bytes())));
+  AtomicFile out(file);
+  for (const std::string_view part :
+       {std::string_view(head.bytes()), body, std::string_view(checksum.bytes())})
+    out.write(part);
+  out.commit();
 }
 
 SealedBody read_sealed_file(const std::filesystem::path& file, const SealedKind& kind) {

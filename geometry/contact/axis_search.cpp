@@ -28,7 +28,7 @@ AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
   for (const CollisionShape& shape : shapes) {
     faces = std::max(faces, shape.faces().padded());
     vertices = std::max(vertices, shape.vertices().padded());
-    edges = std::max(edges, shape.edge_ends().size());
+    edges = std::max(edges, static_cast<size_t>(shape.edge_count()));
   }
   heights_.resize(vertices);
   for (Side& side : side_) {
@@ -112,8 +112,8 @@ void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& a
   // Points near the facet bound the directions near its own best: of two edges the ends, of a face
   // its corners and the vertex over it.
   if (axis.feature.kind == AxisKind::edges) {
-    const CollisionShape::EdgeEnds& edge_a = pair.shape[0]->edge_ends()[axis.feature.a];
-    const CollisionShape::EdgeEnds& edge_b = pair.shape[1]->edge_ends()[axis.feature.b];
+    const CollisionShape::EdgeEnds edge_a = pair.shape[0]->edge_ends(axis.feature.a);
+    const CollisionShape::EdgeEnds edge_b = pair.shape[1]->edge_ends(axis.feature.b);
     for (const int v : {edge_b.tail, edge_b.head})
       add_witness(pair, 0, pair.other[0] * pair.shape[1]->vertices().xyz(v));
     for (const int v : {edge_a.tail, edge_a.head})
@@ -165,8 +165,8 @@ void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   // 1e-8: the normal of nearly parallel edges is known to rounding / kParallelSine only.
   const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.bounds().unevenness;
   side.edges.clear();
-  const std::span<const CollisionShape::EdgeEnds> edges = shape.edge_ends();
-  for (size_t e = 0; e < edges.size(); ++e) {
+  for (int e = 0; e < shape.edge_count(); ++e) {
+    const CollisionShape::EdgeEnds edge = shape.edge_ends(e);
     const double* heights = side.heights.data();
     double low = 0.0, high = 1.0;
     for (int k = 0; k < side.witnesses && low <= high; ++k, heights += stride) {
@@ -174,11 +174,11 @@ void AxisSearch::collect_edges(const ShapePair& pair, int own) {
       //
       //     left >= 0, right >= 0: all of [0, 1]     left >= 0 > right: up to left / (left - right)
       //     left < 0, right < 0:   nothing           left < 0 <= right: from there on
-      const double left = heights[edges[e].left] - least, right = heights[edges[e].right] - least;
+      const double left = heights[edge.left] - least, right = heights[edge.right] - least;
       if (left < 0.0) low = right < 0.0 ? 2.0 : std::max(low, left / (left - right));
       if (left >= 0.0 && right < 0.0) high = std::min(high, left / (left - right));
     }
-    if (low <= high) side.edges.push_back(static_cast<int>(e));
+    if (low <= high) side.edges.push_back(e);
   }
 }
 

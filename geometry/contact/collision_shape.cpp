@@ -80,7 +80,6 @@ CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
   build_edges(polyhedron, patch);
   build_vertex_faces(polyhedron, patch);
   build_ball(polyhedron);
-  vertex_faces_.shrink_to_fit();  // thousands of shapes are kept
 }
 
 void CollisionShape::write(int f, FaceTable& table) const {
@@ -121,8 +120,7 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
   const SortedByKey by_patch = sorted_by_key(patch, count);
   faces_ = AffineRows(count, -kFar);
   const FrontSearch search(polyhedron.vertices());
-  first_corner_.reserve(static_cast<size_t>(count) + 1);
-  corners_.reserve(2 * static_cast<size_t>(polyhedron.edge_count()));
+  std::vector<int> first_corner, corners;
   // A patch of one face is that face. Of several the outline is the polygon, and
   // its area vector gives the normal.
   for (int p = 0; p < count; ++p) {
@@ -140,13 +138,15 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
     for (const int v : loop) look(v);
     search.visit_higher(normal, offset, look);
     faces_.set(p, normal, -offset);
-    first_corner_.push_back(static_cast<int>(corners_.size()));
+    first_corner.push_back(static_cast<int>(corners.size()));
     for (const int v : loop) {
-      corners_.push_back({v, -1});
+      corners.push_back(v);
       bounds_.unevenness = std::max(bounds_.unevenness, offset - vertices_.value(v, normal));
     }
   }
-  first_corner_.push_back(static_cast<int>(corners_.size()));
+  first_corner.push_back(static_cast<int>(corners.size()));
+  first_corner_.keep(first_corner);
+  corner_vertex_.keep(corners);
   measure_isolation();
 }
 
@@ -174,22 +174,23 @@ void CollisionShape::measure_isolation() {
 /// Writes the edges between patches, and where they stand in the loops of the two faces beside.
 void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch) {
   const FrontSearch search(polyhedron.vertices());
-  edges_.reserve(corners_.size() / 2);
-  drop_.reserve(corners_.size() / 2);
+  std::vector<int> edges, corner_edge(static_cast<size_t>(corner_vertex_.size()));
+  drop_.reserve(corner_edge.size() / 2);
   const auto enter = [&](int f, int from) {
-    const auto first = corners_.begin() + first_corner_[f];
-    std::find_if(first, corners_.end(), [&](const CornerLinks& c) {
-      return c.vertex == from;
-    })->edge = static_cast<int>(edges_.size());
+    int corner = first_corner_[f];
+    while (corner_vertex_[corner] != from) ++corner;
+    corner_edge[corner] = edge_count();
   };
   for (const Polyhedron::Edge& edge : polyhedron.edges()) {
     const EdgeEnds ends{edge.tail, edge.head, patch[edge.left], patch[edge.right]};
     if (ends.left == ends.right) continue;
     enter(ends.left, ends.tail);
     enter(ends.right, ends.head);
-    edges_.push_back(ends);
+    edges.insert(edges.end(), {ends.tail, ends.head, ends.left, ends.right});
     drop_.push_back(drop_below(ends, polyhedron, search));
   }
+  edges_.keep(edges);
+  corner_edge_.keep(corner_edge);
 }
 
 /// Edge::drop: the common normal with an edge u is n = p left_normal + q right_normal with p, q
@@ -209,7 +210,7 @@ double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhe
     return floor = offsets - below - rounding;
   };
   for (const int f : {edge.left, edge.right})
-    for (int k = 0; k < corner_count(f); ++k) look(corner(f, k).vertex);
+    for (int k = first_corner_[f]; k < first_corner_[f + 1]; ++k) look(corner_vertex_[k]);
   search.visit_higher(left.normal + right.normal, floor, look);
   const double length = (polyhedron.vertex(edge.head) - polyhedron.vertex(edge.tail)).norm();
   return below * length / left.normal.cross(right.normal).norm();
@@ -218,15 +219,16 @@ double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhe
 void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron,
                                         const std::vector<int>& patch) {
   const SortedByKey faces = polyhedron.faces_by_vertex();
-  vertex_begin_.reserve(static_cast<size_t>(polyhedron.vertex_count()) + 1);
-  vertex_begin_.assign(1, 0);
+  std::vector<int> begins{0}, all;
   for (int v = 0; v < polyhedron.vertex_count(); ++v) {
-    for (const int f : faces.of(v)) vertex_faces_.push_back(patch[f]);
-    const auto begin = vertex_faces_.begin() + vertex_begin_.back();
-    std::sort(begin, vertex_faces_.end());
-    vertex_faces_.erase(std::unique(begin, vertex_faces_.end()), vertex_faces_.end());
-    vertex_begin_.push_back(static_cast<int>(vertex_faces_.size()));
+    for (const int f : faces.of(v)) all.push_back(patch[f]);
+    const auto begin = all.begin() + begins.back();
+    std::sort(begin, all.end());
+    all.erase(std::unique(begin, all.end()), all.end());
+    begins.push_back(static_cast<int>(all.size()));
   }
+  vertex_begin_.keep(begins);
+  vertex_faces_.keep(all);
 }
 
 /// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/contact/short_numbers.hpp"
 #include "geometry/shape/polyhedron.hpp"
 
 namespace ballast {
@@ -113,25 +114,24 @@ class CollisionShape {
   /// Padding is far inside.
   const AffineRows& faces() const { return faces_; }
   Face face(int f) const { return {faces_.xyz(f), -faces_.w(f), isolation_[f]}; }
-  std::span<const EdgeEnds> edge_ends() const { return edges_; }
+  int edge_count() const { return static_cast<int>(drop_.size()); }
+  EdgeEnds edge_ends(int e) const {
+    return {edges_[4 * e], edges_[4 * e + 1], edges_[4 * e + 2], edges_[4 * e + 3]};
+  }
   Edge edge(int e) const;
   int corner_count(int f) const { return first_corner_[f + 1] - first_corner_[f]; }
   Corner corner(int f, int k) const;
   Side side(int f, int k) const;
   void write(int f, FaceTable& table) const;
 
-  /// Faces that have v in their plane, ascending.
-  std::span<const int> vertex_faces(int v) const {
-    return {vertex_faces_.data() + vertex_begin_[v],
-            static_cast<size_t>(vertex_begin_[v + 1] - vertex_begin_[v])};
-  }
+  /// Faces that have v in their plane are vertex_face(v, k), 0 <= k < vertex_face_count(v),
+  /// ascending.
+  int vertex_face_count(int v) const { return vertex_begin_[v + 1] - vertex_begin_[v]; }
+  int vertex_face(int v, int k) const { return vertex_faces_[vertex_begin_[v] + k]; }
   const BodyBounds& bounds() const { return bounds_; }
   double circumradius() const { return bounds_.circumradius; }
 
  private:
-  struct CornerLinks {
-    int vertex, edge;
-  };
   std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
   void build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void measure_isolation();
@@ -142,31 +142,31 @@ class CollisionShape {
   void build_ball(const Polyhedron& polyhedron);
 
   AffineRows vertices_, faces_;
-  std::vector<double> isolation_;  // of each face
-  std::vector<EdgeEnds> edges_;
-  std::vector<double> drop_;  // of each edge
-  std::vector<int> first_corner_;
-  std::vector<CornerLinks> corners_;  // of all faces
-  std::vector<int> vertex_begin_, vertex_faces_;
+  std::vector<double> isolation_;             // of each face
+  std::vector<double> drop_;                  // of each edge
+  ShortNumbers edges_;                        // tail, head, left, right of each
+  ShortNumbers first_corner_;                 // of each face, and the end
+  ShortNumbers corner_vertex_, corner_edge_;  // of all faces
+  ShortNumbers vertex_begin_, vertex_faces_;
   BodyBounds bounds_;
 };
 
 inline CollisionShape::Edge CollisionShape::edge(int e) const {
-  const EdgeEnds& ends = edges_[e];
+  const EdgeEnds ends = edge_ends(e);
   const Vec3 from = vertices_.xyz(ends.tail), along = vertices_.xyz(ends.head) - from;
   return {ends, from, along, faces_.xyz(ends.left), faces_.xyz(ends.right), along.norm(), drop_[e]};
 }
 
 inline CollisionShape::Corner CollisionShape::corner(int f, int k) const {
-  const CornerLinks& links = corners_[first_corner_[f] + k];
-  return {links.vertex, links.edge, vertices_.xyz(links.vertex)};
+  const int at = first_corner_[f] + k, vertex = corner_vertex_[at];
+  return {vertex, corner_edge_[at], vertices_.xyz(vertex)};
 }
 
 inline CollisionShape::Side CollisionShape::side(int f, int k) const {
   // With the face on the left of its side, along x normal points out of the face within its plane.
-  const CornerLinks* loop = corners_.data() + first_corner_[f];
-  const Vec3 from = vertices_.xyz(loop[k].vertex);
-  const Vec3 to = vertices_.xyz(loop[k + 1 < corner_count(f) ? k + 1 : 0].vertex);
+  const int first = first_corner_[f], next = k + 1 < corner_count(f) ? k + 1 : 0;
+  const Vec3 from = vertices_.xyz(corner_vertex_[first + k]);
+  const Vec3 to = vertices_.xyz(corner_vertex_[first + next]);
   const Vec3 outward = (to - from).cross(faces_.xyz(f)).normalized();
   return {outward, std::max(outward.dot(from), outward.dot(to))};
 }

@@ -19,7 +19,8 @@ int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
       pair.other[1 - reference].rotation * pair.shape[reference]->face(face).normal;
   int incident = -1;
   double most_opposed = 2.0;
-  for (const int f : other.vertex_faces(vertex)) {
+  for (int k = 0; k < other.vertex_face_count(vertex); ++k) {
+    const int f = other.vertex_face(vertex, k);
     const double cosine = other.face(f).normal.dot(direction);
     if (cosine >= most_opposed - kEqualCosines) continue;
     most_opposed = cosine;

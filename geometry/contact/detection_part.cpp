@@ -16,11 +16,14 @@ DetectionPart::DetectionPart(const DetectedBodies& bodies, const DetectionSettin
 void DetectionPart::take_range(int begin, int end, size_t pairs) {
   begin_ = begin;
   end_ = end;
-  // Room for all, though half of them touch: pages that nobody writes on take no memory.
-  records_.touching.reserve(pairs);
-  if (bodies_.holds()) records_.held.reserve(pairs);
-  records_.is_kept.reserve(pairs);
-  records_.vacant.reserve(pairs);
+  if (pairs <= records_.touching.capacity()) return;
+  // Room for all and for longer lists, though half of them touch: pages that nobody writes on take
+  // no memory, and to grow would copy.
+  const size_t room = pairs + pairs / 2;
+  records_.touching.reserve(room);
+  if (bodies_.holds()) records_.held.reserve(room);
+  records_.is_kept.reserve(room);
+  records_.vacant.reserve(room);
 }
 
 void DetectionPart::drop_others() {

@@ -88,8 +88,9 @@ void TouchingPair::record_faces(const ShapePair& pair, int support, double turn,
   const double cosine = faces.incident.face.normal.dot(direction);
   for (size_t k = 0; k < corners.size(); ++k) {
     faces.lead[k] = kFar;
-    for (const int g : other.vertex_faces(corners[k].vertex))
-      if (g != incident)
+    const int vertex = corners[k].vertex;
+    for (int i = 0; i < other.vertex_face_count(vertex); ++i)
+      if (const int g = other.vertex_face(vertex, i); g != incident)
         faces.lead[k] = std::min(faces.lead[k], other.face(g).normal.dot(direction) - cosine);
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "problems/algebra/contact_rows.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/judge_block.hpp"
 
@@ -63,14 +64,7 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
   v_ += dynamics.v_free;
 }
 
-void ContactJudge::recompute_contacts(const FrictionProblem& problem, int begin, int end) {
-  delassus_diagonal(problem, roots_, begin, end, diagonal_);
-  body_to_contact_velocity(problem.dynamics, problem.row_begin, problem.dynamics.v_free, begin, end,
-                           q_);
-  body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, begin, end, u_);
-}
-
-/// Contacts begin <= c < end as the first places of a block.
+/// Contacts begin <= c < end as the first places of a block, without W_cc.
 void ContactJudge::lay_out(const FrictionProblem& problem, const Impulses& r, int begin, int end,
                            JudgeBlock& block) const {
   for (int c = begin; c < end; ++c) {
@@ -80,20 +74,18 @@ void ContactJudge::lay_out(const FrictionProblem& problem, const Impulses& r, in
       block.u[i][k] = i < rows ? u_[first + i] : 0.0;
       block.q[i][k] = i < rows ? q_[first + i] : 0.0;
     }
-    const Eigen::Matrix3d& w = diagonal_[c];
-    block.nn[k] = w(0, 0);
-    block.tn[k] = w(1, 0);
-    block.sn[k] = w(2, 0);
-    block.tt[k] = w(1, 1);
-    block.st[k] = w(2, 1);
-    block.ss[k] = w(2, 2);
     block.mu[k] = problem.friction[c];
   }
 }
 
 ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r,
-                                                 int begin, int end) const {
-  JudgeBlock block = {};
+                                                 int begin, int end) {
+  JudgeBlock block;
+  if (end - begin < JudgeBlock::size) block = {};
+  if (problem.has_dynamics)
+    look_at_rows(problem, roots_, v_, begin, end, q_, u_, block);
+  else
+    for (int c = begin; c < end; ++c) block.take(c - begin, diagonal_[c]);
   lay_out(problem, r, begin, end, block);
   measure(block);
   Share share;
@@ -171,7 +163,6 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   // Workspaces, and for a stored W the whole of u and q.
   if (contacts == 0) return {};
   if (problem.has_dynamics) {
-    diagonal_.resize(contacts);
     q_.resize(problem.row_count());
     u_.resize(problem.row_count());
   } else {
@@ -181,19 +172,18 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   }
   shares_.resize((contacts + share_contacts - 1) /
                  share_contacts);  // cut in the same places whoever works
-  // Every share: for the dynamics form its rows of u and q, then its measures.
+  // Every share: for the dynamics form its rows of u and q and its W_cc, then its measures.
   run_parts(team_, static_cast<int>(shares_.size()), [&](int part) {
     const int begin = part * share_contacts, end = std::min(begin + share_contacts, contacts);
-    if (problem.has_dynamics) recompute_contacts(problem, begin, end);
     shares_[part] = judge_contacts(problem, r, begin, end);
   });
   if (!r.allFinite() || !u_.allFinite()) return not_finite();
 
   ContactError error = gather(contacts);
   // Siconos' measure, the scale of velocities, the power.
-  const double scale = std::max({q_.norm(), r.norm(), u_.norm()});
+  const double free_norm = q_.norm(), scale = std::max({free_norm, r.norm(), u_.norm()});
   if (scale > std::numeric_limits<double>::epsilon()) error.fclib /= scale;
-  error.velocity_scale = q_.norm() / std::sqrt(static_cast<double>(q_.size()));
+  error.velocity_scale = free_norm / std::sqrt(static_cast<double>(q_.size()));
   error.power = r.dot(u_);
   if (problem.has_dynamics) {
     error.power -= r.dot(problem.dynamics.bias);

@@ -95,17 +95,16 @@ class ContactJudge {
 
   void recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                                  const Impulses& r);
-  void recompute_contacts(const FrictionProblem& problem, int begin, int end);
   void lay_out(const FrictionProblem& problem, const Impulses& r, int begin, int end,
                JudgeBlock& block) const;
-  Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end) const;
+  Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end);
   ContactError gather(int contacts) const;
 
   WorkerTeam* team_ = nullptr;
   Eigen::VectorXd u_, q_, v_, hr_;
   KnownMasses masses_;  // of which the roots are
   std::vector<MassRoot> roots_;
-  std::vector<Eigen::Matrix3d> diagonal_;
+  std::vector<Eigen::Matrix3d> diagonal_;  // of a stored W
   std::vector<Share> shares_;
 };
 

@@ -127,23 +127,23 @@ void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& ro
     return;
   }
   factor_masses(problem.dynamics, roots);
-  delassus_diagonal(problem, roots, 0, problem.contact_count(), blocks);
+  for (int c = 0; c < problem.contact_count(); ++c) blocks[c] = delassus_block(problem, roots, c);
 }
 
-void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
-                       int begin, int end, std::vector<Eigen::Matrix3d>& blocks) {
+Eigen::Matrix3d delassus_block(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
+                               int c) {
   const DynamicsForm& dynamics = problem.dynamics;
-  for (int c = begin; c < end; ++c) {
-    const int rows = problem.contact_rows(c);
-    const double* block = dynamics.h.data() + dynamics.h_begin[c];
-    Gram w;
-    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-      if (body < 0) continue;
-      rows == 3 ? w.add_side<3>(block, roots[body]) : w.add_side<1>(block, roots[body]);
-      block += rows * roots[body].dofs;
-    }
-    blocks[c] << w.nn, w.tn, w.sn, w.tn, w.tt, w.st, w.sn, w.st, w.ss;
+  const int rows = problem.contact_rows(c);
+  const double* block = dynamics.h.data() + dynamics.h_begin[c];
+  Gram w;
+  for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+    if (body < 0) continue;
+    rows == 3 ? w.add_side<3>(block, roots[body]) : w.add_side<1>(block, roots[body]);
+    block += rows * roots[body].dofs;
   }
+  Eigen::Matrix3d sum;
+  sum << w.nn, w.tn, w.sn, w.tn, w.tt, w.st, w.sn, w.st, w.ss;
+  return sum;
 }
 
 void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks) {

@@ -24,10 +24,9 @@ void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix
 void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
                        std::vector<Eigen::Matrix3d>& blocks);
 
-/// The same for contacts begin <= c < end alone, their masses being factored and `blocks` having
-/// its size (dynamics form only).
-void delassus_diagonal(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
-                       int begin, int end, std::vector<Eigen::Matrix3d>& blocks);
+/// The same of one contact, the masses being factored (dynamics form only).
+Eigen::Matrix3d delassus_block(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
+                               int c);
 
 /// The whole operator, assembled block by block from contacts that share a body (or the stored
 /// one).

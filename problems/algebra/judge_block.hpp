@@ -1,6 +1,8 @@
 #pragma once
 // What the judge asks of each contact, for a block of contacts side by side.
 
+#include <Eigen/Core>
+
 namespace ballast {
 
 /// So many contacts, number k of each in place k of every array.
@@ -14,6 +16,16 @@ struct JudgeBlock {
   double nn[size], tn[size], sn[size];  ///< W_cc [1/kg]
   double tt[size], st[size], ss[size];
   double mu[size];
+
+  /// W_cc into place k, by its lower triangle.
+  void take(int k, const Eigen::Matrix3d& w) {
+    nn[k] = w(0, 0);
+    tn[k] = w(1, 0);
+    sn[k] = w(2, 0);
+    tt[k] = w(1, 1);
+    st[k] = w(2, 1);
+    ss[k] = w(2, 2);
+  }
 
   // What is found.
   double lambda[size];      ///< largest eigenvalue of W_cc [1/kg]

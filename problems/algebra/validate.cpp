@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "platform/for_each_cpu.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_masses.hpp"
 #include "problems/algebra/mass_root.hpp"
@@ -38,14 +39,18 @@ void require_size(const char* array, long size, long expected, const char* becau
 
 /// Numbers >= 0 are ordered as their bits are, infinity and NaN after all others. Integer work, so
 /// that the compiler vectorises the reduction.
-void require_finite(const char* array, const double* x, long size) {
+BALLAST_FOR_EACH_CPU bool is_any_too_large(const double* x, long size) {
   constexpr std::uint64_t magnitude = 0x7fffffffffffffffull;
   constexpr std::uint64_t largest = std::bit_cast<std::uint64_t>(largest_entry);
   std::uint64_t bad = 0;
   // As integers, `largest` minus anything larger, infinite or NaN is negative: its top bit is set.
   for (long i = 0; i < size; ++i)
     bad |= (largest - (std::bit_cast<std::uint64_t>(x[i]) & magnitude)) >> 63;
-  if (!bad) return;
+  return bad != 0;
+}
+
+void require_finite(const char* array, const double* x, long size) {
+  if (!is_any_too_large(x, size)) return;
   for (long i = 0; i < size; ++i) {
     if (!std::isfinite(x[i])) fail(array, "[", i, "] = ", x[i], " is not finite");
     if (std::abs(x[i]) > largest_entry)

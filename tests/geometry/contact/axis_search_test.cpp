@@ -12,8 +12,8 @@ using namespace ballast::testing;
 namespace {
 
 AxisFeature random_feature(const ShapePair& pair, Random& random) {
-  const int edges_a = static_cast<int>(pair.shape[0]->edge_ends().size());
-  const int edges_b = static_cast<int>(pair.shape[1]->edge_ends().size());
+  const int edges_a = pair.shape[0]->edge_count();
+  const int edges_b = pair.shape[1]->edge_count();
   switch (random.below(3)) {
     case 0:
       return {AxisKind::face_of_a, random.below(pair.shape[0]->faces().count()), -1};

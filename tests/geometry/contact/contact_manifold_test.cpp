@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "geometry/contact/axis_search.hpp"
 #include "tests/catch.hpp"
@@ -148,24 +149,23 @@ TEST_CASE("the short cut for one vertex on a face returns what clipping returns"
       continue;
     const int reference = found.axis.feature.reference(), face = found.axis.feature.face();
     // all incident faces at the touching vertex together see all that comes near the reference face
-    std::vector<std::uint64_t> keys;
-    for (const int incident : pair.shape[1 - reference]->vertex_faces(found.axis.support)) {
-      const auto corners =
-          clipper.clip(pair, reference, face_table(*pair.shape[reference], face).view(),
-                       face_table(*pair.shape[1 - reference], incident).view(), 1e-9 * c.size());
-      set_heights(corners, pair.shape[reference]->face(face));
+    std::set<std::uint64_t> keys;
+    const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
+    for (int k = 0; k < other.vertex_face_count(found.axis.support); ++k) {
+      const auto incident = face_table(other, other.vertex_face(found.axis.support, k));
+      const auto corners = clipper.clip(pair, reference, face_table(own, face).view(),
+                                        incident.view(), 1e-9 * c.size());
+      set_heights(corners, own.face(face));
       for (const ClippedPoint& p : corners)
-        if (p.height <= alert) keys.push_back(p.key);
+        if (p.height <= alert) keys.insert(p.key);
     }
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     if (keys.size() == 1) {
       ++single;
       CHECK(found.points.size() == 1);
-      CHECK(found.points[0].key == keys[0]);
+      CHECK(found.points[0].key == *keys.begin());
     } else if (found.points.size() == 1 && found.axis.clearance > 2.0 * alert) {
       // the incident face alone may see one point only; never fewer than it does
-      const double slope = found.axis.clearance / (2.0 * pair.shape[1 - reference]->circumradius());
+      const double slope = found.axis.clearance / (2.0 * other.circumradius());
       if (found.axis.separation + slope * found.axis.inside > alert + 1e-8)
         FAIL_CHECK("case " << i << ": point lost");
     }

@@ -61,8 +61,8 @@ TEST_CASE("crossed edges: the gap along their common normal") {
   const ShapePair pair(rod, rod, b_in_a);
   Heights heights = scratch();
   std::vector<SeparatingAxis> found;
-  for (size_t ea = 0; ea < rod.edge_ends().size(); ++ea) {
-    for (size_t eb = 0; eb < rod.edge_ends().size(); ++eb) {
+  for (int ea = 0; ea < rod.edge_count(); ++ea) {
+    for (int eb = 0; eb < rod.edge_count(); ++eb) {
       const AxisFeature feature{AxisKind::edges, static_cast<int>(ea), static_cast<int>(eb)};
       const auto axis = evaluate_axis(pair, feature, heights);
       if (axis && axis->separation > 0.0) found.push_back(*axis);
@@ -89,8 +89,8 @@ TEST_CASE("two edges form a facet exactly if both are supports along their commo
     const ShapePair pair = c.pair();
     const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
     const Polyhedron &poly_a = shape_pool()[c.a], &poly_b = shape_pool()[c.b];
-    for (size_t ea = 0; ea < a.edge_ends().size(); ++ea) {
-      for (size_t eb = 0; eb < b.edge_ends().size(); ++eb) {
+    for (int ea = 0; ea < a.edge_count(); ++ea) {
+      for (int eb = 0; eb < b.edge_count(); ++eb) {
         const Vec3 along_b = c.b_in_a.rotation * b.edge(eb).along;
         const Vec3 cross = a.edge(ea).along.cross(along_b);
         if (cross.norm() < 1e-3 * a.edge(ea).along.norm() * along_b.norm()) continue;
@@ -124,9 +124,8 @@ TEST_CASE("seen from the other body every axis is the same") {
     const ShapePair swapped(*pair.shape[1], *pair.shape[0], c.b_in_a.inverse());
     const AxisFeature feature =
         i % 2 ? AxisFeature{AxisKind::face_of_a, random.below(pair.shape[0]->faces().count()), -1}
-              : AxisFeature{AxisKind::edges,
-                            random.below(static_cast<int>(pair.shape[0]->edge_ends().size())),
-                            random.below(static_cast<int>(pair.shape[1]->edge_ends().size()))};
+              : AxisFeature{AxisKind::edges, random.below(pair.shape[0]->edge_count()),
+                            random.below(pair.shape[1]->edge_count())};
     const auto axis = evaluate_axis(pair, feature, heights);
     const auto other = evaluate_axis(swapped, mirrored(feature), heights);
     if (!axis || !other) continue;
@@ -162,8 +161,8 @@ TEST_CASE("an axis proved to be the best is the best") {
     };
     for (int f = 0; f < pair.shape[0]->faces().count(); ++f) check({AxisKind::face_of_a, f, -1});
     for (int f = 0; f < pair.shape[1]->faces().count(); ++f) check({AxisKind::face_of_b, -1, f});
-    for (size_t ea = 0; ea < pair.shape[0]->edge_ends().size(); ++ea) {
-      for (size_t eb = 0; eb < pair.shape[1]->edge_ends().size(); ++eb)
+    for (int ea = 0; ea < pair.shape[0]->edge_count(); ++ea) {
+      for (int eb = 0; eb < pair.shape[1]->edge_count(); ++eb)
         check({AxisKind::edges, static_cast<int>(ea), static_cast<int>(eb)});
     }
     if (placement != Placement::near_touching) continue;
