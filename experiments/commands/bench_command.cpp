@@ -137,8 +137,9 @@ ExitCode bench_accuracy(const AccuracyRequest& request) {
 
 struct CapturedRequest : BenchRequest {
   std::vector<std::string> files;
-  std::string solvers_text = "nesterov_pgs,newton_burst", tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6",
-              starts_text = "warm", within_text = "0.25,1,5";
+  std::string solvers_text = "nesterov_pgs,newton_burst",
+              tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6", starts_text = "warm",
+              within_text = "0.25,1,5";
   CapturedOptions captured;
 };
 
