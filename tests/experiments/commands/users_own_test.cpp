@@ -91,7 +91,7 @@ TEST_CASE("the command that a stopped run prints can be pasted: blanks, any fold
   const TemporaryFolder folder;
   const fs::path there = folder.path() / "a folder it's in";
   create_folder(there);
-  write_whole_file(there / "my scene.toml", resting_box(4000));
+  write_whole_file(there / "my scene.toml", resting_box(20000));
   const auto cd = "cd '" + folder.path().string() + "/a folder it'\\''s in' && \"$@\"";
   ProgramResult result =
       ballast_in_shell(cd, {"run", "my scene.toml", "--output", "the run", "--no-report",
