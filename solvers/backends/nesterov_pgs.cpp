@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solvers/gauss_seidel/sweep_search.hpp"
 
@@ -21,6 +22,7 @@ class Momentum {
 
   /// `square`: |d|^2 of the last sweep; of none before the first.
   SearchStep next(double square) {
+    ++total_;
     if (++swept_ == 1) return {};
     if (swept_ == 2 || resting_ > 0) {
       resting_ = std::max(0, resting_ - 1);
@@ -31,8 +33,10 @@ class Momentum {
     least_ = std::min(least_, square);
     if (square > rise * least_) {
       vain_ = age_ < short_search ? vain_ + 1 : 0;
-      resting_ = vain_ == most_vain ? rest : 0;
-      if (resting_ > 0) vain_ = 0;
+      if (vain_ == most_vain) {
+        vain_ = 0;
+        resting_ = rest;
+      }
       begin_search(square);
       return {};
     }
@@ -40,7 +44,16 @@ class Momentum {
     return {.beta = beta, .gain = 0.0, .ahead = beta};
   }
 
-  bool gives_up(double /*error*/) const { return false; }
+  /// Where a quarter more sweeps gained less than a tenth, momentum goes round without end: plain
+  /// sweeps follow, the more the more often that was so.
+  bool gives_up(double error) {
+    best_ = std::min(best_, error);
+    if (resting_ > 0 || total_ < std::max(first_mark, 5 * mark_ / 4)) return false;
+    if (best_ > 0.9 * best_at_mark_) resting_ = ++losses_ * total_ / 4;
+    mark_ = total_;
+    best_at_mark_ = best_;
+    return false;
+  }
 
  private:
   void begin_search(double square) {
@@ -62,11 +75,14 @@ class Momentum {
   static constexpr int short_search = 6;  ///< sweeps
   static constexpr int most_vain = 3;     ///< short searches one after the other
   static constexpr int rest = 32;         ///< plain sweeps after them
+  static constexpr int first_mark = 256;  ///< sweeps before momentum is judged by the error
 
-  int swept_ = 0;               ///< sweeps from the current start
-  int age_ = 0;                 ///< sweeps since the search began
-  double squares_[window]{};    ///< |d|^2, by age
-  double least_ = 0.0;          ///< of the search
+  int swept_ = 0;                          ///< sweeps from the current start
+  int age_ = 0;                            ///< sweeps since the search began
+  double squares_[window]{};               ///< |d|^2, by age
+  double least_ = 0.0;                     ///< of the search
+  int total_ = 0, mark_ = 0, losses_ = 0;  ///< sweeps; at the last judgement; those it lost
+  double best_ = std::numeric_limits<double>::max(), best_at_mark_ = best_;  ///< errors [m/s]
   int vain_ = 0, resting_ = 0;  ///< short searches until now, plain sweeps still to come
 };
 

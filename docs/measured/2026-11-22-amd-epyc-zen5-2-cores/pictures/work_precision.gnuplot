@@ -15,7 +15,7 @@ set key top left samplen 1.6
 # error and cost of one backend, budgets of iterations from the smallest
 of(name) = sprintf("< awk -F, '{ gsub(/\"/, \"\") } $1 == \"%s\" && $3 ~ /^cost/ { cost = $5 } \
   $1 == \"%s\" && $3 ~ /^error rms/ && $4 ~ /mean/ { print $6, cost }' bench/accuracy.csv | sort -gr", name, name)
-array names[4] = ['nncg', 'pgs', 'anderson_pgs', 'newton_burst']
+array names[4] = ['nesterov_pgs', 'nncg', 'pgs', 'newton_burst']
 array inks[4] = ['#0072b2', '#d55e00', '#009e73', '#e69f00']
 plot for [k=1:4] of(names[k]) using 1:2 with linespoints pt 7 ps 0.6 lw 1.8 lc rgb inks[k] \
   title names[k] noenhanced
