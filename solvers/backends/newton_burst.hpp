@@ -14,7 +14,7 @@
 namespace ballast {
 
 struct NewtonBurstSettings {
-  int start_sweeps = 2000;  ///< before the first Newton step, at least; 0: none
+  int start_sweeps = 500;  ///< before the first Newton step, at least; 0: none
   /// Newton's turn comes where sweeps promise to need more than so many others: what a
   /// factorisation for some thousand contacts and the first Newton steps cost.
   int promised_sweeps = 2000;
