@@ -8,10 +8,10 @@ $siconos << EOD
 "auto, 1e-8" 0.55
 EOD
 $bullet << EOD
-"20 iterations, one thread" 0.16
-"200 iterations, one thread" 0.34
+"20 iterations, one thread" 0.17
+"200 iterations, one thread" 0.37
 "200 iterations, two threads" 0.21
-"to an error of 0.01, one thread" 0.37
+"to an error of 0.01, one thread" 0.23
 EOD
 set encoding utf8
 set terminal svg size 900,520 dynamic enhanced rounded font 'sans-serif,15' background '#ffffff'
