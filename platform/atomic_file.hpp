@@ -1,9 +1,11 @@
 #pragma once
 // Files that are there whole or not at all.
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,6 +27,14 @@ class AtomicFile {
   void write(std::string_view text) { write(text.data(), text.size()); }
   void print(const char* format, ...) __attribute__((format(printf, 2, 3)));
 
+  /// For what is not written from its beginning to its end, instead of write(). Where there is no
+  /// going back, as in a pipe, the bytes are gathered in memory until commit().
+  void write_at(std::uint64_t offset, std::string_view bytes);
+  /// What stands there; zeros behind the end.
+  void read_at(std::uint64_t offset, std::span<char> bytes) const;
+  /// Cuts the end off, or appends zeros.
+  void set_length(std::uint64_t bytes);
+
   void commit();
 
  private:
@@ -33,6 +43,7 @@ class AtomicFile {
   std::filesystem::path target_;     // what it leads to
   std::filesystem::path neighbour_;  // empty: the target itself is written
   std::FILE* file_ = nullptr;
+  std::string gathered_;  // where there is no going back
 };
 
 /// Writes all of `text` through an AtomicFile.

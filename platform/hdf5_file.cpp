@@ -41,14 +41,16 @@ Hdf5Id Hdf5File::space_of(const Hdf5Shape& shape) {
   return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
 
-Hdf5Shape Hdf5File::select_slice(const Hdf5Id& space, size_t index) {
+Hdf5Shape Hdf5File::select_rows(const Hdf5Id& space, size_t first, size_t entries) {
   Hdf5Shape count(static_cast<size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
   H5Sget_simple_extent_dims(space, count.data(), nullptr);
-  // One step along the first dimension, all of the others.
+  if (count.empty()) return {};
+  // Some rows along the first dimension, all of the others.
   Hdf5Shape start(count.size(), 0);
-  if (count.empty() || index >= count[0]) return {};
-  start[0] = index;
-  count[0] = 1;
+  const unsigned long long rows = count[0], row = product({count.begin() + 1, count.end()});
+  start[0] = first;
+  count[0] = row > 0 ? entries / row : 0;
+  if (count[0] == 0 || entries % row != 0 || first >= rows || count[0] > rows - first) return {};
   const herr_t selected =
       H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
   return selected < 0 ? Hdf5Shape{} : count;

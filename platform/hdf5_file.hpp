@@ -2,9 +2,9 @@
 // The little of HDF5's C interface that records and problem files need, without its header. Every
 // failure is an Error that begins with the file and names the dataset; HDF5 itself prints nothing.
 //
-// Why not H5Cpp, which Debian has too: it wraps neither the memory of a file in memory nor the
-// switch that leaves times of day out, so half of the writer would be C all the same; its header
-// costs 0.3 s in each includer (this one: none of HDF5's), its library is one more package.
+// Why not H5Cpp, which Debian has too: it wraps neither a driver of our own (hdf5_disk.hpp) nor
+// the switch that leaves times of day out, so half of the writer would be C all the same; its
+// header costs 0.3 s in each includer (this one: none of HDF5's), its library is one more package.
 
 #include <cstdint>
 #include <filesystem>
@@ -54,9 +54,9 @@ class Hdf5File {
   static Hdf5Id text_type();
   /// The space of an array of that shape.
   static Hdf5Id space_of(const Hdf5Shape& shape);
-  /// Selects slice `index` along the first dimension of `space` and returns its shape; empty when
-  /// there is no such slice.
-  static Hdf5Shape select_slice(const Hdf5Id& space, size_t index);
+  /// Selects as many entries of `space` as whole rows along its first dimension, from row `first`
+  /// on, and returns their shape; empty when there are no such rows.
+  static Hdf5Shape select_rows(const Hdf5Id& space, size_t first, size_t entries);
   /// Number of entries.
   static unsigned long long product(const Hdf5Shape& shape);
 

@@ -106,14 +106,18 @@ std::string Hdf5Reader::read_text(const std::string& name) const {
   return text.substr(0, text.find('\0'));
 }
 
-std::vector<double> Hdf5Reader::read_slice(const std::string& name, size_t index) const {
+std::vector<double> Hdf5Reader::read_rows(const std::string& name, size_t first,
+                                          size_t count) const {
   const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
-  const std::string what = "read slice " + std::to_string(index) + " of " + name;
-  const Hdf5Shape slice = select_slice(space, index);
-  if (slice.empty()) fail("HDF5 cannot " + what);
-  require_stored(name, dataset, product(slice));
-  std::vector<double> values(product(slice));
-  const Hdf5Id memory = space_of(slice);
+  const std::string what =
+      "read rows " + std::to_string(first) + " to " + std::to_string(first + count) + " of " + name;
+  Hdf5Shape of_row = shape(name);
+  if (!of_row.empty()) of_row[0] = 1;
+  const Hdf5Shape rows = select_rows(space, first, count * product(of_row));
+  if (rows.empty()) fail("HDF5 cannot " + what);
+  require_stored(name, dataset, product(rows));
+  std::vector<double> values(product(rows));
+  const Hdf5Id memory = space_of(rows);
   check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), what);
   return values;
 }

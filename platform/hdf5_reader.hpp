@@ -23,8 +23,8 @@ class Hdf5Reader : public Hdf5File {
   int read_int(const std::string& name) const;
   /// As Hdf5Writer::add_text left it.
   std::string read_text(const std::string& name) const;
-  /// Slice `index` along the first dimension.
-  std::vector<double> read_slice(const std::string& name, size_t index) const;
+  /// `count` rows from row `first` on: what one number along the first dimension names is a row.
+  std::vector<double> read_rows(const std::string& name, size_t first, size_t count = 1) const;
   std::vector<std::string> read_texts(const std::string& name) const;
   std::string read_attribute(const std::string& object, const std::string& attribute) const;
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,12 +11,16 @@
 
 namespace ballast {
 
+class Hdf5Disk;
+
 /// How larger datasets are stored: as they are, or compressed and with a checksum.
 enum class Hdf5Storage { plain, compressed };
 
-/// Builds an HDF5 file in memory and writes it to disk whole: HDF5 cannot recover from a disk that
-/// fills up while it writes. The format is HDF5 1.8's, with checksums of metadata, and without
-/// times of day: equal contents are equal bytes.
+/// How numbers that are given as doubles are stored.
+enum class Hdf5Number { float64, int32, int64 };
+
+/// Writes an HDF5 file beside its target, which is replaced by commit(). The format is HDF5 1.8's,
+/// with checksums of metadata, and without times of day: equal contents are equal bytes.
 class Hdf5Writer : public Hdf5File {
  public:
   Hdf5Writer(const std::filesystem::path& target, Hdf5Storage storage);
@@ -38,28 +43,28 @@ class Hdf5Writer : public Hdf5File {
   /// One text, stored with its length.
   void add_text(const std::string& name, const std::string& text);
 
-  /// A dataset of doubles that is filled slice by slice along its first dimension.
-  Hdf5Id add_slices(const std::string& name, const Hdf5Shape& shape);
-  void write_slice(const Hdf5Id& dataset, size_t index, std::span<const double> values);
+  /// A dataset that is filled bit by bit: rows are what one number along its first dimension names.
+  Hdf5Id add_rows(const std::string& name, const Hdf5Shape& shape,
+                  Hdf5Number number = Hdf5Number::float64);
+  /// Whole rows, from row `first` on.
+  void write_rows(const Hdf5Id& dataset, size_t first, std::span<const double> values);
 
-  /// Writes beside the target and renames. All datasets handed out must be closed by then; nothing
-  /// can be added afterwards.
+  /// Makes the file safe on disk and renames it over the target. All datasets handed out must be
+  /// closed by then; nothing can be added afterwards.
   void commit();
 
-  /// The bytes of the file in memory, which HDF5 leaves to us when it closes the file.
-  struct Image {
-    unsigned char* bytes = nullptr;
-    ~Image();
-  };
-
  private:
+  /// What the disk failed with goes before what HDF5 failed with.
+  std::int64_t check(std::int64_t result, const std::string& action) const;
+  /// `id`, which is closed where that throws.
+  Hdf5Id made(Hdf5Id id, const std::string& name) const;
   Hdf5Id make_dataset(const std::string& name, std::int64_t type, const Hdf5Shape& shape,
                       Hdf5Storage storage);
   void write(const std::string& name, std::int64_t stored, std::int64_t given, const void* values,
              const Hdf5Shape& shape);
 
   Hdf5Storage storage_;
-  Image image_;  // outlives file_
+  std::shared_ptr<Hdf5Disk> disk_;
   Hdf5Id file_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/record/row_parts.hpp"
 #include "platform/error.hpp"
 #include "platform/hdf5_reader.hpp"
 
@@ -20,45 +21,38 @@ void pack_force_row(const MotionState& state, const ContactPoint& contact, const
 }
 
 void add_forces(Hdf5Writer& file, RowReader& rows, std::span<const std::int64_t> frame_steps) {
-  std::vector<std::int64_t> frame_begin;
-  std::vector<std::int32_t> body_a, body_b;
-  std::vector<double> position, normal, gap, force;
-  rows.rewind();
-  std::span<const double> row = rows.next();
-  // Rows and frames come in the order of steps: a frame has the rows up to its own step.
-  for (const std::int64_t step : frame_steps) {
-    frame_begin.push_back(static_cast<std::int64_t>(gap.size()));
-    for (; !row.empty() && static_cast<std::int64_t>(row[0]) <= step; row = rows.next()) {
-      body_a.push_back(static_cast<std::int32_t>(row[2]));
-      body_b.push_back(static_cast<std::int32_t>(row[3]));
-      position.insert(position.end(), row.begin() + 4, row.begin() + 7);
-      normal.insert(normal.end(), row.begin() + 7, row.begin() + 10);
-      gap.push_back(row[10]);
-      force.insert(force.end(), row.begin() + 11, row.begin() + 14);
-    }
-  }
-  frame_begin.push_back(static_cast<std::int64_t>(gap.size()));
-  const size_t count = gap.size();
-  const auto describe = [&](const char* name, const char* unit, const char* description) {
-    file.add_attribute(name, "unit", unit);
-    file.add_attribute(name, "description", description);
+  const RowPart parts[] = {
+      {"contacts/body_a", 2, {}, "1", "number of the body in /bodies", Hdf5Number::int32},
+      {"contacts/body_b",
+       3,
+       {},
+       "1",
+       "number of the other body, to which the normal points",
+       Hdf5Number::int32},
+      {"contacts/position", 4, {3}, "m", "world frame, midway between the two surfaces"},
+      {"contacts/normal", 7, {3}, "1", "unit, world frame, from a to b"},
+      {"contacts/gap", 10, {}, "m", "along the normal at detection; negative: overlap"},
+      {"contacts/force",
+       11,
+       {3},
+       "N",
+       "on body b, world frame: the step's impulse over its length"},
   };
   file.add_group("contacts");
+  // Rows and frames come in the order of steps: a frame has the rows up to its own step.
+  std::vector<std::int64_t> frame_begin{0};
+  std::int64_t count = 0;
+  add_row_parts(file, rows, parts, [&](std::span<const double> row) {
+    while (frame_begin.size() <= frame_steps.size() &&
+           row[0] > static_cast<double>(frame_steps[frame_begin.size() - 1]))
+      frame_begin.push_back(count);
+    ++count;
+  });
+  frame_begin.resize(frame_steps.size() + 1, count);
   file.add("contacts/frame_begin", frame_begin);
-  describe("contacts/frame_begin", "1",
-           "frame k of /poses has the contacts frame_begin[k] to frame_begin[k + 1]");
-  file.add("contacts/body_a", body_a);
-  describe("contacts/body_a", "1", "number of the body in /bodies");
-  file.add("contacts/body_b", body_b);
-  describe("contacts/body_b", "1", "number of the other body, to which the normal points");
-  file.add("contacts/position", position, {count, 3});
-  describe("contacts/position", "m", "world frame, midway between the two surfaces");
-  file.add("contacts/normal", normal, {count, 3});
-  describe("contacts/normal", "1", "unit, world frame, from a to b");
-  file.add("contacts/gap", gap);
-  describe("contacts/gap", "m", "along the normal at detection; negative: overlap");
-  file.add("contacts/force", force, {count, 3});
-  describe("contacts/force", "N", "on body b, world frame: the step's impulse over its length");
+  file.add_attribute("contacts/frame_begin", "unit", "1");
+  file.add_attribute("contacts/frame_begin", "description",
+                     "frame k of /poses has the contacts frame_begin[k] to frame_begin[k + 1]");
 }
 
 std::vector<std::vector<FrameContact>> read_record_forces(const std::filesystem::path& record) {

@@ -6,6 +6,7 @@
 
 #include "experiments/record/bits_generation.hpp"
 #include "experiments/record/force_log.hpp"
+#include "experiments/record/row_parts.hpp"
 #include "platform/error.hpp"
 #include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
@@ -42,45 +43,35 @@ void add(Hdf5Writer& file, const std::string& name, const std::vector<double>& v
 }
 
 void add_steps(Hdf5Writer& file, RowReader& rows) {
-  // rows become columns: a reader mostly wants one quantity over all steps
-  const auto columns = step_columns();
-  std::vector<std::vector<double>> values(columns.size());
-  rows.rewind();
-  for (auto row = rows.next(); !row.empty(); row = rows.next())
-    for (size_t c = 0; c < columns.size(); ++c) values[c].push_back(row[c]);
+  std::vector<RowPart> parts;
+  for (const StepColumn& column : step_columns())
+    parts.push_back({.dataset = std::string("steps/") + column.name,
+                     .begin = parts.size(),
+                     .unit = column.unit,
+                     .description = column.description});
   file.add_group("steps");
-  for (size_t c = 0; c < columns.size(); ++c)
-    add(file, std::string("steps/") + columns[c].name, values[c], {values[c].size()},
-        columns[c].unit, columns[c].description);
+  add_row_parts(file, rows, parts);
 }
 
 /// Returns the steps of the frames.
 std::vector<std::int64_t> add_poses(Hdf5Writer& file, RowReader& rows, size_t bodies) {
-  file.add_group("poses");
-  const auto frames = static_cast<size_t>(rows.safe_count());
-  std::vector<Hdf5Id> datasets;
+  std::vector<RowPart> parts = {
+      {"poses/step", 0, {}, "1", "steps done at the frame", Hdf5Number::int64},
+      {"poses/time", 1, {}, "s", "of the frame"}};
+  size_t begin = leading;
   for (const PoseBlock& block : pose_blocks) {
-    const std::string name = std::string("poses/") + block.name;
-    datasets.push_back(file.add_slices(name, {frames, bodies, block.parts}));
-    describe(file, name, block.unit, block.description);
+    parts.push_back({std::string("poses/") + block.name,
+                     begin,
+                     {bodies, block.parts},
+                     block.unit,
+                     block.description});
+    begin += bodies * block.parts;
   }
-  // frame by frame, so that never more than one is in memory
-  std::vector<double> times;
   std::vector<std::int64_t> steps;
-  rows.rewind();
-  for (auto row = rows.next(); !row.empty(); row = rows.next()) {
-    size_t begin = leading;
-    for (size_t k = 0; k < datasets.size(); ++k) {
-      const size_t length = bodies * pose_blocks[k].parts;
-      file.write_slice(datasets[k], times.size(), row.subspan(begin, length));
-      begin += length;
-    }
+  file.add_group("poses");
+  add_row_parts(file, rows, parts, [&](std::span<const double> row) {
     steps.push_back(static_cast<std::int64_t>(row[0]));
-    times.push_back(row[1]);
-  }
-  add(file, "poses/time", times, {times.size()}, "s", "of the frame");
-  file.add("poses/step", steps, {steps.size()});
-  describe(file, "poses/step", "1", "steps done at the frame");
+  });
   return steps;
 }
 
@@ -231,8 +222,8 @@ std::vector<PoseFrame> read_record_poses(const std::filesystem::path& path) {
     // A frame is put together as its row stood in the log, and then taken apart like one.
     std::vector<double> row{step[k], time[k]};
     for (const PoseBlock& block : pose_blocks) {
-      const std::vector<double> slice = file.read_slice(std::string("poses/") + block.name, k);
-      row.insert(row.end(), slice.begin(), slice.end());
+      const std::vector<double> part = file.read_rows(std::string("poses/") + block.name, k);
+      row.insert(row.end(), part.begin(), part.end());
     }
     if (row.size() != pose_row_size(shape[1]))
       throw Error(path.string() + ": the datasets of /poses do not fit together");

@@ -6,10 +6,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <thread>
 
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -144,6 +146,37 @@ TEST_CASE("a pipe is written as it is, and stays one") {
   CHECK(got == "through");
   CHECK(fs::is_fifo(pipe));
   CHECK_FALSE(fs::exists(pipe.string() + ".tmp"));
+}
+
+TEST_CASE("a file can be written here and there, a pipe too") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "file", pipe = folder.path() / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::string got;
+  std::thread reader([&] {
+    std::ifstream in(pipe);
+    std::getline(in, got, '\n');
+  });
+  for (const fs::path& target : {file, pipe}) {
+    AtomicFile out(target);
+    out.write_at(6, "world");
+    out.write_at(0, "hello ");
+    std::string bytes(7, 'x');
+    out.read_at(6, bytes);
+    CHECK(bytes == std::string("world\0\0", 7));
+    out.read_at(100, bytes);
+    CHECK(bytes == std::string(7, '\0'));
+    out.write_at(20, "cut off");
+    out.set_length(3);
+    out.set_length(5);
+    out.commit();
+  }
+  reader.join();
+  CHECK(got == std::string("hel\0\0", 5));
+  CHECK(read_whole_file(file) == got);
+  AtomicFile out(folder.path() / "large");
+  const FileSizeLimit limit(8);
+  CHECK(complaint([&] { out.write_at(0, "ten letters"); }).ends_with("write: File too large"));
 }
 
 TEST_CASE("an open descriptor's file is written in place, not replaced") {

@@ -25,10 +25,10 @@ void fill(Hdf5Writer& file, size_t rows) {
   file.add("group/empty", std::vector<double>{});
   file.add("group/texts", std::vector<std::string>{"", "one", "two words"});
   file.add_text("group/text", "a text");
-  const Hdf5Id slices = file.add_slices("group/slices", {rows, 2, 3});
+  const Hdf5Id slices = file.add_rows("group/slices", {rows, 2, 3});
   for (size_t k = 0; k < rows; ++k) {
     const double x = static_cast<double>(k);
-    file.write_slice(slices, k, std::vector<double>{x, x + 1, x + 2, -x, -x - 1, -x - 2});
+    file.write_rows(slices, k, std::vector<double>{x, x + 1, x + 2, -x, -x - 1, -x - 2});
   }
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("what is written is read back, plain or compressed") {
     CHECK(file.read_texts("group/texts") == std::vector<std::string>{"", "one", "two words"});
     CHECK(file.read_text("/group/text") == "a text");
     CHECK(file.shape("group/slices") == Hdf5Shape{rows, 2, 3});
-    CHECK(file.read_slice("group/slices", 4321) ==
+    CHECK(file.read_rows("group/slices", 4321) ==
           std::vector<double>{4321, 4322, 4323, -4321, -4322, -4323});
     const std::vector<double> all = file.read_doubles("group/slices");
     REQUIRE(all.size() == 6 * rows);
@@ -89,18 +89,48 @@ TEST_CASE("without commit() there is no file, and an old one stays") {
   CHECK(read_whole_file(path) == "old");
 }
 
+TEST_CASE("rows come one by one, many at once, and as whole numbers") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  Hdf5Writer writer(path, Hdf5Storage::compressed);
+  constexpr size_t rows = 20000;
+  std::vector<double> values(2 * rows);
+  for (size_t k = 0; k < values.size(); ++k) values[k] = static_cast<double>(k * k);
+  {
+    const Hdf5Id pairs = writer.add_rows("pairs", {rows, 2}),
+                 keys = writer.add_rows("keys", {3}, Hdf5Number::int64),
+                 counts = writer.add_rows("counts", {3}, Hdf5Number::int32);
+    for (const size_t first : {size_t{0}, size_t{1}, size_t{777}}) {
+      const size_t next = first == 0 ? 1 : first == 1 ? 777 : rows;
+      writer.write_rows(pairs, first, std::span(values).subspan(2 * first, 2 * (next - first)));
+    }
+    writer.write_rows(keys, 0, std::vector<double>{0x1p40, -1.0, 3.0});
+    writer.write_rows(counts, 1, std::vector<double>{-7.0, 8.0});
+  }
+  writer.commit();
+  const Hdf5Reader file(path);
+  CHECK(file.read_doubles("pairs") == values);
+  CHECK(file.read_rows("pairs", 776, 2) ==
+        std::vector<double>(values.begin() + 1552, values.begin() + 1556));
+  CHECK(file.read_keys("keys")[0] == std::uint64_t{1} << 40);
+  CHECK(file.read_ints("counts") == std::vector<int>{0, -7, 8});
+}
+
 TEST_CASE("what cannot be written is an error that names the file") {
   const TemporaryFolder folder;
-  Hdf5Writer writer(folder.path() / "absent" / "a.h5", Hdf5Storage::plain);
-  writer.add("x", std::vector<double>{1.0});
+  const fs::path path = folder.path() / "a.h5", absent = folder.path() / "absent" / "a.h5";
   const auto complaint = [&](auto work) -> std::string {
     try {
       work();
     } catch (const Error& error) {
-      return std::string(error.what()).substr((folder.path() / "absent/a.h5").string().size());
+      return std::string(error.what()).substr(path.string().size());
     }
     return "no error";
   };
+  CHECK_THROWS_WITH(Hdf5Writer(absent, Hdf5Storage::plain),
+                    absent.string() + ": cannot write: No such file or directory");
+  Hdf5Writer writer(path, Hdf5Storage::plain);
+  writer.add("x", std::vector<double>{1.0});
   CHECK(complaint([&] { writer.add("x", std::vector<double>{2.0}); }) == ": HDF5 cannot make x");
   CHECK(complaint([&] { writer.add("no/x", std::vector<double>{2.0}); }) ==
         ": HDF5 cannot make no/x");
@@ -108,13 +138,15 @@ TEST_CASE("what cannot be written is an error that names the file") {
   CHECK(complaint([&] { writer.add_attribute("y", "unit", "m"); }) ==
         ": HDF5 cannot write the attribute unit of y");
   {
-    const Hdf5Id slices = writer.add_slices("slices", {2, 3});
-    const auto slice = [&](size_t index, size_t size) {
-      return complaint([&] { writer.write_slice(slices, index, std::vector<double>(size)); });
+    const Hdf5Id dataset = writer.add_rows("rows", {2, 3});
+    const auto rows = [&](size_t first, size_t size) {
+      return complaint([&] { writer.write_rows(dataset, first, std::vector<double>(size)); });
     };
-    CHECK(slice(2, 3) == ": HDF5 cannot select a slice");
-    CHECK(slice(1, 4) == ": HDF5 cannot select a slice");
-    CHECK(slice(1, 3) == "no error");
+    CHECK(rows(2, 3) == ": HDF5 cannot select rows");
+    CHECK(rows(1, 4) == ": HDF5 cannot select rows");
+    CHECK(rows(1, 6) == ": HDF5 cannot select rows");
+    CHECK(rows(0, 0) == ": HDF5 cannot select rows");
+    CHECK(rows(1, 3) == "no error");
+    CHECK(rows(0, 6) == "no error");
   }
-  CHECK(complaint([&] { writer.commit(); }).starts_with(": cannot write: No such file"));
 }

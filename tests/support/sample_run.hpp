@@ -1,9 +1,6 @@
 #pragma once
 // A small system and made-up rows for tests of records and exports: nothing in it is dynamics.
 
-#include <signal.h>
-#include <sys/resource.h>
-
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -144,27 +141,5 @@ bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
     if (!same_bits(a[k], b[k])) return false;
   return true;
 }
-
-/// While alive, no file of this process can grow beyond `bytes`: a disk that is full, for whoever
-/// runs the test.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    handler_ = signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &limit_);
-    const rlimit small{bytes, limit_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &limit_);
-    signal(SIGXFSZ, handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit limit_{};
-  void (*handler_)(int);
-};
 
 }  // namespace ballast

@@ -2,6 +2,7 @@
 
 #include "platform/pack.hpp"
 #include "platform/sealed_file.hpp"
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/sample_run.hpp"
 
 using namespace ballast;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "platform/hdf5_reader.hpp"
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/sample_record.hpp"
 
 using namespace ballast;

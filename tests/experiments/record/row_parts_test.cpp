@@ -1,0 +1,97 @@
+#include "experiments/record/row_parts.hpp"
+
+#include "platform/hdf5_reader.hpp"
+#include "tests/support/peak_memory.hpp"
+#include "tests/support/sample_record.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Row k has the numbers 10 k, 10 k + 1, ...
+void write_log(const fs::path& path, long rows, size_t row_size) {
+  RowWriter log(path, {"rows", 0, row_size});
+  std::vector<double> row(row_size);
+  for (long k = 0; k < rows; ++k) {
+    for (size_t i = 0; i < row_size; ++i)
+      row[i] = static_cast<double>(10 * k) + static_cast<double>(i);
+    log.append(row);
+  }
+  log.flush();
+}
+
+}  // namespace
+
+TEST_CASE("parts of rows become datasets, more rows than are gathered at once") {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "rows", record = folder.path() / "a.h5";
+  constexpr long rows = 50000;  // of 40 bytes: two megabytes
+  write_log(log, rows, 5);
+  RowReader reader(log);
+  Hdf5Writer writer(record, Hdf5Storage::compressed);
+  const RowPart parts[] = {{"pair", 1, {2}, "m", "two"},
+                           {"last", 4, {}, "1", "one", Hdf5Number::int32},
+                           {"square", 1, {2, 2}, "1", "four"}};
+  long seen = 0;
+  bool in_order = true;
+  reader.next();  // it begins with the first row wherever the reader was
+  add_row_parts(writer, reader, parts, [&](std::span<const double> row) {
+    in_order = in_order && row[0] == static_cast<double>(10 * seen++);
+  });
+  writer.commit();
+  CHECK((seen == rows && in_order));
+  const Hdf5Reader file(record);
+  CHECK(file.shape("pair") == Hdf5Shape{rows, 2});
+  CHECK(file.shape("last") == Hdf5Shape{rows});
+  CHECK(file.shape("square") == Hdf5Shape{rows, 2, 2});
+  CHECK(file.read_attribute("pair", "unit") == "m");
+  CHECK(file.read_attribute("last", "description") == "one");
+  const std::vector<double> pair = file.read_doubles("pair"), square = file.read_doubles("square");
+  const std::vector<int> last = file.read_ints("last");
+  bool fits = true;
+  for (size_t k = 0; k < rows; ++k) {
+    const double first = 10.0 * static_cast<double>(k);
+    fits = fits && pair[2 * k] == first + 1 && pair[2 * k + 1] == first + 2;
+    fits = fits && last[k] == static_cast<int>(first) + 4;
+    for (size_t i = 0; i < 4; ++i)
+      fits = fits && square[4 * k + i] == first + 1 + static_cast<double>(i);
+  }
+  CHECK(fits);
+}
+
+TEST_CASE("rows that are longer than what is gathered, and none at all") {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "rows", record = folder.path() / "a.h5";
+  for (const long rows : {0L, 3L}) {
+    write_log(log, rows, 200000);
+    RowReader reader(log);
+    Hdf5Writer writer(record, Hdf5Storage::compressed);
+    add_row_parts(writer, reader, std::vector<RowPart>{{"all", 0, {100000, 2}, "", ""}});
+    writer.commit();
+    const std::vector<double> all = Hdf5Reader(record).read_doubles("all");
+    REQUIRE(all.size() == static_cast<size_t>(rows) * 200000);
+    if (rows > 0) CHECK(all.back() == 20.0 + 199999.0);
+  }
+}
+
+TEST_CASE("a record takes the same memory however long its run was") {
+  const TemporaryFolder folder;
+  const MechanicalSystem system = sample_system();
+  Recorder recorder(folder.path(), system, 0, true);
+  StepMemory memory;
+  for (int c = 0; c < 2000; ++c) {
+    const double x = std::sin(c);
+    memory.contacts.push_back({c, c + 1, 7, Vec3(0, 0, 1), Vec3(x, -x, 2 * x), -1e-6 * x});
+    memory.impulses.emplace_back(x, 0.5, x);
+  }
+  for (long step = 1; step <= 100; ++step) {
+    const MotionState state = sample_state(system, step);
+    recorder.add_step(sample_row(step));
+    recorder.add_poses(state);
+    recorder.add_forces(state, memory, 1e-4);
+  }
+  recorder.flush();
+  REQUIRE(fs::file_size(folder.path() / "log" / "forces.bin") > 22'000'000);
+  CHECK(peak_memory([&] { recorder.finish("", ""); }) < 9000);
+}

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include "platform/child_process.hpp"
+#include "platform/kept_memory.hpp"
+#include "tests/catch.hpp"
+
+namespace ballast {
+
+/// By how many kB `work` raises the resident memory of a process of its own, at its peak.
+/// Sanitizers keep what is freed: 0 under them.
+inline long peak_memory(const std::function<void()>& work) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  work();
+  return 0;
+#endif
+  const auto entry = [](const std::string& name) {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    while (status >> word && word != name) {
+    }
+    long kilobytes = 0;
+    status >> kilobytes;
+    return kilobytes;
+  };
+  const ChildResult child = run_in_child(1e9, [&] {
+    give_memory_back();
+    const long before = entry("VmRSS:");
+    work();
+    return std::to_string(entry("VmHWM:") - before);
+  });
+  REQUIRE(child.end == ChildEnd::complete);
+  return std::stol(child.answer);
+}
+
+}  // namespace ballast
