@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/seam/solver.hpp"
+#include "solvers/seam/paused_solve.hpp"
 
 namespace ballast {
 
@@ -51,14 +51,17 @@ struct Way {
   double takes_best = 0.0;
   double trust = 2.0;  ///< it is taken to need at most so many times the work that it has had
   bool is_prepared = false;
-  bool only_factors = true;  ///< every iteration is a factorisation
-  double work = 0.0;         ///< of an iteration
-  double factorisation = 0;  ///< besides, of one that factors
-  double expected = 0.0;     ///< work, as long as it has not shown its pace
-  double spent = 0.0;        ///< work
+  bool is_newton = false;
+  bool only_factors = false;  ///< every iteration is a factorisation
+  double work = 0.0;          ///< of an iteration
+  double factorisation = 0;   ///< besides, of one that factors
+  double expected = 0.0;      ///< work, as long as it has not shown its pace
+  double spent = 0.0;         ///< work
   WorkPace pace;
   int stalls = 0;
   Impulses at;
+  int factorisations = 0;              ///< of all its turns
+  std::unique_ptr<PausedSolve> going;  ///< what it goes on with
 };
 
 }  // namespace ballast

@@ -17,6 +17,7 @@ constexpr int most_dense_rows = 600;
 
 void NewtonMatrix::prepare(const FrictionProblem& problem) {
   problem_ = &problem;
+  operations_ = 0.0;
   has_pattern_ = false;
   cut_into_pieces();
   b_.resize(problem.contact_count());
@@ -61,9 +62,9 @@ bool NewtonMatrix::solve(const std::vector<ContactLinearisation>& linear,
   if (pressed_.empty()) return true;
   const double square = static_cast<double>(pressed_rows_) * pressed_rows_;
   const bool is_full = static_cast<double>(pressed_entries_) > nearly_full * square;
-  return pressed_rows_ <= few_rows || (is_full && pressed_rows_ <= most_dense_rows)
-             ? solve_dense(linear, dr)
-             : solve_sparse(linear, dr);
+  const bool is_dense = pressed_rows_ <= few_rows || (is_full && pressed_rows_ <= most_dense_rows);
+  operations_ = is_dense ? square * pressed_rows_ / 3.0 : 0.0;
+  return is_dense ? solve_dense(linear, dr) : solve_sparse(linear, dr);
 }
 
 /// The contacts with by_u = 0, and the list of the others.

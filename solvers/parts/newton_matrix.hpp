@@ -21,6 +21,9 @@ class NewtonMatrix {
   /// False: a singular matrix. `alpha` [1/kg] and `linear` per contact.
   bool solve(const std::vector<ContactLinearisation>& linear, const std::vector<double>& alpha,
              Impulses& dr);
+  /// Of the last factorisation: multiplications with their additions. 0: it was a sparse one, or
+  /// there was none.
+  double operations() const { return operations_; }
 
  private:
   /// Entries of W in one column, rows of one contact (one-row contacts: the first alone).
@@ -36,6 +39,7 @@ class NewtonMatrix {
   bool solve_sparse(const std::vector<ContactLinearisation>& linear, Impulses& dr);
 
   const FrictionProblem* problem_ = nullptr;
+  double operations_ = 0.0;
   std::vector<int> piece_begin_;  ///< of each contact; contacts + 1
   std::vector<Piece> pieces_;
   SparseColumns matrix_;  ///< made when it is first needed

@@ -169,8 +169,10 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
 
 bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
                          const std::vector<double>& alpha, Impulses& dr) {
-  return w.problem().has_dynamics ? solve_bodies(w, linear, alpha, dr)
-                                  : matrix_form_.solve(linear, alpha, dr);
+  if (w.problem().has_dynamics) return solve_bodies(w, linear, alpha, dr);
+  const bool is_solved = matrix_form_.solve(linear, alpha, dr);
+  operations_ = matrix_form_.operations();
+  return is_solved;
 }
 
 }  // namespace ballast

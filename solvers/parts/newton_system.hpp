@@ -30,7 +30,8 @@ class NewtonSystem {
   bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
              const std::vector<double>& alpha, Impulses& dr);
 
-  /// Of a factorisation over bodies (FrontLu::operations); 0 with a stored W.
+  /// Of a factorisation over bodies (FrontLu::operations); with a stored W of the last one
+  /// (NewtonMatrix::operations).
   double operations() const { return operations_; }
 
  private:

@@ -19,8 +19,8 @@ Course::Course(const Budget& budget, Impulses start, double error)
 Course::Course(const Budget& budget, Solver& first, const FrictionProblem& problem, Impulses start,
                const std::function<bool(int, double)>& leave)
     : budget_(budget), best_(start) {
-  const std::function<bool(int, double)> either = [&](int iterations, double error) {
-    leaves_ = budget.leave && (*budget.leave)(iterations, error);
+  const LeaveRule either = [&](int iterations, double error, const Impulses& r) {
+    leaves_ = budget.leave && (*budget.leave)(iterations, error, r);
     return leaves_ || leave(iterations, error);
   };
   Budget whole = budget;
@@ -48,7 +48,7 @@ void Course::offer(const Impulses& r, double error) {
   }
   is_enough_ = is_enough_ || is_enough;
   remember();
-  if (budget_.leave && !reached() && (*budget_.leave)(iterations_, error_)) leaves_ = true;
+  if (budget_.leave && !reached() && (*budget_.leave)(iterations_, error_, best_)) leaves_ = true;
 }
 
 /// One point per count of iterations, the last one that was true of it.

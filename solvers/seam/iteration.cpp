@@ -55,7 +55,7 @@ void Iteration::evaluated(double error, const Impulses& r) {
   else if (out_of_time_ || now >= budget_.max_seconds)
     reason_ = StopReason::time_limit;
   else if (count_ - unchanged_since_ >= patience_ ||
-           (budget_.leave && (*budget_.leave)(count_, error)))
+           (budget_.leave && (*budget_.leave)(count_, error, r)))
     reason_ = StopReason::stalled;
   else
     stopped_ = false;

@@ -28,6 +28,9 @@ const char* name_of(ContactLaw law);
 class FclibStop;
 class WorkerTeam;
 
+/// Told the iterations of a solve, the error [m/s] and the impulses that have it: is it enough?
+using LeaveRule = std::function<bool(int iterations, double error, const Impulses& r)>;
+
 /// When to stop. The error meant is the judge's scaled natural map, rms over contacts, in m/s
 /// (contact_error.hpp).
 struct Budget {
@@ -39,9 +42,9 @@ struct Budget {
   /// Not null: solvers stop on this measure as well (fclib_stop.hpp), wherever they evaluate the
   /// error. One object serves one solve.
   FclibStop* fclib = nullptr;
-  /// Not null: asked with (iterations, error) wherever the error is evaluated; true ends the solve
-  /// as stalled. For who has something better to do with the rest of the budget.
-  const std::function<bool(int, double)>* leave = nullptr;
+  /// Not null: asked wherever the error is evaluated; true ends the solve as stalled. For who has
+  /// something better to do with the rest of the budget.
+  const LeaveRule* leave = nullptr;
   /// Not null: a solver whose iterations are sweeps and factorisations by turns adds one here for
   /// each factorisation. For who counts work.
   int* factorisations = nullptr;
@@ -91,8 +94,9 @@ class Solver {
   /// Allocation, ordering, symbolic and numeric factorisation: timed apart from solve(). Throws
   /// UnsupportedProblem.
   virtual void prepare(const FrictionProblem& problem) = 0;
-  /// What one of its factorisations costs, known once it is prepared: multiplications and additions
-  /// in dense blocks. 0: it has none, or does not know.
+  /// What one of its factorisations costs: multiplications and additions in dense blocks. Known
+  /// once it is prepared; with a stored W, where that hangs on which contacts are pressed, of the
+  /// last one. 0: it has none, or does not know.
   virtual double operations() const { return 0.0; }
   /// Whose members prepare() and solve() may use from now on; null: the caller alone. The same bits
   /// whatever their number; a backend that has no use for more than one ignores it.

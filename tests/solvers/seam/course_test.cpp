@@ -56,7 +56,7 @@ struct Opener final : Solver {
   void prepare(const FrictionProblem&) override {}
   Solved solve(const FrictionProblem&, Impulses start, const Budget& budget) override {
     CHECK(budget.keep_history);
-    CHECK((*budget.leave)(3, error));
+    CHECK((*budget.leave)(3, error, start));
     Solved solved;
     solved.impulses = start + Impulses::Ones(1);
     solved.reason = reason;
@@ -70,11 +70,11 @@ struct Opener final : Solver {
 }  // namespace
 
 TEST_CASE("another solver opens a course, which goes on from the better of its ends") {
-  const std::function<bool(int, double)> leave = [](int, double) { return true; };
+  const std::function<bool(int, double)> enough = [](int, double) { return true; };
   for (const double error : {0.4, 0.6}) {
     Opener opener(error, StopReason::stalled);
     Course course({.tolerance = 0.1, .max_iterations = 10, .keep_history = true}, opener, {},
-                  Impulses::Ones(1), leave);
+                  Impulses::Ones(1), enough);
     CHECK_FALSE(course.over());
     CHECK(course.error() == std::min(error, 0.5));
     CHECK(course.best()[0] == (error < 0.5 ? 2.0 : 1.0));
@@ -86,12 +86,13 @@ TEST_CASE("another solver opens a course, which goes on from the better of its e
   }
   // Who gave the budget is asked first.
   const std::function<bool(int, double)> never = [](int, double) { return false; };
+  const LeaveRule leave = [](int, double, const Impulses&) { return true; };
   Opener called_off(0.4, StopReason::stalled);
   Course ended({.tolerance = 0.1, .leave = &leave}, called_off, {}, Impulses::Ones(1), never);
   CHECK(ended.over());
   CHECK(ended.finish().reason == StopReason::stalled);
   Opener arrives(0.05, StopReason::reached_tolerance);
-  Course reached({.tolerance = 0.1}, arrives, {}, Impulses::Ones(1), leave);
+  Course reached({.tolerance = 0.1}, arrives, {}, Impulses::Ones(1), enough);
   CHECK(reached.over());
   const Solved solved = reached.finish();
   CHECK(solved.reason == StopReason::reached_tolerance);
@@ -120,7 +121,7 @@ TEST_CASE("a course is over at the tolerance, at a limit, or where nothing is fi
 
 TEST_CASE("who gave the budget may call a course off, and is asked with all its iterations") {
   std::vector<int> asked;
-  const std::function<bool(int, double)> leave = [&](int iterations, double error) {
+  const LeaveRule leave = [&](int iterations, double error, const Impulses&) {
     asked.push_back(iterations);
     return error < 0.3;
   };

@@ -97,7 +97,7 @@ TEST_CASE("time runs out") {
 
 TEST_CASE("who has something better to do leaves at a look, but not what is solved") {
   std::vector<int> asked;
-  const std::function<bool(int, double)> leave = [&](int count, double error) {
+  const LeaveRule leave = [&](int count, double error, const Impulses&) {
     CHECK(error == 1.0 / (count + 1));
     asked.push_back(count);
     return count >= 8;
