@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "solvers/backends/anderson_pgs.hpp"
-#include "solvers/backends/apgd.hpp"
 #include "solvers/backends/interior_point.hpp"
 #include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/backends/newton.hpp"
@@ -33,7 +32,6 @@ class Auto final : public Solver {
     set_scarce(false);
     ways_[interior].solver = make_interior_point();
     ways_[conjugate].solver = make_nncg();
-    ways_[gradient].solver = make_apgd();
     for (const Kind kind : {plain, proximal, interior}) ways_[kind].only_factors = true;
     for (const Kind kind : {plain, proximal, burst}) ways_[kind].is_newton = true;
   }
@@ -80,17 +78,7 @@ class Auto final : public Solver {
   }
 
  private:
-  enum Kind : size_t {
-    momentum,
-    anderson,
-    plain,
-    proximal,
-    burst,
-    interior,
-    conjugate,
-    gradient,
-    kinds
-  };
+  enum Kind : size_t { momentum, anderson, plain, proximal, burst, interior, conjugate, kinds };
 
   /// No way's solve outlives the problem.
   struct Ending {
@@ -134,7 +122,7 @@ class Auto final : public Solver {
     const bool has_bodies = problem.has_dynamics;
     const double sweep = work_.sweep(), newton = work_.newton_step();
     const double costs[kinds] = {sweep, work_.mixed_sweep(),   newton, newton,
-                                 sweep, work_.interior_step(), sweep,  work_.gradient_step()};
+                                 sweep, work_.interior_step(), sweep};
     for (size_t k = 0; k < kinds; ++k) {
       Way& way = ways_[k];
       way.work = is_scarce_ ? 1.0 : costs[k];
@@ -145,6 +133,7 @@ class Auto final : public Solver {
       if (way.is_newton && is_scarce_) way.takes_best = 0.5;
       if (way.is_newton && !is_scarce_ && !has_bodies) way.takes_best = 0.4;
     }
+    if (!is_scarce_ && !has_bodies) ways_[proximal].trust = 1.0;
     ways_[burst].factorisation = is_scarce_ ? 0.0 : work_.burst_step() - sweep;
 
     // So many steps; over bodies bursts of sweeps are the shortest way more often than not, with a
@@ -165,9 +154,7 @@ class Auto final : public Solver {
     // Of many contacts bursts arrive nearly always, though their error may stand for long.
     if (!is_scarce_) ways_[burst].trust = std::min(4.0, 100.0 / std::pow(contacts, 1.5));
     steps(conjugate, 600.0, 0.0);
-    steps(gradient, 730.0, 0.0);
-    for (const Kind kind : {conjugate, gradient})
-      if (has_bodies || is_scarce_) ways_[kind].expected = never;
+    if (has_bodies || is_scarce_) ways_[conjugate].expected = never;
     if (!has_bodies) ways_[burst].expected = never;
   }
 
@@ -257,7 +244,7 @@ class Auto final : public Solver {
   /// Before so many are left no solve pauses: some look at their error once in hundreds.
   static constexpr int last_iterations = 1000;
   /// Changing ways costs: the other's promise must be so much better.
-  static constexpr double by_far = 2.5;
+  static constexpr double by_far = 1.6;
   /// How often every way may end without arriving and by itself.
   static constexpr int most_stalls = 12;
 

@@ -11,8 +11,8 @@ constexpr double body_visit = 40.0;
 constexpr double matrix_entry = 1.0, matrix_visit = 60.0;
 /// What a sweep takes besides, whatever the size.
 constexpr double small_sweep = 1000.0;
-/// Anderson's mixing: its sweep over one without. And apgd's step, a product with W.
-constexpr double mixing_bodies = 2.5, mixing_matrix = 1.6, gradient = 1.5;
+/// Anderson's mixing: its sweep over one without.
+constexpr double mixing_bodies = 2.5, mixing_matrix = 1.6;
 /// A Newton step: linearisation and line search per contact, assembly per unknown, and of the
 /// factorisation per operation. Before those are known it is taken for the fill of packings: as
 /// much as the assembly for so many unknowns.
@@ -65,7 +65,6 @@ bool StepWork::learn(double operations) {
 double StepWork::mixed_sweep() const {
   return (has_bodies_ ? mixing_bodies : mixing_matrix) * sweep_;
 }
-double StepWork::gradient_step() const { return gradient * sweep_; }
 double StepWork::newton_step() const { return (has_bodies_ ? coulomb : 1.0) * step_; }
 double StepWork::interior_step() const { return interior * step_; }
 double StepWork::stored_step(double operations) const {

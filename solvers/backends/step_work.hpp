@@ -17,7 +17,6 @@ class StepWork {
 
   double sweep() const { return sweep_; }
   double mixed_sweep() const;                  ///< with Anderson's mixing
-  double gradient_step() const;                ///< of apgd
   double burst_step() const { return step_; }  ///< of the regular law
   double newton_step() const;                  ///< of Coulomb's law itself
   double interior_step() const;
