@@ -120,7 +120,7 @@ ExitCode export_animation(const ExportOptions& options, const ViewData& view) {
 ExitCode export_picture(const ExportOptions& options) {
   const std::optional<ViewData> view = view_of_run(read_run_data(options.source));
   if (!view) throw Error(options.source.string() + ": no poses are stored there");
-  if (options.still.with_chains && view->contacts.empty())
+  if (options.still.with_chains && !view->contacts)
     throw Error(options.source.string() +
                 ": no forces are stored there (--set record.forces=true)");
   const std::vector<PoseFrame>& frames = view->frames;

@@ -24,7 +24,7 @@ void write_with_origin(page::Page page, const RunData& data, const std::filesyst
   if (const std::string made = made_by(data); !made.empty()) page.lede.push_back(made);
   page.add({"provenance", "Program and machine", {provenance_table(data)}});
   page::draw_pictures(page, file.parent_path());
-  write_whole_file(file, page::html_of(page));
+  page::write_html_file(file, page);
 }
 
 }  // namespace ballast

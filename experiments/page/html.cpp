@@ -5,6 +5,7 @@
 
 #include "experiments/page/drawing.hpp"
 #include "experiments/page/page_style.hpp"
+#include "platform/atomic_file.hpp"
 
 namespace ballast::page {
 namespace {
@@ -64,6 +65,13 @@ std::string items_of(const std::vector<Text>& items) {
   return html + "</ul>";
 }
 
+template <class Writes>
+std::string gathered(const Writes& writes) {
+  std::string text;
+  writes([&text](std::string_view piece) { text += piece; });
+  return text;
+}
+
 /// One kind of block after the other.
 struct HtmlBlocks {
   std::string operator()(const Text& text) const { return "<p>" + html_of(text) + "</p>\n"; }
@@ -105,7 +113,9 @@ struct HtmlBlocks {
     return "<details><summary>" + html_of(folded.heading) + "</summary>\n<pre>" +
            escaped_html(folded.text) + "</pre></details>\n";
   }
-  std::string operator()(const Replay& replay) const { return replay_html(replay); }
+  std::string operator()(const Replay& replay) const {
+    return gathered([&](const Write& write) { write_replay(replay, write); });
+  }
 };
 
 std::string header_of(const Page& page) {
@@ -115,12 +125,18 @@ std::string header_of(const Page& page) {
   return html + "</header>\n";
 }
 
-std::string section_of(const Section& section) {
-  if (section.is_empty()) return {};
-  std::string html = "<section id=\"" + escaped_html(section.id) + "\">\n<h2>" +
-                     html_of(section.heading) + "</h2>\n";
-  for (const Block& block : section.blocks) html += html_of(block);
-  return html + "</section>\n";
+void write_section(const Section& section, const Write& write) {
+  if (section.is_empty()) return;
+  write("<section id=\"" + escaped_html(section.id) + "\">\n<h2>" + html_of(section.heading) +
+        "</h2>\n");
+  for (const Block& block : section.blocks) {
+    // a replay has megabytes
+    if (const auto* replay = std::get_if<Replay>(&block); replay && !is_empty(block))
+      write_replay(*replay, write);
+    else
+      write(html_of(block));
+  }
+  write("</section>\n");
 }
 
 }  // namespace
@@ -165,18 +181,28 @@ std::string html_of(const Block& block) {
   return is_empty(block) && !is_subheading ? std::string() : std::visit(HtmlBlocks{}, block);
 }
 
-std::string html_of(const Page& page) {
-  std::string html =
+void write_html(const Page& page, const Write& write) {
+  write(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       escaped_html(page.title) + "</title>\n<style>\n" + style_sheet() +
-      "</style>\n</head>\n<body>\n<main>\n" + header_of(page) + html_of(Block(page.notices));
-  for (const Section& section : page.sections) html += section_of(section);
+      "</style>\n</head>\n<body>\n<main>\n" + header_of(page) + html_of(Block(page.notices)));
+  for (const Section& section : page.sections) write_section(section, write);
   if (page.answers.are_given && !can_answer())
-    html += "<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n";
-  if (!page.end.empty()) html += "<footer>" + html_of(page.end) + "</footer>\n";
-  return html + "</main>\n" + answers_html(page) + "</body>\n</html>\n";
+    write("<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n");
+  if (!page.end.empty()) write("<footer>" + html_of(page.end) + "</footer>\n");
+  write("</main>\n" + answers_html(page) + "</body>\n</html>\n");
+}
+
+void write_html_file(const std::filesystem::path& file, const Page& page) {
+  AtomicFile out(file);
+  write_html(page, [&out](std::string_view piece) { out.write(piece); });
+  out.commit();
+}
+
+std::string html_of(const Page& page) {
+  return gathered([&](const Write& write) { write_html(page, write); });
 }
 
 }  // namespace ballast::page

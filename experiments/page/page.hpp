@@ -9,7 +9,7 @@
 //   page::Picture wall{plot, {page::words("wall.caption", {{"x", page::quantity(x, "mm")}})}};
 //   page.add({"wall", "The wall", {wall}});
 //   page::draw_pictures(page, folder, {.command = "ballast report RUN"});
-//   write_whole_file(folder / "report.html", page::html_of(page));
+//   page::write_html_file(folder / "report.html", page);
 //   write_whole_file(folder / "README.md", page::markdown_of(page));
 
 #include <string>

@@ -36,22 +36,24 @@ std::string for_script(std::string json) {
 
 }  // namespace
 
-std::string replay_html(const Replay& replay) {
-  std::string html = "<figure class=\"replay\" id=\"replay\">\n<style>\n" +
-                     replay_file("replay.css") + "</style>\n<div id=\"replay-stage\">";
+void write_replay(const Replay& replay, const Write& write) {
+  write("<figure class=\"replay\" id=\"replay\">\n<style>\n" + replay_file("replay.css") +
+        "</style>\n<div id=\"replay-stage\">");
   if (!replay.still.empty())
-    html += "<img alt=\"The bodies in 3D: a still picture\" src=\"data:image/png;base64," +
-            base64(replay.still) + "\">";
-  html +=
+    write("<img alt=\"The bodies in 3D: a still picture\" src=\"data:image/png;base64," +
+          base64(replay.still) + "\">");
+  write(
       "</div>\n<p id=\"replay-sentence\">This picture moves in a browser with WebGL 2 and "
-      "scripts.</p>\n";
-  if (!replay.caption.empty()) html += "<figcaption>" + html_of(replay.caption) + "</figcaption>\n";
-  html += "<script type=\"application/json\" id=\"replay-head\">" + for_script(replay.head) +
-          "</script>\n";
-  for (const auto& [name, bytes] : replay.parts)
-    html += "<script type=\"text/plain\" id=\"replay-" + name + "\">" + base64(deflated(bytes, 9)) +
-            "</script>\n";
-  return html + "<script>\n" + script() + "</script>\n</figure>\n";
+      "scripts.</p>\n");
+  if (!replay.caption.empty()) write("<figcaption>" + html_of(replay.caption) + "</figcaption>\n");
+  write("<script type=\"application/json\" id=\"replay-head\">" + for_script(replay.head) +
+        "</script>\n");
+  for (const auto& [name, bytes] : replay.parts) {
+    write("<script type=\"text/plain\" id=\"replay-" + name + "\">");
+    write(base64(deflated(bytes, 9)));
+    write("</script>\n");
+  }
+  write("<script>\n" + script() + "</script>\n</figure>\n");
 }
 
 }  // namespace page

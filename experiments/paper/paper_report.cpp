@@ -104,7 +104,7 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
       .are_given = true, .with_curves = true, .data = origins_of_points(data, sections, folder)};
   // the data stand beside as CSV, and README.md shows the files themselves
   page::draw_pictures(page, folder, {.with_script = false, .on_white = true});
-  write_whole_file(folder / "paper.html", html_of(page));
+  write_html_file(folder / "paper.html", page);
   page.lede.push_back(page::words("paper.made_by"));
   write_whole_file(folder / "README.md", markdown_of(page));
 }

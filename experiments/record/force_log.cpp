@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "experiments/record/row_parts.hpp"
-#include "platform/error.hpp"
-#include "platform/hdf5_reader.hpp"
 
 namespace ballast {
 
@@ -55,29 +53,39 @@ void add_forces(Hdf5Writer& file, RowReader& rows, std::span<const std::int64_t>
                      "frame k of /poses has the contacts frame_begin[k] to frame_begin[k + 1]");
 }
 
-std::vector<std::vector<FrameContact>> read_record_forces(const std::filesystem::path& record) {
-  const Hdf5Reader file(record);
-  if (!file.has("contacts")) return {};
-  const std::vector<int> begin = file.read_ints("contacts/frame_begin"),
-                         body_a = file.read_ints("contacts/body_a"),
-                         body_b = file.read_ints("contacts/body_b");
-  const std::vector<double> position = file.read_doubles("contacts/position"),
-                            normal = file.read_doubles("contacts/normal"),
-                            force = file.read_doubles("contacts/force");
-  const size_t count = body_a.size();
-  if (begin.empty() || begin.front() != 0 || !std::is_sorted(begin.begin(), begin.end()) ||
-      static_cast<size_t>(begin.back()) != count || body_b.size() != count ||
-      position.size() != 3 * count || normal.size() != 3 * count || force.size() != 3 * count)
-    throw Error(record.string() + ": the datasets of /contacts do not fit together");
+RecordForces::RecordForces(const std::filesystem::path& record) : file_(record) {
+  if (!file_.has("contacts")) return;
+  begin_ = file_.read_ints("contacts/frame_begin");
+  bool fits = !begin_.empty() && begin_.front() == 0 && std::ranges::is_sorted(begin_);
+  for (const char* name : {"body_a", "body_b", "position", "normal", "force"}) {
+    const Hdf5Shape shape = file_.shape(std::string("contacts/") + name);
+    const bool is_number = std::string_view(name).starts_with("body");
+    fits = fits && shape.size() == (is_number ? 1u : 2u) && (is_number || shape[1] == 3) &&
+           shape[0] == static_cast<unsigned long long>(begin_.back());
+  }
+  if (!fits) file_.fail("the datasets of /contacts do not fit together");
+}
+
+std::vector<FrameContact> RecordForces::of_frame(size_t frame) const {
+  if (frame >= frame_count()) file_.fail("has no contacts of frame " + std::to_string(frame));
+  const auto first = static_cast<size_t>(begin_[frame]),
+             count = static_cast<size_t>(begin_[frame + 1]) - first;
+  if (count == 0) return {};
+  const auto read = [&](const char* name) {
+    return file_.read_rows(std::string("contacts/") + name, first, count);
+  };
+  const std::vector<double> body_a = read("body_a"), body_b = read("body_b"),
+                            position = read("position"), normal = read("normal"),
+                            force = read("force");
   const auto vector = [](const std::vector<double>& values, size_t c) {
     return Eigen::Vector3f(Vec3(values.data() + 3 * c).cast<float>());
   };
-  std::vector<std::vector<FrameContact>> frames(begin.size() - 1);
-  for (size_t f = 0; f < frames.size(); ++f)
-    for (auto c = static_cast<size_t>(begin[f]); c < static_cast<size_t>(begin[f + 1]); ++c)
-      if (const Eigen::Vector3f on_b = vector(force, c); !on_b.isZero())
-        frames[f].push_back({body_a[c], body_b[c], vector(position, c), vector(normal, c), on_b});
-  return frames;
+  std::vector<FrameContact> contacts;
+  for (size_t c = 0; c < count; ++c)
+    if (const Eigen::Vector3f on_b = vector(force, c); !on_b.isZero())
+      contacts.push_back({static_cast<int>(body_a[c]), static_cast<int>(body_b[c]),
+                          vector(position, c), vector(normal, c), on_b});
+  return contacts;
 }
 
 }  // namespace ballast

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/step/step_memory.hpp"
+#include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
 #include "platform/row_log.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
@@ -34,8 +35,20 @@ struct FrameContact {
   Eigen::Vector3f force;             ///< on b, world frame [N]
 };
 
-/// The contacts of every frame of a record.h5 that have a force; no entry where the record has no
-/// contacts at all. Throws Error.
-std::vector<std::vector<FrameContact>> read_record_forces(const std::filesystem::path& record);
+/// The contacts in a record.h5, frame by frame: all of them would be several times the poses.
+class RecordForces {
+ public:
+  /// Throws Error when they do not fit together.
+  explicit RecordForces(const std::filesystem::path& record);
+
+  /// Of the record; 0 where it has no contacts at all.
+  size_t frame_count() const { return begin_.empty() ? 0 : begin_.size() - 1; }
+  /// Those that have a force. Throws Error, also where there is no such frame.
+  std::vector<FrameContact> of_frame(size_t frame) const;
+
+ private:
+  Hdf5Reader file_;
+  std::vector<int> begin_;  // of each frame, and the end
+};
 
 }  // namespace ballast

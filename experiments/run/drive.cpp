@@ -24,7 +24,7 @@ long steps_between(double rate, double h) {
 }
 
 /// After so many steps most arrays have their size.
-constexpr long growing_steps = 100;
+constexpr long growing_steps = 1000;
 
 /// The loop with all that it writes.
 class Drive {

@@ -13,8 +13,8 @@
 #include "experiments/run_page/report_tables.hpp"
 #include "experiments/view/run_view.hpp"
 #include "experiments/view/view_page.hpp"
-#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/kept_memory.hpp"
 #include "platform/program.hpp"
 
 namespace ballast {
@@ -69,10 +69,12 @@ page::Replay replay_of_run(RunData& data) {
 }  // namespace
 
 void write_report(const std::filesystem::path& folder) {
+  give_memory_back();  // of the run
   RunData data = read_run_data(folder);
   const RunSummary summary = summarise(data.steps, data.facts);
   note_what_cannot_be_said(summary, data);
-  const page::Replay replay = replay_of_run(data);
+  page::Section motion{"motion", "What happens"};
+  motion.add(replay_of_run(data));
   // What must be known first stands first.
   const RunTrust trust = trust_of(data);
   const std::vector<std::string> words = trust_words(trust);
@@ -84,7 +86,7 @@ void write_report(const std::filesystem::path& folder) {
   page.notices.heading = "To be known before reading";
   page.notices.items.assign(data.notices.begin(), data.notices.end());
   page.answers = {.are_given = true, .with_curves = true};
-  page.add({"motion", "What happens", {replay}});
+  page.add(std::move(motion));
   page.add({"results", "The run in numbers", {results_table(summary)}});
   page.add(pictures("paper", has_packing ? "What the paper shows" : "Motion of the wall",
                     paper_figures(data, summary)));
@@ -109,7 +111,7 @@ void write_report(const std::filesystem::path& folder) {
             "How to make it again",
             {page::Listing{reproduce_commands(data)}, files_table(data)}});
   page.add({"next", "What next", {page::Listing{next_commands(has_packing)}}});
-  write_whole_file(folder / "report.html", html_of(page));
+  write_html_file(folder / "report.html", page);
 }
 
 }  // namespace ballast

@@ -30,12 +30,13 @@ struct Lens {
   Vec3 eye;
   double scale = 1.0, width = 0.0, height = 0.0;
   bool is_far = false;
+  double above = 0.0;  ///< rows of the picture that are above what is drawn
 
   Vec3 operator*(const Vec3& p) const {
     const Vec3 seen = axes * (p - eye);
     const double w = is_far ? 1.0 : -seen.z();
     // 1/w is linear in the picture; turned round it grows with the distance
-    return {0.5 * width + scale * seen.x() / w, 0.5 * height - scale * seen.y() / w,
+    return {0.5 * width + scale * seen.x() / w, 0.5 * height - above - scale * seen.y() / w,
             is_far ? -seen.z() : -1.0 / w};
   }
   /// How many pixels a length has at a depth that `*` has given.

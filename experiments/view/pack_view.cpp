@@ -132,24 +132,22 @@ void pack_walls(const ViewData& view, const std::vector<size_t>& chosen, Json& h
 /// centre of grain a, over that grain's circumradius.
 void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size_t stride,
                    Json& head, page::Replay& replay) {
-  const std::vector<size_t> kept = thinned(chosen.size(), stride);
   float largest = 0.0f;
-  for (const size_t k : kept)
-    for (const FrameContact& contact : view.contacts[chosen[k]])
-      largest = std::max(largest, contact.force.dot(contact.normal));
   Words body_a, body_b, forces;
+  std::vector<float> normal_forces;
   std::array<Bytes, 3> places;
   std::array<Bytes, 2> normals;
   Bytes mobilised;
   Json frames = Json::array(), counts = Json::array();
-  for (const size_t k : kept) {
+  for (const size_t k : thinned(chosen.size(), stride)) {
     const size_t f = chosen[k];
+    const std::vector<FrameContact> contacts = view.contacts(f);
     // before its first step a run knows no forces: those of the next frame stand for them
-    if (view.frames[f].step == 0 && view.contacts[f].empty()) continue;
+    if (view.frames[f].step == 0 && contacts.empty()) continue;
     frames.push_back(k);
-    counts.push_back(view.contacts[f].size());
+    counts.push_back(contacts.size());
     int last = 0;
-    for (FrameContact contact : view.contacts[f]) {
+    for (FrameContact contact : contacts) {
       // a is a grain, so that the place can follow it
       if (contact.body_a >= view.system.grain_count) {
         std::swap(contact.body_a, contact.body_b);
@@ -171,12 +169,16 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
       for (size_t i = 0; i < 2; ++i) normals[i].push_back(direction[i]);
       const float force = contact.force.dot(contact.normal);
       const float tangential = (contact.force - force * contact.normal).norm();
-      const double share = largest > 0.0f ? std::max(force, 0.0f) / largest : 0.0;
-      forces.push_back(static_cast<std::uint16_t>(std::lround(4095.0 * std::sqrt(share))));
+      largest = std::max(largest, force);
+      normal_forces.push_back(force);
       const double bound = view.friction * force;
       mobilised.push_back(static_cast<std::uint8_t>(
           bound > 0.0 ? std::lround(255.0 * std::min(tangential / bound, 1.0)) : 0));
     }
+  }
+  for (const float force : normal_forces) {
+    const double share = largest > 0.0f ? std::max(force, 0.0f) / largest : 0.0;
+    forces.push_back(static_cast<std::uint16_t>(std::lround(4095.0 * std::sqrt(share))));
   }
   head["contact_frames"] = frames;
   head["contact_counts"] = counts;
@@ -241,27 +243,24 @@ page::Replay pack_view(const ViewData& view, size_t most_bytes) {
   pack_shapes(view, head, replay);
   pack_series(view, head, replay);
   pack_errors(view, head, replay);
-  const page::Replay still = replay;
-  const size_t still_bytes = page_bytes(still);
-  const bool has_contacts = !view.contacts.empty();
+  const size_t still_parts = replay.parts.size(), still_bytes = page_bytes(replay);
+  const bool has_contacts = static_cast<bool>(view.contacts);
   // poses may take two thirds of what is left, where there are contacts too
   const size_t room = most_bytes > still_bytes ? most_bytes - still_bytes : 0,
                pose_room = has_contacts ? room / 3 * 2 : room;
   std::vector<size_t> chosen;
   for (size_t stride = 1;; stride *= 2) {
     chosen = thinned(view.frames.size(), stride);
-    replay = still;
+    replay.parts.resize(still_parts);
     pack_poses(view, chosen, head, replay);
     pack_walls(view, chosen, head, replay);
-    if (chosen.size() <= 2 || page_bytes(replay, still.parts.size()) <= pose_room) break;
+    if (chosen.size() <= 2 || page_bytes(replay, still_parts) <= pose_room) break;
   }
-  const page::Replay poses = replay;
-  const size_t pose_bytes = page_bytes(poses, still.parts.size());
+  const size_t pose_parts = replay.parts.size(), pose_bytes = page_bytes(replay, still_parts);
   for (size_t stride = 1; has_contacts; stride *= 2) {
-    replay = poses;
+    replay.parts.resize(pose_parts);
     pack_contacts(view, chosen, stride, head, replay);
-    if (stride >= chosen.size() || pose_bytes + page_bytes(replay, poses.parts.size()) <= room)
-      break;
+    if (stride >= chosen.size() || pose_bytes + page_bytes(replay, pose_parts) <= room) break;
   }
   replay.head = head.dump();
   return replay;

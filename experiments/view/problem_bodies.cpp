@@ -129,7 +129,7 @@ ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameCon
   const std::vector<double>& friction = captured.problem.friction;
   if (!friction.empty()) view.friction = *std::max_element(friction.begin(), friction.end());
   view.frames = {{captured.time, captured.step, state.pose, state.velocity, state.spin}};
-  view.contacts = {std::move(contacts)};
+  view.contacts = [contacts](size_t) { return contacts; };
   return view;
 }
 

@@ -84,7 +84,7 @@ std::optional<ViewData> view_in_run(const fs::path& folder, const CapturedProble
       *std::min_element(frames.begin(), frames.end(), [&](const PoseFrame& a, const PoseFrame& b) {
         return std::abs(a.time - captured.time) < std::abs(b.time - captured.time);
       })};
-  view.contacts = {contacts_of(captured)};
+  view.contacts = [contacts = contacts_of(captured)](size_t) { return contacts; };
   return view;
 }
 

@@ -15,19 +15,19 @@ std::uint8_t srgb_byte(float linear) {
 
 }  // namespace
 
-Raster::Raster(int wide, int high)
+Raster::Raster(int wide, int high, bool with_owners)
     : width(wide),
       height(high),
       depth(static_cast<size_t>(wide) * static_cast<size_t>(high),
             std::numeric_limits<float>::infinity()),
-      owner(depth.size(), 0) {}
+      owner(with_owners ? depth.size() : 0, 0) {}
 
 void Raster::triangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t number) {
   scan_triangle(width, height, a, b, c, [&](int x, int y, float far) {
     const size_t here = at(x, y);
     if (far >= depth[here]) return;
     depth[here] = far;
-    owner[here] = number;
+    if (!owner.empty()) owner[here] = number;
   });
 }
 
@@ -48,13 +48,15 @@ std::string srgb_bytes(const Picture3& picture, int shrink) {
 }
 
 std::string png_of(const Picture3& picture, int shrink) {
-  const int width = picture.width / shrink, height = picture.height / shrink;
-  const std::string bytes = srgb_bytes(picture, shrink);
+  return png_of_bytes(srgb_bytes(picture, shrink), picture.width / shrink);
+}
+
+std::string png_of_bytes(const std::string& bytes, int width) {
   const auto row = 3 * static_cast<size_t>(width);
   std::string rows;
   for (size_t at = 0; at < bytes.size(); at += row)
     rows += '\0' + bytes.substr(at, row);  // no filter
-  std::string png = png_head(width, height, PngColour::truecolour);
+  std::string png = png_head(width, static_cast<int>(bytes.size() / row), PngColour::truecolour);
   append_png_chunk(png, "IDAT", deflated(rows, 9));
   append_png_chunk(png, "IEND", "");
   return png;

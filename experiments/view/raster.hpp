@@ -41,10 +41,10 @@ void scan_triangle(int width, int height, const Vec3& a, const Vec3& b, const Ve
 /// What is seen at each point of a picture: which triangle's number, how far, 0 for nothing.
 struct Raster {
   int width = 0, height = 0;
-  std::vector<float> depth;  ///< of the nearest so far: growing away from the eye
-  std::vector<std::uint32_t> owner;
+  std::vector<float> depth;          ///< of the nearest so far: growing away from the eye
+  std::vector<std::uint32_t> owner;  ///< empty: only depths are asked for
 
-  Raster(int wide, int high);
+  Raster(int wide, int high, bool with_owners = true);
   size_t at(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
   }
@@ -66,6 +66,8 @@ struct Picture3 {
 std::string srgb_bytes(const Picture3& picture, int shrink);
 /// As an 8-bit PNG.
 std::string png_of(const Picture3& picture, int shrink = 1);
+/// Of rows of `width` pixels that srgb_bytes() has given.
+std::string png_of_bytes(const std::string& bytes, int width);
 
 /// The beginning of a PNG: "truecolour" or "palette" with 8 bits.
 enum class PngColour : char { truecolour = 2, palette = 3 };

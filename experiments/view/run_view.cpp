@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
@@ -77,10 +78,15 @@ std::optional<ViewData> view_of_run(const RunData& run) {
   ViewData view;
   view.frames = read_poses(run.folder);
   if (view.frames.empty()) return std::nullopt;
+  for (PoseFrame& frame : view.frames) frame.spin = std::vector<Vec3>();  // nobody sees it
   MotionState state;
   view.system = recorded_system(run.folder, state);
   if (view.frames.front().pose.size() != view.system.bodies.size()) return std::nullopt;
-  if (is_there(record)) view.contacts = read_record_forces(record);
+  if (is_there(record)) {
+    const auto forces = std::make_shared<RecordForces>(record);
+    if (forces->frame_count() > 0)
+      view.contacts = [forces](size_t frame) { return forces->of_frame(frame); };
+  }
   if (run.scene) view.title = run.scene->title;
   view.friction = view.system.friction;
   view.driven_wall = driven_wall_of(run, view.system);

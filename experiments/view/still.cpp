@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "experiments/view/still_marks.hpp"
 #include "platform/text.hpp"
@@ -64,12 +65,13 @@ void draw_grains(const ViewData& view, const PoseFrame& frame, const Lens& camer
   }
 }
 
-/// What the eye sees, what the sun sees, and which faces these are.
+/// What the sun sees, and what the eye sees of some rows of the picture; which faces these are.
 struct Exposure {
   Lens camera, sunlight;
-  Raster seen, shadow;
+  std::vector<float> shadow = {};  // depths
+  Raster seen{0, 0};
   std::vector<Face> faces = {};
-  ViewBox box;
+  ViewBox box = {};
   double radius = 1.0;
 };
 
@@ -87,14 +89,13 @@ Exposure expose(const ViewData& view, size_t frame, const StillOptions& options)
   Exposure exposure{
       {axes_towards(back), centre + 3.4 * radius * back,
        0.5 * height / std::tan(0.5 * lens_angle) * narrow, double(width), double(height)},
-      {axes_towards(sun), centre, 0.49 * shadow_size / radius, shadow_size, shadow_size, true},
-      Raster(width, height),
-      Raster(shadow_size, shadow_size),
-      {},
-      box,
-      radius};
-  draw_grains(view, view.frames[frame], exposure.sunlight, exposure.shadow, exposure.faces);
-  draw_grains(view, view.frames[frame], exposure.camera, exposure.seen, exposure.faces);
+      {axes_towards(sun), centre, 0.49 * shadow_size / radius, shadow_size, shadow_size, true}};
+  exposure.box = box;
+  exposure.radius = radius;
+  if (options.with_chains) return exposure;  // glass has no shadow
+  Raster shadow(shadow_size, shadow_size, false);
+  draw_grains(view, view.frames[frame], exposure.sunlight, shadow, exposure.faces);
+  exposure.shadow = std::move(shadow.depth);
   return exposure;
 }
 
@@ -106,13 +107,14 @@ double light_at(const Exposure& exposure, int x, int y) {
   // the point itself, for its shadow
   const double w = -1.0 / static_cast<double>(exposure.seen.depth[here]);
   const Vec3 local((x + 0.5 - 0.5 * camera.width) * w / camera.scale,
-                   (0.5 * camera.height - y - 0.5) * w / camera.scale, -w);
+                   (0.5 * camera.height - camera.above - y - 0.5) * w / camera.scale, -w);
   const Vec3 point = camera.eye + camera.axes.transpose() * local;
   const Vec3 from_sun = exposure.sunlight * (point + 0.01 * exposure.radius * face.normal);
   const int sx = static_cast<int>(from_sun.x()), sy = static_cast<int>(from_sun.y());
   const bool is_lit =
       sx < 0 || sy < 0 || sx >= shadow_size || sy >= shadow_size ||
-      from_sun.z() <= static_cast<double>(exposure.shadow.depth[exposure.shadow.at(sx, sy)]);
+      from_sun.z() <=
+          double(exposure.shadow[static_cast<size_t>(sy) * shadow_size + static_cast<size_t>(sx)]);
   const double direct = is_lit ? std::max(0.0, face.normal.dot(sun)) : 0.0;
   const double light = 0.80 * direct + 0.42 * (0.54 + 0.46 * face.normal.z()) + 0.12;
   // edges are where another face begins
@@ -173,6 +175,55 @@ void draw_glass(const ViewData& view, const PoseFrame& frame, const Lens& camera
   }
 }
 
+/// One picture, in as many parts as one likes.
+class Still {
+ public:
+  Still(const ViewData& view, size_t frame, const StillOptions& options)
+      : view_(view),
+        frame_(view.frames[frame]),
+        options_(options),
+        exposure_(expose(view, frame, options)),
+        values_(values_of(view, frame, options.colour)),
+        walls_(walls_of(view, frame, exposure_.box)),
+        rods_(wall_rods(view, frame, exposure_.box)) {
+    if (!options.with_chains) return;
+    const std::vector<Rod> chains = chain_rods(view, frame);
+    rods_.insert(rods_.end(), chains.begin(), chains.end());
+  }
+
+  /// `count` rows of the finer picture, from row `first` on.
+  Picture3 rows(int first, int count) {
+    Lens& camera = exposure_.camera;
+    camera.above = first;
+    // one row more, where there is one: it says where edges are
+    const int width = static_cast<int>(camera.width),
+              height = std::min(count + 1, static_cast<int>(camera.height) - first);
+    exposure_.seen = Raster(width, height);
+    Picture3 picture{width, height, {}};
+    picture.pixels.assign(exposure_.seen.depth.size(), paper_white);
+    if (!options_.with_chains) {  // else nothing hides what is within
+      draw_grains(view_, frame_, camera, exposure_.seen, exposure_.faces);
+      draw_solid(exposure_, values_, options_, picture);
+    }
+    draw_rods(rods_, camera, exposure_.seen, picture);
+    if (options_.with_chains)
+      draw_glass(view_, frame_, camera, values_, options_, exposure_.seen, picture);
+    draw_walls(walls_, camera, exposure_.seen, picture);
+    picture.height = count;
+    picture.pixels.resize(picture.at(0, count));
+    return picture;
+  }
+
+ private:
+  const ViewData& view_;
+  const PoseFrame& frame_;
+  const StillOptions& options_;
+  Exposure exposure_;
+  Values values_;
+  std::vector<WallPatch> walls_;
+  std::vector<Rod> rods_;
+};
+
 }  // namespace
 
 void set_view(StillOptions& options, const std::string& word) {
@@ -201,26 +252,17 @@ void set_colour(StillOptions& options, const std::string& word) {
 }
 
 Picture3 still_picture(const ViewData& view, size_t frame, const StillOptions& options) {
-  Exposure exposure = expose(view, frame, options);
-  const Values values = values_of(view, frame, options.colour);
-  const Lens& camera = exposure.camera;
-  Picture3 picture{exposure.seen.width, exposure.seen.height, {}};
-  picture.pixels.assign(exposure.seen.owner.size(), paper_white);
-  if (options.with_chains)
-    exposure.seen = Raster(picture.width, picture.height);  // nothing hides what is within
-  else
-    draw_solid(exposure, values, options, picture);
-  draw_rods(wall_rods(view, frame, exposure.box), camera, exposure.seen, picture);
-  if (options.with_chains) {
-    draw_rods(chain_rods(view, frame), camera, exposure.seen, picture);
-    draw_glass(view, view.frames[frame], camera, values, options, exposure.seen, picture);
-  }
-  draw_walls(walls_of(view, frame, exposure.box), camera, exposure.seen, picture);
-  return picture;
+  return Still(view, frame, options).rows(0, still_finer * options.height);
 }
 
 std::string still_png(const ViewData& view, size_t frame, const StillOptions& options) {
-  return png_of(still_picture(view, frame, options), still_finer);
+  // an eighth of the picture at a time: drawn finer, it takes twenty times its bytes and more
+  Still still(view, frame, options);
+  const int height = still_finer * options.height, most = still_finer * ((options.height + 7) / 8);
+  std::string bytes;
+  for (int first = 0; first < height; first += most)
+    bytes += srgb_bytes(still.rows(first, std::min(most, height - first)), still_finer);
+  return png_of_bytes(bytes, options.width);
 }
 
 }  // namespace ballast

@@ -26,7 +26,7 @@ struct Chain {
 std::vector<Chain> chains_in(const ViewData& view, size_t frame) {
   std::map<std::pair<int, int>, Chain> pairs;
   const auto centre = [&](int body) { return view.frames[frame].pose[static_cast<size_t>(body)]; };
-  for (const FrameContact& contact : view.contacts[frame]) {
+  for (const FrameContact& contact : view.contacts(frame)) {
     const auto [a, b] = std::minmax(contact.body_a, contact.body_b);  // walls come after grains
     Chain& chain = pairs[{a, b}];
     if (chain.force == 0.0) {
@@ -191,8 +191,8 @@ std::vector<Rod> wall_rods(const ViewData& view, size_t frame, const ViewBox& bo
 }
 
 std::vector<Rod> chain_rods(const ViewData& view, size_t frame) {
-  if (view.contacts.empty()) return {};
-  if (view.contacts[frame].empty() && frame == 0 && view.frames.size() > 1) frame = 1;
+  if (!view.contacts) return {};
+  if (view.contacts(frame).empty() && frame == 0 && view.frames.size() > 1) frame = 1;
   const std::vector<Chain> chains = chains_in(view, frame);
   const double top = top_force(view), reach = mean_reach(view);
   double mean = 0.0;

@@ -59,13 +59,14 @@ ViewData view_of_packing(const fs::path& file, const std::vector<Scene>& scenes)
     MotionState state;
     MechanicalSystem system = drive_system(scene, make_rain(scene), packing, state);
     ViewData view = view_of_state(std::move(system), state, file.filename().string());
-    view.contacts.resize(1);
+    std::vector<FrameContact> contacts;
     const StepMemory& memory = packing.memory;
     for (size_t c = 0; c < memory.contacts.size(); ++c)
       if (const Vec3 force = memory.impulses[c] / scene.deposit.settle_step; !force.isZero())
-        view.contacts[0].push_back({memory.contacts[c].body_a, memory.contacts[c].body_b,
-                                    memory.contacts[c].position.cast<float>(),
-                                    memory.contacts[c].normal.cast<float>(), force.cast<float>()});
+        contacts.push_back({memory.contacts[c].body_a, memory.contacts[c].body_b,
+                            memory.contacts[c].position.cast<float>(),
+                            memory.contacts[c].normal.cast<float>(), force.cast<float>()});
+    view.contacts = [contacts](size_t) { return contacts; };
     return view;
   }
   throw Error(file.string() +

@@ -1,6 +1,7 @@
 #pragma once
 // What a page's replay shows, before it is packed: bodies at some moments, contacts, curves.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,9 @@ struct ViewData {
   MechanicalSystem system;
   bool has_shapes = true;         ///< false: bodies are drawn about what is known of them
   std::vector<PoseFrame> frames;  ///< at least one
-  /// Of each frame, those with a force; empty: none are known.
-  std::vector<std::vector<FrameContact>> contacts;
+  /// Those with a force of a frame, by its number; empty: none are known. A run's are read when
+  /// they are asked for.
+  std::function<std::vector<FrameContact>(size_t frame)> contacts;
   double friction = 0.0;
   int driven_wall = -1;  ///< moves as the series "x" says, outward [mm]; -1: none
   std::vector<double> series_time;

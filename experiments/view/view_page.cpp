@@ -3,19 +3,23 @@
 #include "experiments/page/html.hpp"
 #include "experiments/view/pack_view.hpp"
 #include "experiments/view/still.hpp"
-#include "platform/atomic_file.hpp"
+#include "platform/kept_memory.hpp"
 
 namespace ballast {
 
 page::Replay replay_of(const ViewData& view) {
-  page::Replay replay = pack_view(view);
   const bool moves = view.frames.size() > 1;
-  replay.still =
+  give_memory_back();  // of reading
+  // the picture first: its room is free again when the data need theirs
+  std::string still =
       still_png(view, 0, {.width = 640, .height = 420, .colour = moves ? "speed" : "size"});
+  give_memory_back();  // of drawing
+  page::Replay replay = pack_view(view);
+  replay.still = std::move(still);
   replay.caption = page::words(moves ? "view.motion" : "view.still");
   if (!view.errors.empty()) replay.caption += page::words("view.errors");
   if (!view.has_shapes) replay.caption += page::words("view.no_shapes");
-  if (view.errors.empty() && moves && view.contacts.empty())
+  if (view.errors.empty() && moves && !view.contacts)
     replay.caption += page::words("view.no_forces");
   return replay;
 }
@@ -23,8 +27,10 @@ page::Replay replay_of(const ViewData& view) {
 void write_view_page(const ViewData& view, const std::filesystem::path& file) {
   page::Page page;
   page.title = view.title;
-  page.add({"motion", view.errors.empty() ? "In 3D" : "The error in space", {replay_of(view)}});
-  write_whole_file(file, html_of(page));
+  page::Section motion{"motion", view.errors.empty() ? "In 3D" : "The error in space"};
+  motion.add(replay_of(view));
+  page.add(std::move(motion));
+  write_html_file(file, page);
 }
 
 }  // namespace ballast

@@ -46,14 +46,15 @@ class Momentum {
 
   /// Where a quarter more sweeps gained less than a tenth, momentum goes round without end: plain
   /// sweeps follow, the more the more often that was so.
-  bool gives_up(double error) {
+  void see(double error) {
     best_ = std::min(best_, error);
-    if (resting_ > 0 || total_ < std::max(first_mark, 5 * mark_ / 4)) return false;
+    if (resting_ > 0 || total_ < std::max(first_mark, 5 * mark_ / 4)) return;
     if (best_ > 0.9 * best_at_mark_) resting_ = ++losses_ * total_ / 4;
     mark_ = total_;
     best_at_mark_ = best_;
-    return false;
   }
+  /// A search ends by what its sweeps change, in next().
+  static constexpr bool begins_anew() { return false; }
 
  private:
   void begin_search(double square) {

@@ -30,11 +30,11 @@ class FletcherReeves {
     return {.beta = beta, .gain = 1.0};
   }
 
-  bool gives_up(double error) {
+  void see(double error) {
     accelerates_ = !accelerates_ || error < last_error_;
     last_error_ = error;
-    return !accelerates_;
   }
+  bool begins_anew() const { return !accelerates_; }
 
  private:
   bool begins_ = true, accelerates_ = true;

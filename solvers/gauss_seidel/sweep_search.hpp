@@ -70,7 +70,8 @@ class SweptChange {
 /// The backend that a rule makes of it. `Rule` has
 ///   void forget();                    the search begins at the current iterate
 ///   SearchStep next(double square);   of the next sweep; square: what the last one changed
-///   bool gives_up(double error);      told at each look: the search begins anew
+///   void see(double error);           told at each look
+///   bool begins_anew() const;         asked after it: the search ends, and begins at the iterate
 template <typename Rule>
 class SweepSearch final : public Solver {
  public:
@@ -103,7 +104,7 @@ class SweepSearch final : public Solver {
     load();
     search.sweep.store(problem, r);
     const double first_error = search.sweep.error();
-    rule.gives_up(first_error);
+    rule.see(first_error);
     iteration.evaluated(first_error, r);
     double square = 0.0;
     while (iteration.next()) {
@@ -112,7 +113,8 @@ class SweepSearch final : public Solver {
       const double error = swept_error(search.sweep, problem, iteration, r, load);
       iteration.evaluated(error, r);
       change.seen(iteration.count(), square, error);
-      if (rule.gives_up(error)) begin();
+      rule.see(error);
+      if (rule.begins_anew()) begin();
     }
     return iteration.finish(std::move(r));
   }

@@ -140,8 +140,9 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
   browser.js(chosen("cut", "", "change"));
   // every pair of bodies that push on each other is a chain
   std::set<std::pair<int, int>> pairs;
-  const auto forces = read_record_forces(box.folder / "record.h5");
-  for (const FrameContact& contact : forces.back()) pairs.emplace(contact.body_a, contact.body_b);
+  const RecordForces forces(box.folder / "record.h5");
+  for (const FrameContact& contact : forces.of_frame(forces.frame_count() - 1))
+    pairs.emplace(contact.body_a, contact.body_b);
   browser.js(clicked("chains"));
   browser.js(chosen("threshold", "0", "input"));
   picture(browser);

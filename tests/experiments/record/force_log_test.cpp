@@ -95,7 +95,7 @@ TEST_CASE("the contacts of every frame are read back, those without force left o
     Recorder recorder(folder.path(), system, 0, false);
     record_with_forces(recorder, system, 0, 5);
     recorder.finish("", "");
-    CHECK(read_record_forces(record).empty());
+    CHECK(RecordForces(record).frame_count() == 0);
   }
   Recorder recorder(folder.path(), system, 0, true);
   record_with_forces(recorder, system, 0, 20);
@@ -106,13 +106,14 @@ TEST_CASE("the contacts of every frame are read back, those without force left o
   recorder.add_poses(state);
   recorder.add_forces(state, memory, step_length);
   recorder.finish("", "");
-  const auto frames = read_record_forces(record);
-  REQUIRE(frames.size() == 6);
+  const RecordForces forces(record);
+  REQUIRE(forces.frame_count() == 6);
   for (size_t k = 0; k < 6; ++k)
-    CHECK(frames[k].size() == std::vector<size_t>{0, 1, 2, 3, 0, 1}[k]);
-  const FrameContact& last = frames[3][2];
+    CHECK(forces.of_frame(k).size() == std::vector<size_t>{0, 1, 2, 3, 0, 1}[k]);
+  const FrameContact last = forces.of_frame(3)[2];
   CHECK((last.body_a == 2 && last.body_b == 3));
   CHECK(last.position == Eigen::Vector3f(15.2f, -15.2f, 30.4f));
   CHECK(last.normal == Eigen::Vector3f::UnitZ());
   CHECK_THAT(last.force.z(), Catch::Matchers::WithinRel(15.2f, 1e-6f));
+  CHECK_THAT(run_error([&] { forces.of_frame(6); }), Contains("has no contacts of frame 6"));
 }

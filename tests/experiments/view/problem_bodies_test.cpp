@@ -71,9 +71,10 @@ TEST_CASE("a problem alone knows where its bodies are: there where the run has t
   CHECK_FALSE(alone.has_shapes);
   CHECK(alone.errors[0].error == in_run.errors[0].error);
   REQUIRE(alone.system.grain_count == in_run.system.grain_count);
-  REQUIRE(alone.contacts[0].size() == in_run.contacts[0].size());
-  for (size_t c = 0; c < alone.contacts[0].size(); ++c) {
-    const FrameContact &mine = alone.contacts[0][c], &known = in_run.contacts[0][c];
+  const auto contacts = alone.contacts(0), known_contacts = in_run.contacts(0);
+  REQUIRE(contacts.size() == known_contacts.size());
+  for (size_t c = 0; c < contacts.size(); ++c) {
+    const FrameContact &mine = contacts[c], &known = known_contacts[c];
     for (const auto& [body, other] :
          {std::pair(mine.body_a, known.body_a), std::pair(mine.body_b, known.body_b)}) {
       const auto b = static_cast<size_t>(body), o = static_cast<size_t>(other);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiments/run/run.hpp"
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -56,10 +57,11 @@ TEST_CASE("bodies without a driven wall have the energy's curve, and forces wher
   REQUIRE(view);
   CHECK(view->driven_wall == -1);
   CHECK((series_of(*view, "energy") && !series_of(*view, "x")));
-  REQUIRE(view->contacts.size() == view->frames.size());
-  CHECK_FALSE(view->contacts.back().empty());
+  REQUIRE(view->contacts);
+  CHECK_FALSE(view->contacts(view->frames.size() - 1).empty());
+  CHECK_THROWS_AS(view->contacts(view->frames.size()), Error);
   CHECK(view->friction > 0.0);
-  CHECK(view_of_run(finished_run(other, "incline", {"scene.duration=0.03"}))->contacts.empty());
+  CHECK_FALSE(view_of_run(finished_run(other, "incline", {"scene.duration=0.03"}))->contacts);
 }
 
 }  // namespace

@@ -85,9 +85,11 @@ TEST_CASE("a chain joins the centres of two grains, where without it one sees wh
                                      {2, {0.3, 0.3, 0.44}}})
     view.frames[0].pose[grain].position = place;
   const Eigen::Vector3f middle(0.3f, 0.3f, 0.25f), along = Eigen::Vector3f::UnitX();
-  view.contacts = {{{0, 1, middle, along, 4.0f * along},
-                    {1, 0, middle, -along, -4.0f * along},
-                    {1, 2, middle, along, 1.0f * along}}};
+  view.contacts = [&](size_t) {
+    return std::vector<FrameContact>{{0, 1, middle, along, 4.0f * along},
+                                     {1, 0, middle, -along, -4.0f * along},
+                                     {1, 2, middle, along, 1.0f * along}};
+  };
   const std::vector<Rod> rods = chain_rods(view, 0);
   REQUIRE(rods.size() == 1);  // the weak one is below the mean
   CHECK((rods[0].from - view.frames[0].pose[0].position).norm() < 1e-12);

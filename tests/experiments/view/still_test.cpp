@@ -52,6 +52,18 @@ TEST_CASE("a cube seen along an axis is a square in the middle, as large as the 
   CHECK(std::abs(static_cast<double>(high) - size) <= 1.5);
 }
 
+TEST_CASE("a picture that is drawn part by part is the whole one, its edges and shadows too") {
+  StillOptions options;
+  options.width = 90;
+  options.height = 77;  // no multiple of the parts
+  ViewData view = one_cube();
+  for (const auto& [way, chains] : {std::pair("home", false), {"20,50", false}, {"home", true}}) {
+    set_view(options, way);
+    options.with_chains = chains;
+    CHECK((still_png(view, 0, options) == png_of(still_picture(view, 0, options), still_finer)));
+  }
+}
+
 TEST_CASE("views and colours by name") {
   StillOptions options;
   set_view(options, "30,-12.5");

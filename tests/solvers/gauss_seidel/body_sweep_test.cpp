@@ -64,14 +64,7 @@ TEST_CASE(
   slow.impulse_weights(weights);
   Twin twin(slow_state.size());
 
-  for (const SearchStep step : {SearchStep{0.0, 0.0},
-                                {0.0, 1.0},
-                                {0.7, 1.0},
-                                {0.3, 1.0},
-                                {0.0, 1.0},
-                                {0.9, 1.0},
-                                {0.5, 0.0, 0.5},
-                                {0.6, 0.2, 0.3}}) {
+  for (const SearchStep step : samples::all_search_steps) {
     const double fast_square = fast.sweep(step),
                  slow_square = twin.sweep(slow, step, weights.size());
     CHECK(fast_square == Approx(slow_square).epsilon(1e-12));

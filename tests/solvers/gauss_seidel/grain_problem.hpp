@@ -7,6 +7,7 @@
 
 #include "platform/random.hpp"
 #include "problems/algebra/friction_problem.hpp"
+#include "solvers/gauss_seidel/search_step.hpp"
 
 namespace ballast::samples {
 
@@ -86,6 +87,11 @@ class GrainProblem {
 
   Random random_;
 };
+
+/// Plain sweeps, searches along what the last sweeps changed, and momentum.
+inline constexpr SearchStep all_search_steps[] = {{0.0, 0.0},      {0.0, 1.0},     {0.7, 1.0},
+                                                  {0.3, 1.0},      {0.0, 1.0},     {0.9, 1.0},
+                                                  {0.5, 0.0, 0.5}, {0.6, 0.2, 0.3}};
 
 inline FrictionProblem grain_problem(const GrainSettings& settings = {}) {
   return GrainProblem(settings).problem;

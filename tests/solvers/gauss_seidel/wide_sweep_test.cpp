@@ -157,14 +157,7 @@ TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step
   slow.sweep.impulse_weights(weights);
   slow.sweep.save(x);
   Eigen::VectorXd before = x, direction = Eigen::VectorXd::Zero(x.size());
-  for (const SearchStep step : {SearchStep{0.0, 0.0},
-                                {0.0, 1.0},
-                                {0.7, 1.0},
-                                {0.3, 1.0},
-                                {0.0, 1.0},
-                                {0.9, 1.0},
-                                {0.5, 0.0, 0.5},
-                                {0.6, 0.2, 0.3}}) {
+  for (const SearchStep step : samples::all_search_steps) {
     const double square = fast.sweep.sweep(step);
     // The twin: the formula on impulses and velocities as one vector.
     slow.sweep.save(x);
