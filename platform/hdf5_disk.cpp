@@ -111,18 +111,10 @@ void Hdf5Disk::attempt(const Work& work) {
 
 void Hdf5Disk::write(std::uint64_t offset, std::string_view bytes) {
   if (!failure_) attempt([&] { file_.write_at(offset, bytes); });
-  if (failure_) unwritten_.push_back({offset, std::string(bytes)});
 }
 
 void Hdf5Disk::read(std::uint64_t offset, std::span<char> bytes) {
   attempt([&] { file_.read_at(offset, bytes); });
-  const std::uint64_t end = offset + bytes.size();
-  for (const Block& block : unwritten_) {
-    const std::uint64_t first = std::max(offset, block.offset),
-                        last = std::min<std::uint64_t>(end, block.offset + block.bytes.size());
-    if (first < last)
-      block.bytes.copy(bytes.data() + (first - offset), last - first, first - block.offset);
-  }
 }
 
 void Hdf5Disk::set_length(std::uint64_t bytes) {

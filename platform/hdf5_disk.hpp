@@ -1,17 +1,14 @@
 #pragma once
 // The disk as HDF5 sees it while it makes a file: one that never fills up. HDF5 cannot recover from
 // a write that fails: its handles would stay open, and the end of the program would try again. So
-// it is told that every write went well, and finds again what it wrote; the first failure is kept
-// and thrown to whoever asks.
+// it is told that every write went well; the first failure is kept and thrown to whoever asks.
 
 #include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "platform/atomic_file.hpp"
 
@@ -32,24 +29,18 @@ class Hdf5Disk {
   /// The file takes its name. Its handle must be closed by then.
   void commit();
 
-  // What HDF5 asks for.
+  // What HDF5 asks for. After a failure nothing is written any more.
   void write(std::uint64_t offset, std::string_view bytes);
   void read(std::uint64_t offset, std::span<char> bytes);
   void set_length(std::uint64_t bytes);
 
  private:
-  struct Block {
-    std::uint64_t offset;
-    std::string bytes;
-  };
-
   /// Keeps the first failure.
   template <class Work>
   void attempt(const Work& work);
 
   AtomicFile file_;
   std::exception_ptr failure_;
-  std::vector<Block> unwritten_;  // in memory since the failure: the last metadata
 };
 
 }  // namespace ballast

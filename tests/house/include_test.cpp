@@ -41,6 +41,7 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"nlopt.h", {"solvers/backends/nlopt", "tests/solvers/backends/nlopt"}},
     {"siconos/", {"solvers/backends/siconos"}},
     {"immintrin.h", {"solvers/gauss_seidel/lanes_"}},  // the processor's own operations
+    {"link.h", {"platform/kept_memory"}},              // of the GNU C library
     {"malloc.h", {"platform/kept_memory"}},            // of the GNU C library
     {"catch2/", {"tests/catch.hpp", "tests/test_main.cpp"}},
 };

@@ -21,10 +21,10 @@ namespace {
 void write_much(const fs::path& path) {
   Hdf5Writer writer(path, Hdf5Storage::plain);
   writer.add("x", std::vector<double>(250000, 1.5));
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < 6000; ++k) {
     const std::string name = "group " + std::to_string(k);
     writer.add_group(name);
-    writer.add_attribute(name, "text", std::string(5000, 't'));
+    writer.add_attribute(name, "text", std::string(300, 't'));
   }
   writer.commit();
 }
