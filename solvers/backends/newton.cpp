@@ -29,6 +29,7 @@ class Newton final : public Solver {
   explicit Newton(const NewtonSettings& settings) : settings_(settings) {}
 
   void prepare(const FrictionProblem& problem) override { step_.prepare(problem); }
+  void use_team(WorkerTeam* team) override { step_.use_team(team); }
   double operations() const override { return step_.operations(); }
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
@@ -80,12 +81,16 @@ class ProximalNewton final : public Solver {
     start_->prepare(problem);
     step_.prepare(problem);
   }
+  void use_team(WorkerTeam* team) override {
+    start_->use_team(team);
+    step_.use_team(team);
+  }
 
   double operations() const override { return step_.operations(); }
 
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    step_.begin(settings_.equation, rho_factors[0], std::move(r));
+    step_.begin(settings_.equation, settings_.rho_factors[0], std::move(r));
     Best best{step_.impulses(), step_.error()};
     // The start is swept first, a warm one too: Newton converges from near by only, and of a warm
     // start hundreds of contacts have another status by now.
@@ -113,7 +118,7 @@ class ProximalNewton final : public Solver {
       } else {
         ++failures;
         weight = std::min(1e3, weight * 4.0);
-        step_.set_rho_factor(rho_factors[failures % 3]);
+        step_.set_rho_factor(settings_.rho_factors[failures % 3]);
         // sweeps mend locally what misled Newton: contacts that opened or began to slip
         step_.restart(swept(problem, step_.impulses(), settings_.mending_sweeps,
                             budget.max_seconds - iteration.seconds(), budget));
@@ -127,8 +132,6 @@ class ProximalNewton final : public Solver {
   }
 
  private:
-  static constexpr double rho_factors[3] = {10.0, 100.0, 1.0};
-
   Impulses swept(const FrictionProblem& problem, Impulses r, int count, double seconds,
                  const Budget& budget) {
     const Budget sweeps{.tolerance = budget.tolerance,

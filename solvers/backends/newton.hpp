@@ -1,6 +1,7 @@
 #pragma once
 // Semismooth Newton on Coulomb's law of all contacts, plain or inside proximal-point steps.
 
+#include <array>
 #include <memory>
 
 #include "solvers/parts/contact_equation.hpp"
@@ -21,10 +22,12 @@ std::unique_ptr<Solver> make_newton(const NewtonSettings& settings);
 
 struct ProximalNewtonSettings {
   ContactEquation equation = ContactEquation::alart_curnier;
-  int start_sweeps = 200;        ///< before the first step
-  bool accelerated = false;      ///< sweeps have nesterov_pgs' momentum
-  int mending_sweeps = 50;       ///< after a proximal step that failed
-  double first_weight = 1e-3;    ///< alpha rho of the first proximal step
+  int start_sweeps = 200;      ///< before the first step
+  bool accelerated = false;    ///< sweeps have nesterov_pgs' momentum
+  int mending_sweeps = 50;     ///< after a proximal step that failed
+  double first_weight = 1e-3;  ///< alpha rho of the first proximal step
+  /// rho lambda_max(W_cc): the first, and which one follows after a failed step.
+  std::array<double, 3> rho_factors{10.0, 100.0, 1.0};
   double inner_reduction = 0.5;  ///< of the residual that an inner Newton must reach
   int inner_steps = 12;          ///< Newton steps, after which a proximal step has failed
   double patience = 0.375;  ///< part of the budget's iterations without halving the error, after

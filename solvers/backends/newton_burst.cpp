@@ -6,17 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "solvers/backends/interior_jump.hpp"
 #include "solvers/backends/nesterov_pgs.hpp"
+#include "solvers/backends/newton.hpp"
 #include "solvers/parts/regular_newton.hpp"
 #include "solvers/seam/course.hpp"
 
 namespace ballast {
 namespace {
 
-constexpr double smallest_epsilon = 1e-8, largest_epsilon = 0.1;
-
-double raised(double epsilon, double factor) { return std::min(largest_epsilon, factor * epsilon); }
+double raised(double epsilon) { return std::min(0.1, 4.0 * epsilon); }
 
 /// How many more sweeps a solve will take. Their error falls about like a power of their number,
 /// whose exponent is small in jams.
@@ -44,7 +42,10 @@ class SweepPace {
 class NewtonBurst final : public Solver {
  public:
   explicit NewtonBurst(const NewtonBurstSettings& settings)
-      : settings_(settings), sweeps_(make_nesterov_pgs()) {}
+      : settings_(settings),
+        sweeps_(make_nesterov_pgs()),
+        walk_(make_proximal_newton(
+            {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}})) {}
 
   void prepare(const FrictionProblem& problem) override {
     if (!problem.has_dynamics)
@@ -59,7 +60,11 @@ class NewtonBurst final : public Solver {
 
   double operations() const override { return is_ready_ ? newton_.operations() : 0.0; }
 
-  void use_team(WorkerTeam* team) override { sweeps_->use_team(team); }
+  void use_team(WorkerTeam* team) override {
+    sweeps_->use_team(team);
+    newton_.use_team(team);
+    walk_->use_team(team);
+  }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;
@@ -92,22 +97,16 @@ class NewtonBurst final : public Solver {
     at = newton_.iterate(course.best());
     double error = newton_.settle(at);
     descend(course, at, error, end);
-    if (!course.over()) endgame(course, at, error);
-    jump_about(course, at, scale);
+    if (course.over()) return course.finish();
+    walk_->prepare(*problem_);
+    course.factor_by(*walk_, *problem_, settings_.most_steps);
     return course.finish();
   }
-
-  /// How a proximal step's Newton method ended.
-  struct Inner {
-    bool converged;
-    int steps;
-  };
 
   /// Ordering and analysis cost as much as hundreds of sweeps, and most solves do without.
   void make_ready() {
     if (is_ready_) return;
     newton_.prepare(*problem_);
-    interior_.prepare(newton_.contacts(), newton_.system());
     is_ready_ = true;
   }
 
@@ -143,7 +142,7 @@ class NewtonBurst final : public Solver {
       newton_.linearise(at);
       course.factored();
       if (!newton_.step(change_)) {
-        epsilon = raised(epsilon, 4.0);
+        epsilon = raised(epsilon);
         ++slow;
         continue;
       }
@@ -160,7 +159,7 @@ class NewtonBurst final : public Solver {
       }
       // Less compliance where a round gained much, more where it lost; back where it lost much.
       if (after < 0.4 * error) epsilon = std::max(1e-6, 0.5 * epsilon);
-      if (after > error) epsilon = raised(epsilon, 4.0);
+      if (after > error) epsilon = raised(epsilon);
       slow = after > 0.97 * error ? slow + 1 : 0;
       // Twice in a row sweeps undid what the step had gained: what is left are long waves.
       undone = is_undone ? undone + 1 : 0;
@@ -172,115 +171,13 @@ class NewtonBurst final : public Solver {
     }
   }
 
-  /// Proximal-point steps by Newton alone: sweeps after a converged step would undo its long waves.
-  /// Ends where steps fail one after the other, or gain little for long.
-  void endgame(Course& course, NewtonIterate& at, double& error) {
-    constexpr int most_failures = 4, most_slow_steps = 15;
-    double epsilon = settings_.epsilon, halved = error;
-    int failures = 0, slow = 0;
-    while (!course.over() && failures < most_failures && slow < most_slow_steps) {
-      const NewtonIterate before = at;
-      const Inner inner = proximal_step(course, at, error, epsilon);
-      const double after = newton_.settle(at);
-      offer(course, at, after);
-      if (inner.converged && after < 1.5 * error) {
-        // The next step may go further, the easier this one was.
-        epsilon *= inner.steps <= 2 ? 0.2 : inner.steps <= 3 ? 0.4 : inner.steps <= 5 ? 0.7 : 1.0;
-        epsilon = std::max(epsilon, smallest_epsilon);
-        failures = 0;
-        error = after;
-      } else if (after < 0.9 * error) {
-        epsilon = raised(epsilon, 2.0);
-        error = after;
-      } else {
-        epsilon = raised(epsilon, 3.0);
-        at = before;
-        ++failures;
-      }
-      ++slow;
-      if (error > 0.5 * halved) continue;
-      halved = error;
-      slow = 0;
-    }
-  }
-
-  /// From wherever the proximal steps are stuck: sweeps from the best iterate, interior-point steps
-  /// from there or from no impulses at all, and proximal steps again where one of them came near a
-  /// solution; every third time also where none did.
-  void jump_about(Course& course, NewtonIterate& at, double scale) {
-    double halved = course.error();
-    for (int waited = 0, jumps = 0; !course.over() && waited < settings_.patience; ++jumps) {
-      at = newton_.iterate(course.best());
-      double error = burst(course, at, settings_.jump);
-      if (course.over()) return;
-      NewtonIterate there = at;
-      if (jumps % 2 == 1) there.r.setZero();
-      const double landed = interior_.run(course, there.r, jumps, scale, settings_.endgame);
-      if (landed < settings_.landed * scale) {
-        error = landed;
-        at = std::move(there);
-        newton_.settle(at);
-        endgame(course, at, error);
-      } else if (jumps % 3 == 2 && !course.over()) {
-        endgame(course, at, error);
-      }
-      ++waited;
-      if (course.error() > 0.5 * halved) continue;
-      halved = course.error();
-      waited = 0;
-    }
-  }
-
-  /// Newton steps on the law regularised around `at`, until the residual is a third of the error
-  /// there. `at` is left wherever they ended.
-  Inner proximal_step(Course& course, NewtonIterate& at, double error, double epsilon) {
-    constexpr double enough = 0.3;
-    constexpr int most_stalled = 3;
-    const int many = newton_.contacts().contact_count() / 8;
-    newton_.set_centre(at.r, epsilon);
-    double residual = error, least = std::numeric_limits<double>::max();
-    for (int k = 0, stalled = 0;; ++k) {
-      const int changed = newton_.linearise(at);
-      if (k > 0) {
-        if (residual < enough * error) return {true, k};
-        stalled = residual < 0.7 * least ? 0 : stalled + 1;
-        least = std::min(least, residual);
-      }
-      if (k >= settings_.inner_steps || stalled > most_stalled || (k > 1 && changed > many) ||
-          course.over())
-        return {false, k};
-      course.factored();
-      if (!newton_.step(change_)) return {false, k};
-      // The first step is taken whole: it always raises the residual. Later ones are shortened.
-      residual = advance(at, residual, k == 0 ? 1 : 4);
-    }
-  }
-
-  /// Along change_: t = 1, 1/2, 1/4, ... until the residual falls by enough, at most so many
-  /// trials; then the best of them. Returns the residual there [m/s].
-  double advance(NewtonIterate& at, double before, int trials) {
-    double t = 1.0, least = std::numeric_limits<double>::max();
-    for (int k = 0; k < trials; ++k, t *= 0.5) {
-      trial_.r = at.r + t * change_.r;
-      trial_.x = at.x + t * change_.x;
-      const double there = newton_.residual(trial_);
-      if (k == 0 || there < least) {
-        least = there;
-        std::swap(best_trial_, trial_);
-      }
-      if (there < (1.0 - 0.3 * t) * before) break;
-    }
-    std::swap(at, best_trial_);
-    return least;
-  }
-
   NewtonBurstSettings settings_;
   std::unique_ptr<Solver> sweeps_;
   RegularNewton newton_;
-  InteriorJump interior_;
-  bool is_ready_ = false;  ///< these two are prepared for problem_
+  std::unique_ptr<Solver> walk_;  ///< proximal-point steps that may go through worse places
+  bool is_ready_ = false;         ///< newton_ is prepared for problem_
   const FrictionProblem* problem_ = nullptr;
-  NewtonIterate change_, trial_, best_trial_;
+  NewtonIterate change_;
   Impulses impulses_;
 };
 

@@ -1,7 +1,8 @@
 #pragma once
 // Accelerated sweeps as long as they promise to arrive; then Newton steps on Coulomb's law of all
-// contacts, regularised, with every contact's status guessed and the linear systems solved exactly;
-// between them bursts of sweeps, then alone. So one backend serves loose and tight tolerances.
+// contacts, regularised, with every contact's status guessed and the linear systems solved exactly,
+// and bursts of sweeps between them; then proximal-point steps by Newton alone (newton.hpp). So one
+// backend serves loose and tight tolerances.
 //
 // What each part is for: a Newton step carries impulses across the whole packing, as far as the
 // statuses that it guessed are right; sweeps put statuses right, contact by contact. From an error
@@ -19,15 +20,11 @@ struct NewtonBurstSettings {
   /// factorisation for some thousand contacts and the first Newton steps cost.
   int promised_sweeps = 2000;
   int burst = 200;  ///< sweeps after a Newton step, at most
-  int jump = 200;   ///< sweeps before a jump, where the proximal steps are stuck
   /// The compliance to begin with, as a part of lambda_max(W_cc).
   double epsilon = 3e-4;
   /// Below this part of the error at zero impulse there are no more bursts.
   double endgame = 1e-4;
-  /// Below this part of it a jump has come near enough to a solution to go on from there.
-  double landed = 4e-3;
-  int inner_steps = 10;  ///< Newton steps after which a proximal step has failed
-  int patience = 20;     ///< jumps without halving the error, after which it gives up (stalled)
+  int most_steps = 1000;  ///< Newton steps of the end, at most
 };
 
 /// Iterations count sweeps and factorisations alike. Needs the dynamics form.

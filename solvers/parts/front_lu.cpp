@@ -1,53 +1,14 @@
 #include "solvers/parts/front_lu.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "platform/for_each_cpu.hpp"
-
-// BLAS under its Fortran names, which every BLAS has.
-extern "C" {
-void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
-            const int* k, const double* alpha, const double* a, const int* stride_a,
-            const double* b, const int* stride_b, const double* beta, double* c,
-            const int* stride_c);
-void dtrsm_(const char* side, const char* triangle, const char* transpose, const char* diagonal,
-            const int* m, const int* n, const double* alpha, const double* a, const int* stride_a,
-            double* b, const int* stride_b);
-}
+#include "solvers/parts/dense_kernels.hpp"
 
 namespace ballast {
 namespace {
-
-/// C -= A B: A is m x k, B k x n, column-major with strides.
-void subtract_product(int m, int n, int k, const double* a, int stride_a, const double* b,
-                      int stride_b, double* c, int stride_c) {
-  const double minus_one = -1.0, one = 1.0;
-  dgemm_("N", "N", &m, &n, &k, &minus_one, a, &stride_a, b, &stride_b, &one, c, &stride_c);
-}
-
-/// B := L^-1 B: L unit lower triangular, m x m; B is m x n.
-void solve_unit_lower(int m, int n, const double* l, int stride_l, double* b, int stride_b) {
-  const double one = 1.0;
-  dtrsm_("L", "L", "N", "U", &m, &n, &one, l, &stride_l, b, &stride_b);
-}
-
-/// A tall strip of `columns` columns, factored in place from its first row on.
-BALLAST_FOR_EACH_CPU
-void factor_strip(double* a, int stride, int rows, int columns) {
-  // Column by column: what is below the pivot becomes a column of L, and its product with the
-  // pivot's row is taken from the rest of the strip.
-  for (int k = 0; k < columns; ++k) {
-    double* __restrict pivot_column = a + static_cast<std::int64_t>(k) * stride;
-    const double inverse = 1.0 / pivot_column[k];
-    for (int i = k + 1; i < rows; ++i) pivot_column[i] *= inverse;
-    for (int j = k + 1; j < columns; ++j) {
-      double* __restrict column = a + static_cast<std::int64_t>(j) * stride;
-      const double factor = column[k];
-      for (int i = k + 1; i < rows; ++i) column[i] -= pivot_column[i] * factor;
-    }
-  }
-}
 
 /// L y = y on a front's own rows, and what they take from the boundary: `below` += L_below y.
 BALLAST_FOR_EACH_CPU
@@ -84,29 +45,16 @@ void FrontLu::analyse(const SparseColumns& a, const std::vector<int>& unknown_be
   if (tree_.fronts.empty() || !(graph == graph_)) {
     tree_ = make_front_tree(graph, dissection_order(graph));
     graph_ = std::move(graph);
-    layout();
+    make_room();
   }
   place_entries(a);
   pattern_.take(a);
 }
 
-/// How many numbers each front needs, and how high the stack of boundaries grows.
-void FrontLu::layout() {
-  numbers_begin_.assign(1, 0);
-  std::vector<std::int64_t> waiting;  // sizes of the boundaries on the stack
-  std::int64_t height = 0, highest = 0;
-  for (const Front& front : tree_.fronts) {
-    const std::int64_t rows = front.rows, own = front.own, boundary = front.boundary();
-    numbers_begin_.push_back(numbers_begin_.back() + rows * own + own * boundary);
-    // A front's own boundary is made above those of its children, and then takes their place.
-    highest = std::max(highest, height + boundary * boundary);
-    for (int k = 0; k < front.child_count; ++k, waiting.pop_back()) height -= waiting.back();
-    if (front.parent < 0) continue;
-    waiting.push_back(boundary * boundary);
-    height += waiting.back();
-  }
-  numbers_.resize(numbers_begin_.back());
-  stack_.resize(highest);
+void FrontLu::make_room() {
+  layout_ = make_front_layout(tree_);
+  numbers_.resize(layout_.numbers_begin.back());
+  boundaries_.resize(layout_.boundaries);
   work_.resize(graph_.unknown_count());
   below_.resize(graph_.unknown_count());
   largest_.resize(graph_.unknown_count());
@@ -159,34 +107,42 @@ bool FrontLu::factor(const SparseColumns& a) {
       largest = std::max(largest, std::abs(a.valuePtr()[e]));
     largest_[tree_.place[j]] = largest;
   }
-  // A front's boundary is made above those of its children, and then moved down over them:
-  //
-  //     | .. | child 1 | child 2 | own |    ->    | .. | own |
-  std::int64_t top = 0;  // of the stack of boundaries
-  for (int f = 0; f < static_cast<int>(tree_.fronts.size()); ++f) {
-    const Front& front = tree_.fronts[f];
-    const std::int64_t size = static_cast<std::int64_t>(front.boundary()) * front.boundary();
-    double* boundary = stack_.data() + top;
-    // The matrix's own entries, then the children's boundaries from the top of the stack down.
-    assemble(front, f, a.valuePtr(), boundary);
-    for (int k = 0, child = f - 1; k < front.child_count; ++k) {
-      while (tree_.fronts[child].parent != f) --child;
-      const std::int64_t rows = tree_.fronts[child].boundary();
-      top -= rows * rows;
-      extend_add(tree_.fronts[child], stack_.data() + top, front, boundary);
-      --child;
-    }
-    if (!eliminate(front, boundary)) return false;
-    // The children's boundaries are used up, and this front's own takes their place.
-    std::copy_n(boundary, size, stack_.data() + top);
-    top += size;
+  const int branches = static_cast<int>(layout_.branches.size());
+  std::atomic<bool> breaks_down{false};
+  run_parts(team_, branches, [&](int branch) {
+    const auto& [first, end] = layout_.branches[branch];
+    for (int f = first; f < end; ++f)
+      if (!factor_front(f, a.valuePtr(), false)) {
+        breaks_down = true;
+        return;
+      }
+  });
+  if (breaks_down) return false;
+  for (const int f : layout_.trunk)
+    if (!factor_front(f, a.valuePtr(), true)) return false;
+  return true;
+}
+
+/// `shares`: the team works on the columns of this one.
+bool FrontLu::factor_front(int number, const double* values, bool shares) {
+  const Front& front = tree_.fronts[number];
+  double* boundary = boundaries_.data() + layout_.boundary_made[number];
+  // The matrix's own entries, then what the children left, the last one first.
+  assemble(front, number, values, boundary);
+  for (int k = 0, child = number - 1; k < front.child_count; ++k, --child) {
+    while (tree_.fronts[child].parent != number) --child;
+    extend_add(tree_.fronts[child], boundaries_.data() + layout_.boundary_kept[child], front,
+               boundary);
   }
+  if (!eliminate(front, boundary, shares)) return false;
+  const std::int64_t size = static_cast<std::int64_t>(front.boundary()) * front.boundary();
+  std::copy_n(boundary, size, boundaries_.data() + layout_.boundary_kept[number]);
   return true;
 }
 
 void FrontLu::assemble(const Front& front, int number, const double* values, double* boundary) {
-  double* numbers = numbers_.data() + numbers_begin_[number];
-  std::fill_n(numbers, numbers_begin_[number + 1] - numbers_begin_[number], 0.0);
+  double* numbers = numbers_.data() + layout_.numbers_begin[number];
+  std::fill_n(numbers, layout_.numbers_begin[number + 1] - layout_.numbers_begin[number], 0.0);
   std::fill_n(boundary, static_cast<std::int64_t>(front.boundary()) * front.boundary(), 0.0);
   for (int e = entries_begin_[number]; e < entries_begin_[number + 1]; ++e)
     numbers[entries_[e].to] += values[entries_[e].from];
@@ -196,7 +152,7 @@ void FrontLu::extend_add(const Front& child, const double* from, const Front& fr
                          double* boundary) {
   const int number = child.parent, own = front.own, rows = child.boundary();
   const int* row = tree_.row_in_parent.data() + child.rows_begin + child.own;
-  double* columns = numbers_.data() + numbers_begin_[number];
+  double* columns = numbers_.data() + layout_.numbers_begin[number];
   double* rest = columns + static_cast<std::int64_t>(front.rows) * own;
   // The child's rows, which ascend, are first rows of the parent's own unknowns, from `split` on
   // rows of its boundary; so are its columns. That makes four blocks, in three places.
@@ -221,24 +177,33 @@ void FrontLu::extend_add(const Front& child, const double* from, const Front& fr
 ///
 /// A11 and A21 are `a`, A12 is `rest`. A22 is `boundary`: it holds what the children left, as the
 /// matrix's own entries there belong to fronts above.
-bool FrontLu::eliminate(const Front& front, double* boundary) {
-  constexpr int strip = 24;
+bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
+  constexpr int strip = 48, most_columns = 96;
   constexpr double smallest_pivot = 1e-14;
   const int number = static_cast<int>(&front - tree_.fronts.data());
   const int rows = front.rows, own = front.own, outside = front.boundary();
-  double* a = numbers_.data() + numbers_begin_[number];
+  double* a = numbers_.data() + layout_.numbers_begin[number];
   double* rest = a + static_cast<std::int64_t>(rows) * own;
-  // The own columns strip by strip: narrow ones by our own loops, all that is right of them by
-  // BLAS.
-  for (int j = 0; j < own; j += strip) {
-    const int width = std::min(strip, own - j), right = own - j - width, below = rows - j - width;
+  // Columns that are shared out come in pieces, however many share them.
+  const auto by_columns = [&](int columns, const auto& task) {
+    if (!shares) return task(0, columns);
+    run_parts(team_, (columns + most_columns - 1) / most_columns, [&](int piece) {
+      const int first = piece * most_columns;
+      task(first, std::min(most_columns, columns - first));
+    });
+  };
+  // The own columns, strip by strip where others take part.
+  const int most = shares ? strip : own;
+  for (int j = 0; j < own; j += most) {
+    const int width = std::min(most, own - j), right = own - j - width, below = rows - j - width;
     double* diagonal = a + static_cast<std::int64_t>(j) * rows + j;
-    factor_strip(diagonal, rows, rows - j, width);
-    if (right == 0) continue;
+    factor_columns(diagonal, rows, rows - j, width);
     double* beside = diagonal + static_cast<std::int64_t>(width) * rows;
-    solve_unit_lower(width, right, diagonal, rows, beside, rows);
-    subtract_product(below, right, width, diagonal + width, rows, beside, rows, beside + width,
-                     rows);
+    by_columns(right, [&](int first, int count) {
+      double* at = beside + static_cast<std::int64_t>(first) * rows;
+      solve_unit_lower(width, count, diagonal, rows, at, rows);
+      subtract_product(below, count, width, diagonal + width, rows, at, rows, at + width, rows);
+    });
   }
   // Nothing is exchanged, so that a tiny pivot would drown what follows in rounding.
   for (int j = 0; j < own; ++j) {
@@ -248,8 +213,12 @@ bool FrontLu::eliminate(const Front& front, double* boundary) {
   }
   if (outside == 0) return true;
   // The rest of the own rows, and what is left for the parent.
-  solve_unit_lower(own, outside, a, rows, rest, own);
-  subtract_product(outside, outside, own, a + own, rows, rest, own, boundary, outside);
+  by_columns(outside, [&](int first, int count) {
+    double* at = rest + static_cast<std::int64_t>(first) * own;
+    solve_unit_lower(own, count, a, rows, at, own);
+    subtract_product(outside, count, own, a + own, rows, at, own,
+                     boundary + static_cast<std::int64_t>(first) * outside, outside);
+  });
   return true;
 }
 
@@ -262,8 +231,8 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;
     std::fill_n(below_.data(), front.boundary(), 0.0);
-    forward(numbers_.data() + numbers_begin_[f], front.rows, front.own, work_.data() + front.first,
-            below_.data());
+    forward(numbers_.data() + layout_.numbers_begin[f], front.rows, front.own,
+            work_.data() + front.first, below_.data());
     for (int i = 0; i < front.boundary(); ++i) work_[place[i]] -= below_[i];
   }
   // U x = y from the roots down: a front's boundary is known when its turn comes.
@@ -271,7 +240,7 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;
     for (int i = 0; i < front.boundary(); ++i) below_[i] = work_[place[i]];
-    backward(numbers_.data() + numbers_begin_[f], front.rows, front.own, below_.data(),
+    backward(numbers_.data() + layout_.numbers_begin[f], front.rows, front.own, below_.data(),
              work_.data() + front.first);
   }
   x.resize(unknowns);
@@ -280,12 +249,7 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
 
 double FrontLu::operations() const {
   double sum = 0.0;
-  for (const Front& front : tree_.fronts) {
-    // 2/3 k^3 for L11 U11, k^2 m each for L21 and U12, 2 k m^2 for S,
-    // with k own and m boundary rows.
-    const double own = front.own, outside = front.boundary();
-    sum += 2.0 / 3.0 * own * own * own + 2.0 * own * own * outside + 2.0 * own * outside * outside;
-  }
+  for (const Front& front : tree_.fronts) sum += operations_of(front);
   return sum;
 }
 

@@ -3,15 +3,17 @@
 //
 // Their symmetric part is nearly always positive definite and large on the diagonal, so that rows
 // need not be exchanged; whoever solves looks at the residual. What is saved against a general LU:
-// the analysis works on bodies, the fronts are dense and go through BLAS, and the pattern's
-// symmetry halves the bookkeeping. Needs SuiteSparse (the ordering) and BLAS, like sparse_factor:
-// without them analyse() throws UnsupportedProblem.
+// the analysis works on bodies, the fronts are dense (dense_kernels.hpp), and the pattern's
+// symmetry halves the bookkeeping. Needs SuiteSparse for the ordering: without it analyse() throws
+// UnsupportedProblem.
 
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Dense>
 
+#include "platform/worker_team.hpp"
+#include "solvers/parts/front_layout.hpp"
 #include "solvers/parts/front_tree.hpp"
 #include "solvers/parts/sparse_pattern.hpp"
 
@@ -32,6 +34,8 @@ class FrontLu {
   /// `a` with the pattern of analyse(). False: a pivot is not finite, or below 1e-14 of the
   /// largest entry of its column in `a`; solve() must then not be called.
   bool factor(const SparseColumns& a);
+  /// factor() is shared out to it; null: nobody helps. The same bits, whatever its size.
+  void use_team(WorkerTeam* team) { team_ = team; }
   /// x = A^-1 b. `x` may be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
@@ -44,25 +48,23 @@ class FrontLu {
   struct Entry {
     int from, to;
   };
-  void layout();
+  void make_room();
   void place_entries(const SparseColumns& a);
+  bool factor_front(int number, const double* values, bool shares);
   void assemble(const Front& front, int number, const double* values, double* boundary);
   void extend_add(const Front& child, const double* from, const Front& front, double* boundary);
-  bool eliminate(const Front& front, double* boundary);
+  bool eliminate(const Front& front, double* boundary, bool shares);
 
   SparsePattern pattern_;
   BlockGraph graph_;
   FrontTree tree_;
-  /// A front's numbers, from numbers_begin_: its own columns (rows x own, column-major), in which L
-  /// below and U above the diagonal come to stand, then the rest of its own rows (own x boundary).
-  std::vector<double> numbers_;
-  std::vector<std::int64_t> numbers_begin_;
-  std::vector<Entry> entries_;      ///< by front
-  std::vector<int> entries_begin_;  ///< fronts + 1
-  /// Boundaries that wait for their parents (boundary x boundary, column-major), one on the other.
-  std::vector<double> stack_;
+  FrontLayout layout_;
+  std::vector<double> numbers_, boundaries_;  ///< as layout_ says
+  std::vector<Entry> entries_;                ///< by front
+  std::vector<int> entries_begin_;            ///< fronts + 1
   std::vector<double> largest_;  ///< by place: the largest entry of the column in the matrix
   Eigen::VectorXd work_, below_;
+  WorkerTeam* team_ = nullptr;
 };
 
 }  // namespace ballast

@@ -13,6 +13,8 @@ namespace ballast {
 class NewtonStep {
  public:
   void prepare(const FrictionProblem& problem);
+  /// FrontLu::use_team
+  void use_team(WorkerTeam* team) { system_.use_team(team); }
   /// Starts at `r`, which is also the centre; contacts that nothing moves lose their impulse.
   void begin(ContactEquation equation, double rho_factor, Impulses r);
 

@@ -30,6 +30,8 @@ class NewtonSystem {
   bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
              const std::vector<double>& alpha, Impulses& dr);
 
+  /// FrontLu::use_team
+  void use_team(WorkerTeam* team) { fronts_.use_team(team); }
   /// Of a factorisation over bodies (FrontLu::operations); with a stored W of the last one
   /// (NewtonMatrix::operations).
   double operations() const { return operations_; }

@@ -20,9 +20,9 @@ class RegularNewton {
  public:
   /// `problem` has the dynamics form and outlives the use.
   void prepare(const FrictionProblem& problem);
+  /// FrontLu::use_team
+  void use_team(WorkerTeam* team) { system_.use_team(team); }
   const UnitMassContacts& contacts() const { return contacts_; }
-  /// For others that solve in the same unknowns: every step() factors it anew.
-  UnitMassSystem& system() { return system_; }
   double operations() const { return system_.operations(); }
 
   /// The iterate with x from r.
@@ -30,14 +30,10 @@ class RegularNewton {
   /// Every impulse into its cone, x from r afresh. Returns the judge's error [m/s].
   double settle(NewtonIterate& at) const;
 
-  /// From here on the law is regularised by `epsilon` around `centre`, and no status is known.
+  /// From here on the law is regularised by `epsilon` around `centre`.
   void set_centre(const ContactColumns& centre, double epsilon);
-  /// Natural map of the regularised law [m/s], rms over contacts; the law's own error where `at` is
-  /// the centre.
-  double residual(const NewtonIterate& at) const;
-  /// Every contact's status at `at`, and its law linearised for it. Returns how many contacts had
-  /// another status when they were last linearised around this centre; 0 the first time.
-  int linearise(const NewtonIterate& at);
+  /// Every contact's status at `at`, and its law linearised for it.
+  void linearise(const NewtonIterate& at);
   /// One factorisation: the full step from where the law was linearised. It may raise the residual
   /// a hundredfold where statuses change. False: the matrix is singular or the step not finite.
   bool step(NewtonIterate& change);
@@ -52,7 +48,6 @@ class RegularNewton {
   std::vector<Eigen::Matrix3d> gain_;
   ContactColumns source_;
   std::vector<ContactStatus> status_;
-  bool has_status_ = false;
   Eigen::VectorXd right_;
 };
 

@@ -20,6 +20,8 @@ class UnitMassSystem {
   /// x of the system above, with the K of factor(). Improved by its residual, once, where that is
   /// larger than 1e-10 of b: there are no pivots. `x` must not be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+  /// FrontLu::use_team
+  void use_team(WorkerTeam* team) { factor_.use_team(team); }
   /// What factor() costs at most, with no block of zeros (FrontLu::operations).
   double operations() const { return factor_.operations(); }
 

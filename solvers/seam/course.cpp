@@ -51,6 +51,31 @@ void Course::offer(const Impulses& r, double error) {
   if (budget_.leave && !reached() && (*budget_.leave)(iterations_, error_, best_)) leaves_ = true;
 }
 
+void Course::factor_by(Solver& solver, const FrictionProblem& problem, int most) {
+  const int before = iterations_, factorised = budget_.factorisations ? *budget_.factorisations : 0;
+  const double began = watch_.seconds();
+  const auto count = [&](int iterations) {
+    if (budget_.factorisations) *budget_.factorisations = factorised + iterations;
+  };
+  const std::function<bool(int, double)> leave = [&](int iterations, double error) {
+    count(iterations);
+    leaves_ = (*budget_.leave)(before + iterations, std::min(error, error_));
+    return leaves_;
+  };
+  Budget left = rest();
+  left.max_iterations = std::min(left.max_iterations, most);
+  left.keep_history = true;  // its last point is the error that it came to
+  if (budget_.leave) left.leave = &leave;
+  Solved part = solver.solve(problem, best_, left);
+  count(part.iterations);
+  if (budget_.keep_history)
+    for (const HistoryPoint& point : part.history)
+      history_.push_back({before + point.iteration, began + point.seconds,
+                          std::min(history_.back().error, point.error)});
+  iterations_ += part.iterations;
+  offer(part.impulses, part.history.back().error);
+}
+
 /// One point per count of iterations, the last one that was true of it.
 void Course::remember() {
   if (!budget_.keep_history) return;

@@ -30,6 +30,10 @@ class Course {
   /// where it satisfies the other measure that the budget asks for.
   void offer(const Impulses& r, double error);
 
+  /// `solver`, prepared for `problem`, goes on from the best for at most so many iterations, each
+  /// of which is one factorisation.
+  void factor_by(Solver& solver, const FrictionProblem& problem, int most);
+
   const Impulses& best() const { return best_; }
   double error() const { return error_; }  ///< of the best [m/s]
   /// The best is small enough to stop, nothing is left of the budget, or whoever gave it has

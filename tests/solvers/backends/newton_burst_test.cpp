@@ -37,7 +37,7 @@ TEST_CASE("Newton with bursts closes on rank-deficient problems, nearly all", "[
 }
 
 TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[factors]") {
-  const auto solver = make_newton_burst({.start_sweeps = 5, .burst = 5, .jump = 5});
+  const auto solver = make_newton_burst({.start_sweeps = 5, .burst = 5});
   const SolverRun run = SolverRunner().run(
       *solver, deficient(1), {}, {.tolerance = 1e-10, .max_iterations = 500, .max_seconds = 20.0});
   CAPTURE(run.solved.iterations, run.error.natural_map_rms);
@@ -75,7 +75,7 @@ TEST_CASE("Newton takes over from sweeps to the same bits on any number of threa
 }
 
 TEST_CASE("what can never be reached ends as stalled", "[factors]") {
-  const auto solver = make_newton_burst({.patience = 3});
+  const auto solver = make_newton_burst({.most_steps = 100});
   const SolverRun run =
       SolverRunner().run(*solver, deficient(2), {}, {.tolerance = 0.0, .max_iterations = 1000000});
   CHECK(run.solved.reason == StopReason::stalled);

@@ -137,6 +137,30 @@ TEST_CASE("the same matrix gives the same bits, whatever was factored before", "
   CHECK(x == y);
 }
 
+TEST_CASE("any number of threads factors to the same bits", "[factors]") {
+  // Large enough for branches and a trunk.
+  const Blocks blocks = newton_matrix(500, 900, 1e3, true, 21);
+  const Eigen::VectorXd b = right_side(blocks.begin.back());
+  Eigen::VectorXd alone;
+  for (const int threads : {1, 2, 3}) {
+    WorkerTeam team;
+    team.resize(threads);
+    FrontLu fronts;
+    fronts.use_team(&team);
+    fronts.analyse(blocks.a, blocks.begin);
+    REQUIRE(make_front_layout(fronts.tree()).trunk.size() > 0);
+    REQUIRE(make_front_layout(fronts.tree()).branches.size() > 1);
+    for (int repeat = 0; repeat < 10; ++repeat) {
+      REQUIRE(fronts.factor(blocks.a));
+      Eigen::VectorXd x;
+      fronts.solve(b, x);
+      if (alone.size() == 0) alone = x;
+      REQUIRE(x == alone);
+    }
+  }
+  CHECK(relative_residual(blocks.a, alone, b) < 1e-14);
+}
+
 TEST_CASE("a breakdown is reported, and the next matrix is factored", "[factors]") {
   const Blocks good = newton_matrix(30, 60, 1.0, false, 6);
   FrontLu fronts;

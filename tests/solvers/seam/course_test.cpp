@@ -149,3 +149,69 @@ TEST_CASE("a course that is asked for Siconos' measure ends with the iterate tha
   CHECK(solved.reason == StopReason::reached_tolerance);
   CHECK(solved.impulses == known.r);
 }
+
+namespace {
+
+/// Three iterations, the second with the error 0.2, the last with 0.3; asks to go on after each.
+struct Walker final : Solver {
+  void prepare(const FrictionProblem&) override {}
+  Solved solve(const FrictionProblem&, Impulses start, const Budget& budget) override {
+    Solved solved;
+    for (const double error : {0.6, 0.4, 0.2, 0.3}) {
+      solved.history.push_back({solved.iterations, 0.0, error});
+      if (budget.leave && (*budget.leave)(solved.iterations, error)) break;
+      if (solved.iterations == budget.max_iterations) break;
+      ++solved.iterations;
+    }
+    solved.iterations = solved.history.back().iteration;
+    solved.impulses = start.array() + solved.iterations;
+    solved.history.push_back({solved.iterations, 0.0, 0.2});
+    return solved;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("another solver goes on from the best, its factorisations and history counted") {
+  int factorisations = 4;
+  std::vector<std::pair<int, double>> asked;
+  const std::function<bool(int, double)> leave = [&](int iterations, double error) {
+    asked.push_back({iterations, error});
+    return false;
+  };
+  Course course({.tolerance = 1e-3,
+                 .max_iterations = 100,
+                 .keep_history = true,
+                 .leave = &leave,
+                 .factorisations = &factorisations},
+                Impulses::Constant(1, 7.0), 0.5);
+  course.spend(10);
+  Walker walker;
+  course.factor_by(walker, FrictionProblem{}, 50);
+  CHECK(factorisations == 4 + 3);
+  CHECK(course.best() == Impulses::Constant(1, 10.0));
+  CHECK(course.error() == 0.2);
+  REQUIRE(asked.size() >= 4);
+  CHECK(asked[0] == std::pair(10, 0.5));  // never worse than the best
+  CHECK(asked[2] == std::pair(12, 0.2));
+  CHECK(course.rest().max_iterations == 87);
+  const Solved solved = course.finish();
+  CHECK(solved.iterations == 13);
+  for (size_t k = 1; k < solved.history.size(); ++k) {
+    CHECK(solved.history[k].iteration >= solved.history[k - 1].iteration);
+    CHECK(solved.history[k].error <= solved.history[k - 1].error);
+  }
+}
+
+TEST_CASE("another solver is stopped by its own limit and by who gave the budget") {
+  Walker walker;
+  Course limited({.tolerance = 1e-3, .max_iterations = 100}, Impulses::Zero(1), 0.9);
+  limited.factor_by(walker, FrictionProblem{}, 2);
+  CHECK(limited.finish().iterations == 2);
+  const std::function<bool(int, double)> leave = [](int iterations, double) {
+    return iterations >= 1;
+  };
+  Course left({.tolerance = 1e-3, .max_iterations = 100, .leave = &leave}, Impulses::Zero(1), 0.9);
+  left.factor_by(walker, FrictionProblem{}, 50);
+  CHECK(left.over());
+}
