@@ -57,9 +57,10 @@ void Course::factor_by(Solver& solver, const FrictionProblem& problem, int most)
   const auto count = [&](int iterations) {
     if (budget_.factorisations) *budget_.factorisations = factorised + iterations;
   };
-  const std::function<bool(int, double)> leave = [&](int iterations, double error) {
+  const LeaveRule leave = [&](int iterations, double error, const Impulses& r) {
     count(iterations);
-    leaves_ = (*budget_.leave)(before + iterations, std::min(error, error_));
+    const bool is_best = error < error_;
+    leaves_ = (*budget_.leave)(before + iterations, is_best ? error : error_, is_best ? r : best_);
     return leaves_;
   };
   Budget left = rest();

@@ -159,7 +159,7 @@ struct Walker final : Solver {
     Solved solved;
     for (const double error : {0.6, 0.4, 0.2, 0.3}) {
       solved.history.push_back({solved.iterations, 0.0, error});
-      if (budget.leave && (*budget.leave)(solved.iterations, error)) break;
+      if (budget.leave && (*budget.leave)(solved.iterations, error, start)) break;
       if (solved.iterations == budget.max_iterations) break;
       ++solved.iterations;
     }
@@ -175,8 +175,10 @@ struct Walker final : Solver {
 TEST_CASE("another solver goes on from the best, its factorisations and history counted") {
   int factorisations = 4;
   std::vector<std::pair<int, double>> asked;
-  const std::function<bool(int, double)> leave = [&](int iterations, double error) {
+  std::vector<int> counted;
+  const LeaveRule leave = [&](int iterations, double error, const Impulses&) {
     asked.push_back({iterations, error});
+    counted.push_back(factorisations);
     return false;
   };
   Course course({.tolerance = 1e-3,
@@ -194,6 +196,7 @@ TEST_CASE("another solver goes on from the best, its factorisations and history 
   REQUIRE(asked.size() >= 4);
   CHECK(asked[0] == std::pair(10, 0.5));  // never worse than the best
   CHECK(asked[2] == std::pair(12, 0.2));
+  CHECK(counted[2] == 4 + 2);  // whoever is asked knows what has been factored
   CHECK(course.rest().max_iterations == 87);
   const Solved solved = course.finish();
   CHECK(solved.iterations == 13);
@@ -208,9 +211,7 @@ TEST_CASE("another solver is stopped by its own limit and by who gave the budget
   Course limited({.tolerance = 1e-3, .max_iterations = 100}, Impulses::Zero(1), 0.9);
   limited.factor_by(walker, FrictionProblem{}, 2);
   CHECK(limited.finish().iterations == 2);
-  const std::function<bool(int, double)> leave = [](int iterations, double) {
-    return iterations >= 1;
-  };
+  const LeaveRule leave = [](int iterations, double, const Impulses&) { return iterations >= 1; };
   Course left({.tolerance = 1e-3, .max_iterations = 100, .leave = &leave}, Impulses::Zero(1), 0.9);
   left.factor_by(walker, FrictionProblem{}, 50);
   CHECK(left.over());
