@@ -14,7 +14,9 @@
 namespace ballast {
 namespace {
 
-double raised(double epsilon) { return std::min(0.1, 4.0 * epsilon); }
+constexpr double smallest_epsilon = 1e-8, largest_epsilon = 0.1;
+
+double raised(double epsilon, double factor) { return std::min(largest_epsilon, factor * epsilon); }
 
 /// How many more sweeps a solve will take. Their error falls about like a power of their number,
 /// whose exponent is small in jams.
@@ -98,10 +100,20 @@ class NewtonBurst final : public Solver {
     double error = newton_.settle(at);
     descend(course, at, error, end);
     if (course.over()) return course.finish();
-    walk_->prepare(*problem_);
-    course.factor_by(*walk_, *problem_, settings_.most_steps);
+    if (settings_.walks) {
+      walk_->prepare(*problem_);
+      course.factor_by(*walk_, *problem_, settings_.most_steps);
+    } else {
+      endgame(course, at, error);
+    }
     return course.finish();
   }
+
+  /// How a proximal step's Newton method ended.
+  struct Inner {
+    bool converged;
+    int steps;
+  };
 
   /// Ordering and analysis cost as much as hundreds of sweeps, and most solves do without.
   void make_ready() {
@@ -142,7 +154,7 @@ class NewtonBurst final : public Solver {
       newton_.linearise(at);
       course.factored();
       if (!newton_.step(change_)) {
-        epsilon = raised(epsilon);
+        epsilon = raised(epsilon, 4.0);
         ++slow;
         continue;
       }
@@ -159,7 +171,7 @@ class NewtonBurst final : public Solver {
       }
       // Less compliance where a round gained much, more where it lost; back where it lost much.
       if (after < 0.4 * error) epsilon = std::max(1e-6, 0.5 * epsilon);
-      if (after > error) epsilon = raised(epsilon);
+      if (after > error) epsilon = raised(epsilon, 4.0);
       slow = after > 0.97 * error ? slow + 1 : 0;
       // Twice in a row sweeps undid what the step had gained: what is left are long waves.
       undone = is_undone ? undone + 1 : 0;
@@ -171,13 +183,88 @@ class NewtonBurst final : public Solver {
     }
   }
 
+  /// Proximal-point steps by Newton alone: sweeps after a converged step would undo its long waves.
+  /// Ends where steps fail one after the other, or gain little for long.
+  void endgame(Course& course, NewtonIterate& at, double& error) {
+    constexpr int most_failures = 4, most_slow_steps = 15;
+    double epsilon = settings_.epsilon, halved = error;
+    int failures = 0, slow = 0;
+    while (!course.over() && failures < most_failures && slow < most_slow_steps) {
+      const NewtonIterate before = at;
+      const Inner inner = proximal_step(course, at, error, epsilon);
+      const double after = newton_.settle(at);
+      offer(course, at, after);
+      if (inner.converged && after < 1.5 * error) {
+        // The next step may go further, the easier this one was.
+        epsilon *= inner.steps <= 2 ? 0.2 : inner.steps <= 3 ? 0.4 : inner.steps <= 5 ? 0.7 : 1.0;
+        epsilon = std::max(epsilon, smallest_epsilon);
+        failures = 0;
+        error = after;
+      } else if (after < 0.9 * error) {
+        epsilon = raised(epsilon, 2.0);
+        error = after;
+      } else {
+        epsilon = raised(epsilon, 3.0);
+        at = before;
+        ++failures;
+      }
+      ++slow;
+      if (error > 0.5 * halved) continue;
+      halved = error;
+      slow = 0;
+    }
+  }
+
+  /// Newton steps on the law regularised around `at`, until the residual is a third of the error
+  /// there. `at` is left wherever they ended.
+  Inner proximal_step(Course& course, NewtonIterate& at, double error, double epsilon) {
+    constexpr double enough = 0.3;
+    constexpr int most_stalled = 3;
+    const int many = newton_.contacts().contact_count() / 8;
+    newton_.set_centre(at.r, epsilon);
+    double residual = error, least = std::numeric_limits<double>::max();
+    for (int k = 0, stalled = 0;; ++k) {
+      const int changed = newton_.linearise(at);
+      if (k > 0) {
+        if (residual < enough * error) return {true, k};
+        stalled = residual < 0.7 * least ? 0 : stalled + 1;
+        least = std::min(least, residual);
+      }
+      if (k >= settings_.inner_steps || stalled > most_stalled || (k > 1 && changed > many) ||
+          course.over())
+        return {false, k};
+      course.factored();
+      if (!newton_.step(change_)) return {false, k};
+      // The first step is taken whole: it always raises the residual. Later ones are shortened.
+      residual = advance(at, residual, k == 0 ? 1 : 4);
+    }
+  }
+
+  /// Along change_: t = 1, 1/2, 1/4, ... until the residual falls by enough, at most so many
+  /// trials; then the best of them. Returns the residual there [m/s].
+  double advance(NewtonIterate& at, double before, int trials) {
+    double t = 1.0, least = std::numeric_limits<double>::max();
+    for (int k = 0; k < trials; ++k, t *= 0.5) {
+      trial_.r = at.r + t * change_.r;
+      trial_.x = at.x + t * change_.x;
+      const double there = newton_.residual(trial_);
+      if (k == 0 || there < least) {
+        least = there;
+        std::swap(best_trial_, trial_);
+      }
+      if (there < (1.0 - 0.3 * t) * before) break;
+    }
+    std::swap(at, best_trial_);
+    return least;
+  }
+
   NewtonBurstSettings settings_;
   std::unique_ptr<Solver> sweeps_;
   RegularNewton newton_;
   std::unique_ptr<Solver> walk_;  ///< proximal-point steps that may go through worse places
   bool is_ready_ = false;         ///< newton_ is prepared for problem_
   const FrictionProblem* problem_ = nullptr;
-  NewtonIterate change_;
+  NewtonIterate change_, trial_, best_trial_;
   Impulses impulses_;
 };
 

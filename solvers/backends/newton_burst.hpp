@@ -18,13 +18,17 @@ struct NewtonBurstSettings {
   int start_sweeps = 500;  ///< before the first Newton step, at least; 0: none
   /// Newton's turn comes where sweeps promise to need more than so many others: what a
   /// factorisation for some thousand contacts and the first Newton steps cost.
-  int promised_sweeps = 2000;
+  int promised_sweeps = 15000;
   int burst = 200;  ///< sweeps after a Newton step, at most
   /// The compliance to begin with, as a part of lambda_max(W_cc).
   double epsilon = 3e-4;
   /// Below this part of the error at zero impulse there are no more bursts.
   double endgame = 1e-4;
-  int most_steps = 1000;  ///< Newton steps of the end, at most
+  /// Its end: proximal steps that may pass through worse places, which come out of jams; or ones
+  /// that lower the error, the faster where nothing jams, until they are stuck.
+  bool walks = true;
+  int most_steps = 1000;  ///< Newton steps of the walk, at most
+  int inner_steps = 10;   ///< else: Newton steps after which a proximal step has failed
 };
 
 /// Iterations count sweeps and factorisations alike. Needs the dynamics form.

@@ -1,5 +1,8 @@
 #include "solvers/parts/regular_newton.hpp"
 
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/root_mean_square.hpp"
+
 namespace ballast {
 
 void RegularNewton::prepare(const FrictionProblem& problem) {
@@ -27,6 +30,7 @@ double RegularNewton::settle(NewtonIterate& at) const {
 void RegularNewton::set_centre(const ContactColumns& centre, double epsilon) {
   centre_ = centre;
   epsilon_ = epsilon;
+  has_status_ = false;
 }
 
 /// u + epsilon_c (r - centre)
@@ -36,7 +40,21 @@ Eigen::Vector3d RegularNewton::velocity(const NewtonIterate& at, int c) const {
   return contacts_.relative(at.x, c) + k.bias + compliance * (at.r.col(c) - centre_.col(c));
 }
 
-void RegularNewton::linearise(const NewtonIterate& at) {
+double RegularNewton::residual(const NewtonIterate& at) const {
+  RootMeanSquare mean;
+  // The judge's measure with u~ in place of u.
+  for (int c = 0; c < contacts_.contact_count(); ++c) {
+    const UnitMassContacts::Contact& k = contacts_[c];
+    if (!(k.lambda_max > 0.0)) continue;
+    const double value =
+        ContactJudge::scaled_natural_map(at.r.col(c), velocity(at, c), k.friction, k.lambda_max);
+    mean.add(value);
+  }
+  return mean.value();
+}
+
+int RegularNewton::linearise(const NewtonIterate& at) {
+  int changed = 0;
   for (int c = 0; c < contacts_.contact_count(); ++c) {
     const UnitMassContacts::Contact& k = contacts_[c];
     RegularStep law;
@@ -45,10 +63,14 @@ void RegularNewton::linearise(const NewtonIterate& at) {
                          velocity(at, c));
     else  // nothing moves: no impulse
       law.source = -at.r.col(c);
+    // A step is exact for the statuses that it was made for; where many change it means little.
+    changed += has_status_ && law.status != status_[c];
     status_[c] = law.status;
     source_.col(c) = law.source;
     gain_[c] = law.gain;
   }
+  has_status_ = true;
+  return changed;
 }
 
 bool RegularNewton::step(NewtonIterate& change) {

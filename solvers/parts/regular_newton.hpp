@@ -20,9 +20,9 @@ class RegularNewton {
  public:
   /// `problem` has the dynamics form and outlives the use.
   void prepare(const FrictionProblem& problem);
+  const UnitMassContacts& contacts() const { return contacts_; }
   /// FrontLu::use_team
   void use_team(WorkerTeam* team) { system_.use_team(team); }
-  const UnitMassContacts& contacts() const { return contacts_; }
   double operations() const { return system_.operations(); }
 
   /// The iterate with x from r.
@@ -30,10 +30,14 @@ class RegularNewton {
   /// Every impulse into its cone, x from r afresh. Returns the judge's error [m/s].
   double settle(NewtonIterate& at) const;
 
-  /// From here on the law is regularised by `epsilon` around `centre`.
+  /// From here on the law is regularised by `epsilon` around `centre`, and no status is known.
   void set_centre(const ContactColumns& centre, double epsilon);
-  /// Every contact's status at `at`, and its law linearised for it.
-  void linearise(const NewtonIterate& at);
+  /// Natural map of the regularised law [m/s], rms over contacts; the law's own error where `at` is
+  /// the centre.
+  double residual(const NewtonIterate& at) const;
+  /// Every contact's status at `at`, and its law linearised for it. Returns how many contacts had
+  /// another status when they were last linearised around this centre; 0 the first time.
+  int linearise(const NewtonIterate& at);
   /// One factorisation: the full step from where the law was linearised. It may raise the residual
   /// a hundredfold where statuses change. False: the matrix is singular or the step not finite.
   bool step(NewtonIterate& change);
@@ -48,6 +52,7 @@ class RegularNewton {
   std::vector<Eigen::Matrix3d> gain_;
   ContactColumns source_;
   std::vector<ContactStatus> status_;
+  bool has_status_ = false;
   Eigen::VectorXd right_;
 };
 

@@ -26,7 +26,7 @@ TEST_CASE("a step keeps impulses and bodies consistent: x is linear in r", "[fac
   newton.prepare(known.problem);
   NewtonIterate at = newton.iterate(0.5 * known.r), change;
   newton.set_centre(at.r, 1e-3);
-  newton.linearise(at);
+  CHECK(newton.linearise(at) == 0);
   REQUIRE(newton.step(change));
   at.r += change.r;
   at.x += change.x;
@@ -35,12 +35,14 @@ TEST_CASE("a step keeps impulses and bodies consistent: x is linear in r", "[fac
   CHECK((at.x - x).norm() < 1e-9 * x.norm());
 }
 
-TEST_CASE("the error of an iterate is the judge's", "[factors]") {
+TEST_CASE("the residual at the centre is the judge's error", "[factors]") {
   const KnownSolution known = some_solution(20, 60);
   RegularNewton newton;
   newton.prepare(known.problem);
   NewtonIterate at = newton.iterate(0.9 * known.r);
+  newton.set_centre(at.r, 1e-2);
   const double judged = contact_error(known.problem, 0.9 * known.r).natural_map_rms;
+  CHECK(newton.residual(at) == Approx(judged).epsilon(1e-9));
   CHECK(newton.settle(at) == Approx(judged).epsilon(1e-9));
 }
 
@@ -63,4 +65,17 @@ TEST_CASE("near a solution with its statuses a step squares the error, whatever 
     CHECK(before > 1e-9);
     CHECK(newton.settle(at) < 1e-12);
   }
+}
+
+TEST_CASE("statuses that change between two looks are counted", "[factors]") {
+  const KnownSolution known = some_solution(20, 60);
+  RegularNewton newton;
+  newton.prepare(known.problem);
+  const NewtonIterate solution = newton.iterate(known.r), nothing = newton.iterate(0.0 * known.r);
+  newton.set_centre(solution.r, 1e-3);
+  CHECK(newton.linearise(solution) == 0);
+  CHECK(newton.linearise(solution) == 0);
+  CHECK(newton.linearise(nothing) > 0);
+  newton.set_centre(solution.r, 1e-3);
+  CHECK(newton.linearise(nothing) == 0);
 }
