@@ -101,8 +101,8 @@ class Auto final : public Solver {
     Way& way = ways_[burst];
     way.going.reset();
     const double endgame = is_scarce ? 1e-2 : 1e-4;
-    way.solver =
-        make_newton_burst({.start_sweeps = 0, .burst = 50, .endgame = endgame, .walks = false});
+    way.solver = make_newton_burst(
+        {.start_sweeps = 0, .burst = 50, .endgame = endgame, .descends_first = true});
     way.solver->use_team(team_);
     way.is_prepared = false;
   }

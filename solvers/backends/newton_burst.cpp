@@ -100,12 +100,10 @@ class NewtonBurst final : public Solver {
     double error = newton_.settle(at);
     descend(course, at, error, end);
     if (course.over()) return course.finish();
-    if (settings_.walks) {
-      walk_->prepare(*problem_);
-      course.factor_by(*walk_, *problem_, settings_.most_steps);
-    } else {
-      endgame(course, at, error);
-    }
+    if (settings_.descends_first) endgame(course, at, error);
+    if (course.over()) return course.finish();
+    walk_->prepare(*problem_);
+    course.factor_by(*walk_, *problem_, settings_.most_steps);
     return course.finish();
   }
 

@@ -24,11 +24,12 @@ struct NewtonBurstSettings {
   double epsilon = 3e-4;
   /// Below this part of the error at zero impulse there are no more bursts.
   double endgame = 1e-4;
-  /// Its end: proximal steps that may pass through worse places, which come out of jams; or ones
-  /// that lower the error, the faster where nothing jams, until they are stuck.
-  bool walks = true;
+  /// Its end is a walk: proximal steps that may pass through worse places, which come out of jams.
+  /// True: before it proximal steps that lower the error, until they are stuck. Those are the
+  /// faster where nothing jams, and lost where something does.
+  bool descends_first = false;
   int most_steps = 1000;  ///< Newton steps of the walk, at most
-  int inner_steps = 10;   ///< else: Newton steps after which a proximal step has failed
+  int inner_steps = 10;   ///< before it: Newton steps after which a proximal step has failed
 };
 
 /// Iterations count sweeps and factorisations alike. Needs the dynamics form.
