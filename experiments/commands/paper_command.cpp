@@ -22,18 +22,25 @@ struct PaperOptions {
   std::string target;
   CampaignSettings campaign;
   PlanOptions running;
-  fs::path output;
+  fs::path output, rows;
 };
 
-void print_plan(const Campaign& campaign, const fs::path& results) {
-  const PaperData data(campaign, results);
+PaperData data_of(const Campaign& campaign, const PaperOptions& options) {
+  std::vector<RunObservables> rows;
+  if (!options.rows.empty()) rows = read_runs_csv(options.rows);
+  return {campaign, options.running.results, std::move(rows)};
+}
+
+void print_plan(const PaperData& data) {
+  const Campaign& campaign = data.campaign();
   std::cout << printed("%-16s%-52s%8s%10s  state\n", "stage", "run", "steps", "core-s");
   double left = 0.0;
   for (size_t k = 0; k < campaign.runs.size(); ++k) {
     const CampaignRun& run = campaign.runs[k];
-    if (!data.has(k)) left += run.seconds;
+    const char* state = data.has(k) ? "finished" : data.knows(k) ? "row" : "–";
+    if (!data.knows(k)) left += run.seconds;
     std::cout << printed("%-16s%-52s%8ld%10ld  %s\n", run.stage.c_str(), run.planned.name.c_str(),
-                         run.steps, std::lround(run.seconds), data.has(k) ? "finished" : "–");
+                         run.steps, std::lround(run.seconds), state);
   }
   std::cout
       << printed(
@@ -44,11 +51,12 @@ void print_plan(const Campaign& campaign, const fs::path& results) {
       << std::endl;
 }
 
-/// Stage by stage, so that time running out leaves whole figures.
-ExitCode run_stages(const Campaign& campaign, const PaperOptions& options) {
+/// Stage by stage, so that time running out leaves whole figures. Not made: runs whose rows are
+/// known.
+ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
   const Stopwatch watch;
   ExitCode worst = ExitCode::ok;
-  for (const Plan& stage : stages_of(campaign, options.target)) {
+  for (const Plan& stage : stages_of(data, options.target)) {
     PlanOptions running = options.running;
     running.max_seconds -= watch.seconds();
     if (!(running.max_seconds > 0.0)) return ExitCode::time_limit;
@@ -69,7 +77,7 @@ ExitCode reproduce(PaperOptions options) {
   const Campaign campaign = make_campaign(options.campaign);
   if (options.output.empty()) options.output = options.running.results / "report";
   if (options.target == "plan") {
-    print_plan(campaign, options.running.results);
+    print_plan(data_of(campaign, options));
     return ExitCode::ok;
   }
   require_own_folder(options.running.results, {"runs", "packings", "report"});
@@ -78,8 +86,8 @@ ExitCode reproduce(PaperOptions options) {
   if (options.target == "report")
     options.target = "all";
   else
-    code = run_stages(campaign, options);
-  PaperData data(campaign, options.running.results);
+    code = run_stages(data_of(campaign, options), options);
+  PaperData data = data_of(campaign, options);
   write_paper_report(data, make_sections(data, options.target), options.output);
   std::cout << data.finished() << " of " << campaign.runs.size() << " runs; report in "
             << (options.output / "paper.html").string() << std::endl;
@@ -104,6 +112,8 @@ Command paper_command() {
             between(1, 4096)},
            {"--results DIR", &running.results, "The folder of runs (results/paper)"},
            {"--output DIR", &options->output, "The folder of the report (<results>/report)"},
+           {"--rows FILE", &options->rows,
+            "A report's data/runs.csv: its runs are taken from there, not made again"},
            {"--max-seconds S", &running.max_seconds,
             "Wall clock after which runs write checkpoints; the report is written all the same",
             above(0)},

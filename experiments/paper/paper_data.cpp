@@ -59,13 +59,17 @@ const Observation* VariedValue::of_seed(int seed) const {
   return nullptr;
 }
 
-PaperData::PaperData(Campaign campaign, std::filesystem::path results)
+PaperData::PaperData(Campaign campaign, std::filesystem::path results,
+                     std::vector<RunObservables> rows)
     : campaign_(std::move(campaign)), results_(std::move(results)) {
   for (const CampaignRun& run : campaign_.runs)
     finished_.push_back(is_finished(results_, run.planned));
+  for (RunObservables& row : rows) rows_[row.key] = std::move(row);
 }
 
 bool PaperData::has(size_t run) const { return finished_.at(run); }
+
+bool PaperData::knows(size_t run) const { return has(run) || row_of(run); }
 
 std::filesystem::path PaperData::folder(size_t run) const {
   return folder_of(results_, campaign_.runs.at(run).planned);
@@ -73,11 +77,17 @@ std::filesystem::path PaperData::folder(size_t run) const {
 
 RunData PaperData::read(size_t run) const { return read_run_data(folder(run)); }
 
+const RunObservables* PaperData::row_of(size_t run) const {
+  if (rows_.empty()) return nullptr;
+  const auto found = rows_.find(folder(run).filename().string());
+  return found == rows_.end() ? nullptr : &found->second;
+}
+
 const std::vector<RunObservables>& PaperData::observables() {
   if (!observables_.empty()) return observables_;
   for (size_t k = 0; k < campaign_.runs.size(); ++k) {
-    if (!has(k)) continue;
-    RunObservables run = observe_run(read(k));
+    if (!knows(k)) continue;
+    RunObservables run = has(k) ? observe_run(read(k)) : *row_of(k);
     run.run = k;
     run.name = campaign_.runs[k].planned.name;
     run.stage = campaign_.runs[k].stage;
@@ -97,6 +107,23 @@ int PaperData::finished() const {
   return static_cast<int>(std::count(finished_.begin(), finished_.end(), true));
 }
 
+int PaperData::known_by_row() const {
+  int rows = 0;
+  for (size_t k = 0; k < campaign_.runs.size(); ++k) rows += !has(k) && row_of(k);
+  return rows;
+}
+
+PaperData::Repeats PaperData::repeats() {
+  Repeats repeats;
+  for (const RunObservables& run : observables()) {
+    const RunObservables* row = has(run.run) ? row_of(run.run) : nullptr;
+    if (!row) continue;
+    ++repeats.made;
+    repeats.same += row->record == run.record;
+  }
+  return repeats;
+}
+
 std::vector<size_t> PaperData::motion() const {
   std::vector<size_t> runs;
   for (const size_t run : campaign_.motion)
@@ -112,8 +139,18 @@ std::optional<size_t> PaperData::at_frequency(double frequency, int seed) const 
   return {};
 }
 
+bool PaperData::serves(const CampaignPoint& point) const {
+  if (has(point.run)) return true;
+  // a row counts all periods of its run
+  const RunObservables* row = row_of(point.run);
+  if (!row) return false;
+  const double step = row->seen.facts.step;
+  return point.window.end > (static_cast<double>(campaign_.runs[point.run].steps) - 1.0) * step;
+}
+
 const Observation* PaperData::observation(const CampaignPoint& point) {
-  if (!has(point.run)) return nullptr;
+  if (!serves(point)) return nullptr;
+  if (!has(point.run)) return &observables_of(point.run)->seen;
   // one run serves several figures, some of which count fewer of its periods
   const auto key = std::make_pair(point.run, point.window.end);
   if (const auto found = seen_.find(key); found != seen_.end()) return &found->second;
@@ -157,7 +194,7 @@ std::string PaperData::missing(Varied which) const {
     if (point.varied != which) continue;
     planned.insert(point.value);
     ++runs;
-    if (!has(point.run)) continue;
+    if (!serves(point)) continue;
     there.insert(point.value);
     ++done;
   }

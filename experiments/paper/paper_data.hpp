@@ -31,7 +31,10 @@ struct VariedValue {
 
 class PaperData {
  public:
-  PaperData(Campaign campaign, std::filesystem::path results);
+  /// `rows`: of runs whose records are elsewhere (another's runs.csv); runs that are there have
+  /// their own.
+  PaperData(Campaign campaign, std::filesystem::path results,
+            std::vector<RunObservables> rows = {});
 
   const Campaign& campaign() const { return campaign_; }
   const std::filesystem::path& results() const { return results_; }
@@ -41,11 +44,15 @@ class PaperData {
   /// "3 of 10 frequencies; 5 of 30 runs": empty when everything planned is there.
   std::string missing(Varied which) const;
 
+  /// Its record is there.
   bool has(size_t run) const;
+  /// Its record is there, or its row.
+  bool knows(size_t run) const;
   std::filesystem::path folder(size_t run) const;
   /// A finished run's record. Throws Error.
   RunData read(size_t run) const;
-  /// Every finished run, measured, in the campaign's order: read once, on the first call.
+  /// Every finished run, measured, in the campaign's order: read once, on the first call. Those of
+  /// which only a row is known stand among them.
   const std::vector<RunObservables>& observables();
   /// The one of this run; null: not finished.
   const RunObservables* observables_of(size_t run);
@@ -54,13 +61,24 @@ class PaperData {
   /// The finished run of a seed at this of the frequencies that are varied.
   std::optional<size_t> at_frequency(double frequency, int seed) const;
   int finished() const;
+  /// Runs of which a row alone is known.
+  int known_by_row() const;
+  /// Runs made here whose row was given too: how many, and of how many both have the same hash.
+  struct Repeats {
+    int made = 0, same = 0;
+  };
+  Repeats repeats();
 
  private:
+  /// Is what the point asks for known?
+  bool serves(const CampaignPoint& point) const;
   const Observation* observation(const CampaignPoint& point);
+  const RunObservables* row_of(size_t run) const;  ///< null: none was given
 
   Campaign campaign_;
   std::filesystem::path results_;
   std::vector<bool> finished_;
+  std::map<std::string, RunObservables> rows_;  ///< by key
   std::vector<RunObservables> observables_;
   std::map<std::pair<size_t, double>, Observation> seen_;  // by run and window
 };

@@ -30,7 +30,7 @@ std::string listed(const std::map<std::string, int>& counts) {
 
 }  // namespace
 
-std::vector<page::Text> origin_of(const PaperData& data) {
+std::vector<page::Text> origin_of(PaperData& data) {
   const Campaign& campaign = data.campaign();
   std::map<std::string, int> commits, machines;
   double steps = 0.0, seconds = 0.0;
@@ -57,7 +57,13 @@ std::vector<page::Text> origin_of(const PaperData& data) {
                                    {"scene", campaign.settings.scene},
                                    {"iterations", std::to_string(campaign.settings.iterations)},
                                    {"seeds", std::to_string(campaign.settings.seeds)}});
-  return parts_of(origin, "||");
+  std::vector<page::Text> parts = parts_of(origin, "||");
+  if (const int rows = data.known_by_row())
+    parts.push_back(page::words("paper.rows", {{"rows", std::to_string(rows)}}));
+  if (const auto [made, same] = data.repeats(); made > 0)
+    parts.push_back(page::words("paper.repeats",
+                                {{"made", std::to_string(made)}, {"same", std::to_string(same)}}));
+  return parts;
 }
 
 page::Page paper_page(const std::vector<PaperSection>& sections,

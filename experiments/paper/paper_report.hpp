@@ -14,7 +14,7 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
                         const std::filesystem::path& folder);
 
 /// What the finished runs were made by: programs, machines, steps, wall clock; one sentence each.
-std::vector<page::Text> origin_of(const PaperData& data);
+std::vector<page::Text> origin_of(PaperData& data);
 
 /// The page that both files are written from; its figures are not drawn yet.
 page::Page paper_page(const std::vector<PaperSection>& sections,

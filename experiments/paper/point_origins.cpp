@@ -12,12 +12,14 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Of an origin's name, "runs 3 14": pages that are there, commands for the others.
+/// Of an origin's name, "runs 3 14": pages that are there, commands for the others; nothing
+/// of runs whose records are elsewhere.
 Json origin_of(const PaperData& data, const std::string& name, const fs::path& folder) {
   Json links = Json::array(), commands = Json::array();
   const std::vector<std::string> words = split(name, ' ');
   for (size_t k = 1; k < words.size(); ++k) {
     const auto run = parsed<size_t>(words[k]).value_or(0);
+    if (!data.has(run)) continue;
     const fs::path page = data.folder(run) / "report.html";
     const std::string& run_name = data.campaign().runs.at(run).planned.name;
     if (is_there(page))

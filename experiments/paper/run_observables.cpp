@@ -8,7 +8,6 @@
 #include "experiments/record/record_file.hpp"
 #include "experiments/record/record_system.hpp"
 #include "platform/content_key.hpp"
-#include "platform/csv.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
@@ -185,40 +184,6 @@ RunObservables observe_run(const RunData& data) {
   } catch (const std::invalid_argument&) {  // a control volume that is none
   }
   return run;
-}
-
-std::string runs_csv(std::span<const RunObservables> runs) {
-  CsvWriter csv;
-  std::vector<std::string> names{"name", "stage", "key", "record", "solver"},
-      units(names.size(), "text");
-  for (const RunColumn& column : run_columns()) {
-    names.emplace_back(column.name);
-    units.emplace_back(column.unit);
-  }
-  csv.add_row(names);
-  csv.add_row(units);
-  for (const RunObservables& run : runs) {
-    for (const std::string& text : {run.name, run.stage, run.key, run.record, run.setup.solver})
-      csv.add(text);
-    // what is not known is an empty cell
-    for (const RunColumn& column : run_columns()) {
-      const double value = column.value(run);
-      if (std::isfinite(value))
-        csv.add(value, 9);
-      else
-        csv.add("");
-    }
-    csv.end_row();
-  }
-  return csv.take();
-}
-
-std::string run_columns_csv() {
-  CsvWriter csv;
-  csv.add_row(std::vector<std::string>{"column", "unit", "description"});
-  for (const RunColumn& column : run_columns())
-    csv.add_row(std::vector<std::string>{column.name, column.unit, column.description});
-  return csv.take();
 }
 
 }  // namespace ballast

@@ -7,8 +7,11 @@
 // short, nothing stored).
 
 #include <array>
+#include <filesystem>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "experiments/measure/observables.hpp"
 #include "experiments/measure/packing_density.hpp"
@@ -63,17 +66,38 @@ struct RunObservables {
   double wall_mass_over_grains() const;                          ///< m_w/m
 };
 
-/// The columns of runs.csv, SI units, after the texts name, stage, key, record, solver.
+/// The columns of runs.csv, SI units, after the texts name, stage, key, record, solver. A column is
+/// a number of the row, or follows from such numbers.
 struct RunColumn {
   const char* name;  ///< snake_case
   const char* unit;  ///< "1" without one
   const char* description;
   double (*value)(const RunObservables& run);
+  void (*set)(RunObservables& run, double value) = nullptr;  ///< null: follows from other columns
+
+  /// `Get`: [](auto& run) that returns where the number stands, or [](const RunObservables& run)
+  /// that computes it.
+  template <class Get>
+  constexpr RunColumn(const char* its_name, const char* its_unit, const char* its_description, Get)
+      : name(its_name), unit(its_unit), description(its_description) {
+    if constexpr (std::is_invocable_r_v<double, Get, const RunObservables&>) {
+      value = [](const RunObservables& run) { return Get{}(run); };
+    } else {
+      value = [](const RunObservables& run) { return static_cast<double>(*Get{}(run)); };
+      set = [](RunObservables& run, double to) {
+        auto& place = *Get{}(run);
+        place = static_cast<std::remove_reference_t<decltype(place)>>(to);
+      };
+    }
+  }
 };
 std::span<const RunColumn> run_columns();
 
 /// Names, then units, then one row a run.
 std::string runs_csv(std::span<const RunObservables> runs);
+/// Reads such a table, of this or an earlier version: a column that is not in it is not known.
+/// Throws Error naming file, line and column where it is none.
+std::vector<RunObservables> read_runs_csv(const std::filesystem::path& file);
 /// The columns and what they mean, as CSV: column, unit, description.
 std::string run_columns_csv();
 

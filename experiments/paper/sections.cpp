@@ -144,10 +144,11 @@ std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target
   return {needed.begin(), needed.end()};
 }
 
-std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target) {
+std::vector<Plan> stages_of(const PaperData& data, const std::string& target) {
   std::vector<Plan> stages;
-  for (const size_t index : runs_for(campaign, target)) {
-    const CampaignRun& run = campaign.runs[index];
+  for (const size_t index : runs_for(data.campaign(), target)) {
+    if (data.knows(index) && !data.has(index)) continue;
+    const CampaignRun& run = data.campaign().runs[index];
     const std::string name = "paper-" + run.stage;
     // runs stand in the order of stages, so a new name is a new stage
     if (stages.empty() || stages.back().name != name) stages.push_back({name, {}});

@@ -29,8 +29,9 @@ std::vector<std::string> paper_targets();
 /// Indices of the runs a target needs, in the campaign's order. Throws std::invalid_argument naming
 /// the target and what there is.
 std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target);
-/// What a target needs as plans, one for each stage: to be run in this order. Throws as runs_for.
-std::vector<Plan> stages_of(const Campaign& campaign, const std::string& target);
+/// What a target needs as plans, one for each stage: to be run in this order. Runs of which a row
+/// alone is known are left out. Throws as runs_for.
+std::vector<Plan> stages_of(const PaperData& data, const std::string& target);
 /// The sections of a target. Throws std::invalid_argument when there is none.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 

@@ -7,6 +7,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
+#include "platform/error.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -73,4 +74,57 @@ TEST_CASE("runs.csv has names, units and a row a run; what is not known is empty
   CHECK(std::stod(rows[2][column("rise")]) == Approx(run.seen.rise));
   CHECK(rows[3][column("circulation")].empty());
   CHECK(rows[0].size() == run_columns().size() + 5);
+}
+
+TEST_CASE("a row that was written is read back, column by column") {
+  const TemporaryFolder folder;
+  RunObservables run = observe_run(made_up_run(folder.path()));
+  run.name = "made";
+  run.stage = "force";
+  run.key = "0123";
+  run.roll.circulation = -0.125;
+  const auto file = folder.path() / "runs.csv";
+  write_whole_file(file, runs_csv(std::vector<RunObservables>{run, run}));
+  const std::vector<RunObservables> rows = read_runs_csv(file);
+  REQUIRE(rows.size() == 2);
+  const RunObservables& row = rows.back();
+  CHECK(row.name == "made");
+  CHECK(row.stage == "force");
+  CHECK(row.key == "0123");
+  CHECK(row.record == run.record);
+  CHECK(row.setup.solver == run.setup.solver);
+  for (const RunColumn& column : run_columns()) {
+    INFO(column.name);
+    const double was = column.value(run), is = column.value(row);
+    CHECK(std::isfinite(was) == std::isfinite(is));
+    if (std::isfinite(was)) CHECK(is == Approx(was).epsilon(1e-8));
+  }
+  CHECK(row.seen.eq3_one_grain() == Approx(run.seen.eq3_one_grain()).epsilon(1e-8));
+  CHECK(row.seen.relative_gain == Approx(run.seen.relative_gain).epsilon(1e-6));
+}
+
+TEST_CASE("a table that is no runs.csv is refused by its file, line and column") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "runs.csv";
+  const std::string head = "name,stage,key,record,solver,rise\n",
+                    units = "text,text,text,text,text,m\n";
+  const auto refusal = [&](const std::string& text) -> std::string {
+    write_whole_file(file, text);
+    try {
+      read_runs_csv(file);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "read";
+  };
+  CHECK(refusal(head + units + "a,b,c,d,e,0.5\n") == "read");
+  CHECK(refusal(head + units + "a,b,c,d,e,\n") == "read");
+  CHECK_THAT(refusal(""), Catch::Contains("runs.csv") && Catch::Contains("empty"));
+  CHECK_THAT(refusal("name,rise\n"), Catch::Contains("runs.csv:1") && Catch::Contains("begins"));
+  CHECK_THAT(refusal("name,stage,key,record,solver,risen\n"),
+             Catch::Contains("runs.csv:1") && Catch::Contains("'risen'"));
+  CHECK_THAT(refusal(head), Catch::Contains("units"));
+  CHECK_THAT(refusal(head + units + "a,b,c,d,e,much\n"),
+             Catch::Contains("runs.csv:3") && Catch::Contains("rise") && Catch::Contains("much"));
+  CHECK_THAT(refusal(head + units + "a,b,c,d,e\n"), Catch::Contains("runs.csv:3"));
 }

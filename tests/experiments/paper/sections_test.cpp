@@ -19,7 +19,7 @@ TEST_CASE("each figure asks for its own runs, all for all of them") {
   for (const std::string& target : paper_targets()) {
     size_t runs = 0;
     std::set<std::string> stages;
-    for (const Plan& stage : stages_of(campaign, target)) {
+    for (const Plan& stage : stages_of(PaperData(campaign, "nothing there"), target)) {
       runs += stage.runs.size();
       CHECK(stages.insert(stage.name).second);
     }
