@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "experiments/paper/stage_tables.hpp"
 
@@ -29,26 +30,35 @@ std::vector<RunGroup> read_cases(PaperData& data, std::span<const CaseNames> nam
   return cases;
 }
 
-/// Its values within [low, high].
+/// Its values within [low, high]; none where an end is not there.
 std::vector<VariedValue> values_between(const RunGroup& of, double low, double high) {
   std::vector<VariedValue> kept;
+  if (!of.at(low) || !of.at(high)) return kept;
   for (const VariedValue& value : of.values)
     if (value.value >= low && value.value <= high) kept.push_back(value);
   return kept;
 }
 
-/// Exponents in nu over 5 to 60 Hz, sample by sample.
+/// Exponents in nu, sample by sample: over all frequencies from 5 to 60 Hz, and between two
+/// frequencies, which every case has.
 page::Table exponents_table(PaperData& data, const std::string& name,
                             const std::vector<RunGroup>& cases) {
   page::Table table = page::words_table(name);
-  for (const RunGroup& row : cases) {
-    const std::vector<VariedValue> values = values_between(row, 5.0, fast_frequency);
-    if (values.size() < 3) continue;
-    const SampleMean rise = exponent_by_sample(data, values, frequency_of, rise_of);
-    table.rows.push_back(
-        {row.name, std::to_string(rise.samples), words_with_interval(rise),
-         words_with_interval(exponent_by_sample(data, values, frequency_of, speed_of))});
-  }
+  for (const RunGroup& row : cases)
+    for (const double low : {5.0, 10.0, 20.0}) {
+      std::vector<VariedValue> values = values_between(row, low, fast_frequency);
+      const bool is_pair = low > 5.0;
+      if (values.size() < (is_pair ? 2 : 3)) continue;
+      if (is_pair) values = {values.front(), values.back()};
+      const SampleMean rise =
+          exponent_by_sample(data, values, frequency_of, rise_of, values.size());
+      const SampleMean speed =
+          exponent_by_sample(data, values, frequency_of, speed_of, values.size());
+      table.rows.push_back(
+          {row.name,
+           page::exact(low) + (is_pair ? " and " : " to ") + page::exact(fast_frequency) + " Hz",
+           std::to_string(rise.samples), words_with_interval(rise), words_with_interval(speed)});
+    }
   return table;
 }
 
@@ -100,16 +110,21 @@ PaperSection section_of(const char* stage) {
   return {.text = {page::words(std::string(stage) + ".intro")}};
 }
 
-/// A stage of frequencies: every run, exponents, and changes from the first case.
-PaperSection frequency_stage(PaperData& data, const char* stage, std::span<const CaseNames> names) {
+/// A stage of frequencies: every run, exponents, and changes from the first case. The exponents of
+/// so many cases are findings, each over its widest range.
+PaperSection frequency_stage(PaperData& data, const char* stage, std::span<const CaseNames> names,
+                             size_t claimed) {
   PaperSection section = section_of(stage);
   const std::vector<RunGroup> cases = read_cases(data, names, section);
   if (cases.empty()) return section;
   const std::string name = stage;
   add_table(stage_table(data, name + ".table", cases), section);
   const page::Table exponents = exponents_table(data, name + ".exponents", cases);
+  std::set<std::string> done;
   for (const std::vector<page::Text>& row : exponents.rows)
-    section.report(name + ".claim", {{"case", row[0]}, {"rise", row[2]}, {"speed", row[3]}});
+    if (done.insert(page::plain_words(row[0])).second && done.size() <= claimed)
+      section.report(name + ".claim",
+                     {{"case", row[0]}, {"range", row[1]}, {"rise", row[3]}, {"speed", row[4]}});
   add_table(exponents, section);
   add_table(changes_table(data, name + ".changes", cases, cases.front()), section);
   return section;
@@ -144,7 +159,7 @@ PaperSection tight_section(PaperData& data) {
                                         {Varied::tightest_frequency, "error ≤ 1e-3 g·h", false},
                                         {Varied::pressed_frequency, "200 iterations a step", false},
                                         {Varied::frequency, "the campaign’s iterations", false}};
-  return frequency_stage(data, "tight", names);
+  return frequency_stage(data, "tight", names, std::size(names));
 }
 
 PaperSection deposits_section(PaperData& data) {
@@ -152,7 +167,7 @@ PaperSection deposits_section(PaperData& data) {
                                         {Varied::pressed_rough_frequency, "lid pressed, μ 0.8"},
                                         {Varied::placed_frequency, "lid placed, μ 0.4"},
                                         {Varied::placed_rough_frequency, "lid placed, μ 0.8"}};
-  return frequency_stage(data, "deposits", names);
+  return frequency_stage(data, "deposits", names, std::size(names));
 }
 
 PaperSection loads_section(PaperData& data) {
@@ -240,15 +255,12 @@ PaperSection laws_section(PaperData& data) {
 }
 
 PaperSection rule_section(PaperData& data) {
-  static constexpr CaseNames names[] = {
-      {Varied::rule_frequency, "LMGC90’s rule"},
-      {Varied::pressed_frequency, "200 iterations a step", false}};
-  PaperSection section = section_of("rule");
-  const std::vector<RunGroup> cases = read_cases(data, names, section);
-  if (cases.empty() || cases.front().name != names[0].name) return section;
-  add_table(stage_table(data, "rule.table", cases), section);
-  add_table(changes_table(data, "rule.changes", cases, cases.back()), section);
-  return section;
+  static constexpr CaseNames names[] = {{Varied::rule_frequency, "LMGC90’s rule"},
+                                        {Varied::pressed_frequency, "200 iterations a step", false},
+                                        {Varied::tight_frequency, "error ≤ 1e-2 g·h", false}};
+  PaperSection nothing = section_of("rule");
+  if (read_values(data, Varied::rule_frequency, nothing).empty()) return nothing;
+  return frequency_stage(data, "rule", names, 1);
 }
 
 }  // namespace ballast

@@ -81,8 +81,7 @@ page::Text words_of_change(const Difference& change) {
 }
 
 SampleMean exponent_by_sample(PaperData& data, const std::vector<VariedValue>& values,
-                              RunMeasure along, RunMeasure measure) {
-  constexpr size_t fewest = 3;
+                              RunMeasure along, RunMeasure measure, size_t fewest) {
   std::map<int, std::pair<std::vector<double>, std::vector<double>>> samples;
   for (const VariedValue& value : values)
     for (size_t k = 0; k < value.seeds.size(); ++k)

@@ -40,9 +40,9 @@ Difference log_change(PaperData& data, const VariedValue& from, const VariedValu
 page::Text words_of_change(const Difference& change);
 
 /// Exponent of `measure` in `along` over the values, fitted to each sample by itself: its mean over
-/// the samples with at least three values. What a packing does at all values drops out.
+/// the samples with at least so many values. What a packing does at all values drops out.
 SampleMean exponent_by_sample(PaperData& data, const std::vector<VariedValue>& values,
-                              RunMeasure along, RunMeasure measure);
+                              RunMeasure along, RunMeasure measure, size_t fewest = 3);
 /// "−1.00 [−1.2, −0.8]": the 95 % interval by Student's t; without one where there is one sample.
 page::Text words_with_interval(const SampleMean& mean);
 

@@ -76,10 +76,17 @@ TEST_CASE("stage tables: exponents of samples and what a case changes") {
   const PaperSection section = section_named(data, "deposits");
   CHECK(section.tables.size() == 3);
   CHECK(section.tables[0].rows.size() == 8);
-  CHECK(section.tables[1].rows.size() == 2);
+  CHECK(section.tables[1].rows.size() == 6);  // over all frequencies, and between two pairs
+  for (const auto& row : section.tables[1].rows) {
+    const std::string exponent_words = plain_words(row[3]), minus = "−";
+    REQUIRE(exponent_words.starts_with(minus));
+    CHECK(std::stod(exponent_words.substr(minus.size())) ==
+          Approx(plain_words(row[0]).ends_with("0.8") ? 1.9 : 1.7).margin(0.015));
+  }
   CHECK(section.tables[2].rows.size() == 4);
   CHECK(section.notes.size() == 2);  // the placed lids are not driven
-  CHECK(found_of(section, "exponents of ν: lid pressed, μ 0.8").starts_with("Δx_max −1.90"));
+  CHECK(found_of(section, "exponents of ν: lid pressed, μ 0.8, 5 to 60 Hz")
+            .starts_with("Δx_max −1.90"));
 }
 
 TEST_CASE("stage tables: of fewer than three values or of one sample nothing is made up") {
@@ -145,7 +152,10 @@ TEST_CASE("sizes, laws, shapes, loads, rule and the second scene each have their
             .starts_with("+0 % [0, 0]"));
   CHECK(section_named(data, "shapes").findings.size() == 3);
   CHECK(section_named(data, "loads").tables[0].rows.size() == 4);
-  CHECK(section_named(data, "rule").tables[0].rows.size() == 3);
+  // two frequencies of the rule, one of 200 iterations, five of the tight solver
+  CHECK(section_named(data, "rule").tables[0].rows.size() == 8);
+  CHECK(found_of(section_named(data, "rule"), "exponents of ν: LMGC90’s rule, 10 and 60 Hz")
+            .starts_with("Δx_max −1.8"));
   const PaperSection reading = section_named(data, "reading");
   REQUIRE(reading.tables.size() == 2);
   CHECK(plain_words(reading.tables[0].rows[0][2]).starts_with("−1.80"));
