@@ -30,6 +30,8 @@ class Admm final : public Solver {
     factored_ = set_penalty(settings_.penalty);
   }
 
+  void use_team(WorkerTeam* team) override { system_.use_team(team); }
+
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
     const double first = w_.begin_at(r, u_);

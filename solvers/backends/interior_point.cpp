@@ -24,7 +24,12 @@ class InteriorPoint final : public Solver {
     free_contact_velocity(problem, q_);
     for (Eigen::VectorXd* x : {&u_, &point_.r, &point_.g, &rounded_u_})
       x->resize(problem.row_count());
-    polisher_->prepare(problem);
+    is_polisher_ready_ = false;  // its order and analysis are dear, and most solves do without
+  }
+
+  void use_team(WorkerTeam* team) override {
+    cone_step_.use_team(team);
+    polisher_->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
@@ -38,7 +43,10 @@ class InteriorPoint final : public Solver {
       rest = near || solved.reason == StopReason::stalled;
       return solved;
     });
-    if (rest) relay.run(*polisher_, problem, budget.max_iterations);
+    if (!rest) return relay.finish();
+    if (!is_polisher_ready_) polisher_->prepare(problem);
+    is_polisher_ready_ = true;
+    relay.run(*polisher_, problem, budget.max_iterations);
     return relay.finish();
   }
 
@@ -156,6 +164,7 @@ class InteriorPoint final : public Solver {
   Eigen::VectorXd q_, u_, rounded_u_;
   /// Begins at once: sweeps would undo what the interior point has balanced.
   std::unique_ptr<Solver> polisher_ = make_proximal_newton({.start_sweeps = 0});
+  bool is_polisher_ready_ = false;
 };
 
 }  // namespace

@@ -34,6 +34,8 @@ class Sap final : public Solver {
     no_shift_.reset(w_);
   }
 
+  void use_team(WorkerTeam* team) override { system_.use_team(team); }
+
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
     w_.project(start);

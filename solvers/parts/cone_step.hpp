@@ -40,6 +40,8 @@ class ConeStep {
 
   /// `w` must stay prepared for the same problem. Throws what sparse factors throw.
   void prepare(ContactOperator& w);
+  /// FrontLu::use_team
+  void use_team(WorkerTeam* team) { system_.use_team(team); }
 
   /// Scales the cones at `point` and factors. False: the point is not inside by rounding, or the
   /// matrix not definite; then advance() must not be called.

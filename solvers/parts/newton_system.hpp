@@ -8,14 +8,12 @@
 // by_u, and (M + H^T B^-1 by_u H) dv = -H^T B^-1 f is solved in the bodies' velocities: few
 // unknowns, a pattern of bodies that touch. With a stored W it is (B + by_u W) dr = -f.
 
-#include <array>
 #include <vector>
 
+#include "solvers/parts/body_matrix.hpp"
 #include "solvers/parts/contact_equation.hpp"
 #include "solvers/parts/contact_operator.hpp"
-#include "solvers/parts/front_lu.hpp"
 #include "solvers/parts/newton_matrix.hpp"
-#include "solvers/parts/sparse_factor.hpp"
 
 namespace ballast {
 
@@ -31,32 +29,21 @@ class NewtonSystem {
              const std::vector<double>& alpha, Impulses& dr);
 
   /// FrontLu::use_team
-  void use_team(WorkerTeam* team) { fronts_.use_team(team); }
+  void use_team(WorkerTeam* team) { matrix_.use_team(team); }
   /// Of a factorisation over bodies (FrontLu::operations); with a stored W of the last one
   /// (NewtonMatrix::operations).
   double operations() const { return operations_; }
 
  private:
-  void prepare_bodies(const FrictionProblem& problem);
   bool solve_bodies(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
                     const std::vector<double>& alpha, Impulses& dr);
-  /// dv_ of the matrix and right_. False: singular.
-  bool solve_matrix();
-  /// Adds H_p^T e H_q of contact c (sides p, q in 0, 1) to the matrix.
-  void add_block(const FrictionProblem& problem, int c, int p, int q, const Eigen::Matrix3d& e);
 
-  SparseColumns matrix_;
-  /// Per contact and sides (aa, ab, ba, bb): where in a column of the right body the rows of the
-  /// left one begin.
-  std::vector<std::array<int, 4>> offset_;
-  std::vector<int> mass_offset_;
   std::vector<Eigen::Matrix3d> gain_;    ///< E = B^-1 by_u per contact
   std::vector<Eigen::Vector3d> source_;  ///< B^-1 f
-  FrontLu fronts_;
-  LuFactor factor_;           ///< where a pivot of fronts_ is too small
+  BodyMatrix matrix_;
   NewtonMatrix matrix_form_;  ///< where W is stored
   double operations_ = 0.0;
-  Eigen::VectorXd right_, dv_, u_, rest_, correction_;
+  Eigen::VectorXd right_, dv_, u_;
 };
 
 }  // namespace ballast

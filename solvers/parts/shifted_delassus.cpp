@@ -2,53 +2,36 @@
 
 namespace ballast {
 
-template <typename Visit>
-void ShiftedDelassus::for_block_entries(const std::vector<Eigen::Matrix3d>& blocks,
-                                        const Visit& visit) const {
-  const FrictionProblem& problem = w_->problem();
-  for (int c = 0; c < problem.contact_count(); ++c)
-    for (int j = 0; j < problem.contact_rows(c); ++j)
-      for (int i = 0; i < problem.contact_rows(c); ++i)
-        visit(problem.row_begin[c] + i, problem.row_begin[c] + j, blocks[c](i, j));
-}
-
 void ShiftedDelassus::prepare(ContactOperator& w) {
   w_ = &w;
   const FrictionProblem& problem = w.problem();
   dynamics_ = problem.has_dynamics;
-  symmetric_ = true;
   if (dynamics_) {
-    base_ = sparse_mass(problem.dynamics);
     h_ = sparse_h(problem);
-    h_transposed_ = h_.transpose();
-    return;
+    return bodies_.prepare(problem);
   }
   // A stored W may be unsymmetric by some per cent: then LU in place of Cholesky.
-  base_ = problem.delassus.w;
-  const SparseColumns transposed = base_.transpose();
-  symmetric_ = (base_ - transposed).norm() <= 1e-14 * base_.norm();
+  const SparseColumns stored = problem.delassus.w, transposed = stored.transpose();
+  symmetric_ = (stored - transposed).norm() <= 1e-14 * stored.norm();
 }
 
 bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
                              const std::vector<Eigen::Matrix3d>& sigma) {
   shift_ = shift;
   sigma_ = sigma;
-  // The block diagonal as a sparse matrix: Sigma on the bodies, P on W.
+  if (dynamics_) return bodies_.factor(sigma_);
+  // W + P, in which P is a sparse matrix of blocks.
+  const FrictionProblem& problem = w_->problem();
   std::vector<Eigen::Triplet<double>> entries;
-  for_block_entries(dynamics_ ? sigma_ : shift_,
-                    [&](int i, int j, double x) { entries.emplace_back(i, j, x); });
-  SparseColumns blocks(w_->problem().row_count(), w_->problem().row_count());
+  for (int c = 0; c < problem.contact_count(); ++c)
+    for (int j = 0; j < problem.contact_rows(c); ++j)
+      for (int i = 0; i < problem.contact_rows(c); ++i)
+        entries.emplace_back(problem.row_begin[c] + i, problem.row_begin[c] + j, shift_[c](i, j));
+  SparseColumns blocks(problem.row_count(), problem.row_count());
   blocks.setFromTriplets(entries.begin(), entries.end());
-  // M + H^T Sigma H couples bodies that touch, W + P contacts that share a body.
-  if (dynamics_) {
-    const SparseColumns scaled = blocks * h_;
-    const SparseColumns product = h_transposed_ * scaled;
-    matrix_ = base_ + product;
-  } else {
-    matrix_ = base_ + blocks;
-  }
-  matrix_.makeCompressed();
-  return symmetric_ ? cholesky_.factor(matrix_) : lu_.factor(matrix_);
+  sum_ = SparseColumns(problem.delassus.w) + blocks;
+  sum_.makeCompressed();
+  return symmetric_ ? cholesky_.factor(sum_) : lu_.factor(sum_);
 }
 
 void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
@@ -56,7 +39,7 @@ void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     if (symmetric_)
       cholesky_.solve(b, x);
     else
-      lu_.solve(matrix_, b, x);
+      lu_.solve(sum_, b, x);
     return;
   }
   // Woodbury: x = Sigma (b - H (M + H^T Sigma H)^-1 H^T Sigma b).
@@ -64,7 +47,7 @@ void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   scaled_.resize(b.size());
   for (int c = 0; c < problem.contact_count(); ++c) w_->put(scaled_, c, sigma_[c] * w_->at(b, c));
   contact_to_body_impulse(problem.dynamics, problem.row_begin, scaled_, body_);
-  cholesky_.solve(body_, body_);
+  bodies_.solve_once(body_, body_);
   contact_ = b;
   contact_.noalias() -= h_ * body_;
   x.resize(b.size());

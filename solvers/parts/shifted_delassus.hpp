@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "solvers/parts/body_matrix.hpp"
 #include "solvers/parts/contact_operator.hpp"
 #include "solvers/parts/sparse_factor.hpp"
 
@@ -27,19 +28,18 @@ class ShiftedDelassus {
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
   /// x = (M + H^T Sigma H)^-1 b, in the bodies' unknowns: dynamics form only. Sigma may here be
   /// singular. `x` may be `b`.
-  void solve_bodies(const Eigen::VectorXd& b, Eigen::VectorXd& x) { cholesky_.solve(b, x); }
+  void solve_bodies(const Eigen::VectorXd& b, Eigen::VectorXd& x) { bodies_.solve_once(b, x); }
+  /// FrontLu::use_team
+  void use_team(WorkerTeam* team) { bodies_.use_team(team); }
 
  private:
   void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x);
-  /// Calls visit(row, column, value) for every entry of the blocks.
-  template <typename Visit>
-  void for_block_entries(const std::vector<Eigen::Matrix3d>& blocks, const Visit& visit) const;
 
   ContactOperator* w_ = nullptr;
   bool dynamics_ = false, symmetric_ = true;
-  SparseColumns base_;              ///< M, or W
-  SparseColumns h_, h_transposed_;  ///< dynamics form only
-  SparseColumns matrix_;
+  BodyMatrix bodies_;                           ///< dynamics form
+  SparseRows h_;                                ///< the same
+  SparseColumns sum_;                           ///< W + P
   std::vector<Eigen::Matrix3d> sigma_, shift_;  ///< P^-1, P
   CholeskyFactor cholesky_;
   LuFactor lu_;

@@ -1,0 +1,52 @@
+#pragma once
+// M + H^T E H with one 3 x 3 block E_c per contact, any of them unsymmetric: the matrix of every
+// method that eliminates the impulses. Few unknowns, and the pattern of bodies that touch.
+
+#include <array>
+#include <vector>
+
+#include "problems/algebra/friction_problem.hpp"
+#include "solvers/parts/front_lu.hpp"
+#include "solvers/parts/sparse_factor.hpp"
+
+namespace ballast {
+
+class BodyMatrix {
+ public:
+  /// Pattern, order, analysis and the places of all blocks. `problem`, which has a dynamics form,
+  /// must outlive the use of the matrix.
+  void prepare(const FrictionProblem& problem);
+  /// FrontLu::use_team
+  void use_team(WorkerTeam* team) { fronts_.use_team(team); }
+
+  /// With E_c = gain[c]; of a contact of one row only entry 0,0 is read. False: the elimination
+  /// broke down, and solve_once() must not be called.
+  bool factor(const std::vector<Eigen::Matrix3d>& gain);
+  /// x = A^-1 b by the factors alone. `x` may be `b`.
+  void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) { fronts_.solve(b, x); }
+  /// The matrix with E_c = gain[c] and x = A^-1 b, improved once by its residual. Where that stays
+  /// large, as no rows are exchanged, by an LU that exchanges them. False: singular. `x` must not
+  /// be `b`.
+  bool solve(const std::vector<Eigen::Matrix3d>& gain, const Eigen::VectorXd& b,
+             Eigen::VectorXd& x);
+
+  /// Of a factorisation (FrontLu::operations).
+  double operations() const { return fronts_.operations(); }
+
+ private:
+  void place_blocks(const std::vector<std::vector<int>>& near);
+  void fill(const std::vector<Eigen::Matrix3d>& gain);
+  void add_block(int c, int left_side, int right_side, const Eigen::Matrix3d& gain);
+
+  const FrictionProblem* problem_ = nullptr;
+  SparseColumns matrix_;
+  /// Per contact and sides (aa, ab, ba, bb): where in a column of the right body the rows of the
+  /// left one begin; -1: no such block.
+  std::vector<std::array<int, 4>> offset_;
+  std::vector<int> mass_offset_;
+  FrontLu fronts_;
+  LuFactor exchanging_;  ///< where fronts_ do not do
+  Eigen::VectorXd rest_, correction_;
+};
+
+}  // namespace ballast

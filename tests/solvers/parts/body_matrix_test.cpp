@@ -1,0 +1,98 @@
+// M + H^T E H by blocks, beside the same in dense matrices.
+
+#include "solvers/parts/body_matrix.hpp"
+
+#include "problems/algebra/known_solutions.hpp"
+#include "tests/catch.hpp"
+#include "tests/problems/algebra/dense_oracle.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// Unsymmetric, regular blocks; of one row: entry 0,0 and what must not be read.
+std::vector<Eigen::Matrix3d> some_gains(const FrictionProblem& problem) {
+  std::vector<Eigen::Matrix3d> gain(problem.contact_count());
+  double next = 0.53;  // logistic map
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    for (double& x : gain[c].reshaped()) x = (next = 3.99 * next * (1.0 - next)) - 0.5;
+    gain[c].diagonal().array() += 1.5;
+  }
+  return gain;
+}
+
+Eigen::MatrixXd dense_matrix(const FrictionProblem& problem,
+                             const std::vector<Eigen::Matrix3d>& gain) {
+  const Eigen::MatrixXd h = oracle::dense_h(problem);
+  Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(problem.row_count(), problem.row_count());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+    middle.block(first, first, rows, rows) = gain[c].topLeftCorner(rows, rows);
+  }
+  return oracle::dense_mass(problem) + h.transpose() * middle * h;
+}
+
+Eigen::VectorXd right_side(int rows) {
+  Eigen::VectorXd b(rows);
+  for (int i = 0; i < rows; ++i) b[i] = std::sin(1.7 * i + 0.3);
+  return b;
+}
+
+}  // namespace
+
+TEST_CASE("the matrix of bodies is that of its definition, for one set of gains after another",
+          "[factors]") {
+  for (const FrictionProblem& problem :
+       {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
+    BodyMatrix matrix;
+    matrix.prepare(problem);
+    CHECK(matrix.operations() > 0.0);
+    std::vector<Eigen::Matrix3d> gain = some_gains(problem);
+    const Eigen::VectorXd b = right_side(problem.dynamics.dof_count());
+    for (const double factor : {1.0, 30.0}) {
+      for (Eigen::Matrix3d& block : gain) block *= factor;
+      const Eigen::VectorXd exact = dense_matrix(problem, gain).partialPivLu().solve(b);
+      REQUIRE(matrix.factor(gain));
+      Eigen::VectorXd x = b;
+      matrix.solve_once(x, x);
+      CHECK((x - exact).norm() <= 1e-11 * exact.norm());
+      REQUIRE(matrix.solve(gain, b, x));
+      CHECK((x - exact).norm() <= 1e-12 * exact.norm());
+    }
+  }
+}
+
+TEST_CASE("where a pivot vanishes rows are exchanged, and a singular matrix is reported",
+          "[factors]") {
+  // Two bodies of one unknown and mass 2: one contact joins them, one holds the second; H = 1.
+  FrictionProblem problem;
+  problem.has_dynamics = true;
+  DynamicsForm& d = problem.dynamics;
+  for (int b = 0; b < 2; ++b) {
+    d.mass.push_back(2.0);
+    d.dof_begin.push_back(b + 1);
+    d.mass_begin.push_back(b + 1);
+    d.body_a.push_back(b);
+    d.body_b.push_back(b == 0 ? 1 : -1);
+    problem.row_begin.push_back(b + 1);
+    problem.friction.push_back(0.0);
+  }
+  d.h = {1.0, 1.0, 1.0};
+  d.h_begin = {0, 2, 3};
+  d.v_free = d.bias = Eigen::VectorXd::Zero(2);
+  BodyMatrix matrix;
+  matrix.prepare(problem);
+  const Eigen::Vector2d b(1.0, 3.0);
+  Eigen::VectorXd x;
+  const auto gains = [](double first, double second) {
+    return std::vector<Eigen::Matrix3d>{first * Eigen::Matrix3d::Identity(),
+                                        second * Eigen::Matrix3d::Identity()};
+  };
+  // [2 + e1, e1; e1, 2 + e1 + e2]: e1 = -2, e2 = 0 leaves zeros on the diagonal
+  CHECK_FALSE(matrix.factor(gains(-2.0, 0.0)));
+  REQUIRE(matrix.solve(gains(-2.0, 0.0), b, x));
+  CHECK(x[0] == Approx(-1.5));
+  CHECK(x[1] == Approx(-0.5));
+  // e1 = -1, e2 = 0: [1, -1; -1, 1]
+  CHECK_FALSE(matrix.solve(gains(-1.0, 0.0), b, x));
+}
