@@ -4,6 +4,8 @@
 
 #include "geometry/contact/contact_tracker.hpp"
 #include "platform/clock.hpp"
+#include "platform/error.hpp"
+#include "platform/text.hpp"
 #include "solvers/parts/local_change.hpp"
 #include "solvers/seam/island_solver.hpp"
 #include "solvers/solver_list.hpp"
@@ -128,6 +130,14 @@ void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
     carried_.assign(contacts_.size(), Vec3::Zero());
 }
 
+void require_finite(const SolverRun& run, const std::string& solver, double time) {
+  if (run.solved.impulses.allFinite()) return;
+  throw Error(
+      printed("t = %.6g s: the solver's impulses are not finite (solver.name = %s, %s). "
+              "Another may do: --set solver.name=auto",
+              time, solver.c_str(), name_of(run.solved.reason)));
+}
+
 void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   assembler_.to_rows(carried_, impulses_);
   Budget budget;
@@ -137,6 +147,7 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   // validates, solves and judges; the judge's error is what the record says
   SolverRun run = impact_law_.solve(runner_, *solver_, problem_, assembler_.rebound(),
                                     std::move(impulses_), budget);
+  require_finite(run, settings_.solver.name, record.time);
   impulses_ = std::move(run.solved.impulses);
   error_ = run.error;
   record.iterations = run.solved.iterations;
@@ -230,6 +241,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   Stopwatch clock;  // restart() ends a phase and begins the next
   const double h = settings_.h;
   const double mid_time = state.time + 0.5 * h, end_time = (state.step + 1) * h;
+  record.time = end_time;
   resting_.begin(memory);
   // A step of Moreau and Jean, of which this is the first half:
   //
@@ -264,7 +276,6 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   record.energy_residual -= stopped;
   record.seconds_other += clock.restart();
 
-  record.time = state.time;
   if (driven_wall_ >= 0) {
     record.wall_x = outward_displacement(system_, state, driven_wall_);
     record.wall_v = outward_velocity(system_, state, driven_wall_);

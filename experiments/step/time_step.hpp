@@ -11,6 +11,7 @@
 // energy exactly: what is left is recorded.
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "experiments/step/impact_law.hpp"
@@ -37,6 +38,9 @@ struct StepSettings {
 };
 
 StepSettings step_settings(const Scene& scene);
+
+/// Throws Error naming time [s] and solver where the impulses are not finite: no step can follow.
+void require_finite(const SolverRun& run, const std::string& solver, double time);
 
 /// Steps one system. Holds no state of the motion: that is the caller's MotionState and StepMemory.
 class TimeStepper {

@@ -61,7 +61,8 @@ template <typename V>
 /// The guess is the root for s2 = 1 in closed form, and by how much that missed the last root: in
 /// nine of ten visits it is within 1e-3. Two Newton steps follow, without a branch and without a
 /// square root: with P = mu N near R, R - P ~ 2 P (R^2 - P^2) / (3 P^2 + R^2). What the second one
-/// moves tells how near the root is; its own error is the square of that.
+/// moves tells how near the root is; its own error is the square of that. A guess beyond a pole may
+/// have left for infinity by then, where nothing is less than its own part.
 template <typename V, int K>
 BALLAST_INLINE void slide(LawLanes<V>* k) {
   using Mask = typename V::Mask;
@@ -97,7 +98,7 @@ BALLAST_INLINE void slide(LawLanes<V>* k) {
       x[v] = x[v] + move;
       if (step == 1)
         good[v] =
-            static_cast<Mask>(at_most(move, enough * x[v]) & at_most(zero - move, enough * x[v]) &
+            static_cast<Mask>(less(move, enough * x[v]) & less(zero - move, enough * x[v]) &
                               less(one, x[v]) & less(zero, pressed));
     }
   for (int v = 0; v < K; ++v) {

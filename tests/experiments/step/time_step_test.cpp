@@ -2,6 +2,8 @@
 
 #include "experiments/step/time_step.hpp"
 
+#include <limits>
+
 #include "tests/catch.hpp"
 #include "tests/support/cube_scene.hpp"
 
@@ -28,6 +30,17 @@ TEST_CASE("the intermediate axis flips over (Dzhanibekov), to second order in h"
                fine = (spin_at(1e-3) - reference).norm();
   CHECK(reference.y() < 4.0);  // it has left the unstable axis
   CHECK(coarse / fine == Approx(4.0).margin(0.1));
+}
+
+TEST_CASE("impulses that are not finite end the run by the solver's name, not later by a pose's") {
+  SolverRun run;
+  run.solved.impulses = Impulses::Ones(3);
+  CHECK_NOTHROW(require_finite(run, "nncg", 0.373));
+  run.solved.impulses[1] = std::numeric_limits<double>::quiet_NaN();
+  run.solved.reason = StopReason::numerical_failure;
+  CHECK_THROWS_WITH(require_finite(run, "nncg", 0.373), Catch::Contains("0.373 s") &&
+                                                            Catch::Contains("solver.name = nncg") &&
+                                                            Catch::Contains("numerical_failure"));
 }
 
 TEST_CASE("free fall is exact at every step") {
