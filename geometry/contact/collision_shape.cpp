@@ -16,6 +16,12 @@ constexpr double kFar = 1e100;  // [m]; finite, so that sums of padding stay fin
 
 int rounded_up(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
+/// The nearest number of single precision that is not above.
+float rounded_down(double value) {
+  const float nearest = static_cast<float>(value);
+  return nearest > value ? std::nextafter(nearest, -HUGE_VALF) : nearest;
+}
+
 /// The boundary of a patch of faces as one loop, counter-clockwise from outside, from its smallest
 /// vertex on.
 std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<int>& patch,
@@ -76,8 +82,8 @@ CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
   vertices_ = AffineRows(polyhedron.vertex_count(), kFar);
   for (int v = 0; v < polyhedron.vertex_count(); ++v) vertices_.set(v, polyhedron.vertex(v), 0.0);
   const std::vector<int> patch = merge_coplanar(polyhedron);
-  build_faces(polyhedron, patch);
-  build_edges(polyhedron, patch);
+  const std::vector<int> corners = build_faces(polyhedron, patch);
+  build_edges(polyhedron, patch, corners);
   build_vertex_faces(polyhedron, patch);
   build_ball(polyhedron);
 }
@@ -114,8 +120,10 @@ std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
   return patch;
 }
 
-/// Writes one face per patch, with its corners, and how isolated each face's normal is.
-void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+/// Writes one face per patch, and how isolated each face's normal is. Returns the corners'
+/// vertices, face by face.
+std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
+                                             const std::vector<int>& patch) {
   const int count = 1 + *std::max_element(patch.begin(), patch.end());
   const SortedByKey by_patch = sorted_by_key(patch, count);
   faces_ = AffineRows(count, -kFar);
@@ -146,8 +154,8 @@ void CollisionShape::build_faces(const Polyhedron& polyhedron, const std::vector
   }
   first_corner.push_back(static_cast<int>(corners.size()));
   first_corner_.keep(first_corner);
-  corner_vertex_.keep(corners);
   measure_isolation();
+  return corners;
 }
 
 /// The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
@@ -155,30 +163,32 @@ void CollisionShape::measure_isolation() {
   std::vector<Vec3> normals;
   for (int f = 0; f < faces_.count(); ++f) normals.push_back(faces_.xyz(f));
   const FrontSearch search(normals);
-  isolation_.assign(normals.size(), 1.0);
+  isolation_.reserve(normals.size());
   // Cosines nearer to each other than this may be out of order for their roundings.
   constexpr double slack = 1e-14, sixty_degrees = 0.5;
   for (size_t f = 0; f < normals.size(); ++f) {
-    double floor = sixty_degrees - slack;
+    double floor = sixty_degrees - slack, least = 1.0;
     search.visit_higher(normals[f], floor, [&](int g) {
       const Vec3& other = normals[static_cast<size_t>(g)];
       const double cosine = normals[f].dot(other);
       if (static_cast<size_t>(g) == f || cosine < sixty_degrees) return floor;
       const double sine = normals[f].cross(other).norm();  // <= angle
-      isolation_[f] = std::min(isolation_[f], sine);
+      least = std::min(least, sine);
       return floor = std::max(floor, cosine - slack);
     });
+    isolation_.push_back(rounded_down(least));
   }
 }
 
 /// Writes the edges between patches, and where they stand in the loops of the two faces beside.
-void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch) {
+void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch,
+                                 std::span<const int> corners) {
   const FrontSearch search(polyhedron.vertices());
-  std::vector<int> edges, corner_edge(static_cast<size_t>(corner_vertex_.size()));
+  std::vector<int> edges, corner_edge(corners.size());
   drop_.reserve(corner_edge.size() / 2);
   const auto enter = [&](int f, int from) {
     int corner = first_corner_[f];
-    while (corner_vertex_[corner] != from) ++corner;
+    while (corners[corner] != from) ++corner;
     corner_edge[corner] = edge_count();
   };
   for (const Polyhedron::Edge& edge : polyhedron.edges()) {
@@ -187,7 +197,7 @@ void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector
     enter(ends.left, ends.tail);
     enter(ends.right, ends.head);
     edges.insert(edges.end(), {ends.tail, ends.head, ends.left, ends.right});
-    drop_.push_back(drop_below(ends, polyhedron, search));
+    drop_.push_back(rounded_down(drop_below(ends, polyhedron, corners, search)));
   }
   edges_.keep(edges);
   corner_edge_.keep(corner_edge);
@@ -197,7 +207,7 @@ void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector
 /// = |right_normal.u|, |left_normal.u| times length / (sine |along x u|), so that the least sum
 /// of a vertex's depths below both faces bounds its depth along n.
 double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron,
-                                  const FrontSearch& search) const {
+                                  std::span<const int> corners, const FrontSearch& search) const {
   const Face left = face(edge.left), right = face(edge.right);
   // It is the highest vertex along the sum of the normals.
   double below = kFar, floor = -kFar;
@@ -210,7 +220,7 @@ double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhe
     return floor = offsets - below - rounding;
   };
   for (const int f : {edge.left, edge.right})
-    for (int k = first_corner_[f]; k < first_corner_[f + 1]; ++k) look(corner_vertex_[k]);
+    for (int k = first_corner_[f]; k < first_corner_[f + 1]; ++k) look(corners[k]);
   search.visit_higher(left.normal + right.normal, floor, look);
   const double length = (polyhedron.vertex(edge.head) - polyhedron.vertex(edge.tail)).norm();
   return below * length / left.normal.cross(right.normal).norm();

@@ -66,7 +66,7 @@ class CollisionShape {
   struct Face {
     Vec3 normal;       ///< outward, unit
     double offset;     ///< support of the whole polyhedron along the normal
-    double isolation;  ///< smallest angle between this normal and any other face's, up to 1 [rad]
+    double isolation;  ///< no other face's normal is nearer than this angle, at most 1 [rad]
   };
   /// What an edge joins: its ends and, seen from outside, the face `left`, which runs tail -> head,
   /// and the face `right`.
@@ -133,20 +133,22 @@ class CollisionShape {
 
  private:
   std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
-  void build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  std::vector<int> build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void measure_isolation();
-  void build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  void build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch,
+                   std::span<const int> corners);
   double drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron,
-                    const FrontSearch& search) const;
+                    std::span<const int> corners, const FrontSearch& search) const;
   void build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_ball(const Polyhedron& polyhedron);
 
   AffineRows vertices_, faces_;
-  std::vector<double> isolation_;             // of each face
-  std::vector<double> drop_;                  // of each edge
-  ShortNumbers edges_;                        // tail, head, left, right of each
-  ShortNumbers first_corner_;                 // of each face, and the end
-  ShortNumbers corner_vertex_, corner_edge_;  // of all faces
+  // Bounds for proofs, which hold as well when single precision has rounded them down.
+  std::vector<float> isolation_;  // of each face
+  std::vector<float> drop_;       // of each edge
+  ShortNumbers edges_;            // tail, head, left, right of each
+  ShortNumbers first_corner_;     // of each face, and the end
+  ShortNumbers corner_edge_;      // of all faces
   ShortNumbers vertex_begin_, vertex_faces_;
   BodyBounds bounds_;
 };
@@ -158,15 +160,18 @@ inline CollisionShape::Edge CollisionShape::edge(int e) const {
 }
 
 inline CollisionShape::Corner CollisionShape::corner(int f, int k) const {
-  const int at = first_corner_[f] + k, vertex = corner_vertex_[at];
-  return {vertex, corner_edge_[at], vertices_.xyz(vertex)};
+  const int e = corner_edge_[first_corner_[f] + k];
+  const EdgeEnds ends = edge_ends(e);
+  const int vertex = ends.left == f ? ends.tail : ends.head;
+  return {vertex, e, vertices_.xyz(vertex)};
 }
 
 inline CollisionShape::Side CollisionShape::side(int f, int k) const {
+  const EdgeEnds ends = edge_ends(corner_edge_[first_corner_[f] + k]);
+  const bool is_left = ends.left == f;
+  const Vec3 from = vertices_.xyz(is_left ? ends.tail : ends.head);
+  const Vec3 to = vertices_.xyz(is_left ? ends.head : ends.tail);
   // With the face on the left of its side, along x normal points out of the face within its plane.
-  const int first = first_corner_[f], next = k + 1 < corner_count(f) ? k + 1 : 0;
-  const Vec3 from = vertices_.xyz(corner_vertex_[first + k]);
-  const Vec3 to = vertices_.xyz(corner_vertex_[first + next]);
   const Vec3 outward = (to - from).cross(faces_.xyz(f)).normalized();
   return {outward, std::max(outward.dot(from), outward.dot(to))};
 }

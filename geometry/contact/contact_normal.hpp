@@ -111,10 +111,8 @@ struct EdgesMeeting {
   bool is_sharp() const {
     return !(flat_on_a && flat_on_b) && !(across && (flat_on_a || flat_on_b));
   }
-  /// Of flat edges: the body (0 = a) whose face is the reference, and the two faces.
+  /// Of flat edges: the body (0 = a) whose face is the reference.
   int reference() const { return flat_on_a ? 0 : 1; }
-  int reference_face() const { return flat_on_a ? face_a : face_b; }
-  int incident_face() const { return flat_on_a ? face_b : face_a; }
 };
 
 // ---- the gaps and the points

@@ -140,9 +140,17 @@ Polyhedron rounded_hull(Polyhedron hull, double rounding) {
   const std::vector<Corner> before = corners;
   if (corners.size() < 4) return hull;
   // Corners of three faces fit at once; where more faces meet, planes and corners give way to each
-  // other by turns.
-  double off = size;
-  for (int turn = 0; turn < 200 && off > 1e-14 * size; ++turn) {
+  // other by turns. Each turn shrinks what is left by much the same factor, so that ten of them
+  // tell whether all will do: on a smooth surface of many small triangles they never would.
+  constexpr int most_turns = 200;
+  const double most_off = 1e-11 * size;
+  double off = size, ten_ago = off;
+  for (int turn = 0; turn < most_turns && off > 1e-14 * size; ++turn) {
+    if (turn % 10 == 1) {
+      const double at_end = off * std::pow(off / ten_ago, 0.1 * (most_turns - turn));
+      if (off > most_off && at_end > most_off) return hull;
+      ten_ago = off;
+    }
     const std::vector<Plane> planes = fit_planes(corners, groups, 0.5 * (low + high));
     off = 0.0;
     for (Corner& corner : corners) off = std::max(off, move_to_planes(corner, planes));
@@ -155,7 +163,7 @@ Polyhedron rounded_hull(Polyhedron hull, double rounding) {
   }
   // Planes and corners that do not come to agree, or corners that went far, say that the groups
   // were wrong: then the hull of the points as they are is the answer.
-  if (!(off < 1e-11 * size && moved < 100.0 * rounding * size)) return hull;
+  if (!(off < most_off && moved < 100.0 * rounding * size)) return hull;
   try {
     Polyhedron joined = convex_hull(positions);
     return joined.face_count() == groups ? joined : hull;

@@ -35,14 +35,8 @@ cd "$folder" || exit 1
 "$ballast" compare known:contacts=6,bodies=4,count=2 --solvers pgs --external slow="sh slow.sh" --tolerances 1e-2,1e-6 \
   --max-seconds 100 --output results --snakemake jobs >log/written || fail "--snakemake"
 cd jobs || exit 1
-run_snakemake &
-snakemake_id=$!
-killed=$(kill_worker)
-wait "$snakemake_id" || { cat "$folder/log/snakemake"; fail "snakemake"; }
-snakemake_id=
-[ -n "$killed" ] || fail "no worker was found in the middle of a solve"
+run_and_kill kill_worker "in the middle of a solve"
 ! kill -0 "$(cat "$folder/first/id")" 2>/dev/null || fail "the killed worker's program still runs"
-jobs=$(find slurm/jobs -name '*.log' | wc -l)  # Slurm made one per job
 [ "$jobs" = 5 ] || fail "$jobs jobs ran in Slurm; 2 cases by pgs and by slow, and one that was killed are 5"
 
 # Column `outcome`, by its name; notes in quotes stand behind it.

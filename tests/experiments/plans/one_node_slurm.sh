@@ -1,6 +1,6 @@
 # Sourced by the tests that need a cluster: a Slurm of one node, that the test starts and ends.
 #
-# Gives $ballast, $folder (temporary), start_slurm, fail, and `children` that are ended at the end.
+# Gives $ballast, $folder (temporary), start_slurm, run_and_kill, fail, and `children` that are ended at the end.
 # Needs munge, slurmctld, slurmd, slurm-client and snakemake (apt-packages-cluster.txt) and root, whose daemons they are; without
 # them the test is skipped. Nothing of an installed Slurm is used or touched: configuration, keys, sockets and state are in the
 # temporary folder, the ports are unusual.
@@ -77,7 +77,15 @@ END
   skip "Slurm cannot be started here: its last words are above"
 }
 
-# Snakemake with the profile that is in this folder. With CI it looks after its jobs every second, and not every ten.
-run_snakemake() {
-  CI=true HOME=$folder exec snakemake -s Snakefile --profile slurm >"$folder/log/snakemake" 2>&1
+# run_and_kill KILL WHERE: Snakemake with the profile in this folder, to its end. Meanwhile the function KILL looks for a worker
+# WHERE, kills it and prints who it was: $killed. Slurm has made $jobs jobs, that one among them.
+run_and_kill() {
+  # With CI Snakemake looks after its jobs every second, and not every ten.
+  (CI=true HOME=$folder exec snakemake -s Snakefile --profile slurm >"$folder/log/snakemake" 2>&1) &
+  snakemake_id=$!
+  killed=$("$1")
+  wait "$snakemake_id" || { cat "$folder/log/snakemake"; fail "snakemake"; }
+  snakemake_id=
+  [ -n "$killed" ] || fail "no worker was found $2"
+  jobs=$(find slurm/jobs -name '*.log' | wc -l)
 }

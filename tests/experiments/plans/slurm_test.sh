@@ -36,15 +36,8 @@ echo "Slurm $(slurmctld -V | cut -d' ' -f2), Snakemake $(snakemake --version)"
 "$ballast" plan "$folder/plan.toml" --output "$folder/local" --jobs 2 >"$folder/log/local" 2>&1 || { cat "$folder/log/local"; fail "the local plan"; }
 "$ballast" plan "$folder/plan.toml" --output "$folder/cluster" --snakemake "$folder/jobs" >/dev/null || fail "--snakemake"
 cd "$folder/jobs" || exit 1
-run_snakemake &
-snakemake_id=$!
-killed=$(kill_a_worker)
-wait "$snakemake_id" || { cat "$folder/log/snakemake"; fail "snakemake"; }
-snakemake_id=
-
-[ -n "$killed" ] || fail "no worker was found in the middle of its run"
+run_and_kill kill_a_worker "in the middle of its run"
 echo "killed with -9: $(basename "$killed")"
-jobs=$(find slurm/jobs -name '*.log' | wc -l)  # Slurm made one per job
 [ "$jobs" -ge 7 ] || fail "$jobs jobs ran in Slurm; 2 packings, 4 runs and one that was killed are 7"
 grep -q '"step": [1-9]' <(sed -n '/"resumed"/,/\]/p' "$killed/manifest.json") || fail "the killed run was not resumed at a checkpoint"
 compared=0

@@ -70,7 +70,8 @@ TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their cr
                                b = pair.shape[1]->edge(feature.b);
     const EdgesMeeting meeting(pair, *axis, a, b);
     if (meeting.is_sharp()) continue;
-    const int reference = meeting.reference(), face = meeting.reference_face();
+    const int reference = meeting.reference();
+    const int face = reference == 0 ? meeting.face_a : meeting.face_b;
     const Vec3 direction =
         reference == 0 ? axis->direction : Vec3(-(pair.other[1].rotation * axis->direction));
     const CollisionShape::FaceTable beside_a = face_table(*pair.shape[0], meeting.face_a),

@@ -1,9 +1,12 @@
 #include "geometry/shape/rounded_hull.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/random_direction.hpp"
+#include "platform/clock.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -71,4 +74,22 @@ TEST_CASE("what was not broken is the hull as it is") {
                    same.vertices().end()));
   CHECK(same.face_count() == plain.face_count());
   CHECK_THROWS_AS(rounded_hull(std::vector<Vec3>(9, Vec3::Zero()), 1e-6), InvalidPolyhedron);
+}
+
+TEST_CASE("faces of a smooth surface that cannot be joined are soon left as they are") {
+  // A lattice along a spiral: strips of triangles that are nearly flat, and neighbours of strips.
+  constexpr int count = 20000;
+  const double golden_angle = std::numbers::pi * (1.0 + std::sqrt(5.0));
+  std::vector<Vec3> points;
+  for (int k = 0; k < count; ++k) {
+    const double z = 1.0 - (2.0 * k + 1.0) / count, radius = std::sqrt(1.0 - z * z);
+    const double angle = golden_angle * (k + 0.5);
+    points.emplace_back(radius * std::cos(angle), 0.8 * radius * std::sin(angle), 0.6 * z);
+  }
+  const double begin = processor_seconds();
+  const Polyhedron hull = convex_hull(points);
+  const double hull_seconds = processor_seconds() - begin;
+  CHECK(rounded_hull(hull, 5e-5).face_count() == hull.face_count());
+  // 4 hulls' time; all turns would take 50
+  CHECK(processor_seconds() - begin - hull_seconds < 20.0 * hull_seconds);
 }
