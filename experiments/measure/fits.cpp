@@ -53,8 +53,6 @@ SampleMean sample_mean(std::span<const double> values) {
 
 double PowerFit::at(double x) const { return prefactor * std::pow(x, exponent); }
 
-bool PowerFit::covers(double expected) const { return std::abs(exponent - expected) <= half_width; }
-
 PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
   const auto logarithm = [](double value) { return value > 0.0 ? std::log(value) : not_known; };
   std::vector<double> log_x, log_y;

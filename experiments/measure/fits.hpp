@@ -26,7 +26,6 @@ struct PowerFit {
   double r2 = not_known;          ///< of the logarithms
   int samples = 0;
   double at(double x) const;
-  bool covers(double expected) const;  ///< the interval holds it
 };
 /// Points that are not finite and positive are left out.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);

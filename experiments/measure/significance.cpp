@@ -114,16 +114,6 @@ double Difference::p() const { return student_p(mean / error, degrees_of_freedom
 
 double Difference::half_width() const { return student_t95(degrees_of_freedom) * error; }
 
-Difference difference_of_means(std::span<const double> a, std::span<const double> b,
-                               const PooledError& pooled) {
-  const std::vector<double> first = finite_of(a), second = finite_of(b);
-  if (first.empty() || second.empty()) return {};
-  return {mean_of(second) - mean_of(first),
-          pooled.deviation * std::sqrt(1.0 / static_cast<double>(first.size()) +
-                                       1.0 / static_cast<double>(second.size())),
-          pooled.degrees_of_freedom};
-}
-
 Difference paired_difference(std::span<const double> a, std::span<const double> b) {
   std::vector<double> differences;
   for (size_t k = 0; k < std::min(a.size(), b.size()); ++k) differences.push_back(b[k] - a[k]);

@@ -40,10 +40,6 @@ struct Difference {
   double half_width() const;  ///< of the 95 % confidence interval
 };
 
-/// Mean of b less mean of a, independent samples; the error is the pooled one, so that either may
-/// be a single sample.
-Difference difference_of_means(std::span<const double> a, std::span<const double> b,
-                               const PooledError& pooled);
 /// Mean of b[k] - a[k]: what a pair has in common (the same packing) drops out.
 Difference paired_difference(std::span<const double> a, std::span<const double> b);
 

@@ -47,10 +47,6 @@ std::string srgb_bytes(const Picture3& picture, int shrink) {
   return bytes;
 }
 
-std::string png_of(const Picture3& picture, int shrink) {
-  return png_of_bytes(srgb_bytes(picture, shrink), picture.width / shrink);
-}
-
 std::string png_of_bytes(const std::string& bytes, int width) {
   const auto row = 3 * static_cast<size_t>(width);
   std::string rows;

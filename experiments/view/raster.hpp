@@ -64,9 +64,7 @@ struct Picture3 {
 /// Red, green and blue as sRGB bytes, pixel after pixel. `shrink`: so many rows and columns become
 /// one.
 std::string srgb_bytes(const Picture3& picture, int shrink);
-/// As an 8-bit PNG.
-std::string png_of(const Picture3& picture, int shrink = 1);
-/// Of rows of `width` pixels that srgb_bytes() has given.
+/// As an 8-bit PNG: rows of `width` pixels that srgb_bytes() has given.
 std::string png_of_bytes(const std::string& bytes, int width);
 
 /// The beginning of a PNG: "truecolour" or "palette" with 8 bits.

@@ -44,7 +44,7 @@ TEST_CASE("what is nearer hides what is farther, in whatever order they come") {
 TEST_CASE("a picture as PNG: its parts, their check sums, and its pixels in sRGB") {
   Picture3 picture{4, 2, std::vector<std::array<float, 3>>(8, {1.0f, 0.0f, 0.2140411f})};
   picture.pixels[0] = {0.0f, 0.0f, 0.0f};
-  const std::string png = png_of(picture);
+  const std::string png = png_of_bytes(srgb_bytes(picture, 1), 4);
   CHECK(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
   std::string rows;
   std::vector<std::string> names;
@@ -61,7 +61,7 @@ TEST_CASE("a picture as PNG: its parts, their check sums, and its pixels in sRGB
   REQUIRE(rows.size() == 2 * (1 + 3 * 4));
   CHECK(rows.substr(0, 7) == std::string("\0\0\0\0\xff\0\x7f", 7));
   // two rows and columns as one: a quarter of the first is black
-  const std::string half = png_of(picture, 2);
+  const std::string half = png_of_bytes(srgb_bytes(picture, 2), 2);
   CHECK(number_at(half, 16) == 2);
   CHECK(number_at(half, 20) == 1);
 }
