@@ -39,7 +39,7 @@ constexpr Priors over_bodies{{{20.0, 0.0, 5.0},
                               {160.0, 0.0, 8.0},
                               {25.0, 0.0, 4.0},
                               {150.0, 0.0, 8.0},
-                              {0.5, 0.02, 0.1},
+                              {0.0, 0.0, 0.1},
                               {80.0, 0.0, 6.0},
                               not_here}};
 constexpr Priors over_matrix{{{0.0, 0.0, 10.0},
@@ -72,10 +72,10 @@ class Auto final : public Solver {
     ways_[anderson].solver = make_anderson_pgs({});
     ways_[plain].solver = make_newton({.equation = ContactEquation::alart_curnier});
     ways_[proximal].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4});
-    // As much work for sweeps as for the steps between them; who gives up is decided here.
+    // Who gives up is decided here.
     ways_[burst].solver = make_newton_burst({.start_sweeps = 0,
-                                             .burst = 0,
-                                             .endgame = 0.0,
+                                             .burst = 50,
+                                             .is_balanced = true,
                                              .descends_first = true,
                                              .most_steps = 1 << 20});
     ways_[interior].solver = make_interior_point();
@@ -181,7 +181,8 @@ class Auto final : public Solver {
       return;
     }
     ways_[burst].factorisation = work_.burst_step() - sweep;
-    ways_[burst].expected *= 2.0 * work_.burst_step() / sweep;
+    if (has_bodies)
+      ways_[burst].expected = 0.5 * std::sqrt(problem.contact_count()) * work_.burst_step();
   }
 
   /// Work until `way` arrives, as far as one can tell: what its pace says, but not more than

@@ -119,13 +119,15 @@ class NewtonBurst final : public Solver {
     if (is_ready_) return;
     newton_.prepare(*problem_);
     is_ready_ = true;
+    burst_ = settings_.burst;
+    endgame_ = settings_.endgame;
+    if (!settings_.is_balanced) return;
     StepWork work;
     work.count(*problem_);
     work.learn(newton_.operations());
     const double sweeps = work.burst_step() / work.sweep();  // that cost as much as a step
-    burst_ = settings_.burst > 0 ? settings_.burst : static_cast<int>(std::lround(sweeps));
-    endgame_ =
-        settings_.endgame > 0.0 ? settings_.endgame : std::min(0.01, 1.5 / (sweeps * sweeps));
+    burst_ = std::min(burst_, static_cast<int>(std::ceil(sweeps)));
+    endgame_ = std::max(endgame_, std::min(0.1, 200.0 / (sweeps * sweeps * sweeps)));
   }
 
   void offer(Course& course, const NewtonIterate& at, double error) {

@@ -19,11 +19,13 @@ struct NewtonBurstSettings {
   /// Newton's turn comes where sweeps promise to need more than so many others: what a
   /// factorisation for some thousand contacts and the first Newton steps cost.
   int promised_sweeps = 15000;
-  int burst = 200;  ///< sweeps after a Newton step, at most; 0: as many as cost what it does
+  int burst = 200;  ///< sweeps after a Newton step, at most
+  /// No more of them than cost what the step does; and the fewer those are, the earlier the end
+  /// begins, whose proximal steps take several Newton steps each.
+  bool is_balanced = false;
   /// The compliance to begin with, as a part of lambda_max(W_cc).
   double epsilon = 3e-4;
-  /// Below this part of the error at zero impulse there are no more bursts. 0: the later, the more
-  /// sweeps a step costs, as proximal steps take several Newton steps each.
+  /// Below this part of the error at zero impulse there are no more bursts.
   double endgame = 1e-4;
   /// Its end is a walk: proximal steps that may pass through worse places, which come out of jams.
   /// True: before it proximal steps that lower the error, until they are stuck. Those are the

@@ -47,7 +47,7 @@ TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[fact
 
 TEST_CASE("bursts that are as long as a step costs are not longer", "[factors]") {
   const FrictionProblem problem = deficient(1);
-  const auto solver = make_newton_burst({.start_sweeps = 0, .burst = 0, .endgame = 1e-7});
+  const auto solver = make_newton_burst({.start_sweeps = 0, .is_balanced = true});
   int factorisations = 0;
   const SolverRun run = SolverRunner().run(
       *solver, problem, {},
