@@ -181,8 +181,10 @@ class Auto final : public Solver {
       return;
     }
     ways_[burst].factorisation = work_.burst_step() - sweep;
-    if (has_bodies)
-      ways_[burst].expected = 0.5 * std::sqrt(problem.contact_count()) * work_.burst_step();
+    if (!has_bodies) return;
+    ways_[burst].expected = 0.5 * std::sqrt(problem.contact_count()) * work_.burst_step();
+    // Where a step costs as much as hundreds of sweeps, those get as much of the work.
+    ways_[burst].trust = std::clamp(work_.burst_step() / (150.0 * sweep), ways_[burst].trust, 1.0);
   }
 
   /// Work until `way` arrives, as far as one can tell: what its pace says, but not more than
