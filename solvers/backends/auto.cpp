@@ -19,8 +19,51 @@
 namespace ballast {
 namespace {
 
-/// Way::trust of sweeps; where iterations are scarce; of others.
-constexpr double moderate = 4.0, little = 12.0, doubtful = 2.0;
+enum Kind : size_t { momentum, anderson, plain, proximal, burst, interior, conjugate, kinds };
+
+/// What is known of a way before it has shown its pace.
+struct Prior {
+  double few, per_contact;  ///< steps that it is taken to need; of bursts, rounds
+  double trust;             ///< Way::trust
+};
+using Priors = std::array<Prior, kinds>;
+
+constexpr double never = 1e300;
+constexpr Prior not_here{never, 0.0, 1.0};
+
+// Over bodies bursts are the shortest way more often than not, with a stored W proximal steps are:
+// that one way's turns are long. Some sweeps come before, for what is easy; the others after, for
+// what misleads it. Tuned on generated piles, random graphs and captured stacks, walls, pyramids
+// and heaps of boxes; tried on others.
+constexpr Priors over_bodies{{{20.0, 0.0, 5.0},
+                              {160.0, 0.0, 8.0},
+                              {25.0, 0.0, 4.0},
+                              {150.0, 0.0, 8.0},
+                              {0.0, 0.0, 0.1},
+                              {80.0, 0.0, 6.0},
+                              not_here}};
+constexpr Priors over_matrix{{{0.0, 0.0, 10.0},
+                              {100.0, 0.0, 10.0},
+                              {50.0, 0.03, 4.0},
+                              {8.0, 0.05, 0.3},
+                              not_here,
+                              {60.0, 0.0, 6.0},
+                              {900.0, 0.0, 8.0}}};
+/// Where iterations are scarce, one is as dear as another.
+constexpr Priors scarce_over_bodies{{{64.0, 0.0, 12.0},
+                                     {64.0, 0.0, 12.0},
+                                     {16.0, 0.1, 2.0},
+                                     {10.0, 0.05, 2.0},
+                                     {30.0, 0.0, 2.0},
+                                     {40.0, 0.0, 2.0},
+                                     not_here}};
+constexpr Priors scarce_over_matrix{{{64.0, 0.0, 4.0},
+                                     {64.0, 0.0, 4.0},
+                                     {30.0, 0.1, 2.0},
+                                     {10.0, 0.05, 2.0},
+                                     not_here,
+                                     {40.0, 0.0, 2.0},
+                                     not_here}};
 
 class Auto final : public Solver {
  public:
@@ -29,7 +72,12 @@ class Auto final : public Solver {
     ways_[anderson].solver = make_anderson_pgs({});
     ways_[plain].solver = make_newton({.equation = ContactEquation::alart_curnier});
     ways_[proximal].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4});
-    set_scarce(false);
+    // Who gives up is decided here.
+    ways_[burst].solver = make_newton_burst({.start_sweeps = 0,
+                                             .burst = 50,
+                                             .is_balanced = true,
+                                             .descends_first = true,
+                                             .most_steps = 1 << 20});
     ways_[interior].solver = make_interior_point();
     ways_[conjugate].solver = make_nncg();
     for (const Kind kind : {plain, proximal, interior}) ways_[kind].only_factors = true;
@@ -61,7 +109,7 @@ class Auto final : public Solver {
     const bool can_end = fair * work_.burst_step() > budget.max_iterations * work_.sweep();
     const int part = budget.max_iterations <= few_iterations ? 0 : budget.max_iterations / 2;
     scarce_from_ = can_end ? part : std::numeric_limits<int>::max();
-    if (is_scarce_ != (scarce_from_ == 0)) set_scarce(!is_scarce_);
+    is_scarce_ = scarce_from_ == 0;
     expect(problem, budget);
     Relay relay(budget, std::move(start));
     // Always the most promising way; its leg ends where another promises more.
@@ -78,8 +126,6 @@ class Auto final : public Solver {
   }
 
  private:
-  enum Kind : size_t { momentum, anderson, plain, proximal, burst, interior, conjugate, kinds };
-
   /// No way's solve outlives the problem.
   struct Ending {
     std::array<Way, kinds>& ways;
@@ -94,69 +140,51 @@ class Auto final : public Solver {
     return *way.solver;
   }
 
-  /// Are iterations what is scarce? Then hardly any bursts; else until proximal steps are much
-  /// faster.
-  void set_scarce(bool is_scarce) {
-    is_scarce_ = is_scarce;
-    Way& way = ways_[burst];
-    way.going.reset();
-    const double endgame = is_scarce ? 1e-2 : 1e-4;
-    way.solver = make_newton_burst(
-        {.start_sweeps = 0, .burst = 50, .endgame = endgame, .descends_first = true});
-    way.solver->use_team(team_);
-    way.is_prepared = false;
-  }
-
   /// From here on iterations are what is scarce. Every way begins to count anew.
   void count_iterations(const FrictionProblem& problem, const Budget& budget) {
-    set_scarce(true);
+    is_scarce_ = true;
     for (Way& way : ways_) {
+      way.going.reset();
       way.pace.begin();
       way.spent = 0.0;
     }
     expect(problem, budget);
   }
 
+  const Priors& priors(bool has_bodies) const {
+    if (is_scarce_) return has_bodies ? scarce_over_bodies : scarce_over_matrix;
+    return has_bodies ? over_bodies : over_matrix;
+  }
+
   /// What each way is taken to need before it has shown its pace.
   void expect(const FrictionProblem& problem, const Budget& budget) {
-    const double contacts = problem.contact_count();
     const bool has_bodies = problem.has_dynamics;
-    const double sweep = work_.sweep(), newton = work_.newton_step();
-    const double costs[kinds] = {sweep, work_.mixed_sweep(),   newton, newton,
-                                 sweep, work_.interior_step(), sweep};
+    const double sweep = work_.sweep(), newton = work_.newton_step(), mixed = work_.mixed_sweep();
+    const double costs[kinds] = {sweep, mixed, newton, newton, sweep, work_.interior_step(), sweep};
     for (size_t k = 0; k < kinds; ++k) {
       Way& way = ways_[k];
+      const Prior& prior = priors(has_bodies)[k];
       way.work = is_scarce_ ? 1.0 : costs[k];
-      way.trust = way.is_newton || k == interior ? doubtful : moderate;
-      if (is_scarce_ && has_bodies && k <= anderson) way.trust = little;
+      way.trust = prior.trust;
+      double steps = prior.few + prior.per_contact * problem.contact_count();
+      // Sweeps come first, until they have cost as much as a Newton step would besides.
+      if (k == momentum && !is_scarce_) steps += (has_bodies ? work_.burst_step() : newton) / sweep;
+      if (k <= anderson) steps = std::min(steps, std::max(1.0, budget.max_iterations / 8.0));
+      way.expected = steps * way.work;
       // Another's iterate misleads more often than it helps, but for proximal steps on a stored W.
       way.takes_best = k == interior ? 0.0 : 0.01;
       if (way.is_newton && is_scarce_) way.takes_best = 0.5;
       if (way.is_newton && !is_scarce_ && !has_bodies) way.takes_best = 0.4;
     }
-    if (!is_scarce_ && !has_bodies) ways_[proximal].trust = 1.0;
-    ways_[burst].factorisation = is_scarce_ ? 0.0 : work_.burst_step() - sweep;
-
-    // So many steps; over bodies bursts of sweeps are the shortest way more often than not, with a
-    // stored W proximal steps are, and where iterations are scarce.
-    const auto steps = [&](Kind kind, double few, double per_contact) {
-      ways_[kind].expected = (few + per_contact * contacts) * ways_[kind].work;
-    };
-    const int few = std::clamp(budget.max_iterations / 8, 1, is_scarce_ ? 64 : 160);
-    for (const Kind kind : {momentum, anderson}) steps(kind, few, 0.0);
-    steps(interior, is_scarce_ ? 40.0 : 80.0, 0.0);
-    steps(plain, has_bodies ? 16.0 : 30.0, is_scarce_ || !has_bodies ? 0.1 : 0.07);
-    if (is_scarce_)
-      steps(proximal, 10.0, 0.05);
-    else
-      steps(proximal, has_bodies ? 20.0 : 10.0, has_bodies ? 0.5 : 0.035);
-    const double rounds = is_scarce_ ? 30.0 : 4.0 + 0.01 * contacts;
-    ways_[burst].expected = rounds * (is_scarce_ ? 1.0 : work_.burst_step());
-    // Of many contacts bursts arrive nearly always, though their error may stand for long.
-    if (!is_scarce_) ways_[burst].trust = std::min(4.0, 100.0 / std::pow(contacts, 1.5));
-    steps(conjugate, 600.0, 0.0);
-    if (has_bodies || is_scarce_) ways_[conjugate].expected = never;
-    if (!has_bodies) ways_[burst].expected = never;
+    if (is_scarce_) {
+      ways_[burst].factorisation = 0.0;
+      return;
+    }
+    ways_[burst].factorisation = work_.burst_step() - sweep;
+    if (!has_bodies) return;
+    ways_[burst].expected = 0.5 * std::sqrt(problem.contact_count()) * work_.burst_step();
+    // Where a step costs as much as hundreds of sweeps, those get as much of the work.
+    ways_[burst].trust = std::clamp(work_.burst_step() / (150.0 * sweep), ways_[burst].trust, 1.0);
   }
 
   /// Work until `way` arrives, as far as one can tell: what its pace says, but not more than
@@ -237,9 +265,6 @@ class Auto final : public Solver {
     if (!is_scarce_ && relay.iterations() >= scarce_from_) count_iterations(problem, budget);
   }
 
-  // Tuned on generated piles, random graphs (seeds below 1000) and captured stacks, walls, pyramids
-  // and heaps of boxes; tried on others.
-  static constexpr double never = 1e300;
   /// Of so few every iteration counts from the first.
   static constexpr int few_iterations = 500;
   /// Before so many are left no solve pauses: some look at their error once in hundreds.

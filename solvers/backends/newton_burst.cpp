@@ -8,6 +8,7 @@
 
 #include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/backends/newton.hpp"
+#include "solvers/backends/step_work.hpp"
 #include "solvers/parts/regular_newton.hpp"
 #include "solvers/seam/course.hpp"
 
@@ -95,7 +96,7 @@ class NewtonBurst final : public Solver {
     make_ready();
     // The error without any impulse says how large the problem's velocities are.
     NewtonIterate at = newton_.iterate(Impulses::Zero(problem_->row_count()));
-    const double scale = newton_.settle(at), end = settings_.endgame * scale;
+    const double scale = newton_.settle(at), end = endgame_ * scale;
     at = newton_.iterate(course.best());
     double error = newton_.settle(at);
     descend(course, at, error, end);
@@ -118,6 +119,15 @@ class NewtonBurst final : public Solver {
     if (is_ready_) return;
     newton_.prepare(*problem_);
     is_ready_ = true;
+    burst_ = settings_.burst;
+    endgame_ = settings_.endgame;
+    if (!settings_.is_balanced) return;
+    StepWork work;
+    work.count(*problem_);
+    work.learn(newton_.operations());
+    const double sweeps = work.burst_step() / work.sweep();  // that cost as much as a step
+    burst_ = std::min(burst_, static_cast<int>(std::ceil(sweeps)));
+    endgame_ = std::max(endgame_, std::min(0.1, 200.0 / (sweeps * sweeps * sweeps)));
   }
 
   void offer(Course& course, const NewtonIterate& at, double error) {
@@ -161,7 +171,7 @@ class NewtonBurst final : public Solver {
       offer(course, at, after);
       if (course.over()) return;
       NewtonIterate swept = at;
-      const double swept_error = burst(course, swept, settings_.burst);
+      const double swept_error = burst(course, swept, burst_);
       const bool is_undone = after < swept_error && after < error;
       if (!(after < swept_error)) {
         after = swept_error;
@@ -175,7 +185,7 @@ class NewtonBurst final : public Solver {
       undone = is_undone ? undone + 1 : 0;
       if (after > 2.0 * error && !course.over()) {
         at = before;
-        after = burst(course, at, settings_.burst);
+        after = burst(course, at, burst_);
       }
       error = after;
     }
@@ -261,6 +271,8 @@ class NewtonBurst final : public Solver {
   RegularNewton newton_;
   std::unique_ptr<Solver> walk_;  ///< proximal-point steps that may go through worse places
   bool is_ready_ = false;         ///< newton_ is prepared for problem_
+  int burst_ = 0;                 ///< sweeps after a step
+  double endgame_ = 0.0;          ///< as in the settings
   const FrictionProblem* problem_ = nullptr;
   NewtonIterate change_, trial_, best_trial_;
   Impulses impulses_;

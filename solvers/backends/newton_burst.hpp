@@ -20,6 +20,9 @@ struct NewtonBurstSettings {
   /// factorisation for some thousand contacts and the first Newton steps cost.
   int promised_sweeps = 15000;
   int burst = 200;  ///< sweeps after a Newton step, at most
+  /// No more of them than cost what the step does; and the fewer those are, the earlier the end
+  /// begins, whose proximal steps take several Newton steps each.
+  bool is_balanced = false;
   /// The compliance to begin with, as a part of lambda_max(W_cc).
   double epsilon = 3e-4;
   /// Below this part of the error at zero impulse there are no more bursts.

@@ -28,10 +28,7 @@ Course::Course(const Budget& budget, Solver& first, const FrictionProblem& probl
   whole.leave = &either;
   Solved opened = first.solve(problem, std::move(start), whole);
   error_ = opened.history.front().error;
-  // Of the history the errors of the best are kept.
-  if (budget_.keep_history) history_ = opened.history;
-  for (size_t k = 1; k < history_.size(); ++k)
-    history_[k].error = std::min(history_[k].error, history_[k - 1].error);
+  join(opened.history, 0, 0.0);
   iterations_ = opened.iterations;
   is_enough_ = opened.reason == StopReason::reached_tolerance;
   if (!is_enough_ && !(opened.own_residual < error_)) return;
@@ -69,12 +66,20 @@ void Course::factor_by(Solver& solver, const FrictionProblem& problem, int most)
   if (budget_.leave) left.leave = &leave;
   Solved part = solver.solve(problem, best_, left);
   count(part.iterations);
-  if (budget_.keep_history)
-    for (const HistoryPoint& point : part.history)
-      history_.push_back({before + point.iteration, began + point.seconds,
-                          std::min(history_.back().error, point.error)});
+  join(part.history, before, began);
   iterations_ += part.iterations;
   offer(part.impulses, part.history.back().error);
+}
+
+/// The history of a part that began after so many iterations and seconds. The errors are those of
+/// the best.
+void Course::join(const std::vector<HistoryPoint>& part, int iterations, double seconds) {
+  if (!budget_.keep_history) return;
+  for (const HistoryPoint& point : part) {
+    const double error =
+        history_.empty() ? point.error : std::min(history_.back().error, point.error);
+    history_.push_back({iterations + point.iteration, seconds + point.seconds, error});
+  }
 }
 
 /// One point per count of iterations, the last one that was true of it.

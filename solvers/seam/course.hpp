@@ -48,6 +48,7 @@ class Course {
 
  private:
   bool reached() const;
+  void join(const std::vector<HistoryPoint>& part, int iterations, double seconds);
   void remember();
 
   Budget budget_;

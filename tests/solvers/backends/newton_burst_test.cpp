@@ -3,6 +3,7 @@
 
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/nesterov_pgs.hpp"
+#include "solvers/backends/step_work.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
@@ -42,6 +43,24 @@ TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[fact
       *solver, deficient(1), {}, {.tolerance = 1e-10, .max_iterations = 500, .max_seconds = 20.0});
   CAPTURE(run.solved.iterations, run.error.natural_map_rms);
   CHECK(run.success);
+}
+
+TEST_CASE("bursts that are as long as a step costs are not longer", "[factors]") {
+  const FrictionProblem problem = deficient(1);
+  const auto solver = make_newton_burst({.start_sweeps = 0, .is_balanced = true});
+  int factorisations = 0;
+  const SolverRun run = SolverRunner().run(
+      *solver, problem, {},
+      {.tolerance = 1e-10, .max_iterations = 5000, .factorisations = &factorisations});
+  CHECK(run.success);
+  StepWork work;
+  work.count(problem);
+  work.learn(solver->operations());
+  const int sweeps = run.solved.iterations - factorisations;
+  CAPTURE(sweeps, factorisations, work.burst_step() / work.sweep());
+  CHECK(sweeps > 0);
+  // A step that lost much is taken back, and swept from where it began.
+  CHECK(sweeps * work.sweep() < 2.0 * factorisations * work.burst_step());
 }
 
 TEST_CASE("where sweeps are enough it is nesterov_pgs, bit for bit", "[factors]") {
