@@ -134,7 +134,7 @@ bool FrontLu::factor_front(int number, const double* values, bool shares) {
     extend_add(tree_.fronts[child], boundaries_.data() + layout_.boundary_kept[child], front,
                boundary);
   }
-  if (!eliminate(front, boundary, shares)) return false;
+  if (!eliminate(front, number, boundary, shares)) return false;
   const std::int64_t size = static_cast<std::int64_t>(front.boundary()) * front.boundary();
   std::copy_n(boundary, size, boundaries_.data() + layout_.boundary_kept[number]);
   return true;
@@ -177,10 +177,9 @@ void FrontLu::extend_add(const Front& child, const double* from, const Front& fr
 ///
 /// A11 and A21 are `a`, A12 is `rest`. A22 is `boundary`: it holds what the children left, as the
 /// matrix's own entries there belong to fronts above.
-bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
+bool FrontLu::eliminate(const Front& front, int number, double* boundary, bool shares) {
   constexpr int strip = 48, most_columns = 96;
   constexpr double smallest_pivot = 1e-14;
-  const int number = static_cast<int>(&front - tree_.fronts.data());
   const int rows = front.rows, own = front.own, outside = front.boundary();
   double* a = numbers_.data() + layout_.numbers_begin[number];
   double* rest = a + static_cast<std::int64_t>(rows) * own;

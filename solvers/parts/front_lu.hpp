@@ -53,7 +53,7 @@ class FrontLu {
   bool factor_front(int number, const double* values, bool shares);
   void assemble(const Front& front, int number, const double* values, double* boundary);
   void extend_add(const Front& child, const double* from, const Front& front, double* boundary);
-  bool eliminate(const Front& front, double* boundary, bool shares);
+  bool eliminate(const Front& front, int number, double* boundary, bool shares);
 
   SparsePattern pattern_;
   BlockGraph graph_;

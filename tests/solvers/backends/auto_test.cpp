@@ -127,6 +127,15 @@ TEST_CASE("where a factorisation fills, other sweeps are tried before it", "[fac
   CHECK(sweeps < 1800);
 }
 
+TEST_CASE("where a step costs hundreds of sweeps, those get their share beside bursts",
+          "[factors]") {
+  // Trusted as over piles, bursts took 92 factorisations.
+  const FrictionProblem graph =
+      make_known_solution({.bodies = 100, .contacts = 300, .mass_ratio = 1e2, .seed = 72001})
+          .problem;
+  CHECK(work_to(graph, 1e-8).factorisations < 60);
+}
+
 TEST_CASE("bursts of sweeps between Newton steps go on though their error stands for long",
           "[factors]") {
   // Left after the first steps for plain and proximal Newton: 49 factorisations and 1885 sweeps.
