@@ -46,7 +46,23 @@ struct HistoryRow {
       0.0;  ///< scaled natural map rms over the case's velocity scale: the backend's own figure
 };
 
-struct CompareRow {
+/// What the process that solved says of it.
+struct SolveAccount {
+  std::string note;      ///< why it failed
+  bool claimed = false;  ///< the backend says that the tolerance is reached
+  int iterations = 0;
+  int runs = 0;  ///< solves in the child, of which the fastest is timed here
+  double own_residual = 0.0;
+  double prepare_seconds = 0.0, solve_seconds = 0.0;
+  /// In none of the others: making the solver, starting processes, bringing the problem into a
+  /// foreign library's form and judging its answers on the way.
+  double startup_seconds = 0.0;
+  double first_seconds = 0.0;  ///< prepare and solve of the child's first run: caches cold
+  double peak_memory_MB = 0.0;
+  std::vector<HistoryRow> history;
+};
+
+struct CompareRow : SolveAccount {
   // what was tried
   std::string key, case_name, family, solver, law;
   // of the command line, for the case alone; in no file
@@ -61,29 +77,18 @@ struct CompareRow {
 
   // what came of it
   Outcome outcome = Outcome::crashed;
-  std::string reason;    ///< the backend's StopReason; empty when none was heard
-  std::string note;      ///< why it failed
-  bool claimed = false;  ///< the backend says that the tolerance is reached
-  bool judged = false;   ///< the judge, in another process, finds every part of the law within the
-                         ///< tolerance (ContactError::within), or fclib's measure
-  double error = 0.0;    ///< in the row's measure, the judge's
+  std::string reason;   ///< the backend's StopReason; empty when none was heard
+  bool judged = false;  ///< the judge, in another process, finds every part of the law within the
+                        ///< tolerance (ContactError::within), or fclib's measure
+  double error = 0.0;   ///< in the row's measure, the judge's
   double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< the judge's [m/s]
   double fclib = 0.0;
-  double cone_violation = 0.0, min_normal_velocity = 0.0, own_residual = 0.0;
+  double cone_violation = 0.0, min_normal_velocity = 0.0;
   int worst_contact = -1;
   std::string worst;  ///< the same with its name
   /// From a solution at 1e-9, velocities over the case's velocity scale; where none is known NaN,
   /// and statuses -1.
   AnswerDistance distance;
-  int iterations = 0;
-  int runs = 0;  ///< solves in the child, of which the fastest is timed here
-  double prepare_seconds = 0.0, solve_seconds = 0.0;
-  /// In none of the others: making the solver, starting processes, bringing the problem into a
-  /// foreign library's form and judging its answers on the way.
-  double startup_seconds = 0.0;
-  double first_seconds = 0.0;  ///< prepare and solve of the child's first run: caches cold
-  double peak_memory_MB = 0.0;
-  std::vector<HistoryRow> history;
 
   double seconds() const { return prepare_seconds + solve_seconds; }
   /// A claim that the judge denies. Where no solution is to be had that is said instead.

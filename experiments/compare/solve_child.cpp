@@ -20,15 +20,9 @@ namespace {
 enum class ChildOutcome { driven, unsupported, out_of_memory, failed, lost, late };
 
 /// What a child sends.
-struct ChildMessage {
+struct ChildMessage : SolveAccount {
   ChildOutcome outcome = ChildOutcome::failed;
-  std::string note;
   StopReason reason = StopReason::numerical_failure;
-  bool claimed = false;
-  int iterations = 0, runs = 0;
-  double own_residual = 0.0, prepare_seconds = 0.0, solve_seconds = 0.0, startup_seconds = 0.0,
-         first_seconds = 0.0, peak_memory_MB = 0.0;
-  std::vector<HistoryRow> history;
   Impulses impulses;
 
   /// Packs and unpacks: the carrier decides.
@@ -201,20 +195,10 @@ void clear_measures(CompareRow& row) {
 }
 
 /// What the solver's process said, and what the judge says to that.
-void take_message(ChildMessage&& message, const LoadedCase& loaded, double max_seconds,
+void take_message(const ChildMessage& message, const LoadedCase& loaded, double max_seconds,
                   CompareRow& row) {
-  row.note = message.note;
+  static_cast<SolveAccount&>(row) = message;
   row.reason = message.outcome == ChildOutcome::driven ? name_of(message.reason) : "";
-  row.claimed = message.claimed;
-  row.iterations = message.iterations;
-  row.runs = message.runs;
-  row.own_residual = message.own_residual;
-  row.prepare_seconds = message.prepare_seconds;
-  row.solve_seconds = message.solve_seconds;
-  row.startup_seconds = message.startup_seconds;
-  row.first_seconds = message.first_seconds;
-  row.peak_memory_MB = message.peak_memory_MB;
-  row.history = std::move(message.history);
   const Finding found = judge(loaded, message.impulses, message.reason, row);
   row.outcome = outcome_of(message, row, found.verdict, max_seconds);
   const bool is_told = found.verdict == Verdict::denied || found.verdict == Verdict::no_solution;
@@ -249,7 +233,7 @@ void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const Driv
   Unpacker unpacker(child.answer, "ballast compare: a child's answer");
   message.carry(unpacker);
   unpacker.finish();
-  take_message(std::move(message), loaded, drive.max_seconds, row);
+  take_message(message, loaded, drive.max_seconds, row);
 }
 
 void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const DriveSettings& settings,
@@ -260,7 +244,7 @@ void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const Drive
   message.peak_memory_MB = std::nan("");
   if (message.outcome == ChildOutcome::late) message.solve_seconds = watch.seconds();
   clear_measures(row);
-  take_message(std::move(message), loaded, drive.max_seconds, row);
+  take_message(message, loaded, drive.max_seconds, row);
 }
 
 }  // namespace ballast
