@@ -97,9 +97,8 @@ BALLAST_INLINE void slide(LawLanes<V>* k) {
                      ((p_square + p_square + p_square + r_square) * slope);
       x[v] = x[v] + move;
       if (step == 1)
-        good[v] =
-            static_cast<Mask>(less(move, enough * x[v]) & less(zero - move, enough * x[v]) &
-                              less(one, x[v]) & less(zero, pressed));
+        good[v] = static_cast<Mask>(less(move, enough * x[v]) & less(zero - move, enough * x[v]) &
+                                    less(one, x[v]) & less(zero, pressed));
     }
   for (int v = 0; v < K; ++v) {
     const Mask rest = static_cast<Mask>(k[v].slips & ~good[v]);
