@@ -7,6 +7,7 @@
 // short, nothing stored).
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -86,7 +87,10 @@ struct RunColumn {
       value = [](const RunObservables& run) { return static_cast<double>(*Get{}(run)); };
       set = [](RunObservables& run, double to) {
         auto& place = *Get{}(run);
-        place = static_cast<std::remove_reference_t<decltype(place)>>(to);
+        using Number = std::remove_reference_t<decltype(place)>;
+        constexpr double most = 1e9;  // of counts, which a foreign file may have without bounds
+        place = static_cast<Number>(
+            std::is_integral_v<Number> ? std::fmin(std::fmax(to, -most), most) : to);
       };
     }
   }

@@ -119,6 +119,7 @@ TEST_CASE("a table that is no runs.csv is refused by its file, line and column")
   };
   CHECK(refusal(head + units + "a,b,c,d,e,0.5\n") == "read");
   CHECK(refusal(head + units + "a,b,c,d,e,\n") == "read");
+  CHECK(refusal("name,stage,key,record,solver,periods\n" + units + "a,b,c,d,e,1e300\n") == "read");
   CHECK_THAT(refusal(""), Catch::Contains("runs.csv") && Catch::Contains("empty"));
   CHECK_THAT(refusal("name,rise\n"), Catch::Contains("runs.csv:1") && Catch::Contains("begins"));
   CHECK_THAT(refusal("name,stage,key,record,solver,risen\n"),
