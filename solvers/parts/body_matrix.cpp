@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solvers/parts/bodies_in_contact.hpp"
+
 namespace ballast {
 namespace {
 
@@ -19,29 +21,14 @@ const double* side_block(const FrictionProblem& problem, int c, int side) {
   return side == 0 ? h : h + problem.contact_rows(c) * d.body_dofs(d.body_a[c]);
 }
 
-/// Everybody that each body touches, itself among them, ascending.
-std::vector<std::vector<int>> neighbours(const DynamicsForm& d) {
-  std::vector<std::vector<int>> near(d.body_count());
-  for (int b = 0; b < d.body_count(); ++b) near[b].push_back(b);
-  for (size_t c = 0; c < d.body_a.size(); ++c) {
-    const int a = d.body_a[c], b = d.body_b[c];
-    if (a < 0 || b < 0) continue;
-    near[a].push_back(b);
-    near[b].push_back(a);
-  }
-  for (std::vector<int>& list : near) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-  return near;
-}
-
 }  // namespace
 
 void BodyMatrix::prepare(const FrictionProblem& problem) {
   problem_ = &problem;
   const DynamicsForm& d = problem.dynamics;
-  const std::vector<std::vector<int>> near = neighbours(d);
+  const std::vector<std::vector<int>> near =
+      bodies_in_contact(d.body_count(), problem.contact_count(),
+                        [&d](int c) { return std::pair(d.body_a[c], d.body_b[c]); });
   // A body's columns have the rows of all its neighbours.
   std::vector<int> height(d.body_count(), 0);
   int entries = 0;

@@ -2,27 +2,12 @@
 
 #include <algorithm>
 
+#include "solvers/parts/bodies_in_contact.hpp"
+
 namespace ballast {
 namespace {
 
 constexpr int width = UnitMassContacts::width;
-
-/// Everybody that each body touches, itself among them, ascending.
-std::vector<std::vector<int>> neighbours(const UnitMassContacts& contacts) {
-  std::vector<std::vector<int>> near(contacts.body_count() + 1);
-  for (int b = 0; b <= contacts.body_count(); ++b) near[b].push_back(b);
-  for (int c = 0; c < contacts.contact_count(); ++c) {
-    const int a = contacts[c].body[0], b = contacts[c].body[1];
-    if (a == contacts.body_count() || b == contacts.body_count()) continue;
-    near[a].push_back(b);
-    near[b].push_back(a);
-  }
-  for (std::vector<int>& list : near) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-  return near;
-}
 
 }  // namespace
 
@@ -30,7 +15,10 @@ std::vector<std::vector<int>> neighbours(const UnitMassContacts& contacts) {
 void UnitMassSystem::prepare(const UnitMassContacts& contacts) {
   contacts_ = &contacts;
   const int bodies = contacts.body_count() + 1;
-  const std::vector<std::vector<int>> near = neighbours(contacts);
+  std::vector<std::vector<int>> near = bodies_in_contact(
+      contacts.body_count(), contacts.contact_count(),
+      [&contacts](int c) { return std::pair(contacts[c].body[0], contacts[c].body[1]); });
+  near.push_back({contacts.body_count()});
   // Every body's columns have the rows of all its neighbours.
   std::vector<int> unknown_begin(bodies + 1);
   int entries = 0;
