@@ -10,10 +10,6 @@ namespace ballast {
 /// `level`: 1 is fast, 9 is small. Throws Error when there is no memory.
 std::string deflated(std::string_view bytes, int level = 6);
 
-/// The way back. Throws Error when `bytes` were not written by deflated(), or would become more
-/// than `most` bytes.
-std::string inflated(std::string_view bytes, size_t most = size_t{1} << 30);
-
 /// The check sum of PNG files (CRC-32).
 std::uint32_t crc32_of(std::string_view bytes);
 

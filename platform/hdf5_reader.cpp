@@ -134,19 +134,4 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
   return texts;
 }
 
-std::string Hdf5Reader::read_attribute(const std::string& object,
-                                       const std::string& attribute) const {
-  const std::string what = "read the attribute " + attribute + " of " + object;
-  const Hdf5Id id(
-      check(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-            what),
-      H5Aclose);
-  const Hdf5Id type = text_type(), space(H5Aget_space(id), H5Sclose);
-  char* value = nullptr;
-  check(H5Aread(id, type, &value), what);
-  std::string text = value ? value : "";
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, &value);
-  return text;
-}
-
 }  // namespace ballast

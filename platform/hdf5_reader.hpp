@@ -26,7 +26,6 @@ class Hdf5Reader : public Hdf5File {
   /// `count` rows from row `first` on: what one number along the first dimension names is a row.
   std::vector<double> read_rows(const std::string& name, size_t first, size_t count = 1) const;
   std::vector<std::string> read_texts(const std::string& name) const;
-  std::string read_attribute(const std::string& object, const std::string& attribute) const;
 
  private:
   Hdf5Id open(const std::string& name) const;

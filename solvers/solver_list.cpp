@@ -91,7 +91,7 @@ constexpr SolverEntry rows[] = {
      },
      suitesparse},
     {"newton_burst",
-     "ours: regularised active-set Newton between bursts of nncg, then proximal steps, own LU",
+     "ours: regularised active-set Newton between bursts of sweeps, then proximal steps, own LU",
      ContactLaw::coulomb, [] { return make_newton_burst(); }, suitesparse},
     {"ipopt",
      "convex cone program with s-update by Ipopt's interior point (Waechter, Biegler 2006)",

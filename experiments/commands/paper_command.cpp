@@ -31,6 +31,17 @@ PaperData data_of(const Campaign& campaign, const PaperOptions& options) {
   return {campaign, options.running.results, std::move(rows)};
 }
 
+/// Rows of another scene or setting look like a report's that is merely short.
+void print_foreign_rows(const PaperData& data, const fs::path& file) {
+  const std::vector<std::string> names = data.foreign_rows();
+  if (names.empty()) return;
+  std::cerr << "ballast: " << file.string() << ": " << names.size()
+            << " rows are of no run of this campaign and left out (" << names.front()
+            << (names.size() > 1 ? ", ...)" : ")")
+            << "; --scene, --set, --seeds and --iterations must be those of their report"
+            << std::endl;
+}
+
 void print_plan(const PaperData& data) {
   const Campaign& campaign = data.campaign();
   std::cout << printed("%-16s%-52s%8s%10s  state\n", "stage", "run", "steps", "core-s");
@@ -76,8 +87,10 @@ ExitCode reproduce(PaperOptions options) {
     throw UsageError("paper: '" + options.target + "' is none of plan, report, " + joined(targets));
   const Campaign campaign = make_campaign(options.campaign);
   if (options.output.empty()) options.output = options.running.results / "report";
+  const PaperData known = data_of(campaign, options);
+  print_foreign_rows(known, options.rows);
   if (options.target == "plan") {
-    print_plan(data_of(campaign, options));
+    print_plan(known);
     return ExitCode::ok;
   }
   require_own_folder(options.running.results, {"runs", "packings", "report"});
@@ -86,7 +99,7 @@ ExitCode reproduce(PaperOptions options) {
   if (options.target == "report")
     options.target = "all";
   else
-    code = run_stages(data_of(campaign, options), options);
+    code = run_stages(known, options);
   PaperData data = data_of(campaign, options);
   write_paper_report(data, make_sections(data, options.target), options.output);
   std::cout << data.finished() << " of " << campaign.runs.size() << " runs; report in "

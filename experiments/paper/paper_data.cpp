@@ -113,6 +113,15 @@ int PaperData::known_by_row() const {
   return rows;
 }
 
+std::vector<std::string> PaperData::foreign_rows() const {
+  std::set<std::string> keys;
+  for (size_t k = 0; k < campaign_.runs.size(); ++k) keys.insert(folder(k).filename().string());
+  std::vector<std::string> names;
+  for (const auto& [key, row] : rows_)
+    if (!keys.contains(key)) names.push_back(row.name);
+  return names;
+}
+
 PaperData::Repeats PaperData::repeats() {
   Repeats repeats;
   for (const RunObservables& run : observables()) {

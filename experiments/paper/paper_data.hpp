@@ -63,6 +63,8 @@ class PaperData {
   int finished() const;
   /// Runs of which a row alone is known.
   int known_by_row() const;
+  /// Names of given rows that are of no run of the campaign: nothing is drawn from them.
+  std::vector<std::string> foreign_rows() const;
   /// Runs made here whose row was given too: how many, and of how many both have the same hash.
   struct Repeats {
     int made = 0, same = 0;

@@ -6,6 +6,8 @@
 
 #include "geometry/shape/area_vector.hpp"
 #include "geometry/shape/close_pairs.hpp"
+#include "geometry/shape/coplanar_faces.hpp"
+#include "geometry/shape/face_loops.hpp"
 #include "geometry/shape/qhull_loops.hpp"
 
 namespace ballast {
@@ -117,24 +119,6 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
   return flat;
 }
 
-/// Outward, starting at the smallest index, faces in ascending order: independent of how qhull
-/// listed them.
-void make_canonical(Loops& loops, const std::vector<Vec3>& points) {
-  Vec3 inside = Vec3::Zero();
-  double count = 0.0;
-  for (const auto& loop : loops) {
-    for (const int v : loop) inside += points[v];
-    count += static_cast<double>(loop.size());
-  }
-  inside /= count;
-  for (auto& loop : loops) {
-    if (area_vector(loop, points).dot(points[loop[0]] - inside) < 0.0)
-      std::reverse(loop.begin(), loop.end());
-    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-  }
-  std::sort(loops.begin(), loops.end());
-}
-
 /// Faces of the hull as canonical loops of point indices. Each round drops the corners that are too
 /// flat and starts again without them: one round for almost all inputs.
 Loops hull_loops(const std::vector<Vec3>& points, double merge) {
@@ -157,22 +141,6 @@ Loops hull_loops(const std::vector<Vec3>& points, double merge) {
   throw InvalidPolyhedron("fewer than 4 distinct corners");
 }
 
-/// The solid of these loops; vertices keep the order of the points.
-Polyhedron assembled(std::span<const Vec3> points, Loops loops) {
-  std::vector<int> index(points.size(), -1);
-  for (const auto& loop : loops)
-    for (const int v : loop) index[v] = 0;
-  std::vector<Vec3> vertices;
-  for (size_t i = 0; i < points.size(); ++i) {
-    if (index[i] < 0) continue;
-    index[i] = static_cast<int>(vertices.size());
-    vertices.push_back(points[i]);
-  }
-  for (auto& loop : loops)
-    for (int& v : loop) v = index[v];
-  return Polyhedron(std::move(vertices), loops);
-}
-
 }  // namespace
 
 Polyhedron convex_hull(std::span<const Vec3> points) {
@@ -181,16 +149,32 @@ Polyhedron convex_hull(std::span<const Vec3> points) {
   // From qhull only the faces are taken; the solid is built from the caller's own coordinates, and
   // its constructor checks everything once more.
   try {
-    return assembled(points, hull_loops(scaled, kMerge[0]));
+    return solid_of(points, hull_loops(scaled, kMerge[0]));
   } catch (const InvalidPolyhedron&) {
     // The finer attempt below decides.
   }
   try {
-    return assembled(points, hull_loops(scaled, kMerge[1]));
+    return solid_of(points, hull_loops(scaled, kMerge[1]));
   } catch (const InvalidPolyhedron& error) {
     throw InvalidPolyhedron(
         std::string("no convex hull: the points are almost flat or degenerate: ") + error.what());
   }
+}
+
+Polyhedron convex_hull_of_mesh(const Polyhedron& mesh) {
+  const std::vector<Vec3> scaled = normalised(mesh.vertices());
+  // Back from the lengths of the constants above to metres.
+  const double half = (mesh.vertex(0) - mesh.vertex(1)).norm() / (scaled[0] - scaled[1]).norm();
+  const FaceGroups groups = coplanar_groups(mesh, 2.0 * kMerge[0] * half);
+  if (std::optional<Loops> loops = joined_faces(mesh, groups, kCorner * half)) {
+    make_canonical(*loops, scaled);
+    try {
+      if (flat_corners(*loops, scaled).empty()) return solid_of(mesh.vertices(), *loops);
+    } catch (const InvalidPolyhedron&) {
+      // Neighbours that are neither flat nor bent: qhull decides.
+    }
+  }
+  return convex_hull(mesh.vertices());
 }
 
 }  // namespace ballast

@@ -78,22 +78,4 @@ double FrontSearch::highest(const Node& node, const Vec3& direction, const Vec3&
          along * node.radius + rounding;
 }
 
-bool FrontSearch::any_in_front(const Vec3& normal, const Vec3& origin, double height) const {
-  for (size_t at = 0; at < nodes_.size();) {
-    const Node& node = nodes_[at];
-    if (highest(node, normal, origin) <= height) {
-      at = static_cast<size_t>(node.after);
-      continue;
-    }
-    // Only leaves look at their points; behind an inner node stands its first child.
-    if (is_leaf(node))
-      for (int i = node.begin; i < node.end; ++i) {
-        const Vec3& p = points_[static_cast<size_t>(order_[static_cast<size_t>(i)])];
-        if (normal.dot(p - origin) > height) return true;
-      }
-    ++at;
-  }
-  return false;
-}
-
 }  // namespace ballast

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "geometry/shape/close_pairs.hpp"
-#include "geometry/shape/front_search.hpp"
+#include "geometry/shape/plane_bundles.hpp"
 
 namespace ballast::mesh_checks {
 
@@ -78,17 +78,16 @@ void check_loop(std::span<const Vec3> vertices, int face, std::span<const int> l
 /// hull more than once would need each corner of the hull twice.
 void check_convex(std::span<const Vec3> vertices, std::span<const int> first,
                   std::span<const Vec3> normals, std::span<const double> allowed, double size) {
-  const FrontSearch search(vertices);
-  for (size_t f = 0; f < normals.size(); ++f) {
-    const Vec3& origin = vertices[static_cast<size_t>(first[f])];
-    if (!search.any_in_front(normals[f], origin, allowed[f])) continue;
-    // The first of them, for the message.
-    for (size_t v = 0; v < vertices.size(); ++v) {
-      const double height = normals[f].dot(vertices[v] - origin);
-      if (height > allowed[f])
-        invalid(At{.face = static_cast<int>(f)}, "not convex: vertex ", v, " lies ", height / size,
-                " of the size in front of face ", f);
-    }
+  const int face = first_plane_with_front(vertices, first, normals, allowed);
+  if (face < 0) return;
+  const auto f = static_cast<size_t>(face);
+  const Vec3& origin = vertices[static_cast<size_t>(first[f])];
+  // The first of them, for the message.
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    const double height = normals[f].dot(vertices[v] - origin);
+    if (height > allowed[f])
+      invalid(At{.face = face}, "not convex: vertex ", v, " lies ", height / size,
+              " of the size in front of face ", f);
   }
 }
 

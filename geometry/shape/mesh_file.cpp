@@ -21,6 +21,10 @@ using raw_mesh::RawMesh;
 /// precision, six digits).
 constexpr double kFileTolerance = 1e-6;
 
+/// From here on the coplanar faces of a convex mesh are joined as they stand. Smaller meshes are
+/// soon made by qhull, which has its own way with faces that are only just coplanar.
+constexpr int kManyVertices = 10000;
+
 enum class Format { obj, stl };
 
 Format format_of(const std::filesystem::path& file) {
@@ -90,7 +94,9 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
       // A mesh that is convex as it stands is taken, but for two kinds: single precision, whose
       // faces are fitted anew, and polygons cut into pieces, which are joined.
       Polyhedron polyhedron(mesh.vertices, mesh.faces);
-      if (has_coplanar_neighbours(polyhedron)) polyhedron = convex_hull(mesh.vertices);
+      if (has_coplanar_neighbours(polyhedron))
+        polyhedron = polyhedron.vertex_count() < kManyVertices ? convex_hull(mesh.vertices)
+                                                               : convex_hull_of_mesh(polyhedron);
       return mesh.is_single ? rounded_hull(std::move(polyhedron), kFileTolerance) : polyhedron;
     } catch (const InvalidPolyhedron&) {
       // Convex only to six digits: the solid that was meant is the rounded hull of its vertices.

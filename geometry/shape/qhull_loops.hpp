@@ -3,10 +3,9 @@
 
 #include <vector>
 
-namespace ballast {
+#include "geometry/shape/face_loops.hpp"
 
-/// Faces as closed loops of point indices.
-using Loops = std::vector<std::vector<int>>;
+namespace ballast {
 
 /// Faces of the convex hull of the points x0 y0 z0 x1 y1 z1 ... (left as they are, although qhull
 /// wants them writable). Facets that are coplanar within a few `merge`, a length in the points'

@@ -3,10 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "geometry/shape/area_vector.hpp"
 #include "geometry/shape/convex_hull.hpp"
+#include "geometry/shape/coplanar_faces.hpp"
+#include "geometry/shape/face_loops.hpp"
 
 namespace ballast {
 namespace {
@@ -17,105 +17,103 @@ struct Plane {
   double height(const Vec3& p) const { return normal.dot(p) - offset; }
 };
 
-/// Each face's group: neighbours that lie in one plane to `reach` [m]. Large faces begin groups, as
-/// the planes of small ones are the least certain.
-std::vector<int> group_faces(const Polyhedron& hull, double reach, int& groups) {
-  std::vector<double> area;
-  for (int f = 0; f < hull.face_count(); ++f)
-    area.push_back(area_vector(hull.face(f), hull.vertices()).norm());
-  std::vector<int> order(area.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return area[static_cast<size_t>(a)] > area[static_cast<size_t>(b)];
-  });
-  std::vector<int> group(area.size(), -1);
-  groups = 0;
-  // A group grows across shared edges while all corners of the next face lie in the plane of
-  // the seed. All are measured by that one plane, so that a group cannot creep around a
-  // curved surface by small angles.
-  for (const int seed : order) {
-    if (group[static_cast<size_t>(seed)] >= 0) continue;
-    const Plane plane{hull.normal(seed), hull.normal(seed).dot(hull.vertex(hull.face(seed)[0]))};
-    const auto lies_in_it = [&](int f) {
-      const std::span<const int> loop = hull.face(f);
-      return std::all_of(loop.begin(), loop.end(),
-                         [&](int v) { return std::abs(plane.height(hull.vertex(v))) <= reach; });
-    };
-    std::vector<int> reached{seed};
-    group[static_cast<size_t>(seed)] = groups;
-    for (size_t i = 0; i < reached.size(); ++i)
-      for (const int next : hull.face_neighbours(reached[i]))
-        if (group[static_cast<size_t>(next)] < 0 && lies_in_it(next)) {
-          group[static_cast<size_t>(next)] = groups;
-          reached.push_back(next);
-        }
-    ++groups;
-  }
-  return group;
-}
-
-/// A corner of the joined faces: a vertex where at least three of them meet.
-struct Corner {
-  Vec3 position;
-  std::vector<int> groups;
+/// Where corners of joined faces meet the faces that they must be moved to. A face with three
+/// corners is flat wherever they are, so only those with more are kept, under new numbers.
+struct Incidences {
+  std::vector<int> corners;       ///< vertices of the hull where a face that is kept has a corner
+  std::vector<int> begin;         ///< corner k's faces are face[begin[k]] to before begin[k + 1]
+  std::vector<int> face, corner;  ///< of each incidence, sorted by corner
+  SortedByKey of_face;            ///< incidences of each face
 };
 
-std::vector<Corner> find_corners(const Polyhedron& hull, const std::vector<int>& group) {
-  std::vector<Corner> corners;
-  const SortedByKey faces = hull.faces_by_vertex();
-  for (int v = 0; v < hull.vertex_count(); ++v) {
-    Corner corner{hull.vertex(v), {}};
-    for (const int f : faces.of(v)) corner.groups.push_back(group[static_cast<size_t>(f)]);
-    std::sort(corner.groups.begin(), corner.groups.end());
-    corner.groups.erase(std::unique(corner.groups.begin(), corner.groups.end()),
-                        corner.groups.end());
-    if (corner.groups.size() >= 3) corners.push_back(std::move(corner));
+Incidences find_incidences(const Loops& loops, int vertex_count) {
+  std::vector<int> face_of, vertex_of;  // of each corner of a face that is kept
+  int kept = 0;
+  for (const auto& loop : loops) {
+    if (loop.size() <= 3) continue;
+    face_of.insert(face_of.end(), loop.size(), kept++);
+    vertex_of.insert(vertex_of.end(), loop.begin(), loop.end());
   }
-  return corners;
+  const SortedByKey by_vertex = sorted_by_key(vertex_of, vertex_count);
+  Incidences all;
+  for (int v = 0; v < vertex_count; ++v) {
+    if (by_vertex.of(v).empty()) continue;
+    all.corners.push_back(v);
+    all.begin.push_back(static_cast<int>(all.face.size()));
+    for (const int i : by_vertex.of(v)) {
+      all.face.push_back(face_of[static_cast<size_t>(i)]);
+      all.corner.push_back(static_cast<int>(all.corners.size()) - 1);
+    }
+  }
+  all.begin.push_back(static_cast<int>(all.face.size()));
+  all.of_face = sorted_by_key(all.face, kept);
+  return all;
 }
 
-/// Least squares through the corners of each group, outward from `inside`.
-std::vector<Plane> fit_planes(const std::vector<Corner>& corners, int groups, const Vec3& inside) {
-  // The best plane of a group in the sense of least squares passes through the mean m of its
-  // corners; its normal is the eigenvector of the smallest eigenvalue of sum (x - m)(x - m)'.
-  std::vector<Vec3> mean(static_cast<size_t>(groups), Vec3::Zero());
-  std::vector<int> count(static_cast<size_t>(groups), 0);
-  for (const Corner& corner : corners)
-    for (const int g : corner.groups) {
-      mean[static_cast<size_t>(g)] += corner.position;
-      ++count[static_cast<size_t>(g)];
-    }
-  std::vector<Mat3> scatter(static_cast<size_t>(groups), Mat3::Zero());
-  for (size_t g = 0; g < mean.size(); ++g) mean[g] /= std::max(1, count[g]);
-  for (const Corner& corner : corners)
-    for (const int g : corner.groups) {
-      const Vec3 arm = corner.position - mean[static_cast<size_t>(g)];
-      scatter[static_cast<size_t>(g)] += arm * arm.transpose();
-    }
-  std::vector<Plane> planes(mean.size());
-  for (size_t g = 0; g < mean.size(); ++g) {
+/// Least squares through the corners of each face, outward from `inside`.
+std::vector<Plane> fit_planes(const Incidences& all, std::span<const Vec3> position,
+                              const Vec3& inside) {
+  // The best plane in the sense of least squares passes through the mean m of the corners; its
+  // normal is the eigenvector of the smallest eigenvalue of sum (x - m)(x - m)'.
+  std::vector<Plane> planes(all.of_face.begin.size() - 1);
+  for (size_t g = 0; g < planes.size(); ++g) {
+    const std::span<const int> own = all.of_face.of(static_cast<int>(g));
+    const auto corner = [&](int i) -> const Vec3& {
+      return position[static_cast<size_t>(all.corner[static_cast<size_t>(i)])];
+    };
+    Vec3 mean = Vec3::Zero();
+    for (const int i : own) mean += corner(i);
+    mean /= static_cast<double>(own.size());
+    Mat3 scatter = Mat3::Zero();
+    for (const int i : own) scatter += (corner(i) - mean) * (corner(i) - mean).transpose();
     Plane& plane = planes[g];
-    plane.normal = Eigen::SelfAdjointEigenSolver<Mat3>(scatter[g]).eigenvectors().col(0);
-    if (plane.normal.dot(mean[g] - inside) < 0.0) plane.normal = -plane.normal;
-    plane.offset = plane.normal.dot(mean[g]);
+    plane.normal = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvectors().col(0);
+    if (plane.normal.dot(mean - inside) < 0.0) plane.normal = -plane.normal;
+    plane.offset = plane.normal.dot(mean);
   }
   return planes;
 }
 
-/// Moves a corner the shortest way to where its planes meet, as well as they do; returns how far it
-/// was off the worst of them [m].
-double move_to_planes(Corner& corner, const std::vector<Plane>& planes) {
+/// Moves a corner the shortest way to where its faces' planes meet, as well as they do; returns how
+/// far it was off the worst of them [m].
+double move_to_planes(Vec3& corner, std::span<const int> faces, std::span<const Plane> planes) {
   // The shortest d with N d = -(heights over the planes), one row of N for each plane, in least
   // squares: three planes in general position meet in one point, more of them need not.
-  Eigen::MatrixXd normals(static_cast<Eigen::Index>(corner.groups.size()), 3);
+  Eigen::MatrixXd normals(static_cast<Eigen::Index>(faces.size()), 3);
   Eigen::VectorXd off(normals.rows());
   for (Eigen::Index k = 0; k < normals.rows(); ++k) {
-    const Plane& plane = planes[static_cast<size_t>(corner.groups[static_cast<size_t>(k)])];
+    const Plane& plane = planes[static_cast<size_t>(faces[static_cast<size_t>(k)])];
     normals.row(k) = plane.normal.transpose();
-    off[k] = plane.height(corner.position);
+    off[k] = plane.height(corner);
   }
-  corner.position -= normals.completeOrthogonalDecomposition().solve(off);
+  corner -= normals.completeOrthogonalDecomposition().solve(off);
   return off.cwiseAbs().maxCoeff();
+}
+
+/// Corners of three faces fit at once; where more faces meet, planes and corners give way to each
+/// other by turns. Whether they come to agree; `size` [m] is that of the whole solid.
+bool come_to_agree(const Incidences& all, std::vector<Vec3>& position, const Vec3& inside,
+                   double size) {
+  // Each turn shrinks what is left by much the same factor, so that ten of them tell whether all
+  // will do: on a smooth surface of many small triangles they never would.
+  constexpr int most_turns = 200;
+  const double most_off = 1e-11 * size;
+  double off = size, ten_ago = off;
+  for (int turn = 0; turn < most_turns && off > 1e-14 * size; ++turn) {
+    if (turn % 10 == 1) {
+      const double at_end = off * std::pow(off / ten_ago, 0.1 * (most_turns - turn));
+      if (off > most_off && at_end > most_off) return false;
+      ten_ago = off;
+    }
+    const std::vector<Plane> planes = fit_planes(all, position, inside);
+    off = 0.0;
+    for (size_t k = 0; k < position.size(); ++k) {
+      const std::span<const int> faces(all.face.data() + all.begin[k],
+                                       all.face.data() + all.begin[k + 1]);
+      off = std::max(off, move_to_planes(position[k], faces, planes));
+    }
+  }
+  return off < most_off;
 }
 
 }  // namespace
@@ -131,42 +129,28 @@ Polyhedron rounded_hull(Polyhedron hull, double rounding) {
     high = high.cwiseMax(p);
   }
   const double size = (high - low).maxCoeff();
-  int groups = 0;
-  const std::vector<int> group = group_faces(hull, rounding * size, groups);
+  const FaceGroups groups = coplanar_groups(hull, rounding * size);
   // Where every group is one face there is nothing to join, and fewer
   // than four planes bound no solid.
-  if (groups == hull.face_count() || groups < 4) return hull;
-  std::vector<Corner> corners = find_corners(hull, group);
-  const std::vector<Corner> before = corners;
-  if (corners.size() < 4) return hull;
-  // Corners of three faces fit at once; where more faces meet, planes and corners give way to each
-  // other by turns. Each turn shrinks what is left by much the same factor, so that ten of them
-  // tell whether all will do: on a smooth surface of many small triangles they never would.
-  constexpr int most_turns = 200;
-  const double most_off = 1e-11 * size;
-  double off = size, ten_ago = off;
-  for (int turn = 0; turn < most_turns && off > 1e-14 * size; ++turn) {
-    if (turn % 10 == 1) {
-      const double at_end = off * std::pow(off / ten_ago, 0.1 * (most_turns - turn));
-      if (off > most_off && at_end > most_off) return hull;
-      ten_ago = off;
-    }
-    const std::vector<Plane> planes = fit_planes(corners, groups, 0.5 * (low + high));
-    off = 0.0;
-    for (Corner& corner : corners) off = std::max(off, move_to_planes(corner, planes));
+  if (groups.count == hull.face_count() || groups.count < 4) return hull;
+  // Corners that go far say that the groups were wrong: then the hull of the points as they are is
+  // the answer.
+  const double most_moved = 100.0 * rounding * size;
+  std::optional<Loops> loops = joined_faces(hull, groups, most_moved);
+  if (!loops) return hull;
+  const Incidences all = find_incidences(*loops, hull.vertex_count());
+  std::vector<Vec3> moved;
+  for (const int v : all.corners) moved.push_back(hull.vertex(v));
+  if (!come_to_agree(all, moved, 0.5 * (low + high), size)) return hull;
+  std::vector<Vec3> points(hull.vertices().begin(), hull.vertices().end());
+  for (size_t k = 0; k < moved.size(); ++k) {
+    Vec3& point = points[static_cast<size_t>(all.corners[k])];
+    if (!((moved[k] - point).norm() < most_moved)) return hull;
+    point = moved[k];
   }
-  double moved = 0.0;
-  std::vector<Vec3> positions;
-  for (size_t k = 0; k < corners.size(); ++k) {
-    moved = std::max(moved, (corners[k].position - before[k].position).norm());
-    positions.push_back(corners[k].position);
-  }
-  // Planes and corners that do not come to agree, or corners that went far, say that the groups
-  // were wrong: then the hull of the points as they are is the answer.
-  if (!(off < most_off && moved < 100.0 * rounding * size)) return hull;
   try {
-    Polyhedron joined = convex_hull(positions);
-    return joined.face_count() == groups ? joined : hull;
+    make_canonical(*loops, points);
+    return solid_of(points, *loops);
   } catch (const InvalidPolyhedron&) {
     return hull;
   }

@@ -71,10 +71,6 @@ class Prover {
 
 }  // namespace
 
-NoSolution proof_by_weights(const FrictionProblem& problem, const Eigen::VectorXd& y) {
-  return Prover(problem).proof(y);
-}
-
 NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps) {
   const int contacts = problem.contact_count();
   const Prover prover(problem);

@@ -36,9 +36,6 @@ struct NoSolution {
   std::string words() const;
 };
 
-/// What the weights y (one per contact, >= 0, any sum) prove.
-NoSolution proof_by_weights(const FrictionProblem& problem, const Eigen::VectorXd& y);
-
 /// Searches weights: contacts that no impulse moves, the normal impulses of `r` (those of a solver
 /// that diverges tend to a proof), and what `sweeps` frictionless Gauss-Seidel sweeps add to them,
 /// sweep after sweep. Returns the best proof found; builds W. Throws InvalidProblem.

@@ -68,7 +68,7 @@ constexpr Priors scarce_over_matrix{{{64.0, 0.0, 4.0},
 class Auto final : public Solver {
  public:
   Auto() {
-    ways_[momentum].solver = make_nesterov_pgs();
+    ways_[momentum].solver = make_nesterov_pgs({.returns_best = false});
     ways_[anderson].solver = make_anderson_pgs({});
     ways_[plain].solver = make_newton({.equation = ContactEquation::alart_curnier});
     ways_[proximal].solver = make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4});
@@ -90,7 +90,6 @@ class Auto final : public Solver {
   }
 
   void use_team(WorkerTeam* team) override {
-    team_ = team;
     for (Way& way : ways_) way.solver->use_team(team);
   }
 
@@ -277,7 +276,6 @@ class Auto final : public Solver {
   std::array<Way, kinds> ways_;
   StepWork work_;
   bool is_scarce_ = false;
-  WorkerTeam* team_ = nullptr;
   int scarce_from_ = 0;  ///< so many iterations of the whole solve
 };
 

@@ -89,6 +89,8 @@ class Momentum {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_nesterov_pgs() { return std::make_unique<SweepSearch<Momentum>>(); }
+std::unique_ptr<Solver> make_nesterov_pgs(const NesterovSettings& settings) {
+  return std::make_unique<SweepSearch<Momentum>>(settings.returns_best);
+}
 
 }  // namespace ballast

@@ -10,6 +10,12 @@
 
 namespace ballast {
 
-std::unique_ptr<Solver> make_nesterov_pgs();
+struct NesterovSettings {
+  /// Where a limit ends it: of the iterates that were looked at the best, swept once more. False:
+  /// the last, from which a method goes on whose sweeps are one part of it.
+  bool returns_best = true;
+};
+
+std::unique_ptr<Solver> make_nesterov_pgs(const NesterovSettings& settings = {});
 
 }  // namespace ballast

@@ -75,7 +75,8 @@ class ProximalNewton final : public Solver {
  public:
   explicit ProximalNewton(const ProximalNewtonSettings& settings)
       : settings_(settings),
-        start_(settings.accelerated ? make_nesterov_pgs() : make_gauss_seidel({})) {}
+        start_(settings.accelerated ? make_nesterov_pgs({.returns_best = false})
+                                    : make_gauss_seidel({})) {}
 
   void prepare(const FrictionProblem& problem) override {
     start_->prepare(problem);

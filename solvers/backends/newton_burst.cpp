@@ -46,7 +46,7 @@ class NewtonBurst final : public Solver {
  public:
   explicit NewtonBurst(const NewtonBurstSettings& settings)
       : settings_(settings),
-        sweeps_(make_nesterov_pgs()),
+        sweeps_(make_nesterov_pgs({.returns_best = false})),
         walk_(make_proximal_newton(
             {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}})) {}
 

@@ -44,6 +44,8 @@ class FletcherReeves {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_nncg() { return std::make_unique<SweepSearch<FletcherReeves>>(); }
+std::unique_ptr<Solver> make_nncg() {
+  return std::make_unique<SweepSearch<FletcherReeves>>(/*returns_best=*/false);
+}
 
 }  // namespace ballast

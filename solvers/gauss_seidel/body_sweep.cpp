@@ -28,8 +28,6 @@ void BodySweep::sweep(const SweepVariant& variant, const std::vector<int>& conta
   scalar_.sweep(variant, contacts);
 }
 
-std::vector<int> BodySweep::order() const { return is_wide_ ? wide_.order() : plan_.contacts(); }
-
 double BodySweep::error() { return is_wide_ ? wide_.error() : scalar_.error(); }
 
 void BodySweep::save(Eigen::VectorXd& state) const {

@@ -36,7 +36,7 @@ class BodySweep {
   void load(const FrictionProblem& problem, const Impulses& r);
   void store(const FrictionProblem& problem, Impulses& r) const;
 
-  /// Every contact once, in the order of order().
+  /// Every contact once, in an order that SweepPlan makes.
   void sweep();
   /// A search along sweeps begins at the current iterate.
   void start_search();
@@ -46,7 +46,6 @@ class BodySweep {
   /// The contacts named, in that order, another way: for comparison, not for speed. After
   /// use_variants().
   void sweep(const SweepVariant& variant, const std::vector<int>& contacts);
-  std::vector<int> order() const;
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
   double error();
 

@@ -9,20 +9,33 @@
 
 namespace ballast {
 
-/// The loops over groups of one kind. All take the groups in order; `count` of them.
+/// Groups that follow each other, their impulses and, for a search, its numbers.
+template <typename Group>
+struct GroupRun {
+  const Group* groups;
+  GroupImpulses<typename Group::Number, Group::rows>* impulses;
+  GroupSearch<typename Group::Number, Group::rows>* search;
+  const int* awake;  ///< those that are swept, ascending; null: the first `count`
+  int count;         ///< of those that are swept
+
+  int group(int i) const { return awake ? awake[i] : i; }
+};
+
+/// The loops over groups of one kind. All take the groups in order.
 template <typename Group>
 struct GroupLoops {
   using Number = typename Group::Number;
   using Impulses = GroupImpulses<Number, Group::rows>;
   using Search = GroupSearch<Number, Group::rows>;
   using Body = BodyRow<Number>;
+  using Run = GroupRun<Group>;
 
-  /// Every contact once.
-  void (*sweep)(const Group* groups, Impulses* impulses, int count, Body* bodies);
+  /// Every contact once. The two runs share no body; they may be swept side by side, which hides
+  /// one's divisions behind the other's and leaves the same bits.
+  void (*sweep)(const Run (&runs)[2], Body* bodies);
   /// The same; each impulse first takes the step of the search (search_step.hpp). The bodies must
-  /// have taken it before. Returns the sum over contacts of |change|^2.
-  double (*search)(const Group* groups, Impulses* impulses, Search* search, SearchStep step,
-                   int count, Body* bodies);
+  /// have taken it before. `squares`: the sum over each run's contacts of |change|^2.
+  void (*search)(const Run (&runs)[2], SearchStep step, Body* bodies, double (&squares)[2]);
   /// All impulses push their bodies once.
   void (*push)(const Group* groups, const Impulses* impulses, int count, Body* bodies);
 };

@@ -2,6 +2,7 @@
 // The table of one instruction set. Included by the sources group_kernels_*.cpp alone.
 
 #include "solvers/gauss_seidel/exact_loops.hpp"
+#include "solvers/gauss_seidel/sweep_loops.hpp"
 
 namespace ballast {
 
@@ -9,15 +10,14 @@ template <typename V, int K, typename Group>
 struct LoopsOf {
   using Loops = GroupLoops<Group>;
   using Impulses = typename Loops::Impulses;
-  using Search = typename Loops::Search;
+  using Run = typename Loops::Run;
   using Body = typename Loops::Body;
 
-  static void sweep(const Group* groups, Impulses* impulses, int count, Body* bodies) {
-    sweep_loop<V, K, false>(groups, impulses, static_cast<Search*>(nullptr), {}, count, bodies);
+  static void sweep(const Run (&runs)[2], Body* bodies) {
+    sweep_loop<V, K, false>(runs, {}, bodies, nullptr);
   }
-  static double search(const Group* groups, Impulses* impulses, Search* search, SearchStep step,
-                       int count, Body* bodies) {
-    return sweep_loop<V, K, true>(groups, impulses, search, step, count, bodies);
+  static void search(const Run (&runs)[2], SearchStep step, Body* bodies, double (&squares)[2]) {
+    sweep_loop<V, K, true>(runs, step, bodies, squares);
   }
   static void push(const Group* groups, const Impulses* impulses, int count, Body* bodies) {
     push_loop<V>(groups, impulses, count, bodies);

@@ -124,9 +124,8 @@ BALLAST_INLINE void gather_rows(const void* base, const int* at, Lanes16s* c) {
   __m512 rows[4], first[4], second[4];
   for (int half = 0; half < 2; ++half) {
     for (int k = 0; k < 4; ++k) {
-      const __m256 low = row(8 * half + k), high = row(8 * half + 4 + k);
-      rows[k] =
-          __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+      rows[k] = (__m512)_mm512_insertf64x4(_mm512_castpd256_pd512((__m256d)row(8 * half + k)),
+                                           (__m256d)row(8 * half + 4 + k), 1);
     }
     transpose_squares(rows, half ? second : first);
   }

@@ -102,8 +102,10 @@ BALLAST_INLINE void slide(LawLanes<V>* k) {
     }
   for (int v = 0; v < K; ++v) {
     const Mask rest = static_cast<Mask>(k[v].slips & ~good[v]);
-    if (any(rest)) [[unlikely]]
-      x[v] = roots_one_by_one(rest, k[v], x[v]);
+    if (any(rest)) [[unlikely]] {
+      const LawLanes<V> copy = k[v];  // so that k[v] itself need not be in memory
+      x[v] = roots_one_by_one(rest, copy, x[v]);
+    }
     // x = 0: nothing holds it
     const V x2 = x[v] + spread[v], scale = one / (x[v] * x2);
     const Mask some = static_cast<Mask>(k[v].slips & less(zero, x[v]));

@@ -1,6 +1,7 @@
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ballast {
 
@@ -114,16 +115,45 @@ void SweepPlan::list_bodies() {
     bodies_[place_[slab_[body]]++] = static_cast<int>(body);
 }
 
+/// How fast each contact opens without impulses, or how fast its gap would have to be closed: the
+/// smaller; zero where it closes or has no gap.
+void SweepPlan::find_openings(const FrictionProblem& problem) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  const int contacts = problem.contact_count();
+  opening_.assign(contacts, 0.0);
+  widest_ = 0.0;
+  for (int c = 0; c < contacts; ++c) {
+    const double gap = dynamics.bias[problem.row_begin[c]];
+    if (!(gap > 0.0)) continue;
+    const int rows = problem.contact_rows(c);
+    const double* entry = dynamics.h.data() + dynamics.h_begin[c];
+    double free = gap;
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+      const double* v = dynamics.v_free.data() + (body < 0 ? 0 : dynamics.dof_begin[body]);
+      for (int j = 0; j < dynamics.body_dofs(body); ++j, entry += rows) free += *entry * v[j];
+    }
+    opening_[c] = std::clamp(free, 0.0, gap);
+    widest_ = std::max(widest_, opening_[c]);
+  }
+}
+
+/// 0: it closes; else the octave of its opening, the higher the wider.
+int SweepPlan::level_of(double opening) const {
+  if (!(opening > 0.0)) return 0;
+  return std::max(0, gap_octaves + std::ilogb(opening / widest_));
+}
+
 void SweepPlan::order(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   const int contacts = problem.contact_count(), groups = 2 * slabs_ - 1;
   // group: interior of a slab, or (slabs_ + k) the interface of slabs k and k + 1; friction before
-  // one row; then the contact's turn among those of its body
-  constexpr int turns = 8;
+  // one row; then those first that close; then the contact's turn among those of its body
+  constexpr int turns = 8, levels = 1 + gap_octaves, keys = levels * turns;
   // A key for every contact, then a counting sort: contacts of a key keep their order.
   rank_.assign(dynamics.body_count() + 1, 0);
   key_.resize(contacts);
-  count_.assign(groups * 2 * turns + 1, 0);
+  count_.assign(groups * 2 * keys + 1, 0);
+  find_openings(problem);
   for (int c = 0; c < contacts; ++c) {
     const int a = dynamics.body_a[c], b = dynamics.body_b[c];
     const int first = a >= 0 ? a : b, second = b >= 0 ? b : a;
@@ -135,7 +165,8 @@ void SweepPlan::order(const FrictionProblem& problem) {
       // wait for each other's velocities.
       turn = rank_[first]++ % turns;
     }
-    key_[c] = (group * 2 + (problem.contact_rows(c) == 1)) * turns + turn;
+    const int level = level_of(opening_[c]);
+    key_[c] = ((group * 2 + (problem.contact_rows(c) == 1)) * levels + level) * turns + turn;
     ++count_[key_[c] + 1];
   }
   for (size_t k = 1; k < count_.size(); ++k) count_[k] += count_[k - 1];
@@ -143,8 +174,7 @@ void SweepPlan::order(const FrictionProblem& problem) {
   interfaces_.clear();
   for (int g = 0; g < groups; ++g)
     (g < slabs_ ? interiors_ : interfaces_)
-        .push_back(
-            {count_[g * 2 * turns], count_[(g * 2 + 1) * turns], count_[(g + 1) * 2 * turns]});
+        .push_back({count_[g * 2 * keys], count_[(g * 2 + 1) * keys], count_[(g + 1) * 2 * keys]});
   contacts_.resize(contacts);
   for (int c = 0; c < contacts; ++c) contacts_[count_[key_[c]]++] = c;
 }

@@ -3,6 +3,7 @@
 // made of what the sweeps before have changed. Only swept iterates, which lie in the cones, are
 // ever judged or returned.
 
+#include <limits>
 #include <utility>
 
 #include "solvers/gauss_seidel/body_sweep.hpp"
@@ -75,6 +76,10 @@ class SweptChange {
 template <typename Rule>
 class SweepSearch final : public Solver {
  public:
+  /// `returns_best`: of the iterates that were looked at, where a limit ends a solve; else the
+  /// last. A search may come to iterates far worse than one before.
+  explicit SweepSearch(bool returns_best) : returns_best_(returns_best) {}
+
   void prepare(const FrictionProblem& problem) override {
     searches_.visit(problem, [&](auto& search) { search.sweep.prepare(problem); });
   }
@@ -106,19 +111,47 @@ class SweepSearch final : public Solver {
     const double first_error = search.sweep.error();
     rule.see(first_error);
     iteration.evaluated(first_error, r);
-    double square = 0.0;
+    Impulses best(returns_best_ ? problem.row_count() : 0);  // of all looks
+    bool is_best = false;
+    double least = std::numeric_limits<double>::infinity(), square = 0.0;
+    const auto remember = [&](double error) {
+      is_best = error < least;
+      if (!is_best) return;
+      least = error;
+      best.swap(r);  // the next look fills r anew
+    };
+    if (returns_best_) remember(first_error);
     while (iteration.next()) {
       square = search.advance(rule.next(square));
       if (!iteration.error_due() && !change.promises(iteration.count(), square)) continue;
       const double error = swept_error(search.sweep, problem, iteration, r, load);
       iteration.evaluated(error, r);
+      if (returns_best_) remember(error);
       change.seen(iteration.count(), square, error);
       rule.see(error);
       if (rule.begins_anew()) begin();
     }
-    return iteration.finish(std::move(r));
+    Solved solved = iteration.finish(std::move(is_best ? best : r));
+    if (returns_best_ && !is_best && solved.reason != StopReason::reached_tolerance)
+      go_back(search, problem, best, solved);
+    return solved;
   }
 
+  /// To the best, swept once more in double: what is returned obeys each contact's law.
+  template <typename Search>
+  static void go_back(Search& search, const FrictionProblem& problem, const Impulses& best,
+                      Solved& solved) {
+    if constexpr (requires { search.sweep.allow_single(false); }) search.sweep.allow_single(false);
+    search.sweep.load(problem, best);
+    search.sweep.sweep();
+    const double error = search.sweep.error();
+    if (error >= solved.own_residual) return;
+    search.sweep.store(problem, solved.impulses);
+    solved.own_residual = error;
+    if (!solved.history.empty()) solved.history.back().error = error;
+  }
+
+  bool returns_best_;
   EitherForm<BodySearch, MatrixSearch> searches_;
 };
 

@@ -10,7 +10,7 @@ namespace ballast {
 /// may stop a solve between two looks of ours.
 template <typename Sweep>
 void allow_single(Sweep& sweep, const Budget& budget) {
-  constexpr int it_pays_from = 32;  // iterations
+  constexpr int it_pays_from = 16;  // iterations
   if constexpr (requires { sweep.allow_single(true); })
     sweep.allow_single(budget.max_iterations >= it_pays_from && !budget.fclib);
 }

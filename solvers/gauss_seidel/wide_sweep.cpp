@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace ballast {
 
@@ -48,7 +49,8 @@ void WideSweep::push_part(const Part& part) {
 /// The rows that another core wrote last, all at the same time: one by one, as the groups of an
 /// interface name them, each would take a hundred nanoseconds and more.
 template <typename Number>
-void WideSweep::fetch_shared(const State<Number>& state, int k) const {
+void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) const {
+  const auto k = static_cast<size_t>(&interface - interfaces_.data());
   constexpr int line = 64;  // bytes
   for (const Part* slab : {&interiors_[k], &interiors_[k + 1]}) {
     const char* row = reinterpret_cast<const char*>(state.bodies.data() + slab->bodies.begin);
@@ -80,17 +82,39 @@ void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   });
 }
 
+/// Two parts without a common body, or one: of both first the contacts with friction, then those of
+/// one row, then the driven walls'. Calls sweep(loops, runs) for each kind.
+template <typename Number, typename Kernels, typename Sweep>
+void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels,
+                            std::span<const Part> parts, const Sweep& sweep) {
+  const auto sweep_kind = [&](auto& kind, const auto& loops, Range Part::*range) {
+    using Run = typename std::decay_t<decltype(kind)>::Loops::Run;
+    Run runs[2] = {};
+    for (size_t k = 0; k < parts.size(); ++k) {
+      const Range at = parts[k].*range;
+      constexpr bool all = std::is_same_v<Number, double>;
+      runs[k] = {kind.groups.data() + at.begin, kind.impulses.data() + at.begin,
+                 kind.search.empty() ? nullptr : kind.search.data() + at.begin,
+                 all ? nullptr : kind.awake.data() + at.begin, all ? at.count : at.awake};
+    }
+    sweep(loops, runs);
+  };
+  sweep_kind(state.friction, kernels.friction, &Part::friction);
+  sweep_kind(state.one_row, kernels.one_row, &Part::one_row);
+  sweep_kind(state.wall, kernels.wall, &Part::wall);
+}
+
 template <typename Number, typename Kernels>
 void WideSweep::sweep_in(State<Number>& state, const Kernels& kernels) {
-  // Of each part first the contacts with friction, then those of one row, then the driven walls'.
-  for_parts(state, [&](const Part& part) {
-    const auto sweep = [&state](auto& kind, const auto& loops, Range range) {
-      loops.sweep(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
-                  state.bodies.data());
-    };
-    sweep(state.friction, kernels.friction, part.friction);
-    sweep(state.one_row, kernels.one_row, part.one_row);
-    sweep(state.wall, kernels.wall, part.wall);
+  const auto sweep = [&](std::span<Part> parts) {
+    sweep_parts(state, kernels, parts, [&state](const auto& loops, const auto& runs) {
+      loops.sweep(runs, state.bodies.data());
+    });
+  };
+  for_pairs(interiors_, sweep);
+  for_pairs(interfaces_, [&](std::span<Part> parts) {
+    for (const Part& part : parts) fetch_shared(state, part);
+    sweep(parts);
   });
 }
 
@@ -110,25 +134,25 @@ void WideSweep::start_search() { in_single_ ? start_search_in(single_) : start_s
 
 template <typename Number, typename Kernels>
 double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, SearchStep step) {
-  const auto sweep_part = [&state, &kernels, step](Part& part) {
-    const auto search = [&state, step](auto& kind, const auto& loops, Range range) {
-      return loops.search(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
-                          kind.search.data() + range.begin, step, range.count, state.bodies.data());
-    };
-    part.change_square = search(state.friction, kernels.friction, part.friction) +
-                         search(state.one_row, kernels.one_row, part.one_row) +
-                         search(state.wall, kernels.wall, part.wall);
+  const auto search = [&](std::span<Part> parts) {
+    for (Part& part : parts) part.change_square = 0.0;
+    sweep_parts(state, kernels, parts, [&](const auto& loops, const auto& runs) {
+      double squares[2];
+      loops.search(runs, step, state.bodies.data(), squares);
+      for (size_t k = 0; k < parts.size(); ++k) parts[k].change_square += squares[k];
+    });
   };
   // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
-  run_parts(team_, static_cast<int>(interiors_.size()), [&](int slab) {
-    const Range bodies = interiors_[slab].bodies;
-    kernels.move_bodies(bodies.count, step, state.bodies.data() + bodies.begin,
-                        state.before.data() + bodies.begin, state.direction.data() + bodies.begin);
-    sweep_part(interiors_[slab]);
+  for_pairs(interiors_, [&](std::span<Part> parts) {
+    for (const Part& part : parts)
+      kernels.move_bodies(part.bodies.count, step, state.bodies.data() + part.bodies.begin,
+                          state.before.data() + part.bodies.begin,
+                          state.direction.data() + part.bodies.begin);
+    search(parts);
   });
-  run_parts(team_, static_cast<int>(interfaces_.size()), [&](int k) {
-    fetch_shared(state, k);
-    sweep_part(interfaces_[k]);
+  for_pairs(interfaces_, [&](std::span<Part> parts) {
+    for (const Part& part : parts) fetch_shared(state, part);
+    search(parts);
   });
   // Added up in the order of the parts: the same bits whatever the number of threads.
   double square = 0.0;
@@ -147,7 +171,7 @@ double WideSweep::error() {
   if (!in_single_) return error_in_double();
   refresh();
   const double error = error_in_double();
-  if (!single_suffices(error)) leave_single();
+  single_suffices(error) ? choose_awake(error) : leave_single();
   return error;
 }
 
@@ -211,22 +235,6 @@ void WideSweep::impulse_weights(Eigen::VectorXd& weights) const {
     }
   });
   weights = Eigen::VectorXd::Map(roots.data(), static_cast<Eigen::Index>(roots.size()));
-}
-
-std::vector<int> WideSweep::order() const {
-  std::vector<int> contacts;
-  const auto add = [&contacts](const auto& kind, Range range) {
-    for (int g = range.begin; g < range.begin + range.count; ++g)
-      for (const int c : kind.frames[g].contact)
-        if (c >= 0) contacts.push_back(c);
-  };
-  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
-    for (const Part& part : *parts) {
-      add(exact_.friction, part.friction);
-      add(exact_.one_row, part.one_row);
-      add(exact_.wall, part.wall);
-    }
-  return contacts;
 }
 
 }  // namespace ballast

@@ -5,6 +5,8 @@
 // whose sides have opposite linear parts, and driven walls of one unknown without friction. Of
 // anything else it says so, and ScalarSweep takes it.
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "platform/worker_team.hpp"
@@ -37,8 +39,6 @@ class WideSweep {
   void save(Eigen::VectorXd& state) const;
   void restore(const Eigen::VectorXd& state);
   void impulse_weights(Eigen::VectorXd& weights) const;
-  /// The contacts one after the other: a sweep in this order is the same.
-  std::vector<int> order() const;
 
   /// Whether sweeps from the next load() on are in single precision, until finish_in_double() or
   /// until their rounding shows in the error. Loads, stores and errors are in double in any case.
@@ -48,8 +48,10 @@ class WideSweep {
   bool finish_in_double();
   bool is_single() const { return in_single_; }
 
-  /// For tests: another instruction set.
+  /// For tests: another instruction set, sweeps over every group, how many are passed over.
   void use_kernels(const GroupKernels& kernels) { kernels_ = &kernels; }
+  void allow_rests(bool allowed) { may_rest_ = allowed; }
+  int resting_groups() const;
 
  private:
   /// The groups of one kind, and their impulses.
@@ -60,6 +62,7 @@ class WideSweep {
     std::vector<GroupFrame> frames;  ///< in double alone
     std::vector<typename Loops::Impulses> impulses;
     std::vector<typename Loops::Search> search;
+    std::vector<int> awake;  ///< see Range; in single precision alone
   };
   /// All groups and the iterate, in double or single precision.
   template <typename Number>
@@ -84,8 +87,10 @@ class WideSweep {
       task(wall);
     }
   };
+  /// Groups begin to begin + count of a kind. In single precision those are swept whose distances
+  /// from `begin` are kind.awake[begin] to before kind.awake[begin + awake].
   struct Range {
-    int begin = 0, count = 0;
+    int begin = 0, count = 0, awake = 0;
   };
   /// The groups of one part of the plan. Its sums are written by its thread: on a line of their
   /// own.
@@ -119,13 +124,26 @@ class WideSweep {
     run_parts(team_, static_cast<int>(interiors_.size()),
               [&](int slab) { task(interiors_[slab]); });
     run_parts(team_, static_cast<int>(interfaces_.size()), [&](int k) {
-      fetch_shared(state, k);
+      fetch_shared(state, interfaces_[k]);
       task(interfaces_[k]);
     });
   }
+  /// Calls task(parts) for two of `parts` at a time, or for one where threads would wait for work.
+  template <typename Task>
+  void for_pairs(std::vector<Part>& parts, const Task& task) {
+    const int count = static_cast<int>(parts.size()),
+              together = count >= 2 * size_of(team_) ? 2 : 1;
+    run_parts(team_, (count + together - 1) / together, [&](int k) {
+      const int begin = k * together;
+      task(std::span(parts).subspan(begin, std::min(together, count - begin)));
+    });
+  }
   template <typename Number>
-  void fetch_shared(const State<Number>& state, int k) const;
+  void fetch_shared(const State<Number>& state, const Part& interface) const;
   void push_part(const Part& part);
+  template <typename Number, typename Kernels, typename Sweep>
+  void sweep_parts(State<Number>& state, const Kernels& kernels, std::span<const Part> parts,
+                   const Sweep& sweep);
   template <typename Number, typename Kernels>
   void sweep_in(State<Number>& state, const Kernels& kernels);
   template <typename Number, typename Kernels>
@@ -138,6 +156,7 @@ class WideSweep {
   void settle(Part& part);
   double error_in_double();
   bool single_suffices(double error) const;
+  void choose_awake(double error);
   void leave_single();
 
   const SweepPlan& plan_;
@@ -164,6 +183,7 @@ class WideSweep {
   bool single_made_ = false;                  ///< records cast since prepare()
   bool single_allowed_ = false;               ///< from the next load() on
   bool single_begins_ = false;                ///< at the next sweep
+  bool may_rest_ = true;                      ///< see choose_awake()
   bool in_single_ = false;
 };
 

@@ -2,124 +2,145 @@
 
 #include <algorithm>
 
-#include "solvers/parts/bodies_in_contact.hpp"
-
 namespace ballast {
 namespace {
 
 /// |b - A x| over |b|, above which an LU without exchanged rows is not trusted.
 constexpr double most_rest = 1e-8;
 
-int body_of(const DynamicsForm& d, int c, int side) {
-  return side == 0 ? d.body_a[c] : d.body_b[c];
-}
-
-/// H of contact c with respect to the body of one side: column-major, rows x dofs.
-const double* side_block(const FrictionProblem& problem, int c, int side) {
-  const DynamicsForm& d = problem.dynamics;
-  const double* h = d.h.data() + d.h_begin[c];
-  return side == 0 ? h : h + problem.contact_rows(c) * d.body_dofs(d.body_a[c]);
+/// Everybody that each body touches, itself among them, ascending.
+std::vector<std::vector<int>> bodies_in_contact(int bodies,
+                                                const std::vector<std::array<int, 2>>& pairs) {
+  std::vector<std::vector<int>> near(bodies);
+  for (int b = 0; b < bodies; ++b) near[b].push_back(b);
+  for (const auto& [a, b] : pairs) {
+    if (a < 0 || b < 0) continue;
+    near[a].push_back(b);
+    near[b].push_back(a);
+  }
+  for (std::vector<int>& list : near) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return near;
 }
 
 }  // namespace
 
 void BodyMatrix::prepare(const FrictionProblem& problem) {
-  problem_ = &problem;
   const DynamicsForm& d = problem.dynamics;
+  problem_ = &problem;
+  unit_ = nullptr;
+  pair_.resize(problem.contact_count());
+  for (int c = 0; c < problem.contact_count(); ++c) pair_[c] = {d.body_a[c], d.body_b[c]};
+  analyse(d.dof_begin);
+}
+
+// What does not move is one more body, which nothing joins: its unknowns stay zero.
+void BodyMatrix::prepare(const UnitMassContacts& contacts) {
+  unit_ = &contacts;
+  pair_.resize(contacts.contact_count());
+  for (int c = 0; c < contacts.contact_count(); ++c)
+    for (int s = 0; s < 2; ++s) {
+      const int body = contacts[c].body[s];
+      pair_[c][s] = body < contacts.body_count() ? body : -1;
+    }
+  std::vector<int> dof_begin;
+  for (int k = 0; k <= contacts.unknown_count(); k += UnitMassContacts::width)
+    dof_begin.push_back(k);
+  analyse(dof_begin);
+}
+
+/// A body's columns have the rows of all that it touches.
+void BodyMatrix::analyse(const std::vector<int>& dof_begin) {
+  std::vector<int> rows, inner, outer{0};
   const std::vector<std::vector<int>> near =
-      bodies_in_contact(d.body_count(), problem.contact_count(),
-                        [&d](int c) { return std::pair(d.body_a[c], d.body_b[c]); });
-  // A body's columns have the rows of all its neighbours.
-  std::vector<int> height(d.body_count(), 0);
-  int entries = 0;
-  for (int b = 0; b < d.body_count(); ++b) {
-    for (const int n : near[b]) height[b] += d.body_dofs(n);
-    entries += height[b] * d.body_dofs(b);
-  }
-  matrix_.resize(d.dof_count(), d.dof_count());
-  matrix_.resizeNonZeros(entries);
-  int* outer = matrix_.outerIndexPtr();
-  int* inner = matrix_.innerIndexPtr();
-  int at = 0;
-  for (int b = 0; b < d.body_count(); ++b)
-    for (int k = 0; k < d.body_dofs(b); ++k) {
-      outer[d.dof_begin[b] + k] = at;
-      for (const int n : near[b])
-        for (int i = 0; i < d.body_dofs(n); ++i) inner[at++] = d.dof_begin[n] + i;
-    }
-  outer[d.dof_count()] = at;
-  place_blocks(near);
-  fronts_.analyse(matrix_, d.dof_begin);
-}
-
-/// Where each contact's four blocks and each body's mass go.
-void BodyMatrix::place_blocks(const std::vector<std::vector<int>>& near) {
-  const DynamicsForm& d = problem_->dynamics;
-  std::vector<std::vector<int>> first(near.size());  // of each neighbour's rows in a body's column
+      bodies_in_contact(static_cast<int>(dof_begin.size()) - 1, pair_);
   for (size_t b = 0; b < near.size(); ++b) {
-    int row = 0;
-    for (const int n : near[b]) {
-      first[b].push_back(row);
-      row += d.body_dofs(n);
+    rows.clear();
+    for (const int n : near[b])
+      for (int i = dof_begin[n]; i < dof_begin[n + 1]; ++i) rows.push_back(i);
+    for (int k = dof_begin[b]; k < dof_begin[b + 1]; ++k) {
+      inner.insert(inner.end(), rows.begin(), rows.end());
+      outer.push_back(static_cast<int>(inner.size()));
     }
   }
-  const auto find = [&](int row_body, int column_body) {
-    const auto& list = near[column_body];
-    return first[column_body][std::lower_bound(list.begin(), list.end(), row_body) - list.begin()];
+  matrix_.resize(dof_begin.back(), dof_begin.back());
+  matrix_.resizeNonZeros(outer.back());
+  std::copy(outer.begin(), outer.end(), matrix_.outerIndexPtr());
+  std::copy(inner.begin(), inner.end(), matrix_.innerIndexPtr());
+  // Where the blocks are: the rows of a column ascend.
+  const auto find = [&](int row_body, int column_body) -> Place {
+    if (row_body < 0 || column_body < 0) return {0, 0};
+    const int begin = outer[dof_begin[column_body]], end = outer[dof_begin[column_body] + 1];
+    const auto row =
+        std::lower_bound(inner.begin() + begin, inner.begin() + end, dof_begin[row_body]);
+    return {static_cast<int>(row - inner.begin()), end - begin};
   };
-  offset_.assign(problem_->contact_count(), {-1, -1, -1, -1});
-  for (int c = 0; c < problem_->contact_count(); ++c)
-    for (int p = 0; p < 2; ++p)
-      for (int q = 0; q < 2; ++q) {
-        const int row = body_of(d, c, p), column = body_of(d, c, q);
-        if (row >= 0 && column >= 0) offset_[c][2 * p + q] = find(row, column);
-      }
-  mass_offset_.resize(d.body_count());
-  for (int b = 0; b < d.body_count(); ++b) mass_offset_[b] = find(b, b);
+  blocks_.resize(pair_.size());
+  for (size_t c = 0; c < pair_.size(); ++c)
+    for (int k = 0; k < 4; ++k) blocks_[c][k] = find(pair_[c][k / 2], pair_[c][k % 2]);
+  masses_.resize(near.size());
+  for (int b = 0; b < static_cast<int>(near.size()); ++b) masses_[b] = find(b, b);
+  fronts_.analyse(matrix_, dof_begin);
 }
 
-/// Adds H_p^T E H_q of contact c with its sides p and q (0, 1).
-void BodyMatrix::add_block(int c, int p, int q, const Eigen::Matrix3d& e) {
-  const DynamicsForm& d = problem_->dynamics;
-  const int offset = offset_[c][2 * p + q];
-  if (offset < 0) return;
-  const int rows = problem_->contact_rows(c);
-  const int left = body_of(d, c, p), right = body_of(d, c, q);
-  const int left_dofs = d.body_dofs(left), right_dofs = d.body_dofs(right);
-  const double* hp = side_block(*problem_, c, p);
-  const double* hq = side_block(*problem_, c, q);
-  const int* outer = matrix_.outerIndexPtr();
-  // Column by column: E times a column of H_q, then H_p^T times that.
-  for (int j = 0; j < right_dofs; ++j) {
-    double eh[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < rows; ++i)
-      for (int k = 0; k < rows; ++k) eh[i] += e(i, k) * hq[j * rows + k];
-    double* column = matrix_.valuePtr() + outer[d.dof_begin[right] + j] + offset;
-    for (int i = 0; i < left_dofs; ++i)
-      for (int k = 0; k < rows; ++k) column[i] += hp[i * rows + k] * eh[k];
-  }
-}
-
-void BodyMatrix::fill(const std::vector<Eigen::Matrix3d>& gain) {
-  const DynamicsForm& d = problem_->dynamics;
-  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
-  // The masses.
-  for (int b = 0; b < d.body_count(); ++b) {
+void BodyMatrix::add_masses() {
+  for (int b = 0; b < static_cast<int>(masses_.size()); ++b) {
+    if (unit_) {
+      for (int i = 0; i < UnitMassContacts::width; ++i) column(masses_[b], i)[i] = 1.0;
+      continue;
+    }
+    const DynamicsForm& d = problem_->dynamics;
     const int n = d.body_dofs(b);
     const double* mass = d.mass.data() + d.mass_begin[b];
-    for (int j = 0; j < n; ++j) {
-      double* column =
-          matrix_.valuePtr() + matrix_.outerIndexPtr()[d.dof_begin[b] + j] + mass_offset_[b];
-      for (int i = 0; i < n; ++i) column[i] = mass[j * n + i];
+    for (int j = 0; j < n; ++j) std::copy_n(mass + j * n, n, column(masses_[b], j));
+  }
+}
+
+/// Adds H^T E H of one contact.
+void BodyMatrix::add_contact(int c, const Eigen::Matrix3d& e) {
+  const DynamicsForm& d = problem_->dynamics;
+  const int rows = problem_->contact_rows(c);
+  const auto dofs = [&](int side) { return d.body_dofs(pair_[c][side]); };
+  const double* first = d.h.data() + d.h_begin[c];  // column-major, rows x dofs
+  const double* h[2] = {first, first + rows * dofs(0)};
+  for (int k = 0; k < 4; ++k) {
+    if (blocks_[c][k].height == 0) continue;
+    const double *left = h[k / 2], *right = h[k % 2];
+    // Column by column: E times a column of the right H, then the left H^T times that.
+    for (int j = 0; j < dofs(k % 2); ++j) {
+      double eh[3] = {0.0, 0.0, 0.0};
+      for (int i = 0; i < rows; ++i)
+        for (int l = 0; l < rows; ++l) eh[i] += e(i, l) * right[j * rows + l];
+      double* sum = column(blocks_[c][k], j);
+      for (int i = 0; i < dofs(k / 2); ++i)
+        for (int l = 0; l < rows; ++l) sum[i] += left[i * rows + l] * eh[l];
     }
   }
-  for (int c = 0; c < problem_->contact_count(); ++c)
-    for (int p = 0; p < 2; ++p)
-      for (int q = 0; q < 2; ++q) add_block(c, p, q, gain[c]);
+}
+
+/// Adds G^T E G of one contact.
+void BodyMatrix::add_unit_contact(int c, const Eigen::Matrix3d& e) {
+  constexpr int width = UnitMassContacts::width;
+  const auto& g = (*unit_)[c].g;
+  for (int p = 0; p < 2; ++p) {
+    const Eigen::Matrix<double, width, 3> left = g[p].transpose() * e;
+    for (int q = 0; q < 2; ++q) {
+      const Place& place = blocks_[c][2 * p + q];
+      if (place.height == 0) continue;
+      const Eigen::Matrix<double, width, width> block = left * g[q];
+      for (int j = 0; j < width; ++j)
+        Eigen::Map<Eigen::Matrix<double, width, 1>>(column(place, j)) += block.col(j);
+    }
+  }
 }
 
 bool BodyMatrix::factor(const std::vector<Eigen::Matrix3d>& gain) {
-  fill(gain);
+  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
+  add_masses();
+  for (int c = 0; c < static_cast<int>(pair_.size()); ++c)
+    if (!gain[c].isZero(0.0)) unit_ ? add_unit_contact(c, gain[c]) : add_contact(c, gain[c]);
   return fronts_.factor(matrix_);
 }
 

@@ -8,6 +8,7 @@
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/parts/front_lu.hpp"
 #include "solvers/parts/sparse_factor.hpp"
+#include "solvers/parts/unit_mass_contacts.hpp"
 
 namespace ballast {
 
@@ -16,6 +17,8 @@ class BodyMatrix {
   /// Pattern, order, analysis and the places of all blocks. `problem`, which has a dynamics form,
   /// must outlive the use of the matrix.
   void prepare(const FrictionProblem& problem);
+  /// The same of I + G^T E G. Its unknowns are those of `contacts`, which must outlive its use.
+  void prepare(const UnitMassContacts& contacts);
   /// FrontLu::use_team
   void use_team(WorkerTeam* team) { fronts_.use_team(team); }
 
@@ -34,16 +37,25 @@ class BodyMatrix {
   double operations() const { return fronts_.operations(); }
 
  private:
-  void place_blocks(const std::vector<std::vector<int>>& near);
-  void fill(const std::vector<Eigen::Matrix3d>& gain);
-  void add_block(int c, int left_side, int right_side, const Eigen::Matrix3d& gain);
+  /// A block: its first entry among the matrix's values, and entries from one of its columns to the
+  /// next. height 0: no such block.
+  struct Place {
+    int first, height;
+  };
+  void analyse(const std::vector<int>& dof_begin);
+  void add_masses();
+  void add_contact(int c, const Eigen::Matrix3d& gain);
+  void add_unit_contact(int c, const Eigen::Matrix3d& gain);
+  double* column(const Place& block, int j) {
+    return matrix_.valuePtr() + block.first + j * block.height;
+  }
 
   const FrictionProblem* problem_ = nullptr;
+  const UnitMassContacts* unit_ = nullptr;  ///< in place of the problem
   SparseColumns matrix_;
-  /// Per contact and sides (aa, ab, ba, bb): where in a column of the right body the rows of the
-  /// left one begin; -1: no such block.
-  std::vector<std::array<int, 4>> offset_;
-  std::vector<int> mass_offset_;
+  std::vector<std::array<int, 2>> pair_;      ///< bodies of each contact; -1: does not move
+  std::vector<std::array<Place, 4>> blocks_;  ///< of each contact: aa, ab, ba, bb
+  std::vector<Place> masses_;                 ///< of each body: its own block
   FrontLu fronts_;
   LuFactor exchanging_;  ///< where fronts_ do not do
   Eigen::VectorXd rest_, correction_;

@@ -80,14 +80,10 @@ double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const
   return mean.value();
 }
 
-double largest_scaled_eigenvalue(ContactOperator& w) {
-  return largest_eigenvalue(w, [&w](Eigen::VectorXd& x) {
+double gradient_step(ContactOperator& w) {
+  const double lambda = largest_eigenvalue(w, [&w](Eigen::VectorXd& x) {
     for (int c = 0; c < w.contact_count(); ++c) w.put(x, c, w.rho()[c] * w.at(x, c));
   });
-}
-
-double gradient_step(ContactOperator& w) {
-  const double lambda = largest_scaled_eigenvalue(w);
   return lambda > 0.0 ? 1.0 / lambda : 1.0;
 }
 

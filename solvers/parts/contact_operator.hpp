@@ -95,9 +95,8 @@ double largest_eigenvalue(ContactOperator& w, const Divide& divide, int products
   return eigenvalue;
 }
 
-/// The same with D_c = I / rho_c.
-double largest_scaled_eigenvalue(ContactOperator& w);
-/// Its inverse: the step of a projected gradient along rho_c u_c; 1 where W is zero.
+/// The step of a projected gradient along rho_c u_c: 1 / lambda_max with D_c = I / rho_c; 1 where W
+/// is zero.
 double gradient_step(ContactOperator& w);
 
 }  // namespace ballast

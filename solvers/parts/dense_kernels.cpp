@@ -21,19 +21,29 @@ template <int bytes>
 struct Rows {
   static constexpr int lanes = bytes / static_cast<int>(sizeof(double)), count = tile_rows / lanes;
   typedef double Register __attribute__((vector_size(bytes)));
+  typedef double Loose __attribute__((vector_size(bytes), aligned(8), may_alias));
   Register part[count];
 
+  BALLAST_INLINE void clear() {
+    for (int i = 0; i < count; ++i) part[i] = Register{};
+  }
+  BALLAST_INLINE void load(const double* from) {
+    for (int i = 0; i < count; ++i) part[i] = *reinterpret_cast<const Loose*>(from + i * lanes);
+  }
+  BALLAST_INLINE void store(double* to) const {
+    for (int i = 0; i < count; ++i) *reinterpret_cast<Loose*>(to + i * lanes) = part[i];
+  }
   /// The first `rows` of them, the others zero.
   BALLAST_INLINE void load(const double* from, int rows) {
-    if (rows == tile_rows) return static_cast<void>(std::memcpy(part, from, sizeof part));
-    double all[tile_rows] = {};
-    for (int i = 0; i < rows; ++i) all[i] = from[i];
-    std::memcpy(part, all, sizeof part);
+    if (rows == tile_rows) return load(from);
+    double all[tile_rows];
+    for (int i = 0; i < tile_rows; ++i) all[i] = i < rows ? from[i] : 0.0;
+    load(all);
   }
   BALLAST_INLINE void store(double* to, int rows) const {
-    if (rows == tile_rows) return static_cast<void>(std::memcpy(to, part, sizeof part));
+    if (rows == tile_rows) return store(to);
     double all[tile_rows];
-    std::memcpy(all, part, sizeof part);
+    store(all);
     for (int i = 0; i < rows; ++i) to[i] = all[i];
   }
 };
@@ -42,16 +52,24 @@ struct Rows {
 template <int N, int bytes>
 BALLAST_INLINE void subtract_tile(int rows, int depth, const Rows<bytes>* packed, const double* b,
                                   std::int64_t stride_b, double* c, std::int64_t stride_c) {
-  Rows<bytes> sum[N] = {};
+  Rows<bytes> sum[N];
+  for (int j = 0; j < N; ++j) sum[j].clear();
   for (int p = 0; p < depth; ++p)
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < Rows<bytes>::count; ++i)
         sum[j].part[i] += packed[p].part[i] * b[j * stride_b + p];
-  for (int j = 0; j < N; ++j, c += stride_c) {
-    Rows<bytes> there;
-    there.load(c, rows);
-    for (int i = 0; i < Rows<bytes>::count; ++i) there.part[i] -= sum[j].part[i];
-    there.store(c, rows);
+  if (rows == tile_rows) {
+    for (int j = 0; j < N; ++j, c += stride_c) {
+      Rows<bytes> there;
+      there.load(c);
+      for (int i = 0; i < Rows<bytes>::count; ++i) there.part[i] -= sum[j].part[i];
+      there.store(c);
+    }
+  } else {
+    double all[N][tile_rows];
+    for (int j = 0; j < N; ++j) sum[j].store(all[j]);
+    for (int j = 0; j < N; ++j, c += stride_c)
+      for (int i = 0; i < rows; ++i) c[i] -= all[j][i];
   }
 }
 

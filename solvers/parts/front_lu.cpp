@@ -58,6 +58,23 @@ void FrontLu::make_room() {
   work_.resize(graph_.unknown_count());
   below_.resize(graph_.unknown_count());
   largest_.resize(graph_.unknown_count());
+  list_runs();
+}
+
+/// Rows come in blocks, and neighbours often stay neighbours: runs are many rows long.
+void FrontLu::list_runs() {
+  runs_.clear();
+  runs_begin_.assign(1, 0);
+  for (const Front& child : tree_.fronts) {
+    const int* row = tree_.row_in_parent.data() + child.rows_begin + child.own;
+    const int own = child.parent < 0 ? 0 : tree_.fronts[child.parent].own;
+    for (int i = 0; i < child.boundary(); ++i)
+      if (i == 0 || row[i] != row[i - 1] + 1 || row[i] == own)
+        runs_.push_back({i, row[i], 1});
+      else
+        ++runs_.back().count;
+    runs_begin_.push_back(static_cast<int>(runs_.size()));
+  }
 }
 
 /// Every entry belongs to the front that eliminates the first of its two unknowns.
@@ -131,8 +148,7 @@ bool FrontLu::factor_front(int number, const double* values, bool shares) {
   assemble(front, number, values, boundary);
   for (int k = 0, child = number - 1; k < front.child_count; ++k, --child) {
     while (tree_.fronts[child].parent != number) --child;
-    extend_add(tree_.fronts[child], boundaries_.data() + layout_.boundary_kept[child], front,
-               boundary);
+    extend_add(child, boundaries_.data() + layout_.boundary_kept[child], front, boundary);
   }
   if (!eliminate(front, number, boundary, shares)) return false;
   const std::int64_t size = static_cast<std::int64_t>(front.boundary()) * front.boundary();
@@ -148,26 +164,28 @@ void FrontLu::assemble(const Front& front, int number, const double* values, dou
     numbers[entries_[e].to] += values[entries_[e].from];
 }
 
-void FrontLu::extend_add(const Front& child, const double* from, const Front& front,
-                         double* boundary) {
-  const int number = child.parent, own = front.own, rows = child.boundary();
-  const int* row = tree_.row_in_parent.data() + child.rows_begin + child.own;
-  double* columns = numbers_.data() + layout_.numbers_begin[number];
+/// The child's rows, which ascend, are first rows of the parent's own unknowns, then rows of its
+/// boundary; so are its columns. That makes four blocks, in three places.
+void FrontLu::extend_add(int child, const double* from, const Front& front, double* boundary) {
+  const int own = front.own, rows = tree_.fronts[child].boundary();
+  double* columns = numbers_.data() + layout_.numbers_begin[tree_.fronts[child].parent];
   double* rest = columns + static_cast<std::int64_t>(front.rows) * own;
-  // The child's rows, which ascend, are first rows of the parent's own unknowns, from `split` on
-  // rows of its boundary; so are its columns. That makes four blocks, in three places.
-  const int split = static_cast<int>(std::lower_bound(row, row + rows, own) - row);
-  for (int j = 0; j < rows; ++j, from += rows) {
-    if (j < split) {
-      double* to = columns + static_cast<std::int64_t>(row[j]) * front.rows;
-      for (int i = 0; i < rows; ++i) to[row[i]] += from[i];
-      continue;
+  const Run *first = runs_.data() + runs_begin_[child],
+            *end = runs_.data() + runs_begin_[child + 1];
+  const Run* split = std::find_if(first, end, [own](const Run& run) { return run.to >= own; });
+  const auto add = [&from](const Run* run, const Run* last, double* to) {
+    for (; run < last; ++run)
+      for (int i = 0; i < run->count; ++i) to[run->to + i] += from[run->from + i];
+  };
+  for (const Run* run = first; run < end; ++run)
+    for (int column = run->to; column < run->to + run->count; ++column, from += rows) {
+      if (column < own) {
+        add(first, end, columns + static_cast<std::int64_t>(column) * front.rows);
+        continue;
+      }
+      add(first, split, rest + static_cast<std::int64_t>(column - own) * own);
+      add(split, end, boundary + static_cast<std::int64_t>(column - own) * front.boundary() - own);
     }
-    double* to = rest + static_cast<std::int64_t>(row[j] - own) * own;
-    for (int i = 0; i < split; ++i) to[row[i]] += from[i];
-    to = boundary + static_cast<std::int64_t>(row[j] - own) * front.boundary() - own;
-    for (int i = split; i < rows; ++i) to[row[i]] += from[i];
-  }
 }
 
 /// The elimination of one front, whose rows and columns are its own unknowns and then its boundary:

@@ -48,11 +48,17 @@ class FrontLu {
   struct Entry {
     int from, to;
   };
+  /// Rows of a front's boundary that follow each other in its parent too: `count` of them, from
+  /// row `from` of the boundary on, are the parent's rows from `to` on, all its own or none.
+  struct Run {
+    int from, to, count;
+  };
   void make_room();
+  void list_runs();
   void place_entries(const SparseColumns& a);
   bool factor_front(int number, const double* values, bool shares);
   void assemble(const Front& front, int number, const double* values, double* boundary);
-  void extend_add(const Front& child, const double* from, const Front& front, double* boundary);
+  void extend_add(int child, const double* from, const Front& front, double* boundary);
   bool eliminate(const Front& front, int number, double* boundary, bool shares);
 
   SparsePattern pattern_;
@@ -62,6 +68,8 @@ class FrontLu {
   std::vector<double> numbers_, boundaries_;  ///< as layout_ says
   std::vector<Entry> entries_;                ///< by front
   std::vector<int> entries_begin_;            ///< fronts + 1
+  std::vector<Run> runs_;                     ///< by front
+  std::vector<int> runs_begin_;               ///< fronts + 1
   std::vector<double> largest_;  ///< by place: the largest entry of the column in the matrix
   Eigen::VectorXd work_, below_;
   WorkerTeam* team_ = nullptr;

@@ -1,13 +1,10 @@
 #include "solvers/parts/regular_newton.hpp"
 
-#include "problems/algebra/contact_error.hpp"
-#include "problems/algebra/root_mean_square.hpp"
-
 namespace ballast {
 
 void RegularNewton::prepare(const FrictionProblem& problem) {
   contacts_.prepare(problem);
-  system_.prepare(contacts_);
+  matrix_.prepare(contacts_);
   gain_.resize(contacts_.contact_count());
   source_.resize(3, contacts_.contact_count());
   status_.resize(contacts_.contact_count());
@@ -24,7 +21,7 @@ double RegularNewton::settle(NewtonIterate& at) const {
   // A Newton step may leave the cones; what is judged lies in them.
   contacts_.project(at.r);
   contacts_.body_velocity(at.r, at.x);
-  return contacts_.error(at.r, at.x);
+  return contacts_.error(at.r, [&](int c) { return contacts_.velocity(at.x, c); });
 }
 
 void RegularNewton::set_centre(const ContactColumns& centre, double epsilon) {
@@ -35,22 +32,12 @@ void RegularNewton::set_centre(const ContactColumns& centre, double epsilon) {
 
 /// u + epsilon_c (r - centre)
 Eigen::Vector3d RegularNewton::velocity(const NewtonIterate& at, int c) const {
-  const UnitMassContacts::Contact& k = contacts_[c];
-  const double compliance = epsilon_ * k.lambda_max;
-  return contacts_.relative(at.x, c) + k.bias + compliance * (at.r.col(c) - centre_.col(c));
+  const double compliance = epsilon_ * contacts_[c].lambda_max;
+  return contacts_.velocity(at.x, c) + compliance * (at.r.col(c) - centre_.col(c));
 }
 
 double RegularNewton::residual(const NewtonIterate& at) const {
-  RootMeanSquare mean;
-  // The judge's measure with u~ in place of u.
-  for (int c = 0; c < contacts_.contact_count(); ++c) {
-    const UnitMassContacts::Contact& k = contacts_[c];
-    if (!(k.lambda_max > 0.0)) continue;
-    const double value =
-        ContactJudge::scaled_natural_map(at.r.col(c), velocity(at, c), k.friction, k.lambda_max);
-    mean.add(value);
-  }
-  return mean.value();
+  return contacts_.error(at.r, [&](int c) { return velocity(at, c); });
 }
 
 int RegularNewton::linearise(const NewtonIterate& at) {
@@ -73,13 +60,26 @@ int RegularNewton::linearise(const NewtonIterate& at) {
   return changed;
 }
 
+/// (I + G^T gain G) x = right_, improved by its residual, once, where that is larger than 1e-10 of
+/// the right-hand side: there are no pivots.
+void RegularNewton::improve(Eigen::VectorXd& x) {
+  // What is left, by way of the contacts: cheaper than the matrix.
+  rest_ = right_ - x;
+  for (int c = 0; c < contacts_.contact_count(); ++c)
+    if (!gain_[c].isZero(0.0)) contacts_.push(rest_, c, -(gain_[c] * contacts_.relative(x, c)));
+  if (!(rest_.norm() > 1e-10 * right_.norm())) return;
+  matrix_.solve_once(rest_, rest_);
+  x += rest_;
+}
+
 bool RegularNewton::step(NewtonIterate& change) {
   // With dr = source - gain G dx the bodies' dx = G^T dr becomes (1 + G^T gain G) dx = G^T source.
   right_ = Eigen::VectorXd::Zero(contacts_.unknown_count());
   for (int c = 0; c < contacts_.contact_count(); ++c) contacts_.push(right_, c, source_.col(c));
   // The bodies' step, and from it the impulses'.
-  if (!system_.factor(gain_)) return false;
-  system_.solve(right_, change.x);
+  if (!matrix_.factor(gain_)) return false;
+  matrix_.solve_once(right_, change.x);
+  improve(change.x);
   if (!change.x.allFinite()) return false;
   change.r = source_;
   for (int c = 0; c < contacts_.contact_count(); ++c)

@@ -4,8 +4,9 @@
 
 #include <vector>
 
+#include "solvers/parts/body_matrix.hpp"
 #include "solvers/parts/regular_law.hpp"
-#include "solvers/parts/unit_mass_system.hpp"
+#include "solvers/parts/unit_mass_contacts.hpp"
 
 namespace ballast {
 
@@ -22,8 +23,8 @@ class RegularNewton {
   void prepare(const FrictionProblem& problem);
   const UnitMassContacts& contacts() const { return contacts_; }
   /// FrontLu::use_team
-  void use_team(WorkerTeam* team) { system_.use_team(team); }
-  double operations() const { return system_.operations(); }
+  void use_team(WorkerTeam* team) { matrix_.use_team(team); }
+  double operations() const { return matrix_.operations(); }
 
   /// The iterate with x from r.
   NewtonIterate iterate(const Impulses& r) const;
@@ -44,16 +45,17 @@ class RegularNewton {
 
  private:
   Eigen::Vector3d velocity(const NewtonIterate& at, int c) const;
+  void improve(Eigen::VectorXd& x);
 
   UnitMassContacts contacts_;
-  UnitMassSystem system_;
+  BodyMatrix matrix_;
   ContactColumns centre_;
   double epsilon_ = 1e-3;
   std::vector<Eigen::Matrix3d> gain_;
   ContactColumns source_;
   std::vector<ContactStatus> status_;
   bool has_status_ = false;
-  Eigen::VectorXd right_;
+  Eigen::VectorXd right_, rest_;
 };
 
 }  // namespace ballast

@@ -11,8 +11,9 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
     return bodies_.prepare(problem);
   }
   // A stored W may be unsymmetric by some per cent: then LU in place of Cholesky.
-  const SparseColumns stored = problem.delassus.w, transposed = stored.transpose();
-  symmetric_ = (stored - transposed).norm() <= 1e-14 * stored.norm();
+  stored_ = problem.delassus.w;
+  const SparseColumns transposed = stored_.transpose();
+  symmetric_ = (stored_ - transposed).norm() <= 1e-14 * stored_.norm();
 }
 
 bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
@@ -20,16 +21,12 @@ bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
   shift_ = shift;
   sigma_ = sigma;
   if (dynamics_) return bodies_.factor(sigma_);
-  // W + P, in which P is a sparse matrix of blocks.
+  sum_ = stored_;
   const FrictionProblem& problem = w_->problem();
-  std::vector<Eigen::Triplet<double>> entries;
   for (int c = 0; c < problem.contact_count(); ++c)
     for (int j = 0; j < problem.contact_rows(c); ++j)
       for (int i = 0; i < problem.contact_rows(c); ++i)
-        entries.emplace_back(problem.row_begin[c] + i, problem.row_begin[c] + j, shift_[c](i, j));
-  SparseColumns blocks(problem.row_count(), problem.row_count());
-  blocks.setFromTriplets(entries.begin(), entries.end());
-  sum_ = SparseColumns(problem.delassus.w) + blocks;
+        sum_.coeffRef(problem.row_begin[c] + i, problem.row_begin[c] + j) += shift_[c](i, j);
   sum_.makeCompressed();
   return symmetric_ ? cholesky_.factor(sum_) : lu_.factor(sum_);
 }

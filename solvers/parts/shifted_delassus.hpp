@@ -39,7 +39,7 @@ class ShiftedDelassus {
   bool dynamics_ = false, symmetric_ = true;
   BodyMatrix bodies_;                           ///< dynamics form
   SparseRows h_;                                ///< the same
-  SparseColumns sum_;                           ///< W + P
+  SparseColumns stored_, sum_;                  ///< W, W + P
   std::vector<Eigen::Matrix3d> sigma_, shift_;  ///< P^-1, P
   CholeskyFactor cholesky_;
   LuFactor lu_;

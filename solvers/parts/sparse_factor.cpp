@@ -60,10 +60,7 @@ struct CholeskyFactor::State {
   State& operator=(const State&) = delete;
 };
 
-CholeskyFactor::CholeskyFactor() : state_(std::make_unique<State>()) {}
-CholeskyFactor::~CholeskyFactor() = default;
-CholeskyFactor::CholeskyFactor(CholeskyFactor&&) noexcept = default;
-CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
+CholeskyFactor::CholeskyFactor() : state_(new State, [](State* state) { delete state; }) {}
 
 // The ordering is kept while the pattern is the same; the numbers are new every time.
 bool CholeskyFactor::factor(const SparseColumns& a) {
@@ -118,10 +115,7 @@ struct LuFactor::State {
   State& operator=(const State&) = delete;
 };
 
-LuFactor::LuFactor() : state_(std::make_unique<State>()) {}
-LuFactor::~LuFactor() = default;
-LuFactor::LuFactor(LuFactor&&) noexcept = default;
-LuFactor& LuFactor::operator=(LuFactor&&) noexcept = default;
+LuFactor::LuFactor() : state_(new State, [](State* state) { delete state; }) {}
 
 bool LuFactor::factor(const SparseColumns& a) {
   State& s = *state_;

@@ -22,9 +22,6 @@ bool has_sparse_factors();
 class CholeskyFactor {
  public:
   CholeskyFactor();
-  ~CholeskyFactor();
-  CholeskyFactor(CholeskyFactor&&) noexcept;
-  CholeskyFactor& operator=(CholeskyFactor&&) noexcept;
 
   /// Reads the lower triangle of `a` (square, compressed). Analyses when the pattern is not the
   /// last one's. False: not positive definite to working precision; then solve() must not be
@@ -35,7 +32,7 @@ class CholeskyFactor {
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<State, void (*)(State*)> state_;
 };
 
 /// P A Q = L U for a general square A (UMFPACK, symmetric strategy first: our matrices are nearly
@@ -43,9 +40,6 @@ class CholeskyFactor {
 class LuFactor {
  public:
   LuFactor();
-  ~LuFactor();
-  LuFactor(LuFactor&&) noexcept;
-  LuFactor& operator=(LuFactor&&) noexcept;
 
   /// `a` square, compressed, sorted. False: singular to working precision.
   bool factor(const SparseColumns& a);
@@ -56,7 +50,7 @@ class LuFactor {
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<State, void (*)(State*)> state_;
 };
 
 }  // namespace ballast

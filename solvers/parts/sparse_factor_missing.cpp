@@ -15,19 +15,11 @@ namespace {
 
 bool has_sparse_factors() { return false; }
 
-struct CholeskyFactor::State {};
-CholeskyFactor::CholeskyFactor() = default;
-CholeskyFactor::~CholeskyFactor() = default;
-CholeskyFactor::CholeskyFactor(CholeskyFactor&&) noexcept = default;
-CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
+CholeskyFactor::CholeskyFactor() : state_(nullptr, nullptr) {}
 bool CholeskyFactor::factor(const SparseColumns&) { decline(); }
 void CholeskyFactor::solve(const Eigen::VectorXd&, Eigen::VectorXd&) { decline(); }
 
-struct LuFactor::State {};
-LuFactor::LuFactor() = default;
-LuFactor::~LuFactor() = default;
-LuFactor::LuFactor(LuFactor&&) noexcept = default;
-LuFactor& LuFactor::operator=(LuFactor&&) noexcept = default;
+LuFactor::LuFactor() : state_(nullptr, nullptr) {}
 bool LuFactor::factor(const SparseColumns&) { decline(); }
 void LuFactor::solve(const SparseColumns&, const Eigen::VectorXd&, Eigen::VectorXd&, int) {
   decline();

@@ -77,14 +77,13 @@ void UnitMassContacts::body_velocity(const ContactColumns& r, Eigen::VectorXd& x
   for (int c = 0; c < contact_count(); ++c) push(x, c, r.col(c));
 }
 
-double UnitMassContacts::error(const ContactColumns& r, const Eigen::VectorXd& x) const {
+double UnitMassContacts::error(const ContactColumns& r,
+                               const std::function<Eigen::Vector3d(int)>& u) const {
   RootMeanSquare mean;
   for (int c = 0; c < contact_count(); ++c) {
     const Contact& k = contacts_[c];
     if (!(k.lambda_max > 0.0)) continue;
-    const double value = ContactJudge::scaled_natural_map(r.col(c), relative(x, c) + k.bias,
-                                                          k.friction, k.lambda_max);
-    mean.add(value);
+    mean.add(ContactJudge::scaled_natural_map(r.col(c), u(c), k.friction, k.lambda_max));
   }
   return mean.value();
 }

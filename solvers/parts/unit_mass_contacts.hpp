@@ -6,6 +6,7 @@
 // Every body is given six unknowns; those that it lacks meet only zeros. Every contact is given
 // three rows in the same way. So all blocks are 3 x 6, and nothing asks for sizes.
 
+#include <functional>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -59,9 +60,13 @@ class UnitMassContacts {
     for (int s = 0; s < 2; ++s)
       x.segment<width>(width * k.body[s]).noalias() += k.g[s].transpose() * impulse;
   }
-  /// The judge's error of r with the velocities x that it gives: scaled natural map, rms over
-  /// contacts [m/s].
-  double error(const ContactColumns& r, const Eigen::VectorXd& x) const;
+  /// G x + bias of one contact [m/s].
+  Eigen::Vector3d velocity(const Eigen::VectorXd& x, int c) const {
+    return relative(x, c) + contacts_[c].bias;
+  }
+  /// The judge's measure of r with the velocity u(c) at contact c [m/s]: scaled natural map, rms
+  /// over the contacts that move.
+  double error(const ContactColumns& r, const std::function<Eigen::Vector3d(int)>& u) const;
 
  private:
   int bodies_ = 0;

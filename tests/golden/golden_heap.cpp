@@ -52,29 +52,50 @@ Scene heap() {
   return scene;
 }
 
-/// A backend that decides by libm's last bits, or not by the problem alone.
-bool through_libm(const std::string& backend) {
-  // hypot in the contact's equation; sine and cosine for the sides of the pyramid
-  return backend == "pgs_newton" || backend == "pyramid_lemke";
-}
+/// The backends of one table.
+struct Kind {
+  const char* table;
+  Through through;
+  std::array<int, 3> iterations;
+  bool (*holds)(const SolverEntry& entry);
+};
 
-/// Left out: BLAS and SuiteSparse sum in the order that suits the processor, and foreign solvers
-/// take what libraries they find.
+/// Without a foreign library, which would sum in the order that suits the processor.
 bool is_own_code(const SolverEntry& entry) { return std::string(entry.needs.package).empty(); }
 
-Table backend_values(const FrictionProblem& problem, const Impulses& warm, Through through) {
-  constexpr std::array iterations = {1, 3, 20};
-  Table table{through == Through::libm ? "backends_libm" : "backends", through, "backend"};
-  for (const int count : iterations) {
+/// Own code that decides by libm's last bits, or not by the problem alone.
+bool is_through_libm(const SolverEntry& entry) {
+  // hypot in the contact's equation; sine and cosine for the sides of the pyramid
+  return std::ranges::count(std::array{"pgs_newton", "pyramid_lemke"}, std::string(entry.name)) > 0;
+}
+
+/// SuiteSparse orders the bodies, which is a matter of whole numbers; the factors are our own.
+bool factors_over_bodies(const SolverEntry& entry) {
+  constexpr std::array names = {"admm",      "interior_point", "newton_ac",   "newton_burst",
+                                "newton_fb", "newton_nm",      "prox_newton", "sap"};
+  return entry.make && std::ranges::count(names, std::string(entry.name)) > 0;
+}
+
+constexpr std::array backend_kinds = {
+    Kind{"backends",
+         Through::arithmetic,
+         {1, 3, 20},
+         [](const SolverEntry& entry) { return is_own_code(entry) && !is_through_libm(entry); }},
+    Kind{"backends_libm", Through::libm, {1, 3, 20}, is_through_libm},
+    // newton_burst begins with 500 sweeps
+    Kind{factoring_table, Through::libm, {1, 20, 520}, factors_over_bodies}};
+
+Table backend_values(const FrictionProblem& problem, const Impulses& warm, const Kind& kind) {
+  Table table{kind.table, kind.through, "backend"};
+  for (const int count : kind.iterations) {
     const std::string after = "_after_" + std::to_string(count);
     table.columns.insert(table.columns.end(), {"impulses" + after, "error" + after});
   }
   SolverRunner runner;
   for (const SolverEntry& entry : solver_list()) {
-    const bool libm = through_libm(entry.name);
-    if (!is_own_code(entry) || libm != (through == Through::libm)) continue;
+    if (!kind.holds(entry)) continue;
     std::vector<std::string> cells;
-    for (const int count : iterations) {
+    for (const int count : kind.iterations) {
       Budget budget;
       budget.tolerance = 0.0;
       budget.max_iterations = count;
@@ -186,9 +207,12 @@ std::vector<Table> heap_values() {
   const FrictionProblem& problem = stepper.problem();
   Impulses warm = stepper.impulses();
   warm *= 0.5;  // neither cold nor solved
-  return {contact_values(stepper.contacts()), problem_values(problem, stepper.impulses(), state),
-          backend_values(problem, warm, Through::arithmetic),
-          backend_values(problem, warm, Through::libm)};
+  std::vector<Table> tables = {contact_values(stepper.contacts()),
+                               problem_values(problem, stepper.impulses(), state)};
+  for (const Kind& kind : backend_kinds)
+    if (Table table = backend_values(problem, warm, kind); !table.rows.empty())
+      tables.push_back(std::move(table));
+  return tables;
 }
 
 }  // namespace ballast::golden

@@ -29,7 +29,7 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"Eigen/", {"geometry/", "problems/", "solvers/", "experiments/", "tests/"}},
     {"libqhull_r/", {"geometry/shape/qhull_loops"}},
     {"hdf5.h", {"platform/hdf5", "tests/"}},
-    {"zlib.h", {"platform/deflate"}},
+    {"zlib.h", {"platform/deflate", "tests/"}},
     {"toml++/", {"problems/scene/"}},
     {"CLI/", {"experiments/commands/"}},
     {"benchmark/", {"experiments/bench/kernels"}},

@@ -73,8 +73,6 @@ TEST_CASE("what a file does not have is named") {
   CHECK(said([&] { file.read_text("g/x"); }) == "g/x: is no text of fixed length");
   CHECK(said([&] { file.read_text("g/texts"); }) == "g/texts: is no text of fixed length");
   CHECK(said([&] { file.read_rows("g/x", 2); }) == "HDF5 cannot read rows 2 to 3 of g/x");
-  CHECK(said([&] { file.read_attribute("g", "colour"); }) ==
-        "HDF5 cannot read the attribute colour of g");
   CHECK(said([&] { file.read_texts("g/x"); }) == "HDF5 cannot read g/x");
 }
 

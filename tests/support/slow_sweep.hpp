@@ -3,11 +3,19 @@
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/friction_problem.hpp"
+#include "solvers/gauss_seidel/sweep_plan.hpp"
 #include "solvers/parts/one_contact.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
 
 namespace ballast {
+
+/// An order that gives what BodySweep gives, where no wall is driven.
+inline std::vector<int> plan_order(const FrictionProblem& problem) {
+  SweepPlan plan;
+  plan.prepare(problem);
+  return plan.contacts();
+}
 
 /// One sweep in the given order; each contact is solved by itself against all others. `w`, `q`: of
 /// the whole problem, dense.

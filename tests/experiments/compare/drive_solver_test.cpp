@@ -107,7 +107,8 @@ TEST_CASE("Every backend stops on the measure of Siconos, and not far below it")
       if (driven.claimed) CHECK(driven.run.error.fclib <= 1e-4);
       if (!is_slow(entry.name)) continue;
       CHECK(driven.claimed);
-      CHECK(driven.run.error.fclib > 1e-6);
+      // Who is there at its first look, after eight sweeps, had no chance to stop before.
+      if (driven.run.solved.iterations > 8) CHECK(driven.run.error.fclib > 1e-6);
     }
   }
 }

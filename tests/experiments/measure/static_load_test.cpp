@@ -54,11 +54,11 @@ TEST_CASE("a row of rigid cubes, solved exactly, does not give way under a stati
 
 TEST_CASE("few sweeps leave the row elastic, more of them less so") {
   const StaticLoad two = measured(row_of_cubes(4), 0.0, 2, 0.004),
-                   eight = measured(row_of_cubes(4), 0.0, 8, 0.004);
+                   many = measured(row_of_cubes(4), 0.0, 32, 0.004);
   CHECK(two.iterations == 2.0);
   CHECK(two.compliance > 0.0);
-  CHECK(two.compliance > 2.0 * eight.compliance);
-  CHECK(two.speed > eight.speed);
+  CHECK(two.compliance > 2.0 * many.compliance);
+  CHECK(two.speed > many.speed);
 }
 
 TEST_CASE("a static load that nothing holds accelerates the wall: Newton's law") {

@@ -71,3 +71,16 @@ TEST_CASE("a run whose row was given and that was made here tells whether both a
   CHECK(other.repeats().made == 2);
   CHECK(other.repeats().same == 1);
 }
+
+TEST_CASE("rows of another campaign are named, not drawn") {
+  const TemporaryFolder there, here;
+  const std::vector<RunObservables> rows = rows_of(there.path(), {5.0, 20.0});
+  CHECK(PaperData(one_sample(), here.path(), rows).foreign_rows().empty());
+  CampaignSettings settings;
+  settings.seeds = 1;
+  settings.overrides = {"grains.count=300"};
+  PaperData other(make_campaign(settings), here.path(), rows);
+  CHECK(other.known_by_row() == 0);
+  CHECK(other.foreign_rows().size() == 2);
+  CHECK(std::ranges::count(other.foreign_rows(), rows.front().name) == 1);
+}

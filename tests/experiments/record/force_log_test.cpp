@@ -1,6 +1,7 @@
 #include "experiments/record/force_log.hpp"
 
 #include "platform/hdf5_reader.hpp"
+#include "tests/support/hdf5_attribute.hpp"
 #include "tests/support/sample_record.hpp"
 
 using namespace ballast;
@@ -55,8 +56,8 @@ TEST_CASE("record.h5 has the contacts and forces of every stored frame, where th
   CHECK(same_bits(position[15], x));
   CHECK(same_bits(gap[5], -1e-6 * x));
   CHECK(normal[17] == 1.0);
-  CHECK(file.read_attribute("contacts/force", "unit") == "N");
-  CHECK_FALSE(file.read_attribute("contacts/gap", "description").empty());
+  CHECK(hdf5_attribute(folder.path() / "record.h5", "contacts/force", "unit") == "N");
+  CHECK_FALSE(hdf5_attribute(folder.path() / "record.h5", "contacts/gap", "description").empty());
 }
 
 TEST_CASE("a run that was killed and goes on has the same forces") {

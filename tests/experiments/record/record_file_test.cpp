@@ -5,6 +5,7 @@
 #include "experiments/record/bits_generation.hpp"
 #include "platform/hdf5_reader.hpp"
 #include "platform/hdf5_writer.hpp"
+#include "tests/support/hdf5_attribute.hpp"
 #include "tests/support/sample_record.hpp"
 
 using namespace ballast;
@@ -34,19 +35,20 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
   const std::string scene(100000, 's'),
       manifest = "{\"µ\": 1}";  // longer than a compact attribute may be
   recorder.finish(scene, manifest);
-  const Hdf5Reader file(folder.path() / "record.h5");
-  CHECK(file.read_attribute("/", "scene") == scene);
-  CHECK(file.read_attribute("/", "manifest") == manifest);
-  CHECK(file.read_attribute("/", "bits_generation") == std::to_string(bits_generation));
+  const fs::path path = folder.path() / "record.h5";
+  const Hdf5Reader file(path);
+  CHECK(hdf5_attribute(path, "/", "scene") == scene);
+  CHECK(hdf5_attribute(path, "/", "manifest") == manifest);
+  CHECK(hdf5_attribute(path, "/", "bits_generation") == std::to_string(bits_generation));
   for (const StepColumn& column : step_columns()) {
     const std::string name = std::string("steps/") + column.name;
-    CHECK(file.read_attribute(name, "unit") == column.unit);
-    CHECK(file.read_attribute(name, "description") == column.description);
+    CHECK(hdf5_attribute(path, name, "unit") == column.unit);
+    CHECK(hdf5_attribute(path, name, "description") == column.description);
   }
   CHECK(file.shape("poses/position") == Hdf5Shape{3, 9, 3});
   CHECK(file.shape("poses/rotation") == Hdf5Shape{3, 9, 4});
   CHECK(file.read_doubles("poses/step") == std::vector<double>{0, 5, 10});
-  CHECK(file.read_attribute("poses/spin", "unit") == "rad/s");
+  CHECK(hdf5_attribute(path, "poses/spin", "unit") == "rad/s");
   const auto names = file.read_texts("bodies/name");
   CHECK((names.size() == 9 && names[1] == "grain 1" && names[6] == "x_max"));
   CHECK(file.read_doubles("bodies/shape") == std::vector<double>{0, 1, 1, -1, -1, -1, -1, -1, -1});

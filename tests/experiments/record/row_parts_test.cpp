@@ -1,6 +1,7 @@
 #include "experiments/record/row_parts.hpp"
 
 #include "platform/hdf5_reader.hpp"
+#include "tests/support/hdf5_attribute.hpp"
 #include "tests/support/peak_memory.hpp"
 #include "tests/support/sample_record.hpp"
 
@@ -45,8 +46,8 @@ TEST_CASE("parts of rows become datasets, more rows than are gathered at once") 
   CHECK(file.shape("pair") == Hdf5Shape{rows, 2});
   CHECK(file.shape("last") == Hdf5Shape{rows});
   CHECK(file.shape("square") == Hdf5Shape{rows, 2, 2});
-  CHECK(file.read_attribute("pair", "unit") == "m");
-  CHECK(file.read_attribute("last", "description") == "one");
+  CHECK(hdf5_attribute(record, "pair", "unit") == "m");
+  CHECK(hdf5_attribute(record, "last", "description") == "one");
   const std::vector<double> pair = file.read_doubles("pair"), square = file.read_doubles("square");
   const std::vector<int> last = file.read_ints("last");
   bool fits = true;

@@ -4,6 +4,7 @@
 
 #include "platform/deflate.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/inflated.hpp"
 
 namespace ballast {
 namespace {

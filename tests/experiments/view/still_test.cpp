@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "platform/deflate.hpp"
+#include "tests/support/inflated.hpp"
 #include "tests/support/sample_run.hpp"
 
 namespace ballast {

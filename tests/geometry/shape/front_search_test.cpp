@@ -1,23 +1,15 @@
 #include "geometry/shape/front_search.hpp"
 
+#include <algorithm>
+
 #include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
 
-namespace {
-
-bool brute(const std::vector<Vec3>& points, const Vec3& normal, const Vec3& origin, double height) {
-  for (const Vec3& p : points)
-    if (normal.dot(p - origin) > height) return true;
-  return false;
-}
-
-}  // namespace
-
-TEST_CASE("a point in front of a plane is found exactly where a look at all points finds one") {
+TEST_CASE("the points in front of a cone are those that a look at all points finds") {
   Random random(5);
-  int found = 0, cases = 0;
+  size_t found = 0, looks = 0;
   for (int trial = 0; trial < 60; ++trial) {
     std::vector<Vec3> points;
     const Vec3 flat = random_direction(random);
@@ -31,20 +23,45 @@ TEST_CASE("a point in front of a plane is found exactly where a look at all poin
     }
     const FrontSearch search(points);
     for (int k = 0; k < 50; ++k) {
-      const Vec3 normal = k % 3 ? random_direction(random) : flat;
-      const Vec3& origin = points[random.below(points.size())];
-      // through a point, a hair above it, far away
+      FrontSearch::Cone cone;
+      cone.normal = k % 3 ? random_direction(random) : flat;
+      cone.origin = points[random.below(points.size())];
+      // through a point, a hair above it, far away; a plane, nearly a plane, wide
       for (const double height : {0.0, 1e-13, 1e-9, random.uniform(-1, 2)}) {
-        const bool expected = brute(points, normal, origin, height);
-        CHECK(search.any_in_front(normal, origin, height) == expected);
-        found += expected;
-        ++cases;
+        cone.height = height;
+        cone.spread = k % 2 ? 0.0 : k % 4 ? 1e-6 : random.uniform(0, 2);
+        std::vector<int> expected, visited;
+        for (size_t i = 0; i < points.size(); ++i)
+          if (cone.has_in_front(points[i])) expected.push_back(static_cast<int>(i));
+        search.visit_in_front(cone, [&](int i) {
+          visited.push_back(i);
+          return true;
+        });
+        std::sort(visited.begin(), visited.end());
+        CHECK(visited == expected);
+        found += visited.size();
+        looks += points.size();
+        // One is enough for who asks whether there is any.
+        size_t first = 0;
+        search.visit_in_front(cone, [&](int) { return ++first < 1; });
+        CHECK(first == std::min<size_t>(1, expected.size()));
       }
     }
   }
-  CHECK(found > cases / 10);
-  CHECK(found < cases * 9 / 10);
-  CHECK_FALSE(FrontSearch({}).any_in_front(Vec3::UnitX(), Vec3::Zero(), -1.0));
+  CHECK(found > looks / 10);
+  CHECK(found < looks * 9 / 10);
+  FrontSearch({}).visit_in_front({Vec3::UnitX(), Vec3::Zero(), 0.0, -1.0}, [](int) {
+    FAIL("there is no point");
+    return true;
+  });
+}
+
+TEST_CASE("a cone holds what is in front of any of its planes") {
+  const FrontSearch::Cone cone{Vec3::UnitZ(), Vec3(1, 2, 3), 0.1, 0.5};
+  CHECK(cone.has_in_front(Vec3(1, 2, 3.6)));
+  CHECK_FALSE(cone.has_in_front(Vec3(1, 2, 3.45)));
+  CHECK(cone.has_in_front(Vec3(5, 2, 3.15)));  // 0.15 + 0.1 * 4 > 0.5
+  CHECK_FALSE(cone.has_in_front(Vec3(5, 2, 3.05)));
 }
 
 TEST_CASE("the highest point along a direction is found, though not all are looked at") {

@@ -10,33 +10,17 @@
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
 #include "tests/support/delassus_form.hpp"
+#include "tests/support/slow_sweep.hpp"
 
 using namespace ballast;
 
 namespace {
 
-/// The textbook's sweep: dense W, one contact after the other in the given order.
-void slow_sweep(const FrictionProblem& problem, const std::vector<int>& order,
-                const Eigen::MatrixXd& w, const Eigen::VectorXd& q, Impulses& r) {
-  for (const int c : order) {
-    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-    const Eigen::MatrixXd block = w.block(first, first, rows, rows);
-    const Eigen::VectorXd local_q =
-        w.middleRows(first, rows) * r + q.segment(first, rows) - block * r.segment(first, rows);
-    if (rows == 1) {
-      r[first] = block(0, 0) > 0.0 ? std::max(0.0, -local_q[0] / block(0, 0)) : 0.0;
-      continue;
-    }
-    Eigen::Vector3d solution;
-    double lambda = 0.0;
-    solve_one_contact(block, local_q, problem.friction[c], solution, lambda);
-    r.segment<3>(first) = solution;
-  }
+std::vector<int> order_of(const BodySweep&, const FrictionProblem& problem) {
+  return plan_order(problem);
 }
-
-std::vector<int> order_of(const BodySweep& sweep, int) { return sweep.order(); }
-std::vector<int> order_of(const DelassusSweep&, int contacts) {
-  std::vector<int> order(contacts);
+std::vector<int> order_of(const DelassusSweep&, const FrictionProblem& problem) {
+  std::vector<int> order(problem.contact_count());
   std::iota(order.begin(), order.end(), 0);
   return order;
 }
@@ -50,7 +34,7 @@ void check_sweeps(const FrictionProblem& given, const FrictionProblem& dense) {
   sweep.prepare(given);
   sweep.load(given, fast);
   for (int k = 0; k < 10; ++k) {
-    slow_sweep(dense, order_of(sweep, dense.contact_count()), w, q, slow);
+    slow_sweep(dense, w, q, order_of(sweep, given), slow);
     sweep.sweep();
     sweep.store(given, fast);
     REQUIRE((fast - slow).norm() <= 1e-11 * (1.0 + slow.norm()));

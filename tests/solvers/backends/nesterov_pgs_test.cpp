@@ -21,9 +21,9 @@ FrictionProblem slender_pile(int contacts) {
   return make_pile({.contacts = contacts, .active = 1.0, .slenderness = 20.0, .seed = 3});
 }
 
-/// So many iterations of the backend, from no impulses.
+/// So many iterations of the backend, from no impulses: the last iterate, better or not.
 Impulses after(const FrictionProblem& problem, int iterations) {
-  const auto solver = make_nesterov_pgs();
+  const auto solver = make_nesterov_pgs({.returns_best = false});
   solver->prepare(problem);
   Budget budget;
   budget.tolerance = 0.0;
@@ -130,4 +130,32 @@ TEST_CASE("nesterov_pgs: where momentum goes round without end, plain sweeps com
   const Solved solved = solver->solve(problem, Impulses::Zero(problem.row_count()), budget);
   CHECK(solved.reason == StopReason::reached_tolerance);
   CHECK(contact_error(problem, solved.impulses).natural_map_rms <= budget.tolerance);
+}
+
+TEST_CASE(
+    "nesterov_pgs: where the last iterate is a worse one, the best that was seen comes back") {
+  const FrictionProblem pile = make_pile(random_pile(59, 300));
+  FrictionProblem stored = pile;
+  stored.delassus.w = delassus_matrix(pile);
+  free_contact_velocity(pile, stored.delassus.q);
+  stored.has_delassus = true;
+  stored.has_dynamics = false;
+  for (const FrictionProblem* problem : {&pile, static_cast<const FrictionProblem*>(&stored)}) {
+    const auto solver = make_nesterov_pgs();
+    solver->prepare(*problem);
+    for (int iterations = 20; iterations < 400; iterations += 7) {
+      Budget budget;
+      budget.tolerance = 0.0;
+      budget.max_iterations = iterations;
+      budget.keep_history = true;
+      const Solved solved = solver->solve(*problem, Impulses::Zero(problem->row_count()), budget);
+      double least = solved.history.front().error;
+      for (const HistoryPoint& point : solved.history) least = std::min(least, point.error);
+      CAPTURE(problem == &pile, iterations);
+      CHECK(solved.own_residual <= 1.05 * least);  // one plain sweep follows the best
+      CHECK(solved.history.back().error == solved.own_residual);
+      CHECK(contact_error(*problem, solved.impulses).natural_map_rms ==
+            Approx(solved.own_residual).epsilon(1e-6));
+    }
+  }
 }

@@ -81,7 +81,7 @@ TEST_CASE("a sweep over bodies is that of dense matrices, in its own order") {
       make_known_solution({.bodies = 20, .contacts = 30, .frictionless_fraction = 0.3}).problem;
   BodySweep sweep;
   sweep.prepare(problem);
-  check_beside_slow_sweep(sweep, problem, problem, sweep.order());
+  check_beside_slow_sweep(sweep, problem, problem, plan_order(problem));
 }
 
 TEST_CASE("contacts and bodies of every kind: loaded and stored alike, but for what cannot move") {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <set>
 
 #include "platform/random.hpp"
 #include "platform/worker_team.hpp"
+#include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/backends/nncg.hpp"
@@ -99,6 +101,37 @@ TEST_CASE("a sweep's plan: every contact once, and nothing that runs side by sid
                                problem.dynamics.body_b[plan.contacts()[i]]})
           if (body >= 0) REQUIRE(slab_of[body] == slab);
   }
+}
+
+TEST_CASE("a sweep's plan: contacts that open come last, those that open fastest at the end") {
+  FrictionProblem problem = long_box(1200, 11);
+  Random random(11);
+  for (int c = 0; c < problem.contact_count(); ++c)
+    problem.dynamics.bias[problem.row_begin[c]] = random.uniform(-2.0, 2.0);
+  Eigen::VectorXd u;
+  contact_velocity(problem, Impulses::Zero(problem.row_count()), u);
+  std::vector<double> opening;
+  for (int c = 0; c < problem.contact_count(); ++c)
+    opening.push_back(std::max(
+        0.0, std::min(u[problem.row_begin[c]], problem.dynamics.bias[problem.row_begin[c]])));
+  const double widest = *std::max_element(opening.begin(), opening.end());
+  constexpr int none = SweepPlan::gap_octaves;
+  SweepPlan plan;
+  plan.prepare(problem);
+  const auto octave = [&](int i) {
+    const double its = opening[plan.contacts()[i]];
+    return its > 0.0 ? std::max(-none, std::ilogb(its / widest)) : -none;
+  };
+  int opened = 0;
+  for (const auto* parts : {&plan.interiors(), &plan.interfaces()})
+    for (const SweepPlan::Part& part : *parts)
+      for (const auto& [begin, end] :
+           {std::pair(part.begin, part.friction_end), std::pair(part.friction_end, part.end)})
+        for (int i = begin; i < end; ++i) {
+          if (i > begin) REQUIRE(octave(i) >= octave(i - 1));
+          opened += octave(i) > -none;
+        }
+  CHECK(opened > problem.contact_count() / 5);
 }
 
 TEST_CASE("no contacts, and contacts that nothing moves, have a plan") {

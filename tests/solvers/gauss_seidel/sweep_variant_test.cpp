@@ -9,6 +9,7 @@
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
 #include "tests/support/delassus_form.hpp"
+#include "tests/support/slow_sweep.hpp"
 
 using namespace ballast;
 
@@ -25,7 +26,9 @@ std::vector<int> in_order(const FrictionProblem& problem) {
 }
 
 /// The plain sweep's own order.
-std::vector<int> order_of(const BodySweep& sweep, const FrictionProblem&) { return sweep.order(); }
+std::vector<int> order_of(const BodySweep&, const FrictionProblem& problem) {
+  return plan_order(problem);
+}
 std::vector<int> order_of(const DelassusSweep&, const FrictionProblem& problem) {
   return in_order(problem);
 }

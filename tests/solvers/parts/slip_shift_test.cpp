@@ -10,7 +10,7 @@ namespace {
 
 /// The convex problem with s held, by projected gradients: slow and plain.
 void solve_convex(ContactOperator& w, const SlipShift& shift, Impulses& r, Eigen::VectorXd& u) {
-  const double step = 1.0 / (1.2 * largest_scaled_eigenvalue(w));
+  const double step = gradient_step(w) / 1.2;
   for (int k = 0; k < 20000; ++k) {
     w.velocity(r, u);
     const Impulses before = r;
