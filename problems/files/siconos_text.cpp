@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <string>
@@ -141,13 +142,23 @@ std::vector<int> read_counts(Words& words, int size, const char* of) {
   return values;
 }
 
+/// Where each of `blocks` block rows (or columns) ends: they ascend to `size`, and none is empty.
+std::vector<int> read_ends(Words& words, int blocks, int size, const char* of) {
+  const std::vector<int> end = read_counts(words, blocks, of);
+  const bool ascend = std::adjacent_find(end.begin(), end.end(), std::greater_equal()) == end.end();
+  words.require(blocks > 0 && ascend && end.front() > 0 && end.back() == size,
+                std::string("the ") + of + " do not ascend to " + std::to_string(size));
+  return end;
+}
+
 /// Block rows: cumulative block sizes, row pointers, block columns, then each block column-major
 /// after its number.
 void read_blocks(Words& words, TextMatrix& matrix) {
   const int blocks = words.count("the number of blocks");
   const int block_rows = words.count("block rows"), block_columns = words.count("block columns");
-  const std::vector<int> row_end = read_counts(words, block_rows, "sizes of block rows");
-  const std::vector<int> column_end = read_counts(words, block_columns, "sizes of block columns");
+  const std::vector<int> row_end = read_ends(words, block_rows, matrix.rows, "ends of block rows");
+  const std::vector<int> column_end =
+      read_ends(words, block_columns, matrix.columns, "ends of block columns");
   const int pointers = words.count("the number of row pointers"),
             indices = words.count("the number of block columns");
   const std::vector<int> begin = read_counts(words, pointers, "row pointers");

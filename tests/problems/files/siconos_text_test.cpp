@@ -158,6 +158,17 @@ TEST_CASE("each broken text is refused, with its line") {
   CHECK(
       complaint_of_text("3\n1\n1\n3 3\n1 1 1\n3\n3\n2 1\n0 1\n4\n0\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n")
           .find("outside") != std::string::npos);
+  // 2e9 columns of no rows would be walked through
+  for (const char* ends : {"0\n2000000000", "0\n3", "3\n2", "4\n3", "-1\n3"}) {
+    INFO(ends);
+    CHECK(!complaint_of_text("3\n1\n1\n3 3\n1 1 1\n" + std::string(ends) +
+                             "\n2 1\n0 1\n0\n0\n1 0 0 0 1 0 0 0 1\n1 1 1\n1\n")
+               .empty());
+  }
+  CHECK_THAT(complaint_of_text("3\n1\n1\n3 3\n1 1 1\n0\n2000000000\n"),
+             Catch::Contains("the ends of block rows do not ascend to 3"));
+  CHECK_THAT(complaint_of_text("3\n1\n1\n3 3\n1 1 2\n3\n3 3\n"),
+             Catch::Contains("the ends of block columns do not ascend to 3"));
   CHECK(complaint_of_text("3\n1\n0\n3\n3\n3 3\n-2 0 0 0 3 0 0 0 4\n-1 0 0\n0.5\n")
             .rfind("delassus.w(0, 0) = -2 is negative", 0) == 0);
 }
