@@ -6,7 +6,8 @@
 #
 # An input that breaks something is left in build/fuzz/findings/<target>; run it again with
 # build/fuzz/bin/<target>_fuzz FILE. What was learnt is kept in build/fuzz/corpus/<target>.
-# JOBS=1 runs one target at a time.
+# JOBS=1 runs one target at a time. SEED=N makes the inputs those of the last run with N, as far as
+# the time goes; without it every run tries others.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:?"usage: scripts/fuzz.sh SECONDS [TARGET...]"}
@@ -22,6 +23,7 @@ run_one() {
   log=$folder/logs/$name.log
   [ -f "tests/fuzz/words/$name.txt" ] && words=(-dict="tests/fuzz/words/$name.txt")
   "$folder/bin/${name}_fuzz" "${limits[@]}" "${words[@]}" -max_total_time="$seconds" \
+    -seed="${SEED:-0}" \
     -print_final_stats=1 -artifact_prefix="$folder/findings/$name/" \
     "$folder/corpus/$name" "$seeds" >"$log" 2>&1 && found=none || found="a finding, see $log"
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
