@@ -15,9 +15,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(ballast_options INTERFACE
     -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-restrict)
 endif()
-# Eigen's asserts stay out of release builds; -O3 vectorises the sweep.
-target_compile_options(ballast_options INTERFACE
-  $<BUILD_INTERFACE:$<$<CONFIG:Release>:-O3>>)
 if(BALLAST_WARNINGS_AS_ERRORS)
   target_compile_options(ballast_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()

@@ -6,11 +6,10 @@
 #   LIBRARIES  third-party libraries that only its sources see
 # Sources are compiled in batches (unity build), and the headers that nearly all of them need are
 # read once (precompiled).
-#
-# QUICK_TO_COMPILE: rooms without a hot loop are compiled with -O1, the others with -O3. Both give
-# the same bits: no option here lets the compiler change the order of floating-point operations.
+# All rooms have one level of optimisation: an inline function that two of them use is kept once, and
+# the linker does not ask which of the two was compiled for speed.
 function(ballast_room name folder)
-  cmake_parse_arguments(ROOM "QUICK_TO_COMPILE" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
   list(TRANSFORM ROOM_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/)
   list(REMOVE_ITEM sources ${ROOM_EXCEPT})
@@ -20,12 +19,7 @@ function(ballast_room name folder)
     PUBLIC ballast_options Eigen3::Eigen ${ROOM_DOORS}
     PRIVATE ${ROOM_LIBRARIES})
   ballast_compile_in_batches(ballast_${name} 8)
-  if(ROOM_QUICK_TO_COMPILE)
-    target_compile_options(ballast_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-    target_precompile_headers(ballast_${name} REUSE_FROM ballast_headers_O1)
-  else()
-    target_precompile_headers(ballast_${name} REUSE_FROM ballast_headers_O3)
-  endif()
+  target_precompile_headers(ballast_${name} REUSE_FROM ballast_headers)
 endfunction()
 
 # The batches of a target: so many sources are one translation unit. Large batches compile fast as a
@@ -34,19 +28,14 @@ function(ballast_compile_in_batches target size)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
 endfunction()
 
-# Precompiled headers for each level of optimisation: the compiler takes them only at their own.
-foreach(level O1 O3)
-  set(source ${CMAKE_BINARY_DIR}/precompiled/headers_${level}.cpp)
-  file(CONFIGURE OUTPUT ${source} CONTENT "// For the precompiled headers of this target.\n")
-  add_library(ballast_headers_${level} OBJECT ${source})
-  target_link_libraries(ballast_headers_${level} PUBLIC ballast_options Eigen3::Eigen)
-  if(level STREQUAL O1)
-    target_compile_options(ballast_headers_O1 PRIVATE $<$<CONFIG:Release>:-O1>)
-  endif()
-  target_precompile_headers(ballast_headers_${level} PRIVATE
-    <Eigen/Dense> <Eigen/Sparse> <algorithm> <chrono> <cmath> <filesystem> <fstream> <functional>
-    <iostream> <map> <memory> <optional> <set> <span> <sstream> <string> <variant> <vector>)
-endforeach()
+# The headers that nearly all rooms need.
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled/headers.cpp
+  CONTENT "// For the precompiled headers of this target.\n")
+add_library(ballast_headers OBJECT ${CMAKE_BINARY_DIR}/precompiled/headers.cpp)
+target_link_libraries(ballast_headers PUBLIC ballast_options Eigen3::Eigen)
+target_precompile_headers(ballast_headers PRIVATE
+  <Eigen/Dense> <Eigen/Sparse> <algorithm> <chrono> <cmath> <filesystem> <fstream> <functional>
+  <iostream> <map> <memory> <optional> <set> <span> <sstream> <string> <variant> <vector>)
 
 # ballast_made_source(NAME SOURCE CODE): writes CODE into SOURCE, a part of the room ballast_NAME. A
 # file that says so already stays, so that nothing is compiled again.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/shape/convex_hull.hpp"
+#include "geometry/shape/nearly_convex.hpp"
 #include "geometry/shape/obj_format.hpp"
 #include "geometry/shape/rounded_hull.hpp"
 #include "geometry/shape/stl_format.hpp"
@@ -18,8 +19,19 @@ using raw_mesh::Place;
 using raw_mesh::RawMesh;
 
 /// Dents and steps up to this part of the size are rounding of the file's numbers (single
-/// precision, six digits).
-constexpr double kFileTolerance = 1e-6;
+/// precision, six digits): 16 roundings of single precision, more where the solid lies far from the
+/// origin. Where it lies so far that less than four digits are left, the mesh is broken.
+double file_tolerance(const RawMesh& mesh) {
+  constexpr double six_digits = 1e-6, single = 6e-8, most = 1e-4;
+  if (!mesh.is_single) return six_digits;
+  double reach = 0.0, size = 0.0;
+  for (const Vec3& p : mesh.vertices) {
+    reach = std::max(reach, p.norm());
+    size = std::max(size, (p - mesh.vertices[0]).norm());
+  }
+  const double rounding = size > 0.0 ? single * reach / size : 0.0;
+  return std::clamp(16.0 * rounding, six_digits, most);
+}
 
 /// From here on the coplanar faces of a convex mesh are joined as they stand. Smaller meshes are
 /// soon made by qhull, which has its own way with faces that are only just coplanar.
@@ -89,6 +101,7 @@ bool has_coplanar_neighbours(const Polyhedron& polyhedron) {
 Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
   const RawMesh mesh = read_raw(file, scale);
   if (mesh.faces.empty()) Place{file}.fail("the file has no faces");
+  const double tolerance = file_tolerance(mesh);
   try {
     try {
       // A mesh that is convex as it stands is taken, but for two kinds: single precision, whose
@@ -97,12 +110,12 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
       if (has_coplanar_neighbours(polyhedron))
         polyhedron = polyhedron.vertex_count() < kManyVertices ? convex_hull(mesh.vertices)
                                                                : convex_hull_of_mesh(polyhedron);
-      return mesh.is_single ? rounded_hull(std::move(polyhedron), kFileTolerance) : polyhedron;
+      return mesh.is_single ? rounded_hull(std::move(polyhedron), tolerance) : polyhedron;
     } catch (const InvalidPolyhedron&) {
       // Convex only to six digits: the solid that was meant is the rounded hull of its vertices.
-      const Polyhedron nearly(mesh.vertices, mesh.faces,
-                              kFileTolerance);  // throws when the mesh is really broken
-      return rounded_hull(nearly.vertices(), kFileTolerance);
+      const Polyhedron nearly(mesh.vertices, mesh.faces, tolerance,
+                              0.5 * tolerance);  // throws when the mesh is really broken
+      return rounded_hull(hull_of_nearly_convex(nearly, tolerance), tolerance);
     }
   } catch (const InvalidPolyhedron& error) {
     fail_at(file, mesh, error);
@@ -112,7 +125,7 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
 Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale) {
   const RawMesh mesh = read_raw(file, scale);
   try {
-    return mesh.is_single ? rounded_hull(mesh.vertices, kFileTolerance)
+    return mesh.is_single ? rounded_hull(mesh.vertices, file_tolerance(mesh))
                           : convex_hull(mesh.vertices);
   } catch (const InvalidPolyhedron& error) {
     Place{file}.fail(error.what());

@@ -26,7 +26,7 @@ Vec3 mean(std::span<const Vec3> points) {
 }  // namespace
 
 Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
-                       double tolerance)
+                       double tolerance, double rounding)
     : vertices_(std::move(vertices)) {
   mesh_checks::check_coordinates(vertices_);
   const Vec3 centre = mean(vertices_);
@@ -45,7 +45,7 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   join_faces();
   check_one_piece();
   const std::vector<double> thinness = build_planes(tolerance);
-  check_convex(tolerance, thinness);
+  check_convex(tolerance, rounding, thinness);
 }
 
 Polyhedron Polyhedron::with_vertices(std::vector<Vec3> vertices, double tolerance) const {
@@ -211,11 +211,12 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
 
 /// Thin faces know their plane badly: an error of one rounding over the height of the face tilts it
 /// by that angle.
-void Polyhedron::check_convex(double tolerance, const std::vector<double>& thinness) const {
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (circumradius_ + size_);
+void Polyhedron::check_convex(double tolerance, double rounding,
+                              const std::vector<double>& thinness) const {
+  const double computed = 4.0 * std::numeric_limits<double>::epsilon() * (circumradius_ + size_);
+  const double known = std::max(computed, rounding * size_);
   std::vector<double> blur;  // of each face's plane within the solid [m]
-  for (int f = 0; f < face_count(); ++f)
-    blur.push_back(rounding * (1.0 + 2.0 * size_ * thinness[f]));
+  for (int f = 0; f < face_count(); ++f) blur.push_back(known * (1.0 + 2.0 * size_ * thinness[f]));
   const bool has_triangles_only = face_vertices_.size() == 3 * normals_.size();
   if (has_triangles_only &&
       mesh_checks::is_surely_convex(vertices_, face_vertices_, face_neighbours_, normals_, blur))

@@ -31,10 +31,11 @@ class Polyhedron {
   ///
   /// `tolerance` is relative to the size (largest distance of a vertex from the vertices' mean): so
   /// far may a vertex lie off its face's plane or in front of another's, and shorter edges and
-  /// lower faces count as zero. Very thin faces may miss by the rounding of their plane in
-  /// addition.
+  /// lower faces count as zero. `rounding`, also relative to the size, is how well the vertices are
+  /// known, if not to double precision. Small and thin faces know their planes badly, and vertices
+  /// may lie in front of one by what a rounding tilts it in addition.
   Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
-             double tolerance = 1e-9);
+             double tolerance = 1e-9, double rounding = 0.0);
 
   /// The same faces about other vertices, one for each of this one's, in its order [m]. Throws as
   /// the constructor.
@@ -78,7 +79,7 @@ class Polyhedron {
   void join_faces();
   void check_one_piece() const;
   std::vector<double> build_planes(double tolerance);
-  void check_convex(double tolerance, const std::vector<double>& thinness) const;
+  void check_convex(double tolerance, double rounding, const std::vector<double>& thinness) const;
 
   std::vector<Vec3> vertices_;
   // Largest distance of a vertex from the vertices' mean: the scale of the tolerances [m].

@@ -79,6 +79,24 @@ std::vector<Plane> fit_planes(const Incidences& all, std::span<const Vec3> posit
 double move_to_planes(Vec3& corner, std::span<const int> faces, std::span<const Plane> planes) {
   // The shortest d with N d = -(heights over the planes), one row of N for each plane, in least
   // squares: three planes in general position meet in one point, more of them need not.
+  Mat3 square = Mat3::Zero();
+  Vec3 right = Vec3::Zero();
+  double worst = 0.0;
+  for (const int f : faces) {
+    const Plane& plane = planes[static_cast<size_t>(f)];
+    const double height = plane.height(corner);
+    square += plane.normal * plane.normal.transpose();
+    right += height * plane.normal;
+    worst = std::max(worst, std::abs(height));
+  }
+  if (faces.size() >= 3) {
+    const Eigen::LDLT<Mat3> factor(square);
+    const Vec3 pivots = factor.vectorD();
+    if (pivots.minCoeff() > 1e-10 * pivots.maxCoeff()) {
+      corner -= factor.solve(right);
+      return worst;
+    }
+  }
   Eigen::MatrixXd normals(static_cast<Eigen::Index>(faces.size()), 3);
   Eigen::VectorXd off(normals.rows());
   for (Eigen::Index k = 0; k < normals.rows(); ++k) {
@@ -87,7 +105,7 @@ double move_to_planes(Vec3& corner, std::span<const int> faces, std::span<const 
     off[k] = plane.height(corner);
   }
   corner -= normals.completeOrthogonalDecomposition().solve(off);
-  return off.cwiseAbs().maxCoeff();
+  return worst;
 }
 
 /// Corners of three faces fit at once; where more faces meet, planes and corners give way to each
@@ -96,7 +114,10 @@ bool come_to_agree(const Incidences& all, std::vector<Vec3>& position, const Vec
                    double size) {
   // Each turn shrinks what is left by much the same factor, so that ten of them tell whether all
   // will do: on a smooth surface of many small triangles they never would.
-  constexpr int most_turns = 200;
+  // Many corners are given fewer: a solid whose corners have three faces each needs two.
+  constexpr double most_moves = 2e6;
+  const int most_turns =
+      static_cast<int>(std::clamp(most_moves / static_cast<double>(position.size()), 4.0, 200.0));
   const double most_off = 1e-11 * size;
   double off = size, ten_ago = off;
   for (int turn = 0; turn < most_turns && off > 1e-14 * size; ++turn) {

@@ -16,6 +16,7 @@
 #include "tests/catch.hpp"
 #include "tests/geometry/shape/mesh_test_files.hpp"
 #include "tests/support/mesh_writer.hpp"
+#include "tests/support/uv_sphere.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
@@ -190,6 +191,26 @@ TEST_CASE("a turned box in binary STL, which is single precision, has six faces"
       CHECK(read.face_count() == 6);
       CHECK(read.vertex_count() == 8);
     }
+  }
+}
+
+TEST_CASE("a smooth sphere in single precision, whose thin triangles know their planes badly") {
+  const TemporaryFolder folder;
+  Random random(9);
+  // Near the origin, and so far that four digits of it are left.
+  for (const double away : {0.0, 40.0}) {
+    INFO(away);
+    const UvSphere sphere = make_uv_sphere(120, 200);
+    const Quat turn = random_rotation(random);
+    std::vector<Vec3> corners;
+    for (const Vec3& v : sphere.vertices)
+      corners.push_back(turn * v + away * Vec3(0.6, -0.48, 0.64));
+    const fs::path file = folder.path() / "sphere.stl";
+    save(file, binary_stl(Polyhedron(corners, sphere.faces)));
+    const Polyhedron read = read_mesh(file);
+    CHECK(read.vertex_count() > 0.9 * static_cast<double>(corners.size()));
+    CHECK(mass_properties(read).volume ==
+          Approx(mass_properties(Polyhedron(corners, sphere.faces)).volume).epsilon(1e-5));
   }
 }
 

@@ -1,0 +1,104 @@
+#include "geometry/shape/nearly_convex.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "geometry/shape/convex_hull.hpp"
+#include "geometry/shape/filled_dents.hpp"
+#include "geometry/shape/front_search.hpp"
+#include "geometry/shape/mesh_checks.hpp"
+
+namespace ballast {
+namespace {
+
+/// qhull makes all hulls but those of meshes of so many vertices, which it takes seconds for.
+constexpr int many_vertices = 10000;
+
+Polyhedron hull_of(const Polyhedron& mesh) {
+  if (mesh.vertex_count() >= many_vertices)
+    if (std::optional<Loops> loops = filled_dents(mesh)) try {
+        return solid_of(mesh.vertices(), std::move(*loops));
+      } catch (const InvalidPolyhedron&) {
+        // Needles, or more than one layer: qhull decides.
+      }
+  return convex_hull(mesh.vertices());
+}
+
+double largest_extent(std::span<const Vec3> points) {
+  Vec3 low = points[0], high = low;
+  for (const Vec3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).maxCoeff();
+}
+
+/// How deep points lie within a convex solid.
+class Depths {
+ public:
+  explicit Depths(const Polyhedron& solid)
+      : solid_(solid), centre_(mean(solid.vertices())), poles_(make_poles()), search_(poles_) {}
+
+  /// Of a point within, to the nearest plane of a face, where it is at most `most`; else more [m].
+  double up_to(double most, const Vec3& point) const {
+    // Face f with the normal n and at the height h over the centre has the pole n / h, and leaves a
+    // point p the depth h (1 - pole.p). So a depth below the least that is known, somewhere, needs
+    // a pole that is higher along p than what follows from that depth at the lowest face.
+    const Vec3 p = point - centre_;
+    double least = std::numeric_limits<double>::infinity();
+    search_.visit_higher(p, 1.0 - most / lowest_, [&](int f) {
+      least = std::min(least, height(f) - solid_.normal(f).dot(p));
+      return 1.0 - std::min(least, most) / lowest_;
+    });
+    return least;
+  }
+
+ private:
+  static Vec3 mean(std::span<const Vec3> points) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : points) sum += p;
+    return sum / static_cast<double>(points.size());
+  }
+  double height(int f) const {
+    return solid_.normal(f).dot(solid_.vertex(solid_.face(f)[0]) - centre_);
+  }
+  std::vector<Vec3> make_poles() {
+    std::vector<Vec3> poles;
+    for (int f = 0; f < solid_.face_count(); ++f) {
+      lowest_ = std::min(lowest_, height(f));
+      poles.push_back(solid_.normal(f) / height(f));
+    }
+    return poles;
+  }
+
+  const Polyhedron& solid_;
+  Vec3 centre_;
+  double lowest_ = std::numeric_limits<double>::infinity();  ///< height of a face [m]
+  std::vector<Vec3> poles_;
+  FrontSearch search_;
+};
+
+}  // namespace
+
+Polyhedron hull_of_nearly_convex(const Polyhedron& mesh, double tolerance) {
+  Polyhedron hull = hull_of(mesh);
+  if (hull.vertex_count() == mesh.vertex_count()) return hull;
+  const double extent = largest_extent(mesh.vertices());
+  const Depths depths(hull);
+  // The hull's vertices are some of the mesh's, in the same order.
+  for (int v = 0, kept = 0; v < mesh.vertex_count(); ++v) {
+    if (kept < hull.vertex_count() && mesh.vertex(v) == hull.vertex(kept)) {
+      ++kept;
+      continue;
+    }
+    const Vec3& p = mesh.vertex(v);
+    if (depths.up_to(tolerance * extent, p) > tolerance * extent)
+      mesh_checks::invalid({.vertex = v}, "not convex: vertex ", v, " lies ",
+                           depths.up_to(extent, p) / extent,
+                           " of the size within the hull of the others");
+  }
+  return hull;
+}
+
+}  // namespace ballast
