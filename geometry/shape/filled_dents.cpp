@@ -11,7 +11,7 @@ namespace {
 
 class DentFiller {
  public:
-  /// All faces of `mesh` are triangles; it must outlive this.
+  /// The mesh must outlive this.
   explicit DentFiller(const Polyhedron& mesh) : centre_(mesh.vertex(0)), mesh_(mesh) {
     double size = 0.0;
     for (const Vec3& p : mesh.vertices()) {
@@ -19,10 +19,7 @@ class DentFiller {
       inside_ += (p - centre_) / static_cast<double>(mesh.vertex_count());
     }
     blur_ = 16.0 * std::numeric_limits<double>::epsilon() * size;
-    for (int f = 0; f < mesh.face_count(); ++f) {
-      const std::span<const int> loop = mesh.face(f), across = mesh.face_neighbours(f);
-      triangles_.push_back({{loop[0], loop[1], loop[2]}, {across[0], across[1], across[2]}});
-    }
+    cut_into_triangles();
   }
 
   /// Whether no edge is bent inward any more.
@@ -58,6 +55,35 @@ class DentFiller {
   struct Edge {
     int triangle, from, to;
   };
+
+  /// Each face into a fan about its first corner.
+  void cut_into_triangles() {
+    std::vector<int> first{0};
+    for (int f = 0; f < mesh_.face_count(); ++f)
+      first.push_back(first.back() + static_cast<int>(mesh_.face(f).size()) - 2);
+    // The triangle of face f at its side k.
+    const auto at_side = [&](int f, int k) {
+      const auto i = static_cast<size_t>(f);
+      return std::clamp(first[i] + k - 1, first[i], first[i + 1] - 1);
+    };
+    for (int f = 0; f < mesh_.face_count(); ++f) {
+      const std::span<const int> loop = mesh_.face(f), across = mesh_.face_neighbours(f);
+      const int last = static_cast<int>(loop.size()) - 1;
+      const auto beyond = [&](int k) {
+        const int g = across[static_cast<size_t>(k)];
+        const std::span<const int> other = mesh_.face(g);
+        const int from = loop[static_cast<size_t>(k == last ? 0 : k + 1)];
+        return at_side(
+            g, static_cast<int>(std::find(other.begin(), other.end(), from) - other.begin()));
+      };
+      for (int k = 1; k < last; ++k) {
+        const int self = at_side(f, k);
+        triangles_.push_back(
+            {{loop[0], loop[static_cast<size_t>(k)], loop[static_cast<size_t>(k) + 1]},
+             {k == 1 ? beyond(0) : self - 1, beyond(k), k + 1 == last ? beyond(last) : self + 1}});
+      }
+    }
+  }
 
   int count() const { return static_cast<int>(triangles_.size()); }
   Triangle& at(int f) { return triangles_[static_cast<size_t>(f)]; }
@@ -241,8 +267,6 @@ class DentFiller {
 }  // namespace
 
 std::optional<Loops> filled_dents(const Polyhedron& mesh) {
-  for (int f = 0; f < mesh.face_count(); ++f)
-    if (mesh.face(f).size() != 3) return {};
   DentFiller filler(mesh);
   if (!filler.fill()) return {};
   Loops loops = filler.loops();

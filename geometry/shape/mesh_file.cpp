@@ -33,10 +33,6 @@ double file_tolerance(const RawMesh& mesh) {
   return std::clamp(16.0 * rounding, six_digits, most);
 }
 
-/// From here on the coplanar faces of a convex mesh are joined as they stand. Smaller meshes are
-/// soon made by qhull, which has its own way with faces that are only just coplanar.
-constexpr int kManyVertices = 10000;
-
 enum class Format { obj, stl };
 
 Format format_of(const std::filesystem::path& file) {
@@ -86,6 +82,13 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
   Place{file, line}.fail(error.what() + counting);
 }
 
+/// The solid that was meant by a mesh that is convex to `tolerance` only.
+Polyhedron rounded_solid(const RawMesh& mesh, double tolerance) {
+  const Polyhedron nearly(mesh.vertices, mesh.faces, tolerance,
+                          0.5 * tolerance);  // throws when the mesh is really broken
+  return rounded_hull(hull_of_nearly_convex(nearly, tolerance), tolerance);
+}
+
 /// Whether two neighbouring faces lie in one plane: contact patches want them as one polygon.
 bool has_coplanar_neighbours(const Polyhedron& polyhedron) {
   return std::ranges::any_of(polyhedron.edges(), [&](const Polyhedron::Edge& edge) {
@@ -103,19 +106,19 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
   if (mesh.faces.empty()) Place{file}.fail("the file has no faces");
   const double tolerance = file_tolerance(mesh);
   try {
+    // Of so many, few in single precision are convex as they stand.
+    if (mesh.is_single && mesh.vertices.size() >= many_vertices)
+      return rounded_solid(mesh, tolerance);
     try {
       // A mesh that is convex as it stands is taken, but for two kinds: single precision, whose
       // faces are fitted anew, and polygons cut into pieces, which are joined.
       Polyhedron polyhedron(mesh.vertices, mesh.faces);
       if (has_coplanar_neighbours(polyhedron))
-        polyhedron = polyhedron.vertex_count() < kManyVertices ? convex_hull(mesh.vertices)
-                                                               : convex_hull_of_mesh(polyhedron);
+        polyhedron = mesh.vertices.size() < many_vertices ? convex_hull(mesh.vertices)
+                                                          : convex_hull_of_mesh(polyhedron);
       return mesh.is_single ? rounded_hull(std::move(polyhedron), tolerance) : polyhedron;
     } catch (const InvalidPolyhedron&) {
-      // Convex only to six digits: the solid that was meant is the rounded hull of its vertices.
-      const Polyhedron nearly(mesh.vertices, mesh.faces, tolerance,
-                              0.5 * tolerance);  // throws when the mesh is really broken
-      return rounded_hull(hull_of_nearly_convex(nearly, tolerance), tolerance);
+      return rounded_solid(mesh, tolerance);
     }
   } catch (const InvalidPolyhedron& error) {
     fail_at(file, mesh, error);

@@ -12,19 +12,6 @@
 namespace ballast {
 namespace {
 
-/// qhull makes all hulls but those of meshes of so many vertices, which it takes seconds for.
-constexpr int many_vertices = 10000;
-
-Polyhedron hull_of(const Polyhedron& mesh) {
-  if (mesh.vertex_count() >= many_vertices)
-    if (std::optional<Loops> loops = filled_dents(mesh)) try {
-        return solid_of(mesh.vertices(), std::move(*loops));
-      } catch (const InvalidPolyhedron&) {
-        // Needles, or more than one layer: qhull decides.
-      }
-  return convex_hull(mesh.vertices());
-}
-
 double largest_extent(std::span<const Vec3> points) {
   Vec3 low = points[0], high = low;
   for (const Vec3& p : points) {
@@ -79,25 +66,64 @@ class Depths {
   FrontSearch search_;
 };
 
-}  // namespace
+/// What a hull leaves out of a mesh.
+struct LeftOut {
+  int first_deep = -1;    ///< vertex that lies deeper in it than `most`
+  double depth = 0.0;     ///< of that vertex [m]
+  bool is_within = true;  ///< all of it lies in the hull
+};
 
-Polyhedron hull_of_nearly_convex(const Polyhedron& mesh, double tolerance) {
-  Polyhedron hull = hull_of(mesh);
-  if (hull.vertex_count() == mesh.vertex_count()) return hull;
-  const double extent = largest_extent(mesh.vertices());
+LeftOut left_out(const Polyhedron& mesh, const Polyhedron& hull, double most, double extent) {
+  LeftOut result;
+  if (hull.vertex_count() == mesh.vertex_count()) return result;
   const Depths depths(hull);
   // The hull's vertices are some of the mesh's, in the same order.
   for (int v = 0, kept = 0; v < mesh.vertex_count(); ++v) {
-    if (kept < hull.vertex_count() && mesh.vertex(v) == hull.vertex(kept)) {
+    const Vec3& p = mesh.vertex(v);
+    if (kept < hull.vertex_count() && p == hull.vertex(kept)) {
       ++kept;
       continue;
     }
-    const Vec3& p = mesh.vertex(v);
-    if (depths.up_to(tolerance * extent, p) > tolerance * extent)
-      mesh_checks::invalid({.vertex = v}, "not convex: vertex ", v, " lies ",
-                           depths.up_to(extent, p) / extent,
-                           " of the size within the hull of the others");
+    const double depth = depths.up_to(most, p);
+    result.is_within &= depth >= -1e-12 * extent;
+    if (depth <= most || result.first_deep >= 0) continue;
+    result.first_deep = v;
+    result.depth = depths.up_to(extent, p);
   }
+  return result;
+}
+
+void refuse_deep(const LeftOut& left, double extent) {
+  if (left.first_deep < 0) return;
+  mesh_checks::invalid({.vertex = left.first_deep}, "not convex: vertex ", left.first_deep,
+                       " lies ", left.depth / extent, " of the size within the hull of the others");
+}
+
+/// The hull by filling dents; nothing where that does not find it.
+std::optional<Polyhedron> filled(const Polyhedron& mesh) {
+  std::optional<Loops> loops = filled_dents(mesh);
+  if (!loops) return {};
+  try {
+    return solid_of(mesh.vertices(), std::move(*loops));
+  } catch (const InvalidPolyhedron&) {
+    return {};  // needles, or more than one layer
+  }
+}
+
+}  // namespace
+
+Polyhedron hull_of_nearly_convex(const Polyhedron& mesh, double tolerance) {
+  const double extent = largest_extent(mesh.vertices()), most = tolerance * extent;
+  if (mesh.vertices().size() >= many_vertices)
+    if (std::optional<Polyhedron> hull = filled(mesh)) {
+      const LeftOut left = left_out(mesh, *hull, most, extent);
+      if (left.is_within) {
+        refuse_deep(left, extent);
+        return std::move(*hull);
+      }
+    }
+  Polyhedron hull = convex_hull(mesh.vertices());
+  refuse_deep(left_out(mesh, hull, most, extent), extent);
   return hull;
 }
 

@@ -1,7 +1,7 @@
 #include "geometry/shape/filled_dents.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <numbers>
 
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/random_direction.hpp"
@@ -73,4 +73,49 @@ TEST_CASE("filled dents: a deep dent, filled step by step") {
   CHECK(solid_of(mesh.vertices(), *loops).vertex_count() == kept);
 }
 
-TEST_CASE("filled dents: triangles only") { CHECK(!filled_dents(make_box(Vec3::Ones()))); }
+TEST_CASE("filled dents: crumpled meshes, whose surface passes through itself") {
+  // The hull, or what shows that it is none: nothing, loops that are no solid, points outside.
+  Random random(13);
+  int hulls = 0;
+  for (int trial = 1; trial < 300; ++trial) {
+    INFO(trial);
+    const Polyhedron mesh = dented(make_uv_sphere(8, 10), 0.002 * trial, random);
+    const std::optional<Loops> loops = filled_dents(mesh);
+    if (!loops) continue;
+    try {
+      const Polyhedron solid = solid_of(mesh.vertices(), *loops);
+      bool is_within = true;
+      for (int f = 0; f < solid.face_count(); ++f)
+        for (const Vec3& p : mesh.vertices())
+          is_within &= solid.normal(f).dot(p) <= solid.offset(f) + 1e-12;
+      if (!is_within) continue;
+      CHECK(faces_of(solid) == faces_of(convex_hull(mesh.vertices())));
+      ++hulls;
+    } catch (const InvalidPolyhedron&) {
+      continue;
+    }
+  }
+  CHECK(hulls > 80);
+}
+
+TEST_CASE("filled dents: faces of more corners are cut") {
+  // A prism over a heptagon, with one corner of its lid pressed down: three triangles stay there.
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> faces(2);
+  for (int k = 0; k < 7; ++k) {
+    const double angle = k * 2.0 * std::numbers::pi / 7;
+    points.emplace_back(std::cos(angle), std::sin(angle), 1.0);
+    points.emplace_back(std::cos(angle), std::sin(angle), -1.0);
+    faces[0].push_back(2 * k);
+    faces[1].insert(faces[1].begin(), 2 * k + 1);
+    const int next = 2 * ((k + 1) % 7);
+    faces.push_back({2 * k, 2 * k + 1, next + 1, next});
+  }
+  points[6][2] -= 1e-3;
+  const Polyhedron mesh(points, faces, 1e-2);
+  const std::optional<Loops> loops = filled_dents(mesh);
+  REQUIRE(loops);
+  CHECK(loops->size() == 5 + 5 + 7 * 2);
+  const Polyhedron solid = solid_of(mesh.vertices(), *loops);
+  CHECK(faces_of(convex_hull_of_mesh(solid)) == faces_of(convex_hull(points)));
+}

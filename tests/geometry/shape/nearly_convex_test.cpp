@@ -1,5 +1,10 @@
 #include "geometry/shape/nearly_convex.hpp"
 
+#include <algorithm>
+#include <numbers>
+
+#include "geometry/shape/convex_hull.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/uv_sphere.hpp"
 
@@ -20,7 +25,7 @@ TEST_CASE("nearly convex: a vertex within the hull goes, up to a depth") {
   // The second is of the size that qhull is not asked for.
   for (const auto& [rings, columns] : {std::pair(20, 30), std::pair(100, 120)}) {
     INFO(rings);
-    const double rim = std::cos(3.14159265358979324 / rings);
+    const double rim = std::cos(std::numbers::pi / rings);
     const int vertices = (rings - 1) * columns + 2, pole = vertices - 2;
     CHECK(hull_of_nearly_convex(with_pole_at(1.0, rings, columns), 1e-6).vertex_count() ==
           vertices);
@@ -35,4 +40,17 @@ TEST_CASE("nearly convex: a vertex within the hull goes, up to a depth") {
         CHECK_THAT(error.what(), Catch::Contains("within the hull of the others"));
       }
   }
+}
+
+TEST_CASE("nearly convex: a crumpled mesh of many vertices") {
+  // Whose surface passes through itself: filling dents loses points that lie outside.
+  Random random(14);
+  UvSphere sphere = make_uv_sphere(100, 120);
+  for (Vec3& p : sphere.vertices)
+    for (double& x : p) x += random.uniform(-0.03, 0.03);
+  const Polyhedron mesh(sphere.vertices, sphere.faces, 1e-9, 1.0);
+  const Polyhedron hull = convex_hull(mesh.vertices());
+  const Polyhedron found = hull_of_nearly_convex(mesh, 1.0);
+  CHECK(std::ranges::equal(found.vertices(), hull.vertices()));
+  CHECK(found.face_count() == hull.face_count());
 }
