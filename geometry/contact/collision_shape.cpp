@@ -154,29 +154,39 @@ std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
   }
   first_corner.push_back(static_cast<int>(corners.size()));
   first_corner_.keep(first_corner);
-  measure_isolation();
+  measure_isolation(polyhedron, patch);
   return corners;
 }
 
 /// The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
-void CollisionShape::measure_isolation() {
-  std::vector<Vec3> normals;
-  for (int f = 0; f < faces_.count(); ++f) normals.push_back(faces_.xyz(f));
-  const FrontSearch search(normals);
-  isolation_.reserve(normals.size());
+void CollisionShape::measure_isolation(const Polyhedron& polyhedron,
+                                       const std::vector<int>& patch) {
   // Cosines nearer to each other than this may be out of order for their roundings.
   constexpr double slack = 1e-14, sixty_degrees = 0.5;
-  for (size_t f = 0; f < normals.size(); ++f) {
-    double floor = sixty_degrees - slack, least = 1.0;
-    search.visit_higher(normals[f], floor, [&](int g) {
-      const Vec3& other = normals[static_cast<size_t>(g)];
-      const double cosine = normals[f].dot(other);
-      if (static_cast<size_t>(g) == f || cosine < sixty_degrees) return floor;
-      const double sine = normals[f].cross(other).norm();  // <= angle
-      least = std::min(least, sine);
-      return floor = std::max(floor, cosine - slack);
-    });
-    isolation_.push_back(rounded_down(least));
+  std::vector<Vec3> normals;
+  for (int f = 0; f < faces_.count(); ++f) normals.push_back(faces_.xyz(f));
+  struct Nearest {
+    double floor = sixty_degrees - slack, sine = 1.0;
+  };
+  const auto look = [&](int f, int g, Nearest& nearest) {
+    const Vec3 &own = normals[static_cast<size_t>(f)], &other = normals[static_cast<size_t>(g)];
+    const double cosine = own.dot(other);
+    if (g == f || cosine < sixty_degrees) return nearest.floor;
+    nearest.sine = std::min(nearest.sine, own.cross(other).norm());  // <= angle
+    return nearest.floor = std::max(nearest.floor, cosine - slack);
+  };
+  // Neighbours first: of many faces hardly any other is nearer, and few are then looked at.
+  std::vector<Nearest> nearest(normals.size());
+  for (int f = 0; f < polyhedron.face_count(); ++f)
+    for (const int g : polyhedron.face_neighbours(f))
+      look(patch[f], patch[g], nearest[static_cast<size_t>(patch[f])]);
+  const FrontSearch search(normals);
+  isolation_.reserve(normals.size());
+  for (int f = 0; f < faces_.count(); ++f) {
+    Nearest& own = nearest[static_cast<size_t>(f)];
+    search.visit_higher(normals[static_cast<size_t>(f)], own.floor,
+                        [&](int g) { return look(f, g, own); });
+    isolation_.push_back(rounded_down(own.sine));
   }
 }
 

@@ -134,7 +134,7 @@ class CollisionShape {
  private:
   std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
   std::vector<int> build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
-  void measure_isolation();
+  void measure_isolation(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch,
                    std::span<const int> corners);
   double drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron,
