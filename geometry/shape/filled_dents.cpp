@@ -29,12 +29,12 @@ class DentFiller {
         if (corner(f, k) < corner(f, k + 1) && is_bent_inward(f, k)) ask(f, k);
     do {
       while (!asked_.empty()) {
+        if (work_ > most_work * triangles_.size()) return false;
         const Edge edge = asked_.back();
         asked_.pop_back();
         if (!is_bent_inward(edge) || step(edge.triangle, side_of(edge))) continue;
         stuck_.push_back(edge);
       }
-      if (steps_ > 20 * triangles_.size()) return false;
     } while (take_out_corners());
     return stuck_.empty();
   }
@@ -135,24 +135,27 @@ class DentFiller {
 
   /// Fills the dent at side k of f, if a step there does.
   bool step(int f, int k) {
-    ++steps_;
+    ++work_;
     const auto [a, b] = beside_diagonal(f, k);
     const int g = across(f, k), m = side_across(f, k);
     if (a < 0.0 && b > 0.0) {
-      if (is_edge(f, corner(f, k + 2), corner(g, m + 2))) return false;
+      if (is_edge(f, corner(f, k + 2), g, corner(g, m + 2))) return false;
       turn(f, k);
       return true;
     }
     return a < 0.0 ? has_three(g, m) && take_out(g, m) : has_three(f, k) && take_out(f, k);
   }
-  /// Whether corners v and w are joined by an edge; t is a triangle with v.
-  bool is_edge(int t, int v, int w) const {
-    const int first = t;
+  /// Whether corners v of triangle t and w of u are joined by an edge: around both by turns, as one
+  /// of them may have very many.
+  bool is_edge(int t, int v, int u, int w) const {
+    const int first_t = t, first_u = u;
     do {
-      const int k = place_of(t, v);
-      if (corner(t, k + 1) == w) return true;
+      const int k = place_of(t, v), m = place_of(u, w);
+      if (corner(t, k + 1) == w || corner(u, m + 1) == v) return true;
       t = across(t, k + 2);
-    } while (t != first);
+      u = across(u, m + 2);
+      ++work_;
+    } while (t != first_t && u != first_u);
     return false;
   }
   int place_of(int t, int v) const { return corner(t, 0) == v ? 0 : corner(t, 1) == v ? 1 : 2; }
@@ -194,6 +197,9 @@ class DentFiller {
     int from, across;
   };
 
+  /// Corners of a hole at most: what closes it takes as many times as many steps.
+  static constexpr size_t largest_hole = 200;
+
   /// The triangles around corner k of f give way to others over the hole that it leaves. Whether
   /// such were found.
   bool take_out(int f, int k) {
@@ -205,7 +211,9 @@ class DentFiller {
       hole.push_back({corner(f, k + 1), across(f, k + 1)});
       f = across(f, k + 2);
       k = place_of(f, v);
+      if (hole.size() > largest_hole) return false;
     } while (f != first);
+    work_ += hole.size() * hole.size();
     const Vec3 view = point(v) - inside_;
     std::vector<Triangle> cover;
     for (std::vector<Side> left = hole; cover.size() + 2 < hole.size();) {
@@ -213,9 +221,14 @@ class DentFiller {
       if (ear == left.size()) return false;
       const size_t n = left.size(), next = (ear + 1) % n;
       const int a = left[(ear + n - 1) % n].from, c = left[next].from;
-      const auto has_a =
-          std::find_if(hole.begin(), hole.end(), [&](const Side& side) { return side.from == a; });
-      if (n > 3 && is_edge(gone[static_cast<size_t>(has_a - hole.begin())], a, c)) return false;
+      // Triangle i of those that go has corner i of the hole.
+      const auto with = [&](int corner_of_hole) {
+        const auto found = std::find_if(hole.begin(), hole.end(), [&](const Side& side) {
+          return side.from == corner_of_hole;
+        });
+        return gone[static_cast<size_t>(found - hole.begin())];
+      };
+      if (n > 3 && is_edge(with(a), a, with(c), c)) return false;
       const Side before = left[(ear + n - 1) % n], at_ear = left[ear];
       const int third = n > 3 ? -1 : left[next].across;
       cover.push_back(
@@ -261,7 +274,10 @@ class DentFiller {
   double blur_;  ///< so high a corner counts as in the plane [m]
   std::vector<Triangle> triangles_;
   std::vector<Edge> asked_, stuck_;
-  size_t steps_ = 0;
+  /// Triangles looked at, and how many there may be for each of the mesh: few are needed where
+  /// dents are small, and qhull ends as well.
+  mutable size_t work_ = 0;
+  static constexpr size_t most_work = 50;
 };
 
 }  // namespace
