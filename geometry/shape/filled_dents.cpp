@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -18,7 +17,7 @@ class DentFiller {
       size = std::max(size, (p - centre_).norm());
       inside_ += (p - centre_) / static_cast<double>(mesh.vertex_count());
     }
-    blur_ = 16.0 * std::numeric_limits<double>::epsilon() * size;
+    blur_ = 1e-12 * size;  // a thousandth of what a Polyhedron takes for flat
     cut_into_triangles();
   }
 
