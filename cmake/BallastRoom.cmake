@@ -6,8 +6,8 @@
 #   LIBRARIES  third-party libraries that only its sources see
 # Sources are compiled in batches (unity build), and the headers that nearly all of them need are
 # read once (precompiled).
-# All rooms have one level of optimisation: an inline function that two of them use is kept once, and
-# the linker does not ask which of the two was compiled for speed.
+# All rooms have one level of optimisation: an inline function that two of them use is kept once,
+# and the linker does not ask which of the two was compiled for speed.
 function(ballast_room name folder)
   cmake_parse_arguments(ROOM "" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/shape/point_sets.hpp"
+
 namespace ballast {
 namespace {
 
@@ -13,10 +15,8 @@ class DentFiller {
   /// The mesh must outlive this.
   explicit DentFiller(const Polyhedron& mesh) : centre_(mesh.vertex(0)), mesh_(mesh) {
     double size = 0.0;
-    for (const Vec3& p : mesh.vertices()) {
-      size = std::max(size, (p - centre_).norm());
-      inside_ += (p - centre_) / static_cast<double>(mesh.vertex_count());
-    }
+    for (const Vec3& p : mesh.vertices()) size = std::max(size, (p - centre_).norm());
+    inside_ = mean(mesh.vertices()) - centre_;
     blur_ = 1e-12 * size;  // a thousandth of what a Polyhedron takes for flat
     cut_into_triangles();
   }
@@ -144,6 +144,7 @@ class DentFiller {
     }
     return a < 0.0 ? has_three(g, m) && take_out(g, m) : has_three(f, k) && take_out(f, k);
   }
+
   /// Whether corners v of triangle t and w of u are joined by an edge: around both by turns, as one
   /// of them may have very many.
   bool is_edge(int t, int v, int u, int w) const {
@@ -191,9 +192,9 @@ class DentFiller {
       for (int s = 0; s < 2; ++s) ask(t, s);
   }
 
-  /// A corner of a hole, and the triangle across the hole's side that begins there.
+  /// A side of a hole: the corner that it begins at, the triangle across, and one with that corner.
   struct Side {
-    int from, across;
+    int from, across, triangle;
   };
 
   /// Corners of a hole at most: what closes it takes as many times as many steps.
@@ -207,7 +208,7 @@ class DentFiller {
     std::vector<int> gone;
     do {
       gone.push_back(f);
-      hole.push_back({corner(f, k + 1), across(f, k + 1)});
+      hole.push_back({corner(f, k + 1), across(f, k + 1), f});
       f = across(f, k + 2);
       k = place_of(f, v);
       if (hole.size() > largest_hole) return false;
@@ -218,21 +219,13 @@ class DentFiller {
     for (std::vector<Side> left = hole; cover.size() + 2 < hole.size();) {
       const size_t ear = find_ear(left, view);
       if (ear == left.size()) return false;
-      const size_t n = left.size(), next = (ear + 1) % n;
-      const int a = left[(ear + n - 1) % n].from, c = left[next].from;
-      // Triangle i of those that go has corner i of the hole.
-      const auto with = [&](int corner_of_hole) {
-        const auto found = std::find_if(hole.begin(), hole.end(), [&](const Side& side) {
-          return side.from == corner_of_hole;
-        });
-        return gone[static_cast<size_t>(found - hole.begin())];
-      };
-      if (n > 3 && is_edge(with(a), a, with(c), c)) return false;
-      const Side before = left[(ear + n - 1) % n], at_ear = left[ear];
-      const int third = n > 3 ? -1 : left[next].across;
-      cover.push_back(
-          {{before.from, at_ear.from, left[next].from}, {before.across, at_ear.across, third}});
-      left[(ear + n - 1) % n].across = gone[cover.size() - 1];
+      const size_t n = left.size();
+      Side& before = left[(ear + n - 1) % n];
+      const Side &at_ear = left[ear], &after = left[(ear + 1) % n];
+      if (n > 3 && is_edge(before.triangle, before.from, after.triangle, after.from)) return false;
+      cover.push_back({{before.from, at_ear.from, after.from},
+                       {before.across, at_ear.across, n > 3 ? -1 : after.across}});
+      before.across = gone[cover.size() - 1];
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
     }
     for (const int t : gone) at(t) = {{-1, -1, -1}, {-1, -1, -1}};
@@ -268,7 +261,7 @@ class DentFiller {
     at(t).across[static_cast<size_t>(side_of(t, from, to))] = f;
   }
 
-  Vec3 centre_, inside_ = Vec3::Zero();
+  Vec3 centre_, inside_;
   const Polyhedron& mesh_;
   double blur_;  ///< so high a corner counts as in the plane [m]
   std::vector<Triangle> triangles_;

@@ -8,18 +8,10 @@
 #include "geometry/shape/filled_dents.hpp"
 #include "geometry/shape/front_search.hpp"
 #include "geometry/shape/mesh_checks.hpp"
+#include "geometry/shape/point_sets.hpp"
 
 namespace ballast {
 namespace {
-
-double largest_extent(std::span<const Vec3> points) {
-  Vec3 low = points[0], high = low;
-  for (const Vec3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).maxCoeff();
-}
 
 /// How deep points lie within a convex solid.
 class Depths {
@@ -42,11 +34,6 @@ class Depths {
   }
 
  private:
-  static Vec3 mean(std::span<const Vec3> points) {
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& p : points) sum += p;
-    return sum / static_cast<double>(points.size());
-  }
   double height(int f) const {
     return solid_.normal(f).dot(solid_.vertex(solid_.face(f)[0]) - centre_);
   }
@@ -113,7 +100,7 @@ std::optional<Polyhedron> filled(const Polyhedron& mesh) {
 }  // namespace
 
 Polyhedron hull_of_nearly_convex(const Polyhedron& mesh, double tolerance) {
-  const double extent = largest_extent(mesh.vertices()), most = tolerance * extent;
+  const double extent = bounds_of(mesh.vertices()).largest_extent(), most = tolerance * extent;
   if (mesh.vertices().size() >= many_vertices)
     if (std::optional<Polyhedron> hull = filled(mesh)) {
       const LeftOut left = left_out(mesh, *hull, most, extent);

@@ -8,6 +8,7 @@
 
 #include "geometry/shape/area_vector.hpp"
 #include "geometry/shape/mesh_checks.hpp"
+#include "geometry/shape/point_sets.hpp"
 #include "geometry/shape/sorted_by_key.hpp"
 
 namespace ballast {
@@ -16,12 +17,6 @@ namespace {
 
 using mesh_checks::At;
 using mesh_checks::invalid;
-
-Vec3 mean(std::span<const Vec3> points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
-}
 
 }  // namespace
 

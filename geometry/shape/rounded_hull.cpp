@@ -7,6 +7,7 @@
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/coplanar_faces.hpp"
 #include "geometry/shape/face_loops.hpp"
+#include "geometry/shape/point_sets.hpp"
 
 namespace ballast {
 namespace {
@@ -89,6 +90,7 @@ double move_to_planes(Vec3& corner, std::span<const int> faces, std::span<const 
     right += height * plane.normal;
     worst = std::max(worst, std::abs(height));
   }
+  // In general position N'N tells it, to all digits that the next turn needs.
   if (faces.size() >= 3) {
     const Eigen::LDLT<Mat3> factor(square);
     const Vec3 pivots = factor.vectorD();
@@ -144,12 +146,8 @@ Polyhedron rounded_hull(std::span<const Vec3> points, double rounding) {
 }
 
 Polyhedron rounded_hull(Polyhedron hull, double rounding) {
-  Vec3 low = hull.vertex(0), high = low;
-  for (const Vec3& p : hull.vertices()) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double size = (high - low).maxCoeff();
+  const Bounds bounds = bounds_of(hull.vertices());
+  const double size = bounds.largest_extent();
   const FaceGroups groups = coplanar_groups(hull, rounding * size);
   // Where every group is one face there is nothing to join, and fewer
   // than four planes bound no solid.
@@ -162,7 +160,7 @@ Polyhedron rounded_hull(Polyhedron hull, double rounding) {
   const Incidences all = find_incidences(*loops, hull.vertex_count());
   std::vector<Vec3> moved;
   for (const int v : all.corners) moved.push_back(hull.vertex(v));
-  if (!come_to_agree(all, moved, 0.5 * (low + high), size)) return hull;
+  if (!come_to_agree(all, moved, 0.5 * (bounds.low + bounds.high), size)) return hull;
   std::vector<Vec3> points(hull.vertices().begin(), hull.vertices().end());
   for (size_t k = 0; k < moved.size(); ++k) {
     Vec3& point = points[static_cast<size_t>(all.corners[k])];

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/shape/close_pairs.hpp"
+#include "geometry/shape/point_sets.hpp"
 
 namespace ballast::raw_mesh {
 
@@ -136,13 +137,8 @@ Soup read_text(const std::filesystem::path& file, std::string_view content) {
 
 /// For each corner the first corner of the soup that it agrees with to kSameCorner of the size.
 std::vector<int> first_equals(const std::vector<Vec3>& corners) {
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-  if (!corners.empty()) low = high = corners[0];
-  for (const Vec3& p : corners) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double reach = kSameCorner * (high - low).maxCoeff();
+  if (corners.empty()) return {};
+  const double reach = kSameCorner * bounds_of(corners).largest_extent();
   std::vector<int> first = first_close(corners, reach);
   // Smaller indices are resolved already.
   for (size_t i = 0; i < first.size(); ++i) first[i] = first[first[i]];
