@@ -76,7 +76,7 @@ class Auto final : public Solver {
     ways_[burst].solver = make_newton_burst({.start_sweeps = 0,
                                              .burst = 50,
                                              .is_balanced = true,
-                                             .descends_first = true,
+                                             .descent_steps = std::numeric_limits<int>::max(),
                                              .most_steps = 1 << 20});
     ways_[interior].solver = make_interior_point();
     ways_[conjugate].solver = make_nncg();

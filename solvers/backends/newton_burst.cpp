@@ -101,7 +101,7 @@ class NewtonBurst final : public Solver {
     double error = newton_.settle(at);
     descend(course, at, error, end);
     if (course.over()) return course.finish();
-    if (settings_.descends_first) endgame(course, at, error);
+    if (settings_.descent_steps > 0) endgame(course, at, error);
     if (course.over()) return course.finish();
     walk_->prepare(*problem_);
     course.factor_by(*walk_, *problem_, settings_.most_steps);
@@ -192,14 +192,16 @@ class NewtonBurst final : public Solver {
   }
 
   /// Proximal-point steps by Newton alone: sweeps after a converged step would undo its long waves.
-  /// Ends where steps fail one after the other, or gain little for long.
+  /// Ends where steps fail one after the other, gain little for long, or have taken their part.
   void endgame(Course& course, NewtonIterate& at, double& error) {
     constexpr int most_failures = 4, most_slow_steps = 15;
     double epsilon = settings_.epsilon, halved = error;
-    int failures = 0, slow = 0;
-    while (!course.over() && failures < most_failures && slow < most_slow_steps) {
+    int failures = 0, slow = 0, steps = 0;
+    while (!course.over() && failures < most_failures && slow < most_slow_steps &&
+           steps < settings_.descent_steps) {
       const NewtonIterate before = at;
       const Inner inner = proximal_step(course, at, error, epsilon);
+      steps += inner.steps;
       const double after = newton_.settle(at);
       offer(course, at, after);
       if (inner.converged && after < 1.5 * error) {

@@ -17,8 +17,8 @@ namespace ballast {
 struct NewtonBurstSettings {
   int start_sweeps = 500;  ///< before the first Newton step, at least; 0: none
   /// Newton's turn comes where sweeps promise to need more than so many others: what a
-  /// factorisation for some thousand contacts and the first Newton steps cost.
-  int promised_sweeps = 15000;
+  /// factorisation for some thousand contacts and the first ten Newton steps cost.
+  int promised_sweeps = 6000;
   int burst = 200;  ///< sweeps after a Newton step, at most
   /// No more of them than cost what the step does; and the fewer those are, the earlier the end
   /// begins, whose proximal steps take several Newton steps each.
@@ -27,12 +27,13 @@ struct NewtonBurstSettings {
   double epsilon = 3e-4;
   /// Below this part of the error at zero impulse there are no more bursts.
   double endgame = 1e-4;
-  /// Its end is a walk: proximal steps that may pass through worse places, which come out of jams.
-  /// True: before it proximal steps that lower the error, until they are stuck. Those are the
-  /// faster where nothing jams, and lost where something does.
-  bool descends_first = false;
-  int most_steps = 1000;  ///< Newton steps of the walk, at most
-  int inner_steps = 10;   ///< before it: Newton steps after which a proximal step has failed
+  /// The end begins with proximal steps that lower the error: at most so many Newton steps, none
+  /// where that is 0. They are the faster where nothing jams, and lost where something does.
+  int descent_steps = 60;
+  /// What they leave is for a walk: proximal steps that may pass through worse places, which come
+  /// out of jams. At most so many Newton steps.
+  int most_steps = 1000;
+  int inner_steps = 10;  ///< before the walk: Newton steps after which a proximal step has failed
 };
 
 /// Iterations count sweeps and factorisations alike. Needs the dynamics form.

@@ -98,8 +98,7 @@ TEST_CASE("steps that must lower the error come first, and the walk where they a
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     CAPTURE(seed);
-    const auto solver =
-        make_newton_burst({.start_sweeps = 20, .promised_sweeps = 10, .descends_first = true});
+    const auto solver = make_newton_burst({.start_sweeps = 20, .promised_sweeps = 10});
     const SolverRun run = SolverRunner().run(*solver, deficient(seed), {},
                                              {.tolerance = 1e-10, .max_iterations = 100000});
     const bool arrived = run.solved.reason == StopReason::reached_tolerance;
@@ -107,6 +106,26 @@ TEST_CASE("steps that must lower the error come first, and the walk where they a
     solved += arrived;
   }
   CHECK(solved >= 9);
+}
+
+TEST_CASE("steps that lower the error end after their part", "[factors]") {
+  // A tolerance of 0 is never met; without the walk only they factorise once the rounds are over.
+  const auto factorisations_of = [](int descent_steps) {
+    const auto solver = make_newton_burst({.start_sweeps = 20,
+                                           .promised_sweeps = 10,
+                                           .descent_steps = descent_steps,
+                                           .most_steps = 0});
+    int count = 0;
+    SolverRunner().run(*solver, deficient(2), {},
+                       {.tolerance = 0.0, .max_iterations = 100000, .factorisations = &count});
+    return count;
+  };
+  const int rounds = factorisations_of(0), some = factorisations_of(7),
+            most = factorisations_of(60);
+  CAPTURE(rounds, some, most);
+  CHECK(some > rounds);
+  CHECK(some <= rounds + 7 + NewtonBurstSettings{}.inner_steps);  // the last one is not cut short
+  CHECK(most > some);
 }
 
 TEST_CASE("what can never be reached ends as stalled", "[factors]") {
