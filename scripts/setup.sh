@@ -52,6 +52,8 @@ show_progress() {
   [ ! -t 1 ] || printf '\r\033[K'
 }
 
+interrupted() { printf '\ninterrupted; the same command goes on\n' >&2; exit "$1"; }
+
 # ballast_setup PRESET TARGET [--no-install]
 ballast_setup() {
   local preset=$1 target=$2 log begin=$SECONDS
@@ -59,12 +61,13 @@ ballast_setup() {
   cd "$root" || exit 1
   log=$root/build-$preset.log
   say "building (preset $preset)"
-  trap 'printf "\ninterrupted; the same command goes on\n" >&2; exit 130' INT
+  trap 'interrupted 130' INT
+  trap 'interrupted 143' TERM
   cmake --preset "$preset" >"$log" 2>&1 &&
     cmake --build --preset "$preset" --target "$target" 2>&1 | show_progress "$log" || {
     tail -n 40 "$log" >&2
     die "the build failed; the whole log is build-$preset.log"
   }
-  trap - INT
+  trap - INT TERM
   say "ready after $((SECONDS - begin)) s"
 }
