@@ -101,7 +101,7 @@ class NewtonBurst final : public Solver {
     double error = newton_.settle(at);
     descend(course, at, error, end);
     if (course.over()) return course.finish();
-    if (settings_.descent_steps > 0) endgame(course, at, error);
+    endgame(course, at, error);
     if (course.over()) return course.finish();
     walk_->prepare(*problem_);
     course.factor_by(*walk_, *problem_, settings_.most_steps);

@@ -16,8 +16,8 @@ namespace ballast {
 
 struct NewtonBurstSettings {
   int start_sweeps = 500;  ///< before the first Newton step, at least; 0: none
-  /// Newton's turn comes where sweeps promise to need more than so many others: what a
-  /// factorisation for some thousand contacts and the first ten Newton steps cost.
+  /// Newton's turn comes where sweeps promise to need more than so many others: in
+  /// time about twenty Newton steps of some thousand contacts.
   int promised_sweeps = 6000;
   int burst = 200;  ///< sweeps after a Newton step, at most
   /// No more of them than cost what the step does; and the fewer those are, the earlier the end
