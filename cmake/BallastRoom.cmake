@@ -1,25 +1,58 @@
-# ballast_room(NAME FOLDER [DOORS rooms...] [LIBRARIES targets...] [EXCEPT files...])
+# ballast_room(NAME FOLDER [COLD] [DOORS rooms...] [LIBRARIES targets...] [EXCEPT files...])
 #
 # The library ballast_NAME of one room of the house: all .cpp files of FOLDER, except those named.
 # (They need an optional library: the caller adds them where it is found.)
 #   DOORS      the rooms whose headers it may include; what is not named here does not link
 #   LIBRARIES  third-party libraries that only its sources see
+#   COLD       its code says and draws: it runs once in a while, so it is compiled fast (-Og) and
+#              in larger batches
 # Sources are compiled in batches (unity build), and the headers that nearly all of them need are
 # read once (precompiled).
-# All rooms have one level of optimisation: an inline function that two of them use is kept once,
-# and the linker does not ask which of the two was compiled for speed.
+# An inline function that two rooms use is kept once, and the linker takes the first that it sees:
+# programs link the other rooms' objects before the cold ones (ballast_hot_first).
 function(ballast_room name folder)
-  cmake_parse_arguments(ROOM "" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
+  cmake_parse_arguments(ROOM "COLD" "" "DOORS;LIBRARIES;EXCEPT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
   list(TRANSFORM ROOM_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/)
   list(REMOVE_ITEM sources ${ROOM_EXCEPT})
+  ballast_put_together(sources)
   add_library(ballast_${name} STATIC ${sources})
   list(TRANSFORM ROOM_DOORS PREPEND ballast_)
   target_link_libraries(ballast_${name}
     PUBLIC ballast_options Eigen3::Eigen ${ROOM_DOORS}
     PRIVATE ${ROOM_LIBRARIES})
-  ballast_compile_in_batches(ballast_${name} 8)
-  target_precompile_headers(ballast_${name} REUSE_FROM ballast_headers)
+  if(ROOM_COLD)
+    target_compile_options(ballast_${name} PRIVATE ${ballast_cold_options})
+    ballast_compile_in_batches(ballast_${name} 12)
+    target_precompile_headers(ballast_${name} REUSE_FROM ballast_cold_headers)
+  else()
+    set_property(GLOBAL APPEND PROPERTY BALLAST_HOT_ROOMS ballast_${name})
+    ballast_compile_in_batches(ballast_${name} 8)
+    target_precompile_headers(ballast_${name} REUSE_FROM ballast_headers)
+  endif()
+endfunction()
+
+# Links the objects of all rooms but the cold ones into `target` by themselves, before the cold
+# rooms' archives.
+function(ballast_hot_first target)
+  get_property(rooms GLOBAL PROPERTY BALLAST_HOT_ROOMS)
+  foreach(room IN LISTS rooms)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${room}>)
+  endforeach()
+endfunction()
+
+# Puts the sources that include JSON first: a batch that needs its templates compiles two seconds
+# longer in the front end alone, so few batches are to need them.
+function(ballast_put_together list)
+  set(first)
+  foreach(source IN LISTS ${list})
+    file(STRINGS ${source} found REGEX "include <nlohmann/json.hpp>" LIMIT_COUNT 1)
+    if(found)
+      list(APPEND first ${source})
+    endif()
+  endforeach()
+  list(REMOVE_ITEM ${list} ${first})
+  set(${list} ${first} ${${list}} PARENT_SCOPE)
 endfunction()
 
 # The batches of a target: so many sources are one translation unit. Large batches compile fast as a
@@ -28,14 +61,18 @@ function(ballast_compile_in_batches target size)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
 endfunction()
 
-# The headers that nearly all rooms need.
+# The headers that nearly all rooms need, for both kinds of rooms.
+set(ballast_cold_options $<$<CONFIG:Release>:-Og>)
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled/headers.cpp
   CONTENT "// For the precompiled headers of this target.\n")
-add_library(ballast_headers OBJECT ${CMAKE_BINARY_DIR}/precompiled/headers.cpp)
-target_link_libraries(ballast_headers PUBLIC ballast_options Eigen3::Eigen)
-target_precompile_headers(ballast_headers PRIVATE
-  <Eigen/Dense> <Eigen/Sparse> <algorithm> <chrono> <cmath> <filesystem> <fstream> <functional>
-  <iostream> <map> <memory> <optional> <set> <span> <sstream> <string> <variant> <vector>)
+foreach(headers ballast_headers ballast_cold_headers)
+  add_library(${headers} OBJECT ${CMAKE_BINARY_DIR}/precompiled/headers.cpp)
+  target_link_libraries(${headers} PUBLIC ballast_options Eigen3::Eigen)
+  target_precompile_headers(${headers} PRIVATE
+    <Eigen/Dense> <Eigen/Sparse> <algorithm> <chrono> <cmath> <filesystem> <fstream> <functional>
+    <iostream> <map> <memory> <optional> <set> <span> <sstream> <string> <variant> <vector>)
+endforeach()
+target_compile_options(ballast_cold_headers PRIVATE ${ballast_cold_options})
 
 # ballast_made_source(NAME SOURCE CODE): writes CODE into SOURCE, a part of the room ballast_NAME. A
 # file that says so already stays, so that nothing is compiled again.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/exact_answer.hpp"
 #include "experiments/measure/jam_stiffness.hpp"
 #include "platform/csv.hpp"
@@ -40,12 +41,6 @@ std::vector<double> values_of(const std::vector<const CapturedRow*>& rows, const
   for (const CapturedRow* row : rows)
     if (const double value = m.of(*row); std::isfinite(value)) values.push_back(value);
   return values;
-}
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 /// One solver from one start to one tolerance, on all problems.
@@ -219,7 +214,7 @@ Figure captured_figure(const CapturedOptions& options, const std::vector<Capture
           for (const CapturedRow* row : group.rows)
             cost.push_back(row->solved ? row->seconds : HUGE_VAL);
           const std::vector<double> values = values_of(group.rows, m);
-          const double x = median_of(cost), y = values.empty() ? 0.0 : median_of(values);
+          const double x = quantile(cost, 0.5), y = values.empty() ? 0.0 : quantile(values, 0.5);
           if (!std::isfinite(x) || !(y > 0.0)) continue;
           line.x.push_back(x);
           line.y.push_back(y);

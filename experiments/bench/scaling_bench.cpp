@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/step/step_record.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/child_process.hpp"
@@ -25,10 +26,6 @@ double peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-double median_of(std::vector<double> values) {
-  return measurement_of("", "", "", std::move(values)).median;
-}
-
 /// Wall clock of a sweep [s].
 double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int sweeps,
                      int threads) {
@@ -44,7 +41,7 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
     sweep.sweep();
     seconds.push_back(watch.seconds());
   }
-  return median_of(std::move(seconds));
+  return quantile(seconds, 0.5);
 }
 
 /// Solves the step's problem once more by another solver, and notes what that took.
@@ -81,10 +78,10 @@ ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& opti
     solve.push_back(ns * r.seconds_solve);
     step.push_back(ns * step_seconds(r));
   }
-  point.detect = median_of(std::move(detect));
-  point.assemble = median_of(std::move(assemble));
-  point.solve = median_of(std::move(solve));
-  point.step = median_of(std::move(step));
+  point.detect = quantile(detect, 0.5);
+  point.assemble = quantile(assemble, 0.5);
+  point.solve = quantile(solve, 0.5);
+  point.step = quantile(step, 0.5);
   point.bytes = (peak_bytes() - before) / point.grains;
   // The last step's problem once more: a sweep alone, then each solver to the tolerance.
   Impulses warm;

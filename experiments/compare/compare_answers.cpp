@@ -34,8 +34,8 @@ std::string again(const RunData& data, const CompareRow& row) {
       "ballast compare {case} --solvers {solver} --tolerances {tolerance} --starts {start} "
       "--measure " +
       std::string(name_of(row.measure)) + printed(" --max-seconds %g", row.max_seconds);
-  if (data.manifest.contains("/summary/memory_MB"_json_pointer))
-    command += printed(" --memory %g", data.manifest["summary"]["memory_MB"].get<double>());
+  if (data.manifest().contains("/summary/memory_MB"_json_pointer))
+    command += printed(" --memory %g", data.manifest()["summary"]["memory_MB"].get<double>());
   return command + " --output results/again";
 }
 

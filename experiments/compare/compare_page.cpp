@@ -98,17 +98,6 @@ page::Table cases_table(const CompareTable& table) {
   return result;
 }
 
-/// What the comparison noted of its options in the manifest.
-page::Table options_table(const RunData& data) {
-  page::Table table = page::facts_table();
-  if (const auto summary = data.manifest.find("summary"); summary != data.manifest.end())
-    for (const auto& [name, value] : summary->items())
-      table.rows.push_back({name, value.is_number()   ? page::exact(value.get<double>())
-                                  : value.is_string() ? page::Text(value.get<std::string>())
-                                                      : page::Text(value.dump())});
-  return table;
-}
-
 page::Table ratios_table(const ReferenceComparison& comparison, double limit) {
   page::Table ratios;
   ratios.head = {"shift of the mean", "our fastest over theirs",

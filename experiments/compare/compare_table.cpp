@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "experiments/measure/curve_fit.hpp"
+
 namespace ballast {
 namespace {
 
@@ -13,12 +15,6 @@ size_t index_of(std::vector<std::string>& names, const std::string& name) {
   if (found != names.end()) return static_cast<size_t>(found - names.begin());
   names.push_back(name);
   return names.size() - 1;
-}
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 CompareCell cell_of(const std::vector<const CompareRow*>& repeats) {
@@ -38,7 +34,7 @@ CompareCell cell_of(const std::vector<const CompareRow*>& repeats) {
     seconds.push_back(row->seconds());
   }
   if (cell.solved) {
-    cell.median = median_of(seconds);
+    cell.median = quantile(seconds, 0.5);
     cell.fastest = *std::min_element(seconds.begin(), seconds.end());
     cell.slowest = *std::max_element(seconds.begin(), seconds.end());
   } else {

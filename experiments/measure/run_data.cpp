@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/record/recorder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
@@ -65,7 +67,6 @@ void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
 
 void read_manifest(RunData& data) {
   const fs::path file = data.folder / "manifest.json";
-  data.manifest = nlohmann::ordered_json::object();
   if (!is_there(file)) {
     data.notices.push_back(
         "manifest.json is missing: machine, commit and the run's summary are not known.");
@@ -75,7 +76,7 @@ void read_manifest(RunData& data) {
     data.manifest_text = read_whole_file(file);
     auto parsed = nlohmann::ordered_json::parse(data.manifest_text, nullptr, false);
     if (!parsed.is_object()) throw Error(broken_json);
-    data.manifest = std::move(parsed);
+    data.stored_manifest = std::make_shared<const nlohmann::ordered_json>(std::move(parsed));
   } catch (const Error& error) {
     data.notices.push_back(std::string("manifest.json cannot be read: ") + error.what());
   }
@@ -131,9 +132,14 @@ RunFacts facts_of(const RunData& data) {
 
 }  // namespace
 
+const nlohmann::ordered_json& RunData::manifest() const {
+  static const auto none = nlohmann::ordered_json::object();
+  return stored_manifest ? *stored_manifest : none;
+}
+
 double RunData::summary_number(const std::string& name) const {
-  const auto summary = manifest.find("summary");
-  if (summary == manifest.end() || !summary->is_object()) return not_known;
+  const auto summary = manifest().find("summary");
+  if (summary == manifest().end() || !summary->is_object()) return not_known;
   const auto value = summary->find(name);
   return value != summary->end() && value->is_number() ? value->get<double>() : not_known;
 }

@@ -3,11 +3,12 @@
 // must be there.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "experiments/measure/run_summary.hpp"
 #include "experiments/step/step_record.hpp"
@@ -18,14 +19,16 @@ namespace ballast {
 struct RunData {
   std::filesystem::path folder;
   std::vector<StepRecord> steps;
-  nlohmann::ordered_json manifest;        ///< an object; empty when there is none
+  std::shared_ptr<const nlohmann::ordered_json> stored_manifest;  ///< an object, or nothing
   std::string manifest_text, scene_text;  ///< as in the files; empty when missing
   std::optional<Scene> scene;             ///< when scene.toml is there and valid
   RunFacts facts;                         ///< from the manifest's summary, else from the scene
   std::vector<std::string> notices;  ///< what was missing, broken or not finite: one line each, for
                                      ///< the reader of the report
 
-  /// A number of manifest.summary; NaN when it isn't there or no number.
+  /// An object; empty when there is none.
+  const nlohmann::ordered_json& manifest() const;
+  /// A number of the manifest's summary; NaN when it isn't there or no number.
   double summary_number(const std::string& name) const;
 };
 

@@ -1,6 +1,6 @@
 #include "experiments/measure/weighted_fit.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "experiments/measure/significance.hpp"
@@ -13,15 +13,15 @@ double WeightedFit::error_at(const Eigen::VectorXd& row) const {
 
 WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
                          const Eigen::VectorXd& error) {
-  // every row in units of its error: then ordinary least squares
+  // every row in units of its error: then ordinary least squares, by the normal equations
   const Eigen::VectorXd weight = error.cwiseInverse();
   const Eigen::MatrixXd scaled = weight.asDiagonal() * design;
   const Eigen::VectorXd target = weight.cwiseProduct(y);
   WeightedFit fit;
-  fit.value = scaled.colPivHouseholderQr().solve(target);
   const Eigen::Index values = design.cols();
-  const Eigen::MatrixXd normal = scaled.transpose() * scaled;
-  fit.covariance = normal.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(values, values));
+  const Eigen::LDLT<Eigen::MatrixXd> normal(scaled.transpose() * scaled);
+  fit.value = normal.solve(scaled.transpose() * target);
+  fit.covariance = normal.solve(Eigen::MatrixXd::Identity(values, values));
   fit.chi2 = (target - scaled * fit.value).squaredNorm();
   fit.degrees_of_freedom = static_cast<int>(design.rows() - values);
   return fit;

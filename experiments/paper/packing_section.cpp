@@ -15,9 +15,9 @@ struct ForcePhase {
   const char* name;
   Ink ink;
 };
-constexpr std::array phases{ForcePhase{WallPhase::jammed, "jammed", Ink::green},
-                            ForcePhase{WallPhase::active, "active", Ink::blue},
-                            ForcePhase{WallPhase::passive, "passive", Ink::vermilion}};
+constexpr std::array force_phases{ForcePhase{WallPhase::jammed, "jammed", Ink::green},
+                                  ForcePhase{WallPhase::active, "active", Ink::blue},
+                                  ForcePhase{WallPhase::passive, "passive", Ink::vermilion}};
 
 struct Row {
   const char* name;
@@ -87,11 +87,11 @@ struct PhaseFindings {
 };
 
 /// Takes in one run's states of a phase; returns how many states of any phase it has.
-int add_run(const MotionRun& run, std::array<PhaseFindings, phases.size()>& findings) {
-  std::array<RowValues, phases.size()> of_run;
+int add_run(const MotionRun& run, std::array<PhaseFindings, force_phases.size()>& findings) {
+  std::array<RowValues, force_phases.size()> of_run;
   const int states = for_each_state(run, [&](const StoredState& state) {
-    for (size_t p = 0; p < phases.size(); ++p) {
-      if (state.phase != phases[p].phase) continue;
+    for (size_t p = 0; p < force_phases.size(); ++p) {
+      if (state.phase != force_phases[p].phase) continue;
       const PackingStatistics found =
           packing_statistics(state.system, state.at.state, state.at.memory.contacts,
                              state.at.memory.impulses, state.step);
@@ -100,7 +100,7 @@ int add_run(const MotionRun& run, std::array<PhaseFindings, phases.size()>& find
       findings[p].forces.add(relative_normal_forces(state.system, state.pairs()));
     }
   });
-  for (size_t p = 0; p < phases.size(); ++p)
+  for (size_t p = 0; p < force_phases.size(); ++p)
     for (size_t r = 0; r < table_rows.size(); ++r)
       findings[p].samples[r].push_back(statistics(of_run[p][r]).mean);
   return states;
@@ -110,7 +110,7 @@ int add_run(const MotionRun& run, std::array<PhaseFindings, phases.size()>& find
 
 PaperSection packing_section(PaperData& data) {
   PaperSection section{.text = {page::words("packing.intro")}};
-  std::array<PhaseFindings, phases.size()> findings;
+  std::array<PhaseFindings, force_phases.size()> findings;
   int states = 0;
   for (const MotionRun& run : read_motion(data, section)) states += add_run(run, findings);
   if (states == 0) {
@@ -128,11 +128,12 @@ PaperSection packing_section(PaperData& data) {
               .y_label = "probability density",
               .log_y = true};
   page::Text tails;
-  for (size_t p = 0; p < phases.size(); ++p) {
+  for (size_t p = 0; p < force_phases.size(); ++p) {
     const Histogram& forces = findings[p].forces;
     if (forces.is_empty()) continue;
-    panel.curves.push_back(forces.curve(phases[p].name, phases[p].ink));
-    add_to_list(tails, std::string(phases[p].name) + " β = " + page::number(forces.beta()), ", ");
+    panel.curves.push_back(forces.curve(force_phases[p].name, force_phases[p].ink));
+    add_to_list(tails, std::string(force_phases[p].name) + " β = " + page::number(forces.beta()),
+                ", ");
   }
   if (!panel.curves.empty()) section.draw("forces", {.panels = {panel}}, {{"tails", tails}});
   return section;

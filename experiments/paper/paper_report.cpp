@@ -1,6 +1,7 @@
 #include "experiments/paper/paper_report.hpp"
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"

@@ -24,13 +24,13 @@ Found at_motion(PaperData& data, const std::vector<VariedValue>& values, RunMeas
 }
 
 /// One of the paper's numbers.
-struct Quantity {
+struct PaperNumber {
   const char* name;
   PaperRange range;
   Found (*find)(PaperData& data, const std::vector<VariedValue>& values);
 };
 
-std::vector<Quantity> quantities() {
+std::vector<PaperNumber> paper_numbers() {
   using Values = std::vector<VariedValue>;
   return {{"exponent of Δx~max~ in ν", PaperRange::exponent(-2.0),
            [](PaperData&, const Values& v) { return exponent_of(v, &Observation::rise); }},
@@ -68,12 +68,12 @@ PaperSection reading_section(PaperData& data) {
   keep_common(base, reading);
   page::Table table = page::words_table("reading.table");
   int agree[2] = {0, 0};
-  for (const Quantity& quantity : quantities()) {
-    std::vector<page::Text> row{page::marked(quantity.name), words_of(quantity.range)};
+  for (const PaperNumber& number : paper_numbers()) {
+    std::vector<page::Text> row{page::marked(number.name), words_of(number.range)};
     for (const auto& [scene, values] :
          {std::pair{0, &std::as_const(base)}, std::pair{1, &reading}}) {
-      const Found seen = quantity.find(data, *values);
-      const Agreement verdict = agreement_of(quantity.range, seen);
+      const Found seen = number.find(data, *values);
+      const Agreement verdict = agreement_of(number.range, seen);
       agree[scene] += verdict == Agreement::agrees || verdict == Agreement::partly;
       row.push_back(words_of(seen));
       row.push_back(word_of(verdict));

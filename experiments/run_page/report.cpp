@@ -20,13 +20,6 @@
 namespace ballast {
 namespace {
 
-std::string name_of_run(const RunData& data) {
-  if (data.scene && !data.scene->title.empty()) return data.scene->title;
-  const auto scene = data.manifest.find("scene");
-  if (scene != data.manifest.end() && scene->is_string()) return scene->get<std::string>();
-  return data.folder.filename().string();
-}
-
 /// How much was run, and by what.
 std::vector<page::Text> lede_of(const RunData& data, const RunSummary& summary) {
   page::Text extent = page::exact(static_cast<double>(summary.steps)) + " steps, " +

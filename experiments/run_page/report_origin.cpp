@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <nlohmann/json.hpp>
+
 #include "platform/file_kind.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
@@ -33,15 +35,15 @@ using Json = nlohmann::ordered_json;
 /// What the manifest says at "/group/name", as words; empty when it says nothing.
 std::string text_at(const RunData& data, const char* where) {
   const Json::json_pointer at(where);
-  if (!data.manifest.contains(at) || data.manifest[at].is_null()) return {};
-  return readable(data.manifest[at]);
+  if (!data.manifest().contains(at) || data.manifest()[at].is_null()) return {};
+  return readable(data.manifest()[at]);
 }
 
 /// The texts in a list of the manifest; empty when there is no such list.
 std::vector<std::string> list_at(const RunData& data, const char* name) {
   std::vector<std::string> list;
-  const auto found = data.manifest.find(name);
-  if (found != data.manifest.end() && found->is_array())
+  const auto found = data.manifest().find(name);
+  if (found != data.manifest().end() && found->is_array())
     for (const Json& entry : *found) list.push_back(readable(entry));
   return list;
 }
@@ -104,6 +106,13 @@ void add_noted(std::string name, const Json& value, page::Table& table) {
 
 }  // namespace
 
+std::string name_of_run(const RunData& data) {
+  if (data.scene && !data.scene->title.empty()) return data.scene->title;
+  const auto scene = data.manifest().find("scene");
+  if (scene != data.manifest().end() && scene->is_string()) return scene->get<std::string>();
+  return data.folder.filename().string();
+}
+
 page::Table parameters_table(const RunData& data) {
   page::Table table = page::facts_table();
   if (data.scene) add_scene(*data.scene, table);
@@ -112,8 +121,8 @@ page::Table parameters_table(const RunData& data) {
     list += (list.empty() ? "" : "\n") + set;
   if (!list.empty())
     table.rows.push_back({"settings other than the scene’s (--set)", page::Text(list, page::code)});
-  const auto summary = data.manifest.find("summary");
-  if (summary != data.manifest.end() && summary->is_object())
+  const auto summary = data.manifest().find("summary");
+  if (summary != data.manifest().end() && summary->is_object())
     for (const auto& [name, value] : summary->items()) add_noted(name, value, table);
   return table;
 }

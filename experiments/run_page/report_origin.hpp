@@ -9,6 +9,8 @@
 
 namespace ballast {
 
+/// The scene's title, else its name, else the folder's.
+std::string name_of_run(const RunData& data);
 /// The scene's parameters and what the run noted in its manifest.
 page::Table parameters_table(const RunData& data);
 /// Program, machine, dates.

@@ -7,7 +7,7 @@ namespace ballast {
 
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::max();
+constexpr double kLargest = std::numeric_limits<double>::max();
 
 EdgeOfFace edge_of_copy(const CollisionShape::Edge& edge, const FaceCopy& face, int own) {
   return {edge, face.view().sides, own};
@@ -17,11 +17,11 @@ EdgeOfFace edge_of_copy(const CollisionShape::Edge& edge, const FaceCopy& face, 
 /// others.
 struct LowestCorner {
   int place = 0;  // in the face's loop; of equals the smallest vertex
-  double height = kFar, clearance = kFar;
+  double height = kLargest, clearance = kLargest;
 };
 LowestCorner lowest_corner(const FaceCopy& face, const Vec3& direction) {
   LowestCorner low;
-  double second = kFar;
+  double second = kLargest;
   for (int k = 0; k < face.count; ++k) {
     const double height = vertex_height(direction, face.corner[k].position);
     const bool is_lower =
@@ -81,13 +81,13 @@ void TouchingPair::record_faces(const ShapePair& pair, int support, double turn,
   const Vec3 direction = pair.other[1 - own].rotation * faces.reference.face.normal;
   other.vertices().evaluate(direction, heights.data());
   const double lowest = heights[support];
-  for (const CollisionShape::Corner& corner : corners) heights[corner.vertex] = kFar;
+  for (const CollisionShape::Corner& corner : corners) heights[corner.vertex] = kLargest;
   faces.clearance = *std::min_element(heights.begin(), heights.begin() + other.vertices().count());
   faces.clearance -= lowest;
   // The faces that compete with the incident one, corner by corner.
   const double cosine = faces.incident.face.normal.dot(direction);
   for (size_t k = 0; k < corners.size(); ++k) {
-    faces.lead[k] = kFar;
+    faces.lead[k] = kLargest;
     const int vertex = corners[k].vertex;
     for (int i = 0; i < other.vertex_face_count(vertex); ++i)
       if (const int g = other.vertex_face(vertex, i); g != incident)

@@ -91,22 +91,22 @@ double move_to_planes(Vec3& corner, std::span<const int> faces, std::span<const 
     worst = std::max(worst, std::abs(height));
   }
   // In general position N'N tells it, to all digits that the next turn needs.
+  constexpr double parallel = 1e-10;
   if (faces.size() >= 3) {
     const Eigen::LDLT<Mat3> factor(square);
     const Vec3 pivots = factor.vectorD();
-    if (pivots.minCoeff() > 1e-10 * pivots.maxCoeff()) {
+    if (pivots.minCoeff() > parallel * pivots.maxCoeff()) {
       corner -= factor.solve(right);
       return worst;
     }
   }
-  Eigen::MatrixXd normals(static_cast<Eigen::Index>(faces.size()), 3);
-  Eigen::VectorXd off(normals.rows());
-  for (Eigen::Index k = 0; k < normals.rows(); ++k) {
-    const Plane& plane = planes[static_cast<size_t>(faces[static_cast<size_t>(k)])];
-    normals.row(k) = plane.normal.transpose();
-    off[k] = plane.height(corner);
+  // Planes that are nearly parallel tell nothing across their common direction: d leaves it out.
+  const Eigen::SelfAdjointEigenSolver<Mat3> squares(square);
+  const Vec3& value = squares.eigenvalues();  // growing
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = squares.eigenvectors().col(k);
+    if (value[k] > parallel * value[2]) corner -= axis.dot(right) / value[k] * axis;
   }
-  corner -= normals.completeOrthogonalDecomposition().solve(off);
   return worst;
 }
 

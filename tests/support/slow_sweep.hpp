@@ -1,6 +1,9 @@
 #pragma once
 // The obvious twin of every Gauss-Seidel sweep: dense matrices, one contact after the other.
 
+#include <numeric>
+#include <vector>
+
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/gauss_seidel/sweep_plan.hpp"
@@ -15,6 +18,13 @@ inline std::vector<int> plan_order(const FrictionProblem& problem) {
   SweepPlan plan;
   plan.prepare(problem);
   return plan.contacts();
+}
+
+/// The contacts as they are listed.
+inline std::vector<int> in_order(const FrictionProblem& problem) {
+  std::vector<int> contacts(static_cast<size_t>(problem.contact_count()));
+  std::iota(contacts.begin(), contacts.end(), 0);
+  return contacts;
 }
 
 /// One sweep in the given order; each contact is solved by itself against all others. `w`, `q`: of

@@ -38,7 +38,9 @@ TEST_CASE("The page's data are the cells of the CSV, to the letter") {
 
 TEST_CASE("Memory is limited as it was") {
   RunData data;
-  data.manifest["summary"]["memory_MB"] = 512.0;
+  auto manifest = std::make_shared<nlohmann::ordered_json>();
+  (*manifest)["summary"]["memory_MB"] = 512.0;
+  data.stored_manifest = manifest;
   const std::vector<CompareRow> rows = {hand_made_row("x", "a", 0.1, Outcome::solved)};
   const Json json = Json::parse(comparison_answers(data, rows, 60.0).data);
   CHECK(json["again"].get<std::string>().find("--memory 512") != std::string::npos);

@@ -9,7 +9,7 @@ using namespace ballast;
 
 namespace {
 
-constexpr double side = 0.1, mass = 2.0, load = 40.0;
+constexpr double side = 0.1, cube_mass = 2.0, load = 40.0;
 
 /// `count` cubes in a row on a fixed wall, and a driven one on the last of them; no gravity.
 Scene row_of_cubes(int count) {
@@ -18,7 +18,7 @@ Scene row_of_cubes(int count) {
   scene.walls.push_back(floor_at_zero(0.0));
   for (int k = 0; k < count; ++k)
     scene.bodies.push_back(
-        cube(("cube" + std::to_string(k)).c_str(), side, mass, Vec3(0, 0, (k + 0.5) * side)));
+        cube(("cube" + std::to_string(k)).c_str(), side, cube_mass, Vec3(0, 0, (k + 0.5) * side)));
   WallSpec lid;
   lid.name = "lid";
   lid.normal = -Vec3::UnitZ();

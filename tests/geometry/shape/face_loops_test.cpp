@@ -5,19 +5,9 @@
 #include "geometry/shape/mass_properties.hpp"
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
+#include "tests/geometry/shape/loops_of.hpp"
 
 using namespace ballast;
-
-namespace {
-
-Loops loops_of(const Polyhedron& solid) {
-  Loops loops;
-  for (int f = 0; f < solid.face_count(); ++f)
-    loops.emplace_back(solid.face(f).begin(), solid.face(f).end());
-  return loops;
-}
-
-}  // namespace
 
 TEST_CASE("loops in any order, begun anywhere and turned round are put in one order") {
   const Polyhedron box = make_box(Vec3(1, 2, 3));

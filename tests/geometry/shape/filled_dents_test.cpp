@@ -13,7 +13,7 @@ using namespace ballast;
 namespace {
 
 /// Faces by the points themselves: two numberings are compared.
-std::vector<std::vector<std::array<double, 3>>> faces_of(const Polyhedron& solid) {
+std::vector<std::vector<std::array<double, 3>>> faces_by_place(const Polyhedron& solid) {
   std::vector<std::vector<std::array<double, 3>>> faces;
   for (int f = 0; f < solid.face_count(); ++f) {
     auto& face = faces.emplace_back();
@@ -45,7 +45,7 @@ TEST_CASE("filled dents: the hull of the points, where neighbours are bent eithe
     REQUIRE(loops);
     // Of 4e-3 the middle of an edge lies below the sphere: corners lie within from there on.
     CHECK((loops->size() < static_cast<size_t>(mesh.face_count())) == (most > 3e-4));
-    CHECK(faces_of(solid_of(mesh.vertices(), *loops)) == faces_of(hull));
+    CHECK(faces_by_place(solid_of(mesh.vertices(), *loops)) == faces_by_place(hull));
   }
 }
 
@@ -56,7 +56,7 @@ TEST_CASE("filled dents: a convex mesh stays as it is") {
   const Polyhedron hull = convex_hull(points);
   const std::optional<Loops> loops = filled_dents(hull);
   REQUIRE(loops);
-  CHECK(faces_of(solid_of(hull.vertices(), *loops)) == faces_of(hull));
+  CHECK(faces_by_place(solid_of(hull.vertices(), *loops)) == faces_by_place(hull));
 }
 
 TEST_CASE("filled dents: a deep dent, filled step by step") {
@@ -89,7 +89,7 @@ TEST_CASE("filled dents: crumpled meshes, whose surface passes through itself") 
         for (const Vec3& p : mesh.vertices())
           is_within &= solid.normal(f).dot(p) <= solid.offset(f) + 1e-12;
       if (!is_within) continue;
-      CHECK(faces_of(solid) == faces_of(convex_hull(mesh.vertices())));
+      CHECK(faces_by_place(solid) == faces_by_place(convex_hull(mesh.vertices())));
       ++hulls;
     } catch (const InvalidPolyhedron&) {
       continue;
@@ -117,5 +117,5 @@ TEST_CASE("filled dents: faces of more corners are cut") {
   REQUIRE(loops);
   CHECK(loops->size() == 5 + 5 + 7 * 2);
   const Polyhedron solid = solid_of(mesh.vertices(), *loops);
-  CHECK(faces_of(convex_hull_of_mesh(solid)) == faces_of(convex_hull(points)));
+  CHECK(faces_by_place(convex_hull_of_mesh(solid)) == faces_by_place(convex_hull(points)));
 }

@@ -9,6 +9,7 @@
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/random_direction.hpp"
 #include "tests/catch.hpp"
+#include "tests/geometry/shape/loops_of.hpp"
 
 using namespace ballast;
 
@@ -18,12 +19,6 @@ using Faces = std::vector<std::vector<int>>;
 
 std::vector<Vec3> vertices_of(const Polyhedron& p) {
   return {p.vertices().begin(), p.vertices().end()};
-}
-
-Faces loops_of(const Polyhedron& p) {
-  Faces faces;
-  for (int f = 0; f < p.face_count(); ++f) faces.emplace_back(p.face(f).begin(), p.face(f).end());
-  return faces;
 }
 
 /// The complaint about a mesh; empty when it is accepted.

@@ -1,7 +1,5 @@
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
 
-#include <numeric>
-
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
@@ -11,16 +9,6 @@
 #include "tests/support/slow_sweep.hpp"
 
 using namespace ballast;
-
-namespace {
-
-std::vector<int> in_order(const FrictionProblem& problem) {
-  std::vector<int> order(problem.contact_count());
-  std::iota(order.begin(), order.end(), 0);
-  return order;
-}
-
-}  // namespace
 
 TEST_CASE("sweeps on the stored W are those of dense matrices, contact after contact") {
   const FrictionProblem dynamics = make_known_solution({.bodies = 20, .contacts = 18}).problem;

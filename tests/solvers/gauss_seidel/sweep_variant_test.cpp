@@ -1,7 +1,6 @@
 #include "solvers/gauss_seidel/sweep_variant.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/gauss_seidel/body_sweep.hpp"
@@ -17,12 +16,6 @@ namespace {
 
 std::vector<FrictionProblem> problems() {
   return {make_known_solution({.contacts = 60}).problem, oracle::mixed_problem()};
-}
-
-std::vector<int> in_order(const FrictionProblem& problem) {
-  std::vector<int> contacts(problem.contact_count());
-  std::iota(contacts.begin(), contacts.end(), 0);
-  return contacts;
 }
 
 /// The plain sweep's own order.

@@ -35,7 +35,7 @@ Eigen::MatrixXd dense_matrix(const FrictionProblem& problem,
   return oracle::dense_mass(problem) + h.transpose() * middle * h;
 }
 
-Eigen::VectorXd right_side(int rows) {
+Eigen::VectorXd wavy_side(int rows) {
   Eigen::VectorXd b(rows);
   for (int i = 0; i < rows; ++i) b[i] = std::sin(1.7 * i + 0.3);
   return b;
@@ -79,7 +79,7 @@ TEST_CASE("the matrix of bodies is that of its definition, for one set of gains 
     matrix.prepare(problem);
     CHECK(matrix.operations() > 0.0);
     std::vector<Eigen::Matrix3d> gain = some_gains(problem);
-    const Eigen::VectorXd b = right_side(problem.dynamics.dof_count());
+    const Eigen::VectorXd b = wavy_side(problem.dynamics.dof_count());
     for (const double factor : {1.0, 30.0}) {
       for (Eigen::Matrix3d& block : gain) block *= factor;
       const Eigen::VectorXd exact = dense_matrix(problem, gain).partialPivLu().solve(b);
