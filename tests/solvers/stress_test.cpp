@@ -202,7 +202,7 @@ std::string table_cell(const SolverEntry& entry, const StressProblem& stress) {
 
 }  // namespace
 
-/// Writes the tables of docs/measured/.../stress_table.md: a row per problem, at most eight
+/// Writes the tables of all backends on hard problems: a row per problem, at most eight
 /// backends beside each other.
 TEST_CASE("stress: table of every backend", "[.stress_table]") {
   constexpr std::size_t widest = 8;
