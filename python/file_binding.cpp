@@ -63,7 +63,7 @@ void answer(const ExternalRequest& request, const std::filesystem::path& file, i
             const std::optional<Doubles>& r, int iterations, double residual, double seconds,
             const Doubles& history) {
   ExternalAnswer answer;
-  answer.status = static_cast<ExternalStatus>(status);
+  answer.set_status(status);
   if (r) answer.impulses = impulses_of(request.problem, *r);
   answer.iterations = iterations;
   answer.own_residual = residual;

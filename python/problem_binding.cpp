@@ -153,19 +153,19 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   const Impulses from = start ? impulses_of(problem, *start) : Impulses();
   const auto solver = make_solver(name);
   SolverRun run;
-  Finding found;
+  std::string words;
   {
     // Other threads of Python go on.
     const py::gil_scoped_release released;
     if (!is_absolute) tolerance *= scale_of(problem);
     run =
         SolverRunner().run(*solver, problem, from, {tolerance, max_iterations, max_seconds, true});
-    found = finding_on(problem, run.solved.impulses, run.solved.reason, run.error, tolerance);
+    words = explained(problem, run, tolerance);
   }
   py::dict d;
   d["impulses"] = in_threes(three_rows(problem, run.solved.impulses));
-  d["verdict"] = name_of(found.verdict);
-  d["words"] = run.failure.empty() ? found.words : run.failure;
+  d["verdict"] = name_of(run.verdict);
+  d["words"] = run.failure.empty() ? words : run.failure;
   d["reason"] = name_of(run.solved.reason);
   d["iterations"] = run.solved.iterations;
   d["own_residual"] = run.solved.own_residual;

@@ -25,5 +25,5 @@ int main() {
   std::printf("%s\n", ballast::name_of(run.verdict));
   for (const double r : run.solved.impulses) std::printf("%.6f\n", r);
   ballast::write_problem("two_boxes.hdf5", problem);
-  return run.success ? 0 : 1;
+  return run.is_solved() ? 0 : 1;
 }

@@ -10,7 +10,6 @@
 #include <problems/algebra/contact_error.hpp>
 #include <problems/files/problem_file.hpp>
 #include <solvers/seam/run_solver.hpp>
-#include <solvers/seam/verdict.hpp>
 #include <solvers/solver_list.hpp>
 
 int main(int count, char** words) {
@@ -24,9 +23,7 @@ int main(int count, char** words) {
     const auto solver = ballast::make_solver(words[2]);
     const ballast::SolverRun run = ballast::SolverRunner().run(
         *solver, problem, {}, {.tolerance = tolerance, .max_iterations = 10000});
-    const ballast::Finding found =
-        ballast::finding_on(problem, run.solved.impulses, run.solved.reason, run.error, tolerance);
-    if (found.verdict != ballast::Verdict::solved) return 1;
+    if (!run.is_solved()) return 1;
     std::printf("%.9f\n", ballast::processor_seconds() - begin);
   }
 }

@@ -93,7 +93,7 @@ class CapturedSolves {
     const SolverRun run =
         SolverRunner().run(*method, loaded_.problem,
                            start == StartKind::warm ? loaded_.warm_start : Impulses(), budget);
-    row.solved = run.success;
+    row.solved = run.is_solved();
     row.iterations = run.solved.iterations;
     row.seconds = run.processor_seconds;
     row.error = run.error.natural_map_rms / scale;

@@ -53,8 +53,8 @@ void solve_again(const std::string& solver, const FrictionProblem& problem, cons
   backend->use_team(&team);
   SolverRunner runner;
   const SolverRun run = runner.run(*backend, problem, start, budget);
-  point.iterations.push_back(run.success ? run.solved.iterations
-                                         : std::numeric_limits<double>::infinity());
+  point.iterations.push_back(run.is_solved() ? run.solved.iterations
+                                             : std::numeric_limits<double>::infinity());
   point.seconds.push_back(run.prepare_seconds + run.solve_seconds);
 }
 

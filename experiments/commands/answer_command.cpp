@@ -33,7 +33,7 @@ ExternalAnswer answer_to(const ExternalRequest& request, const std::string& name
   const auto solver = make_solver(name);
   try {
     SolverRun run = SolverRunner().run(*solver, request.problem, request.start, budget);
-    answer.status = static_cast<ExternalStatus>(run.solved.reason);  // numerical_failure: failed
+    answer.reason = run.solved.reason;
     answer.impulses = std::move(run.solved.impulses);
     answer.iterations = run.solved.iterations;
     answer.own_residual = run.solved.own_residual;
@@ -41,7 +41,7 @@ ExternalAnswer answer_to(const ExternalRequest& request, const std::string& name
     answer.history = std::move(run.solved.history);
   } catch (const UnsupportedProblem& error) {
     std::cerr << error.what() << '\n';
-    answer.status = ExternalStatus::unsupported;
+    answer.verdict = Verdict::unsupported;
   }
   return answer;
 }

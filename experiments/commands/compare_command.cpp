@@ -62,16 +62,16 @@ bool tell_row(const CompareRow& row, bool was_there, size_t done, size_t count) 
 }
 
 bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
-  if (row.outcome == Outcome::unreadable) {
+  if (row.verdict == Verdict::unreadable) {
     std::cout << printed("%5zu/%zu  %-34.34s unreadable: ", done, count, row.case_name.c_str())
               << row.note << std::endl;
     return !InterruptGuard::requested();
   }
   std::cout << printed("%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done,
                        count, row.case_name.c_str(), row.solver.c_str(), row.tolerance,
-                       name_of(row.start), name_of(row.outcome), row.seconds(), row.error,
+                       name_of(row.start), name_of(row.verdict), row.seconds(), row.error,
                        was_there ? "  (was there)" : "",
-                       row.is_false_success() ? "  JUDGE DISAGREES" : "")
+                       row.verdict == Verdict::denied ? "  JUDGE DISAGREES" : "")
             << (std::isnan(row.error) && !row.note.empty() ? "  " + row.note : "") << std::endl;
   return !InterruptGuard::requested();
 }
@@ -91,7 +91,7 @@ ExitCode verdict_on_cases(const std::vector<CompareRow>& rows, size_t cases) {
   std::string reasons;
   size_t count = 0;
   for (const CompareRow& row : rows) {
-    if (row.outcome != Outcome::unreadable) continue;
+    if (row.verdict != Verdict::unreadable) continue;
     ++count;
     reasons += (reasons.empty() ? "" : "; ") + row.note;
   }

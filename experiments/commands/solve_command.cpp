@@ -43,7 +43,7 @@ struct SolvedFile {
   /// Why nothing was solved, and what is wrong: "unreadable", "unsupported"; of a program
   /// "out_of_time", "crashed". Empty: it was.
   std::string refused, why;
-  Finding found;
+  std::string words;  ///< what came of it (explained())
 };
 
 /// One number of the table: its heading, its JSON name, where it is.
@@ -95,7 +95,7 @@ void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
       .texts = {{"problem", solved.file},
                 {"solver", options.solver},
                 {"reason", name_of(solved.run.solved.reason)},
-                {"verdict", name_of(solved.found.verdict)}}};
+                {"verdict", name_of(solved.run.verdict)}}};
   for (const Measure& m : measures) stored.numbers.emplace_back(m.name, m.value(solved));
   const std::filesystem::path file = answer_of(solved.file, options.output);
   std::error_code error;
@@ -123,8 +123,7 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
       options.start.empty() ? Impulses() : read_solution(answer_of(file, options.start), problem);
   solved.run = runner.run(*solver, problem, start,
                           {solved.tolerance, options.max_iterations, options.max_seconds, false});
-  solved.found = finding_on(problem, solved.run.solved.impulses, solved.run.solved.reason,
-                            solved.run.error, solved.tolerance);
+  solved.words = explained(problem, solved.run, solved.tolerance);
   if (!options.output.empty()) keep_answer(problem, solved, options);
   return solved;
 }
@@ -167,7 +166,7 @@ void print_row(const SolvedFile& s, int width) {
   }
   std::string line =
       printed("%-*s%9d%8d  %-18s%8d%13s", width, name.c_str(), s.contacts, s.rows,
-              name_of(s.run.solved.reason), s.run.solved.iterations, name_of(s.found.verdict));
+              name_of(s.run.solved.reason), s.run.solved.iterations, name_of(s.run.verdict));
   for (const Measure& m : measures) line += printed("%10.2e", m.value(s));
   std::cout << line << printed("%8d", s.run.error.worst_contact) << std::endl;
 }
@@ -185,9 +184,9 @@ nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options)
                              {"rows", s.rows},
                              {"tolerance", s.tolerance},
                              {"reason", name_of(s.run.solved.reason)},
-                             {"success", s.run.success},
-                             {"verdict", name_of(s.found.verdict)},
-                             {"words", s.found.words},
+                             {"success", s.run.is_solved()},
+                             {"verdict", name_of(s.run.verdict)},
+                             {"words", s.words},
                              {"iterations", s.run.solved.iterations},
                              {"worst_contact", s.run.error.worst_contact},
                              {"finite", s.run.error.finite}};
@@ -202,11 +201,11 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
   size_t count = 0;
   bool only_time = true;
   for (const SolvedFile& s : solved) {
-    if (s.run.success) continue;
+    if (s.run.is_solved()) continue;
     ++count;
     only_time = only_time && s.refused.empty() && s.run.solved.reason == StopReason::time_limit;
-    add_to_list(failures, s.refused.empty() ? s.file + " (" + s.found.words + ")"
-                                            : s.why + " (" + s.refused + ")");
+    add_to_list(failures,
+                s.refused.empty() ? s.file + " (" + s.words + ")" : s.why + " (" + s.refused + ")");
   }
   if (count == 0) return ExitCode::ok;
   std::cerr << "ballast: " << count << " of " << solved.size()

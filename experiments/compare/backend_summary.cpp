@@ -25,12 +25,12 @@ std::vector<BackendSummary> backend_summaries(const CompareTable& table, double 
       summary.law = cell.row->law;
       summary.solved += cell.solved;
       summary.unsolved += !cell.solved;
-      summary.timeouts += cell.row->outcome == Outcome::timeout;
+      summary.timeouts += cell.row->verdict == Verdict::timeout;
       summary.crashes +=
-          cell.row->outcome == Outcome::crashed || cell.row->outcome == Outcome::out_of_memory;
-      summary.unsupported += cell.row->outcome == Outcome::unsupported;
-      summary.no_solutions += cell.row->outcome == Outcome::no_solution;
-      summary.false_successes += cell.row->is_false_success();
+          cell.row->verdict == Verdict::crashed || cell.row->verdict == Verdict::out_of_memory;
+      summary.unsupported += cell.row->verdict == Verdict::unsupported;
+      summary.no_solutions += cell.row->verdict == Verdict::no_solution;
+      summary.false_successes += cell.row->verdict == Verdict::denied;
       if (cell.solved && cell.median > 0.0)
         summary.largest_spread =
             std::max(summary.largest_spread, (cell.slowest - cell.fastest) / cell.median);

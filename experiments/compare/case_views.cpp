@@ -21,8 +21,8 @@ struct ViewedCase {
 
 /// What crashed once would take this process with it.
 bool gave_an_answer(const CompareRow& row) {
-  return row.outcome == Outcome::solved || row.outcome == Outcome::stopped ||
-         row.outcome == Outcome::timeout;
+  return row.verdict == Verdict::solved || row.verdict == Verdict::unsolved ||
+         row.verdict == Verdict::denied || row.verdict == Verdict::timeout;
 }
 
 }  // namespace

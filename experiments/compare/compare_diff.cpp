@@ -24,12 +24,12 @@ struct Repeats {
 std::map<SolveIdentity, Repeats> grouped(std::span<const CompareRow> rows) {
   std::map<SolveIdentity, Repeats> groups;
   for (const CompareRow& row : rows) {
-    if (row.outcome == Outcome::unreadable) continue;  // no backend was tried
+    if (row.verdict == Verdict::unreadable) continue;  // no backend was tried
     Repeats& repeats = groups[identity_of(row)];
     repeats.case_name = row.case_name;
     // The median tells solved from unsolved: no time is 0.
     repeats.seconds.push_back(std::max(row.seconds(), 1e-9));
-    repeats.solved = repeats.solved && row.outcome == Outcome::solved;
+    repeats.solved = repeats.solved && row.verdict == Verdict::solved;
   }
   for (auto& [identity, repeats] : groups)
     std::sort(repeats.seconds.begin(), repeats.seconds.end());

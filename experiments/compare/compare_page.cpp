@@ -209,7 +209,7 @@ void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows
   const RunData data = read_origin(folder);
   std::vector<CompareRow> tried, unreadable;
   for (const CompareRow& row : rows)
-    (row.outcome == Outcome::unreadable ? unreadable : tried).push_back(row);
+    (row.verdict == Verdict::unreadable ? unreadable : tried).push_back(row);
   write_with_origin(compare_page(data, tried, unreadable, reference), data,
                     folder / "compare.html");
 }

@@ -17,9 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* measure_names[] = {"natural_map", "fclib"};
 constexpr const char* start_names[] = {"cold", "warm"};
-constexpr const char* outcome_names[] = {"solved",      "stopped",       "timeout",
-                                         "crashed",     "out_of_memory", "unsupported",
-                                         "no_solution", "unreadable"};
 
 template <typename Enum, size_t count>
 Enum by_name(const char* const (&names)[count], const std::string& name, const char* what) {
@@ -48,8 +45,6 @@ void for_members(Row& row, F&& f) {
   f("content", row.facts.content);
   f("reason", row.reason);
   f("note", row.note);
-  f("claimed", row.claimed);
-  f("judged", row.judged);
   f("error", row.error);
   f("natural_map_rms", row.natural_map_rms);
   f("natural_map_max", row.natural_map_max);
@@ -121,7 +116,6 @@ std::vector<CompareColumn> problem_columns() {
 
 const char* name_of(Measure measure) { return measure_names[static_cast<size_t>(measure)]; }
 const char* name_of(StartKind start) { return start_names[static_cast<size_t>(start)]; }
-const char* name_of(Outcome outcome) { return outcome_names[static_cast<size_t>(outcome)]; }
 Measure measure_of(const std::string& name) {
   return by_name<Measure>(measure_names, name, "measure");
 }
@@ -141,12 +135,9 @@ const std::vector<CompareColumn>& compare_columns() {
       {"start", "cold: zero; warm: the run's", [](R r) { return std::string(name_of(r.start)); }},
       {"repeat", "from 0", [](R r) { return std::to_string(r.repeat); }},
       {"max_seconds", "the limit", [](R r) { return printed("%g", r.max_seconds); }},
-      {"outcome", "solved: claimed and judged",
-       [](R r) { return std::string(name_of(r.outcome)); }},
+      {"verdict", "solved: the backend says so and the judge agrees",
+       [](R r) { return std::string(name_of(r.verdict)); }},
       {"reason", "why the backend stopped", [](R r) { return r.reason; }},
-      {"claimed", "1: the backend says that it is done",
-       [](R r) { return std::to_string(r.claimed); }},
-      {"judged", "1: the judge finds it so", [](R r) { return std::to_string(r.judged); }},
       {"error", "in the measure", [](R r) { return six_digits(r.error); }},
       {"seconds", "prepare and solve, fastest run in the child",
        [](R r) { return six_digits(r.seconds()); }},
@@ -203,7 +194,7 @@ std::string to_json(const CompareRow& row) {
   for_members(row, [&](const char* name, const auto& value) { json[name] = json_of(value); });
   json["measure"] = name_of(row.measure);
   json["start"] = name_of(row.start);
-  json["outcome"] = name_of(row.outcome);
+  json["verdict"] = name_of(row.verdict);
   Json& history = json["history"] = Json::array();
   for (const HistoryRow& h : row.history)
     history.push_back({h.iteration, json_of(h.seconds), json_of(h.error)});
@@ -217,7 +208,7 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file)
     for_members(row, [&](const char* name, auto& value) { take(json.at(name), value); });
     row.measure = measure_of(json.at("measure").get<std::string>());
     row.start = start_of(json.at("start").get<std::string>());
-    row.outcome = by_name<Outcome>(outcome_names, json.at("outcome").get<std::string>(), "outcome");
+    row.verdict = by_name<Verdict>(verdict_names, json.at("verdict").get<std::string>(), "verdict");
     for (const Json& h : json.at("history")) {
       HistoryRow point;
       take(h.at(0), point.iteration);

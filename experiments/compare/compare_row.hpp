@@ -18,22 +18,8 @@ enum class Measure {
 };
 enum class StartKind { cold, warm };
 
-/// How an attempt ended. Only `solved` counts: the backend says so and the judge agrees.
-enum class Outcome {
-  solved,
-  stopped,        ///< by itself: limit, stall, failure (see reason), or with a claim that the judge
-                  ///< denies
-  timeout,        ///< over the time limit, by itself or killed
-  crashed,        ///< the child process died
-  out_of_memory,  ///< allocation refused under the memory limit
-  unsupported,    ///< the backend says that it cannot take the problem
-  no_solution,    ///< no solution found: r grows without bound, or it is proved that there is none
-  unreadable,     ///< the case itself cannot be had: no backend was tried, `solver` is empty
-};
-
 const char* name_of(Measure measure);
 const char* name_of(StartKind start);
-const char* name_of(Outcome outcome);
 /// Throw std::invalid_argument listing what there is.
 Measure measure_of(const std::string& name);
 StartKind start_of(const std::string& name);
@@ -48,8 +34,7 @@ struct HistoryRow {
 
 /// What the process that solved says of it.
 struct SolveAccount {
-  std::string note;      ///< why it failed
-  bool claimed = false;  ///< the backend says that the tolerance is reached
+  std::string note;  ///< why it failed
   int iterations = 0;
   int runs = 0;  ///< solves in the child, of which the fastest is timed here
   double own_residual = 0.0;
@@ -76,11 +61,10 @@ struct CompareRow : SolveAccount {
   CaseFacts facts;
 
   // what came of it
-  Outcome outcome = Outcome::crashed;
-  std::string reason;   ///< the backend's StopReason; empty when none was heard
-  bool judged = false;  ///< the judge, in another process, finds every part of the law within the
-                        ///< tolerance (ContactError::within), or fclib's measure
-  double error = 0.0;   ///< in the row's measure, the judge's
+  /// By the judge, in another process. Over the time limit it is `timeout`, be it solved or not.
+  Verdict verdict = Verdict::crashed;
+  std::string reason;  ///< the backend's StopReason; empty when none was heard
+  double error = 0.0;  ///< in the row's measure, the judge's
   double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< the judge's [m/s]
   double fclib = 0.0;
   double cone_violation = 0.0, min_normal_velocity = 0.0;
@@ -91,8 +75,6 @@ struct CompareRow : SolveAccount {
   AnswerDistance distance;
 
   double seconds() const { return prepare_seconds + solve_seconds; }
-  /// A claim that the judge denies. Where no solution is to be had that is said instead.
-  bool is_false_success() const { return claimed && !judged && outcome != Outcome::no_solution; }
 };
 
 /// One column of the CSV. `text` writes a cell.

@@ -27,9 +27,9 @@ CompareCell cell_of(const std::vector<const CompareRow*>& repeats) {
   cell.row = repeats.front();
   cell.solved = true;
   for (const CompareRow* row : repeats) {
-    const bool solved = row->outcome == Outcome::solved;
+    const bool solved = row->verdict == Verdict::solved;
     cell.solved = cell.solved && solved;
-    if (solved && (cell.row->outcome != Outcome::solved || row->seconds() < cell.row->seconds()))
+    if (solved && (cell.row->verdict != Verdict::solved || row->seconds() < cell.row->seconds()))
       cell.row = row;
     seconds.push_back(row->seconds());
   }
@@ -83,7 +83,7 @@ std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
       groups;
   std::vector<std::string> cases, solvers;
   for (const CompareRow& row : rows) {
-    if (row.outcome == Outcome::unreadable) continue;
+    if (row.verdict == Verdict::unreadable) continue;
     const size_t c = index_of(cases, row.case_name), s = index_of(solvers, row.solver);
     groups[{row.start, -row.tolerance}][{c, s}].push_back(&row);
   }

@@ -100,7 +100,7 @@ class Comparison {
       if (repeat > 0 && unsolved_.contains(identity)) continue;
       bool was_there = false;
       CompareRow row = row_of(tried, loaded, attempt, repeat, was_there);
-      if (row.outcome != Outcome::solved) unsolved_.insert(identity);
+      if (row.verdict != Verdict::solved) unsolved_.insert(identity);
       goes_on_ = progress_(row, was_there, done_, count_);
       rows_.push_back(std::move(row));
     }
@@ -128,7 +128,7 @@ class Comparison {
     row.family = tried.family;
     row.measure = options_.measure;
     row.max_seconds = options_.max_seconds;
-    row.outcome = Outcome::unreadable;
+    row.verdict = Verdict::unreadable;
     row.note = why;
     goes_on_ = progress_(row, false, done_, count_);
     rows_.push_back(std::move(row));
@@ -188,7 +188,7 @@ class Comparison {
       write_whole_file(mark, "");
       return false;
     }
-    row.outcome = Outcome::crashed;
+    row.verdict = Verdict::crashed;
     row.note = "the process that watched over this solve was killed";
     write_whole_file(file, to_json(row));
     fs::remove(mark);
@@ -212,8 +212,8 @@ class Comparison {
     manifest.summary("unreadable_cases", static_cast<double>(unreadable_.size()));
     long solved = 0, denied = 0;
     for (const CompareRow& row : rows_) {
-      solved += row.outcome == Outcome::solved;
-      denied += row.is_false_success();
+      solved += row.verdict == Verdict::solved;
+      denied += row.verdict == Verdict::denied;
     }
     manifest.summary("solved", static_cast<double>(solved));
     manifest.summary("claims_that_the_judge_denies", static_cast<double>(denied));

@@ -38,7 +38,7 @@ struct CompareOptions {
   std::filesystem::path folder;  ///< rows/<key>.json, results.csv, manifest.json
   std::string command;           ///< for the manifest: how it was called
   /// One of several processes that fill the folder: it leaves rows alone. A solve during which such
-  /// a process was killed is a row of its own (Outcome::crashed) when it is started again.
+  /// a process was killed is a row of its own (Verdict::crashed) when it is started again.
   bool is_part = false;
 };
 
@@ -49,7 +49,7 @@ using CompareProgress =
 
 /// Tries everything that has no row yet, and returns the rows in order: repeat, case, tolerance,
 /// start, solver. results.csv and manifest.json are written at the end and when stopped. A case
-/// that cannot be loaded is one row (Outcome::unreadable, with the reason for its note), which is
+/// that cannot be loaded is one row (Verdict::unreadable, with the reason for its note), which is
 /// tried again the next time; so is a row whose file is damaged.
 std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,
                                        const CompareOptions& options,

@@ -21,7 +21,6 @@ DrivenSolve drive_solver(Solver& solver, const FrictionProblem& problem, const I
 
   DrivenSolve driven;
   driven.run = SolverRunner().run(solver, problem, start, budget);
-  driven.claimed = driven.run.solved.reason == StopReason::reached_tolerance;
   for (const HistoryPoint& point : driven.run.solved.history)
     driven.history.push_back(
         {point.iteration, point.seconds, point.error / settings.velocity_scale});

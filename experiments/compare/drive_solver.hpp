@@ -22,8 +22,7 @@ struct DriveSettings {
 };
 
 struct DrivenSolve {
-  SolverRun run;         ///< impulses and error at the end
-  bool claimed = false;  ///< the backend says that the tolerance is reached
+  SolverRun run;  ///< impulses and error at the end
   std::vector<HistoryRow> history;
   double seconds() const { return run.prepare_seconds + run.solve_seconds; }
 };

@@ -45,7 +45,7 @@ Curve arrivals(const std::vector<const CompareRow*>& rows, const std::string& so
   curve.width = 2.4;
   curve.title.clear();
   for (const CompareRow* row : rows) {
-    if (row->solver != solver || row->outcome != Outcome::solved || !(row->natural_map_rms > 0.0))
+    if (row->solver != solver || row->verdict != Verdict::solved || !(row->natural_map_rms > 0.0))
       continue;
     curve.x.push_back(row->seconds());
     curve.y.push_back(row->natural_map_rms / row->facts.velocity_scale);

@@ -50,7 +50,7 @@ std::vector<MachineRows> merged_machines(std::span<const StoredComparison> compa
       for (const CompareRow& row : comparisons[k].rows) newest[identity_of(row)] = k;
     for (const size_t k : machine.sources)
       for (const CompareRow& row : comparisons[k].rows) {
-        if (row.outcome == Outcome::unreadable || newest[identity_of(row)] != k) continue;
+        if (row.verdict == Verdict::unreadable || newest[identity_of(row)] != k) continue;
         machine.rows.push_back(row);
         machine.rows.back().case_name = names.of(row);
       }

@@ -9,17 +9,18 @@ namespace {
 
 /// Why a row is not solved, in a few words.
 std::string reason_of(const CompareRow& row) {
-  if (row.is_false_success()) return "denied";
-  switch (row.outcome) {
-    case Outcome::timeout:
+  switch (row.verdict) {
+    case Verdict::denied:
+      return "denied";
+    case Verdict::timeout:
       return row.reason.empty() ? "killed" : "time limit";
-    case Outcome::crashed:
+    case Verdict::crashed:
       return "crashed";
-    case Outcome::out_of_memory:
+    case Verdict::out_of_memory:
       return "memory";
-    case Outcome::unsupported:
+    case Verdict::unsupported:
       return "not taken";
-    case Outcome::no_solution:
+    case Verdict::no_solution:
       return "no solution";
     default:
       break;
@@ -70,20 +71,19 @@ page::Table failures_table(std::span<const CompareRow> rows) {
   // What a backend does not take says why once.
   std::set<std::string> told;
   for (const CompareRow& row : rows) {
-    const bool died = row.outcome == Outcome::crashed || row.outcome == Outcome::out_of_memory;
-    const bool is_noted = row.outcome == Outcome::stopped || row.outcome == Outcome::timeout;
+    const bool is_denied = row.verdict == Verdict::denied;
+    const bool died = row.verdict == Verdict::crashed || row.verdict == Verdict::out_of_memory;
+    const bool is_noted = row.verdict == Verdict::unsolved || row.verdict == Verdict::timeout;
     const bool is_refused =
-        row.outcome == Outcome::unsupported && told.insert(row.solver + row.note).second;
+        row.verdict == Verdict::unsupported && told.insert(row.solver + row.note).second;
     const bool has_none =
-        row.outcome == Outcome::no_solution && told.insert(row.case_name + row.note).second;
-    if (!died && !row.is_false_success() && !is_refused && !has_none &&
-        (row.note.empty() || !is_noted))
+        row.verdict == Verdict::no_solution && told.insert(row.case_name + row.note).second;
+    if (!died && !is_denied && !is_refused && !has_none && (row.note.empty() || !is_noted))
       continue;
     const std::string what =
-        row.is_false_success()
-            ? std::string("claims success, ") +
-                  (row.note.empty() ? "the judge denies it" : row.note)
-            : std::string(name_of(row.outcome)) + (row.note.empty() ? "" : ": " + row.note);
+        is_denied ? std::string("claims success, ") +
+                        (row.note.empty() ? "the judge denies it" : row.note)
+                  : std::string(name_of(row.verdict)) + (row.note.empty() ? "" : ": " + row.note);
     result.rows.push_back(
         {row.case_name, row.solver, page::exact(row.tolerance), what, page::number(row.error, 2)});
   }

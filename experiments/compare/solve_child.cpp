@@ -11,27 +11,24 @@
 #include "platform/clock.hpp"
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
-#include "solvers/seam/verdict.hpp"
 
 namespace ballast {
 namespace {
 
-/// How the child says it ended, apart from being solved or not.
-enum class ChildOutcome { driven, unsupported, out_of_memory, failed, lost, late };
-
 /// What a child sends.
 struct ChildMessage : SolveAccount {
-  ChildOutcome outcome = ChildOutcome::failed;
+  bool is_driven = false;  ///< the solver came to an end: `reason` and `impulses` are its own
+  Verdict verdict = Verdict::unsolved;  ///< where it did not
   StopReason reason = StopReason::numerical_failure;
   Impulses impulses;
 
   /// Packs and unpacks: the carrier decides.
   template <typename Carrier>
   void carry(Carrier& c) {
-    c.number(outcome);
+    c.number(is_driven);
+    c.number(verdict);
     c.text(note);
     c.number(reason);
-    c.number(claimed);
     c.number(iterations);
     c.number(runs);
     c.number(own_residual);
@@ -69,13 +66,10 @@ double peak_memory() {
 
 void take_result(DrivenSolve&& driven, ChildMessage& message) {
   const std::string& failure = driven.run.failure;
-  const bool no_memory = failure == std::bad_alloc().what();
-  message.outcome = no_memory         ? ChildOutcome::out_of_memory
-                    : failure.empty() ? ChildOutcome::driven
-                                      : ChildOutcome::failed;
+  message.is_driven = failure.empty();
+  if (failure == std::bad_alloc().what()) message.verdict = Verdict::out_of_memory;
   message.note = failure;
   message.reason = driven.run.solved.reason;
-  message.claimed = driven.claimed;
   message.iterations = driven.run.solved.iterations;
   message.own_residual = driven.run.solved.own_residual;
   message.prepare_seconds = driven.run.prepare_seconds;
@@ -106,7 +100,7 @@ void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const Dr
     }
     ++message.runs;
     spent += watch.seconds();
-  } while (message.claimed && message.runs < limits.most_runs &&
+  } while (message.reason == StopReason::reached_tolerance && message.runs < limits.most_runs &&
            spent + fastest < limits.warm_seconds);
 }
 
@@ -116,15 +110,14 @@ ChildMessage solve_here(const MakeSolver& make, const LoadedCase& loaded,
   try {
     drive_repeatedly(make, loaded, drive, limits, start, message);
   } catch (const UnsupportedProblem& error) {
-    message.outcome = ChildOutcome::unsupported;
+    message.verdict = Verdict::unsupported;
     message.note = error.what();
   } catch (const LostProcess& error) {
-    message.outcome = error.is_out_of_time ? ChildOutcome::late : ChildOutcome::lost;
+    message.verdict = error.is_out_of_time ? Verdict::timeout : Verdict::crashed;
     message.note = error.what();
   } catch (const std::bad_alloc&) {
-    message.outcome = ChildOutcome::out_of_memory;
+    message.verdict = Verdict::out_of_memory;
   } catch (const std::exception& error) {
-    message.outcome = ChildOutcome::failed;
     message.note = error.what();
   }
   return message;
@@ -138,11 +131,16 @@ DriveSettings settings_of(const CompareRow& row, const LoadedCase& loaded, Drive
   return drive;
 }
 
-/// The judge's measures of the row, and what they and the backend's word come to.
-Finding judge(const LoadedCase& loaded, const Impulses& impulses, StopReason reason,
-              CompareRow& row) {
-  if (impulses.size() != loaded.problem.row_count()) return {};
-  const ContactError error = contact_error(loaded.problem, impulses);
+/// The judge's measures of the row, and what they and the backend's word come to. Returns why it is
+/// not solved, where that is the judge's to say.
+std::string judge(const LoadedCase& loaded, const ChildMessage& message, CompareRow& row) {
+  row.verdict = message.verdict;
+  if (message.impulses.size() != loaded.problem.row_count()) return {};
+  SolverRun run;
+  run.solved.impulses = message.impulses;
+  run.solved.reason = message.reason;
+  run.error = contact_error(loaded.problem, message.impulses);
+  const ContactError& error = run.error;
   row.natural_map_rms = error.natural_map_rms;
   row.natural_map_max = error.natural_map_max;
   row.fclib = error.fclib;
@@ -151,43 +149,18 @@ Finding judge(const LoadedCase& loaded, const Impulses& impulses, StopReason rea
   row.worst_contact = error.worst_contact;
   row.worst = loaded.describe_contact(error.worst_contact);
   row.distance =
-      answer_distance(loaded.problem, impulses, loaded.exact, loaded.facts.velocity_scale);
-  row.error = row.measure == Measure::fclib ? error.fclib
-                                            : error.natural_map_rms / loaded.facts.velocity_scale;
-  const double tolerance = row.tolerance * loaded.facts.velocity_scale;
+      answer_distance(loaded.problem, message.impulses, loaded.exact, loaded.facts.velocity_scale);
   const bool by_fclib = row.measure == Measure::fclib;
-  const StopReason said = row.claimed ? StopReason::reached_tolerance : reason;
-  const Verdict verdict =
-      by_fclib ? fclib_verdict_of(said, error, row.tolerance) : verdict_of(said, error, tolerance);
-  row.judged = by_fclib
-                   ? error.finite && error.fclib <= row.tolerance && verdict != Verdict::no_solution
-                   : error.within(tolerance);
-  if (verdict == Verdict::solved) return {verdict, ""};
-  const Finding found = finding_on(loaded.problem, impulses, said, error, tolerance);
-  if (found.verdict == Verdict::no_solution || !by_fclib) return found;
-  return {verdict, ""};
-}
-
-Outcome outcome_of(const ChildMessage& message, const CompareRow& row, Verdict verdict,
-                   double max_seconds) {
-  switch (message.outcome) {
-    case ChildOutcome::unsupported:
-      return Outcome::unsupported;
-    case ChildOutcome::out_of_memory:
-      return Outcome::out_of_memory;
-    case ChildOutcome::failed:
-      return Outcome::stopped;
-    case ChildOutcome::lost:
-      return Outcome::crashed;
-    case ChildOutcome::late:
-      return Outcome::timeout;
-    case ChildOutcome::driven:
-      break;
-  }
-  if (verdict == Verdict::no_solution) return Outcome::no_solution;
-  if (row.seconds() > max_seconds) return Outcome::timeout;
-  if (row.claimed && row.judged) return Outcome::solved;
-  return message.reason == StopReason::time_limit ? Outcome::timeout : Outcome::stopped;
+  row.error = by_fclib ? error.fclib : error.natural_map_rms / loaded.facts.velocity_scale;
+  if (!message.is_driven) return {};
+  const double tolerance = row.tolerance * loaded.facts.velocity_scale;
+  run.verdict = by_fclib ? fclib_verdict_of(message.reason, error, row.tolerance)
+                         : verdict_of(message.reason, error, tolerance);
+  const std::string words = explained(loaded.problem, run, tolerance);
+  row.verdict = run.verdict;
+  if (row.verdict == Verdict::no_solution) return words;
+  // What the natural map misses is no reason where another measure was asked for.
+  return row.verdict == Verdict::denied && !by_fclib ? words : "";
 }
 
 void clear_measures(CompareRow& row) {
@@ -198,11 +171,13 @@ void clear_measures(CompareRow& row) {
 void take_message(const ChildMessage& message, const LoadedCase& loaded, double max_seconds,
                   CompareRow& row) {
   static_cast<SolveAccount&>(row) = message;
-  row.reason = message.outcome == ChildOutcome::driven ? name_of(message.reason) : "";
-  const Finding found = judge(loaded, message.impulses, message.reason, row);
-  row.outcome = outcome_of(message, row, found.verdict, max_seconds);
-  const bool is_told = found.verdict == Verdict::denied || found.verdict == Verdict::no_solution;
-  if (row.note.empty() && is_told) row.note = found.words;
+  row.reason = message.is_driven ? name_of(message.reason) : "";
+  const std::string why = judge(loaded, message, row);
+  if (row.note.empty()) row.note = why;
+  const bool is_late = row.seconds() > max_seconds && row.verdict == Verdict::solved;
+  const bool is_stopped = message.is_driven && row.verdict == Verdict::unsolved &&
+                          (row.seconds() > max_seconds || message.reason == StopReason::time_limit);
+  if (is_late || is_stopped) row.verdict = Verdict::timeout;
 }
 
 }  // namespace
@@ -223,7 +198,7 @@ void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const Driv
   });
   clear_measures(row);
   if (child.end != ChildEnd::complete) {
-    row.outcome = child.end == ChildEnd::out_of_time ? Outcome::timeout : Outcome::crashed;
+    row.verdict = child.end == ChildEnd::out_of_time ? Verdict::timeout : Verdict::crashed;
     row.note = child.end == ChildEnd::out_of_time ? "killed: did not stop at the time limit"
                                                   : "the child process died";
     row.solve_seconds = child.end == ChildEnd::out_of_time ? most_seconds : 0.0;
@@ -242,7 +217,7 @@ void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const Drive
   const Stopwatch watch;
   ChildMessage message = solve_here(make, loaded, drive, limits, row.start);
   message.peak_memory_MB = std::nan("");
-  if (message.outcome == ChildOutcome::late) message.solve_seconds = watch.seconds();
+  if (message.verdict == Verdict::timeout) message.solve_seconds = watch.seconds();
   clear_measures(row);
   take_message(message, loaded, drive.max_seconds, row);
 }

@@ -65,15 +65,26 @@ std::vector<HistoryPoint> read_history(const Hdf5Reader& file) {
   return history;
 }
 
-ExternalStatus read_status(const Hdf5Reader& file) {
-  const std::string name = answered + "status";
-  const int status = file.read_int(name), last = static_cast<int>(ExternalStatus::out_of_memory);
-  if (status < 0 || status > last)
-    file.fail(name + " = " + std::to_string(status) + ", expected 0 to " + std::to_string(last));
-  return static_cast<ExternalStatus>(status);
-}
+constexpr int unsupported_status = 5, no_memory_status = 6;
 
 }  // namespace
+
+int ExternalAnswer::status() const {
+  if (verdict == Verdict::unsupported) return unsupported_status;
+  if (verdict == Verdict::out_of_memory) return no_memory_status;
+  return static_cast<int>(reason);
+}
+
+bool ExternalAnswer::set_status(int status) {
+  if (status < 0 || status > no_memory_status) return false;
+  if (status == unsupported_status)
+    verdict = Verdict::unsupported;
+  else if (status == no_memory_status)
+    verdict = Verdict::out_of_memory;
+  else
+    reason = static_cast<StopReason>(status);
+  return true;
+}
 
 AskedForms asked_forms_of(const std::string& name) {
   constexpr const char* names[] = {"both", "bodies", "delassus"};
@@ -127,7 +138,7 @@ void write_answer(const std::filesystem::path& path, const ExternalRequest& requ
   file.add_group("/ballast_answer");
   add_number(file, answered + "protocol", external_protocol);
   add_number(file, answered + "id", request.id);
-  add_number(file, answered + "status", static_cast<int>(answer.status));
+  add_number(file, answered + "status", answer.status());
   add_number(file, answered + "iterations", answer.iterations);
   add_number(file, answered + "residual", answer.own_residual);
   add_number(file, answered + "seconds", answer.seconds);
@@ -148,8 +159,11 @@ ExternalAnswer read_answer(const std::filesystem::path& path, const ExternalRequ
     file.fail(answered + "id = " + std::to_string(id) + ", the request's is " +
               std::to_string(request.id) + ": this answers another problem");
   ExternalAnswer answer;
-  answer.status = read_status(file);
-  if (answer.status >= ExternalStatus::failed) return answer;
+  const int status = file.read_int(answered + "status");
+  if (!answer.set_status(status))
+    file.fail(answered + "status = " + std::to_string(status) + ", expected 0 to " +
+              std::to_string(no_memory_status));
+  if (answer.reason == StopReason::numerical_failure) return answer;
   answer.impulses =
       own_rows(request.problem,
                as_eigen(read_impulses(file, answered + "r", request.problem.contact_count())));

@@ -28,24 +28,19 @@ struct ExternalRequest {
   int id = 0;  ///< the answer repeats it
 };
 
-/// What an answer says of itself, as a number in the file.
-enum class ExternalStatus {
-  solved,
-  iteration_limit,
-  time_limit,
-  stalled,
-  failed,
-  unsupported,
-  out_of_memory
-};
-
 struct ExternalAnswer {
-  ExternalStatus status = ExternalStatus::failed;
+  Verdict verdict = Verdict::unsolved;  ///< `unsupported`, `out_of_memory`: no more than that
+  StopReason reason = StopReason::numerical_failure;
   Impulses impulses;  ///< rows as in the problem
   int iterations = 0;
   double own_residual = 0.0;
   double seconds = -1.0;  ///< of the method alone, on its own clock; below 0: not said
   std::vector<HistoryPoint> history;
+
+  /// The file's number for `reason` and `verdict`: those of StopReason, and two more.
+  int status() const;
+  /// False: there is no such number.
+  bool set_status(int status);
 };
 
 /// The problem in the forms W, q and, where it has one, M, H; where only W is known, in that. Throw

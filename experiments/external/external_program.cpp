@@ -177,13 +177,14 @@ class ExternalSolver final : public Solver {
                             .max_iterations = budget.max_iterations,
                             .max_seconds = budget.max_seconds};
     ExternalAnswer answer = program_->ask(request);
-    if (answer.status == ExternalStatus::unsupported)
+    if (answer.verdict == Verdict::unsupported)
       throw UnsupportedProblem(name_ + ": says that it cannot take the problem");
-    if (answer.status == ExternalStatus::out_of_memory) throw std::bad_alloc();
-    if (answer.status == ExternalStatus::failed) throw Error(name_ + ": says that it failed");
+    if (answer.verdict == Verdict::out_of_memory) throw std::bad_alloc();
+    if (answer.reason == StopReason::numerical_failure)
+      throw Error(name_ + ": says that it failed");
     Solved solved;
     solved.impulses = std::move(answer.impulses);
-    solved.reason = static_cast<StopReason>(answer.status);
+    solved.reason = answer.reason;
     solved.iterations = answer.iterations;
     solved.own_residual = answer.own_residual;
     if (budget.keep_history) solved.history = std::move(answer.history);

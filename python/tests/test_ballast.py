@@ -243,7 +243,7 @@ class Comparisons(unittest.TestCase):
                 str(listed))
             rows = {row["solver"]: row for row in ballast.rows(folder + "/out")}
             for name in ["own", "served"]:
-                self.assertEqual(rows[name]["outcome"], "solved", rows[name]["note"])
+                self.assertEqual(rows[name]["verdict"], "solved", rows[name]["note"])
                 self.assertGreater(len(rows[name]["history"]), 1)
                 self.assertGreater(rows[name]["iterations"], 0)
         with self.assertRaisesRegex(ballast.Error, "it has no rows"):

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <sstream>
 #include <utility>
 
 #include "platform/clock.hpp"
+#include "problems/algebra/no_solution.hpp"
 #include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/relay.hpp"
 
@@ -26,7 +27,70 @@ void validate_start(const FrictionProblem& problem, Impulses& start) {
                            " is not finite");
 }
 
+/// The first part of the law that the answer misses.
+std::string what_is_missed(const ContactError& error, double tolerance) {
+  if (!error.finite) return "the impulses, or velocities that they give, are not finite";
+  std::ostringstream text;
+  text.precision(3);
+  const auto missed = [&](const char* part, double value, double bound) {
+    text << part << " is " << value << " m/s (rms), at most " << bound << " may be";
+    return text.str();
+  };
+  const double bound = ContactError::bound_factor * tolerance;
+  if (!(error.natural_map_rms <= tolerance))
+    return missed("the natural map", error.natural_map_rms, tolerance);
+  if (!(error.approach_rms <= bound)) return missed("-u_N", error.approach_rms, bound);
+  if (!(error.cone_rms <= bound))
+    return missed("the distance of r from its cones", error.cone_rms, bound);
+  return missed("the complementarity of r and u", error.complementarity_rms, bound);
+}
+
+/// `within`: the measure that was asked for is within the tolerance.
+Verdict verdict_from(bool within, StopReason reason, const ContactError& error, double tolerance) {
+  const bool claimed = reason == StopReason::reached_tolerance;
+  if (within) return claimed ? Verdict::solved : Verdict::unsolved;
+  // No impulse helps, or those that were tried have left every scale of the problem.
+  const bool sinks = error.finite && error.immovable_approach > tolerance;
+  const bool grows = error.finite && error.growth > unbounded_growth;
+  if (sinks || grows) return Verdict::no_solution;
+  return claimed ? Verdict::denied : Verdict::unsolved;
+}
+
 }  // namespace
+
+Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance) {
+  return verdict_from(error.within(tolerance), reason, error, tolerance);
+}
+
+Verdict fclib_verdict_of(StopReason reason, const ContactError& error, double tolerance) {
+  const bool within =
+      error.finite && error.fclib <= tolerance && !(error.growth > unbounded_growth);
+  // Its tolerance is a pure number; contacts that sink in are measured in m/s.
+  return verdict_from(within, reason, error, tolerance * error.velocity_scale);
+}
+
+std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance) {
+  if (run.is_solved()) return "solved";
+  const NoSolution proof = look_for_no_solution(problem, run.solved.impulses);
+  // Sinking in by less than what is tolerated is no reason.
+  if (proof.proved() && proof.approach > tolerance) {
+    run.verdict = Verdict::no_solution;
+    return proof.words();
+  }
+  if (run.verdict == Verdict::unsolved)
+    return std::string("unsolved: ") + name_of(run.solved.reason);
+  if (run.verdict == Verdict::denied)
+    return "the judge denies it: " + what_is_missed(run.error, tolerance);
+  std::ostringstream text;
+  text.precision(3);
+  text << "no solution found; ";
+  if (run.error.immovable_approach > tolerance)
+    text << "a contact that no impulse moves sinks in at " << run.error.immovable_approach
+         << " m/s";
+  else
+    text << "r grows without bound: " << run.error.growth << " times what a contact alone needs";
+  return text.str();
+}
 
 /// Does the timed work, then judges what it left in run.solved, whatever that is.
 template <typename Work>
@@ -56,7 +120,6 @@ SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& bu
     run.verdict = fclib_verdict_of(run.solved.reason, run.error, budget.fclib->tolerance());
   else
     run.verdict = verdict_of(run.solved.reason, run.error, budget.tolerance);
-  run.success = run.verdict == Verdict::solved;
   return run;
 }
 
@@ -88,7 +151,6 @@ SolverRun SolverRunner::until_within(Solver& solver, const FrictionProblem& prob
     if (next.error.within(budget.tolerance)) {
       next.solved.reason = StopReason::reached_tolerance;
       next.verdict = Verdict::solved;
-      next.success = true;
     }
     for (const HistoryPoint& point : next.solved.history)
       run.solved.history.push_back({run.solved.iterations + point.iteration,

@@ -1,10 +1,11 @@
 #pragma once
-// The only door to a solver that runs and benches use: validates, times, and judges outside the
-// stopwatch.
+// The only door to a solver that runs and benches use: validates, times, judges outside the
+// stopwatch, and says what came of it.
+
+#include <string>
 
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/seam/solver.hpp"
-#include "solvers/seam/verdict.hpp"
 
 namespace ballast {
 
@@ -16,9 +17,26 @@ struct SolverRun {
   double startup_seconds = 0;    ///< of solve(), and not in solve_seconds: Solved::startup_seconds
   double processor_seconds = 0;  ///< of this process in prepare() and solve(), start-up included
   Verdict verdict = Verdict::unsolved;
-  bool success = false;  ///< verdict == solved
-  std::string failure;   ///< what() of the exception that a backend threw; empty: none
+  std::string failure;  ///< what() of the exception that a backend threw; empty: none
+
+  bool is_solved() const { return verdict == Verdict::solved; }
 };
+
+/// `growth` of a judged answer beyond which r is said to grow without bound.
+constexpr double unbounded_growth = 1e8;
+
+/// Of impulses with that error, which a solver returned for that reason under that tolerance [m/s].
+Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance);
+
+/// The same where Siconos' measure (ContactError::fclib) is what was asked for: it alone decides,
+/// but that it divides by |r|, and what grows without bound meets it: that is no solution.
+Verdict fclib_verdict_of(StopReason reason, const ContactError& error, double tolerance);
+
+/// What came of a run under that tolerance [m/s], in one line: "solved", "the judge denies it: -u_N
+/// is 0.3 m/s (rms), at most 4e-08 may be", "no solution found; r grows without bound: ...". What
+/// is not solved is searched for a proof that there is no solution, which changes the verdict
+/// (look_for_no_solution: builds W, so never within a step).
+std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance);
 
 /// Keeps the judge's workspace between calls.
 class SolverRunner {

@@ -11,6 +11,8 @@ const char* name_of(StopReason reason) {
       reason);
 }
 
+const char* name_of(Verdict verdict) { return name_in(verdict_names, verdict); }
+
 const char* name_of(ContactLaw law) {
   return name_in({"coulomb", "convex_relaxation", "pyramid"}, law);
 }

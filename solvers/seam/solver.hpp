@@ -19,10 +19,27 @@ enum class StopReason {
   numerical_failure
 };
 
+/// What came of a solve: the solver's word and the judge's together, or what else became of it.
+enum class Verdict {
+  solved,         ///< the solver says so and the judge agrees on every part of the law
+  unsolved,       ///< stopped before: standing still, a limit, a failure
+  denied,         ///< the solver says that it is solved, and the judge does not agree
+  no_solution,    ///< none found: r grows without bound, or contacts that nothing can move sink in
+  timeout,        ///< over the time limit of a comparison, by itself or killed
+  crashed,        ///< the process that solved died
+  out_of_memory,  ///< allocation refused under the memory limit
+  unsupported,    ///< the backend says that it cannot take the problem
+  unreadable,     ///< there was no problem to be had: no backend was tried
+};
+inline constexpr const char* verdict_names[] = {"solved",        "unsolved",    "denied",
+                                                "no_solution",   "timeout",     "crashed",
+                                                "out_of_memory", "unsupported", "unreadable"};
+
 /// The law that a backend really solves; each one is judged on Coulomb's.
 enum class ContactLaw { coulomb, convex_relaxation, pyramid };
 
 const char* name_of(StopReason reason);
+const char* name_of(Verdict verdict);
 const char* name_of(ContactLaw law);
 
 class FclibStop;

@@ -10,8 +10,8 @@ const rows = page_data.rows.map((cells) => {
   for (const name of counted) row[name] = Number(row[name]);
   row.tolerance_text = cells[column_names.indexOf("tolerance")];
   row.cells = cells;
-  row.is_solved = row.outcome === "solved";
-  row.is_denied = row.claimed === "1" && row.judged === "0" && row.outcome !== "no_solution";
+  row.is_solved = row.verdict === "solved";
+  row.is_denied = row.verdict === "denied";
   return row;
 });
 
@@ -45,7 +45,7 @@ function reason_of(row) {
   if (row.is_denied) return "denied";
   const words = { crashed: "crashed", out_of_memory: "memory", unsupported: "not taken",
                   no_solution: "no solution", timeout: row.reason ? "time limit" : "killed" };
-  return words[row.outcome] ?? (row.reason || "failed").replaceAll("_", " ");
+  return words[row.verdict] ?? (row.reason || "failed").replaceAll("_", " ");
 }
 
 /// The command that makes a row again.

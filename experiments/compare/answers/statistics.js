@@ -39,7 +39,7 @@ function summaries({ solvers, cases }) {
   const lines = solvers.map((solver, s) => {
     const tried = cases.filter((c) => c.cells[s].row), cells = tried.map((c) => c.cells[s]);
     const count = (test) => cells.filter((cell) => test(cell.row)).length;
-    const of = (outcomes) => count((row) => outcomes.includes(row.outcome));
+    const of = (verdicts) => count((row) => verdicts.includes(row.verdict));
     const times = cells.map((cell) => Math.min(cell.median, page_data.limit));
     const beaten = tried.map((c, k) => k).filter((k) => Number.isFinite(tried[k].fastest));
     const solved = cells.filter((cell) => cell.solved).length;

@@ -61,7 +61,7 @@ TEST_CASE("a comparison for programs is one object a line, and a quiet one nothi
   CHECK(lines[1]["done"] == 2);
   CHECK(lines[1]["count"] == 2);
   CHECK(lines[1]["solver"] == "nncg");
-  CHECK(lines[1]["outcome"] == "solved");
+  CHECK(lines[1]["verdict"] == "solved");
   CHECK_FALSE(lines[1].contains("history"));
   CHECK(lines[2]["event"] == "end");
   words.back() = "--quiet";
@@ -98,7 +98,7 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
   fs::copy(before, after, fs::copy_options::recursive);
   for (const auto& entry : fs::directory_iterator(after / "rows")) {
     auto json = nlohmann::json::parse(read_whole_file(entry.path()));
-    if (json["solver"] == "pgs") json["outcome"] = "timeout";
+    if (json["solver"] == "pgs") json["verdict"] = "timeout";
     write_whole_file(entry.path(), json.dump());
   }
   const std::vector<std::string> words = {"compare", "diff", before, after.string()};

@@ -33,7 +33,7 @@ int processes_with(const std::string& word) {
 }
 
 struct Row {
-  std::string outcome, note;
+  std::string verdict, note;
   double startup = 0.0;
 };
 
@@ -46,7 +46,7 @@ std::map<std::string, Row> rows_of(const fs::path& folder) {
   for (size_t k = 0; k < table.cells().size(); ++k) column[std::string(table.cells()[k])] = k;
   while (table.next())
     rows[std::string(table.cells()[column.at("solver")])] = {
-        std::string(table.cells()[column.at("outcome")]),
+        std::string(table.cells()[column.at("verdict")]),
         std::string(table.cells()[column.at("note")]),
         table.number(column.at("startup_seconds"), "startup_seconds")};
   return rows;
@@ -59,7 +59,7 @@ fs::path answer_of_nan(const fs::path& file, int contacts, int id) {
   request.problem.friction.assign(static_cast<size_t>(contacts), 0.5);
   request.id = id;
   ExternalAnswer answer;
-  answer.status = ExternalStatus::solved;
+  answer.reason = StopReason::reached_tolerance;
   answer.impulses = Impulses::Constant(3 * contacts, std::nan(""));
   write_answer(file, request, answer);
   return file;
@@ -105,27 +105,27 @@ TEST_CASE("whatever a program does is its row, and nothing is left running") {
   REQUIRE(result.status == 0);
   // Of the second case: the last row by a name.
   const std::map<std::string, Row> rows = rows_of(folder.path() / "out");
-  CHECK(rows.at("pgs").outcome == "solved");
-  CHECK(rows.at("good").outcome == "solved");
+  CHECK(rows.at("pgs").verdict == "solved");
+  CHECK(rows.at("good").verdict == "solved");
   CHECK(rows.at("good").startup > 0.0);
-  CHECK(rows.at("hangs").outcome == "timeout");
+  CHECK(rows.at("hangs").verdict == "timeout");
   CHECK_THAT(rows.at("hangs").note, Contains("hangs: killed: no answer within"));
-  CHECK(rows.at("dies").outcome == "crashed");
+  CHECK(rows.at("dies").verdict == "crashed");
   CHECK_THAT(rows.at("dies").note, Contains("exit code 3: no licence"));
   CHECK_THAT(result.output,
              Contains("error       nan  dies: the program ended with exit code 3: "));
-  CHECK(rows.at("crashes").outcome == "crashed");
+  CHECK(rows.at("crashes").verdict == "crashed");
   CHECK_THAT(rows.at("crashes").note, Contains("signal 11"));
-  CHECK(rows.at("half").outcome == "stopped");
+  CHECK(rows.at("half").verdict == "unsolved");
   CHECK_THAT(rows.at("half").note, Contains("truncated"));
-  CHECK(rows.at("silent").outcome == "stopped");
+  CHECK(rows.at("silent").verdict == "unsolved");
   CHECK_THAT(rows.at("silent").note, Contains("no such file"));
-  CHECK(rows.at("nan").outcome == "stopped");
+  CHECK(rows.at("nan").verdict == "unsolved");
   CHECK_THAT(rows.at("nan").note, Contains("/ballast_answer/r[0] is not finite"));
-  CHECK(rows.at("floods").outcome == "timeout");
-  CHECK(rows.at("chatty").outcome == "solved");
-  CHECK(rows.at("forks").outcome == "solved");
-  CHECK(rows.at("other").outcome == "stopped");
+  CHECK(rows.at("floods").verdict == "timeout");
+  CHECK(rows.at("chatty").verdict == "solved");
+  CHECK(rows.at("forks").verdict == "solved");
+  CHECK(rows.at("other").verdict == "unsolved");
   CHECK_THAT(rows.at("other").note, Contains("10 contacts") || Contains("11 contacts") ||
                                         Contains("answers another problem"));
   CHECK(processes_with("86398.25") == 0);
@@ -142,7 +142,7 @@ TEST_CASE("a program of a list is served, and its rows are kept until its script
   const ProgramResult first = ballast_program(words);
   INFO(first.output << first.errors);
   REQUIRE(first.status == 0);
-  CHECK(rows_of(folder.path() / "out").at("served").outcome == "solved");
+  CHECK(rows_of(folder.path() / "out").at("served").verdict == "solved");
   const auto was_there = [&] {
     const std::string output = ballast_program(words).output;
     const size_t row = output.find("served");
@@ -202,7 +202,7 @@ TEST_CASE("the examples in Python solve") {
   const std::map<std::string, Row> rows = rows_of(folder.path() / "out");
   for (const char* name : {"gauss_seidel", "conic_scipy"}) {
     INFO(name << ": " << rows.at(name).note);
-    CHECK(rows.at(name).outcome == "solved");
+    CHECK(rows.at(name).verdict == "solved");
     CHECK(rows.at(name).startup > 0.0);
   }
 }

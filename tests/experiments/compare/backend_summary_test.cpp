@@ -11,16 +11,14 @@ using namespace ballast;
 
 TEST_CASE("Who solves most comes first, and what was not solved counts with the limit") {
   std::vector<CompareRow> rows = {
-      hand_made_row("x", "a", 1.0, Outcome::solved),
-      hand_made_row("y", "a", 60.0, Outcome::timeout),
-      hand_made_row("x", "b", 2.0, Outcome::solved),
-      hand_made_row("y", "b", 8.0, Outcome::solved),
-      hand_made_row("x", "c", 0.0, Outcome::crashed),
-      hand_made_row("y", "c", 0.5, Outcome::stopped),
+      hand_made_row("x", "a", 1.0, Verdict::solved),
+      hand_made_row("y", "a", 60.0, Verdict::timeout),
+      hand_made_row("x", "b", 2.0, Verdict::solved),
+      hand_made_row("y", "b", 8.0, Verdict::solved),
+      hand_made_row("x", "c", 0.0, Verdict::crashed),
+      hand_made_row("y", "c", 0.5, Verdict::denied),
+      hand_made_row("z", "c", 0.5, Verdict::no_solution),
   };
-  rows.back().claimed = true;  // and the judge denies it
-  rows.push_back(hand_made_row("z", "c", 0.5, Outcome::no_solution));
-  rows.back().claimed = true;  // there is none: that is said instead
   CHECK(limit_of(rows) == 60.0);
   const std::vector<CompareTable> tables = compare_tables(rows);
   const std::vector<BackendSummary> all = backend_summaries(tables.at(0), 60.0);
@@ -43,16 +41,16 @@ TEST_CASE("Who solves most comes first, and what was not solved counts with the 
 }
 
 TEST_CASE("The spread is over repeats") {
-  const std::vector<CompareRow> rows = {hand_made_row("x", "a", 1.0, Outcome::solved, 0),
-                                        hand_made_row("x", "a", 3.0, Outcome::solved, 1)};
+  const std::vector<CompareRow> rows = {hand_made_row("x", "a", 1.0, Verdict::solved, 0),
+                                        hand_made_row("x", "a", 3.0, Verdict::solved, 1)};
   const std::vector<CompareTable> tables = compare_tables(rows);
   CHECK(backend_summaries(tables.at(0), 60.0).at(0).largest_spread == 1.0);
   CHECK(heading_of(tables[0]) == "Tolerance 0.0001, cold start");
 }
 
 TEST_CASE("The terminal hears of every backend and of every ratio to the reference") {
-  const std::vector<CompareRow> rows = {hand_made_row("x.dat", "a", 2.0, Outcome::solved),
-                                        hand_made_row("x.dat", "auto", 4.0, Outcome::solved)};
+  const std::vector<CompareRow> rows = {hand_made_row("x.dat", "a", 2.0, Verdict::solved),
+                                        hand_made_row("x.dat", "auto", 4.0, Verdict::solved)};
   ReferenceTimes theirs;
   theirs.tolerance = 1e-4;
   theirs.entries["x"] = {1.0, "NSGS"};

@@ -33,7 +33,7 @@ TEST_CASE("captured cases are seen in 3D with the backends that gave an answer, 
   auto rows =
       run_comparison(cases, options, [](const auto&, bool, size_t, size_t) { return true; });
   for (CompareRow& row : rows)
-    if (row.solver == "jacobi") row.outcome = Outcome::crashed;
+    if (row.solver == "jacobi") row.verdict = Verdict::crashed;
 
   const auto goes_on = [] { return true; };
   CHECK(write_case_views(rows, options, goes_on) == cases.size() - 1);

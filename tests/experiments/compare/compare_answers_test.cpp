@@ -12,8 +12,8 @@ using namespace ballast;
 using Json = nlohmann::json;
 
 TEST_CASE("The page's data are the cells of the CSV, to the letter") {
-  std::vector<CompareRow> rows = {hand_made_row("x, \"1\"", "a", 0.1, Outcome::solved),
-                                  hand_made_row("y", "b", 60.0, Outcome::timeout)};
+  std::vector<CompareRow> rows = {hand_made_row("x, \"1\"", "a", 0.1, Verdict::solved),
+                                  hand_made_row("y", "b", 60.0, Verdict::timeout)};
   rows[0].key = "k0";
   rows[0].word = "my problems/x.dat";
   const page::Answers answers = comparison_answers({}, rows, 60.0);
@@ -41,13 +41,13 @@ TEST_CASE("Memory is limited as it was") {
   auto manifest = std::make_shared<nlohmann::ordered_json>();
   (*manifest)["summary"]["memory_MB"] = 512.0;
   data.stored_manifest = manifest;
-  const std::vector<CompareRow> rows = {hand_made_row("x", "a", 0.1, Outcome::solved)};
+  const std::vector<CompareRow> rows = {hand_made_row("x", "a", 0.1, Verdict::solved)};
   const Json json = Json::parse(comparison_answers(data, rows, 60.0).data);
   CHECK(json["again"].get<std::string>().find("--memory 512") != std::string::npos);
 }
 
 TEST_CASE("Long histories are thinned out to what a page can hold") {
-  CompareRow row = hand_made_row("x", "a", 1.0, Outcome::solved);
+  CompareRow row = hand_made_row("x", "a", 1.0, Verdict::solved);
   row.history.clear();
   for (int k = 0; k < 5000; ++k) row.history.push_back({k, 1e-4 * k, 1.0 / (1.0 + k)});
   const std::vector<CompareRow> rows(3000, row);

@@ -8,14 +8,14 @@ using namespace ballast;
 
 namespace {
 
-CompareRow row(const std::string& content, double seconds, Outcome outcome = Outcome::solved) {
+CompareRow row(const std::string& content, double seconds, Verdict verdict = Verdict::solved) {
   CompareRow made;
   made.case_name = content;
   made.facts.content = content;
   made.solver = "pgs";
   made.tolerance = 1e-4;
   made.solve_seconds = seconds;
-  made.outcome = outcome;
+  made.verdict = verdict;
   return made;
 }
 
@@ -27,15 +27,15 @@ TEST_CASE("Each change has its word, and what matters comes first") {
                                           row("same", 1.0),
                                           row("lost", 1.0),
                                           row("gone", 1.0),
-                                          row("gained", 9.0, Outcome::timeout),
-                                          row("never", 9.0, Outcome::crashed)};
+                                          row("gained", 9.0, Verdict::timeout),
+                                          row("never", 9.0, Verdict::crashed)};
   const std::vector<CompareRow> after = {row("slower", 1.2),
                                          row("faster", 0.8),
                                          row("same", 1.05),
-                                         row("lost", 9.0, Outcome::timeout),
+                                         row("lost", 9.0, Verdict::timeout),
                                          row("gained", 1.0),
                                          row("new", 1.0),
-                                         row("never", 9.0, Outcome::stopped)};
+                                         row("never", 9.0, Verdict::unsolved)};
   const auto changes = compare_diff(before, after, 1.1);
   REQUIRE(changes.size() == 8);
   CHECK(changes[0].change == Change::lost);
@@ -72,7 +72,7 @@ TEST_CASE("A change within the spread of the repeats is none") {
 
 TEST_CASE("A solve of which one repeat is not solved any more is lost") {
   const std::vector<CompareRow> before = {row("a", 1.0), row("a", 1.1)};
-  const std::vector<CompareRow> after = {row("a", 1.0), row("a", 9.0, Outcome::timeout)};
+  const std::vector<CompareRow> after = {row("a", 1.0), row("a", 9.0, Verdict::timeout)};
   CHECK(compare_diff(before, after, 1.1).at(0).change == Change::lost);
   CHECK(compare_diff(after, before, 1.1).at(0).change == Change::gained);
 }
@@ -80,7 +80,7 @@ TEST_CASE("A solve of which one repeat is not solved any more is lost") {
 TEST_CASE("Between two machines only what is lost counts") {
   const double never = std::numeric_limits<double>::infinity();
   const std::vector<CompareRow> before = {row("a", 1.0), row("b", 1.0)};
-  const std::vector<CompareRow> after = {row("a", 50.0), row("b", 9.0, Outcome::stopped)};
+  const std::vector<CompareRow> after = {row("a", 50.0), row("b", 9.0, Verdict::unsolved)};
   const auto changes = compare_diff(before, after, never);
   CHECK(changes.at(0).change == Change::lost);
   CHECK(changes.at(1).change == Change::same);

@@ -26,8 +26,8 @@ TEST_CASE("No two of twenty-four backends look alike") {
 TEST_CASE("Profiles reach from the fastest to the slowest, and cost needs two places") {
   std::vector<CompareRow> rows;
   for (const char* name : {"x", "y"}) {
-    rows.push_back(hand_made_row(name, "a", 0.1, Outcome::solved));
-    rows.push_back(hand_made_row(name, "b", 3.0, Outcome::solved));
+    rows.push_back(hand_made_row(name, "a", 0.1, Verdict::solved));
+    rows.push_back(hand_made_row(name, "b", 3.0, Verdict::solved));
   }
   const std::vector<CompareTable> tables = compare_tables(rows);
   const auto profiles = profile_figures(tables[0]);
@@ -39,6 +39,6 @@ TEST_CASE("Profiles reach from the fastest to the slowest, and cost needs two pl
   REQUIRE(costs.size() == 2);
   CHECK(costs[0].plot.name == "cost_contacts_cold_1e-04");
   CHECK(costs[1].plot.name == "cost_mass_ratio_cold_1e-04");
-  rows = {hand_made_row("x", "a", 60.0, Outcome::timeout)};
+  rows = {hand_made_row("x", "a", 60.0, Verdict::timeout)};
   CHECK(profile_figures(compare_tables(rows)[0]).empty());
 }

@@ -17,13 +17,12 @@ TEST_CASE("The page of a comparison is well-formed and has what it promises") {
   const TemporaryFolder folder;
   std::vector<CompareRow> rows;
   for (const char* name : {"x&<1", "y2"}) {
-    rows.push_back(hand_made_row(name, "a", 0.1, Outcome::solved));
-    rows.push_back(hand_made_row(name, "b", 0.3, Outcome::solved));
-    rows.push_back(hand_made_row(name, "c", 60.0, Outcome::timeout));
+    rows.push_back(hand_made_row(name, "a", 0.1, Verdict::solved));
+    rows.push_back(hand_made_row(name, "b", 0.3, Verdict::solved));
+    rows.push_back(hand_made_row(name, "c", 60.0, Verdict::timeout));
     rows.back().reason = "time_limit";
   }
-  rows.push_back(hand_made_row("z", "a", 0.2, Outcome::stopped));
-  rows.back().claimed = true;
+  rows.push_back(hand_made_row("z", "a", 0.2, Verdict::denied));
   Manifest("compare", {"ballast compare <x>"}, "key").write(folder.path() / "manifest.json");
   write_compare_page(folder.path(), rows, {});
   const std::string page = read_whole_file(folder.path() / "compare.html");

@@ -17,7 +17,7 @@ TEST_CASE("A row survives its file to the last bit") {
   row.note = "line\nbreak";
   row.error = 0.1 + 0.2;
   row.fclib = std::nan("");
-  row.outcome = Outcome::timeout;
+  row.verdict = Verdict::timeout;
   row.start = StartKind::warm;
   row.measure = Measure::fclib;
   row.history = {{1, 1e-300, 1.0 / 3.0}, {2, 0.5, 5e-324}};
@@ -32,7 +32,7 @@ TEST_CASE("A row survives its file to the last bit") {
                     Catch::StartsWith("row.json: is no row"));
 }
 
-TEST_CASE("Names of measures, starts and outcomes are read back, others are refused") {
+TEST_CASE("Names of measures, starts and verdicts are read back, others are refused") {
   for (const Measure measure : {Measure::natural_map, Measure::fclib})
     CHECK(measure_of(name_of(measure)) == measure);
   for (const StartKind start : {StartKind::cold, StartKind::warm})
@@ -49,10 +49,10 @@ TEST_CASE("Names of measures, starts and outcomes are read back, others are refu
 
 TEST_CASE("A broken name with a line break in it is refused in one line") {
   std::string json = to_json(CompareRow{});
-  const std::string name = name_of(CompareRow{}.outcome);
+  const std::string name = name_of(CompareRow{}.verdict);
   json.replace(json.find('"' + name + '"') + 1, name.size(), "ex\\nploded");
   CHECK_THROWS_WITH(compare_row_of_json(json, "row.json"),
-                    Catch::Contains("'ex?ploded' is no outcome"));
+                    Catch::Contains("'ex?ploded' is no verdict"));
 }
 
 TEST_CASE("A count that no int can hold is refused") {
@@ -64,17 +64,6 @@ TEST_CASE("A count that no int can hold is refused") {
                                               at, count.size(), std::string("\"repeat\":") + wrong),
                                           "row.json"),
                       Catch::StartsWith("row.json: is no row"));
-}
-
-TEST_CASE("A claim that the judge denies is a false success") {
-  CompareRow row;
-  row.claimed = true;
-  CHECK(row.is_false_success());
-  row.judged = true;
-  CHECK_FALSE(row.is_false_success());
-  row.prepare_seconds = 0.25;
-  row.solve_seconds = 1.5;
-  CHECK(row.seconds() == 1.75);
 }
 
 TEST_CASE("Every line of the CSV has every column, and a line break in a note makes no line") {

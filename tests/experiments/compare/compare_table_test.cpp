@@ -51,11 +51,11 @@ TEST_CASE("Shifted geometric means") {
 }
 
 TEST_CASE("Cells: medians over repeats, solved only when every repeat is") {
-  const std::vector<CompareRow> rows = {hand_made_row("x", "a", 3.0, Outcome::solved, 0),
-                                        hand_made_row("x", "a", 1.0, Outcome::solved, 1),
-                                        hand_made_row("x", "a", 2.0, Outcome::solved, 2),
-                                        hand_made_row("x", "b", 1.0, Outcome::solved, 0),
-                                        hand_made_row("x", "b", 60.0, Outcome::timeout, 1)};
+  const std::vector<CompareRow> rows = {hand_made_row("x", "a", 3.0, Verdict::solved, 0),
+                                        hand_made_row("x", "a", 1.0, Verdict::solved, 1),
+                                        hand_made_row("x", "a", 2.0, Verdict::solved, 2),
+                                        hand_made_row("x", "b", 1.0, Verdict::solved, 0),
+                                        hand_made_row("x", "b", 60.0, Verdict::timeout, 1)};
   const std::vector<CompareTable> tables = compare_tables(rows);
   REQUIRE(tables.size() == 1);
   const CompareCell& a = tables[0].cells[0][0];
@@ -70,7 +70,7 @@ TEST_CASE("Cells: medians over repeats, solved only when every repeat is") {
 }
 
 TEST_CASE("Errors of histories fall, and their means are taken at equal times") {
-  CompareRow r = hand_made_row("x", "a", 1.0, Outcome::solved);
+  CompareRow r = hand_made_row("x", "a", 1.0, Verdict::solved);
   r.prepare_seconds = 0.25;
   r.history = {{0, 0.0, 1.0}, {1, 1.0, 1e-2}, {2, 2.0, 1e-1}, {3, 3.0, 1e-4}};
   const StepCurve best = best_so_far(r);

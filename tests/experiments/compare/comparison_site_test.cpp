@@ -15,7 +15,7 @@ TEST_CASE("A site has a page for all, a comparison for each machine, and every r
   const TemporaryFolder folder;
   std::vector<StoredComparison> comparisons;
   for (const char* machine : {"One CPU, 2 cores", "Other <CPU>"}) {
-    CompareRow row = hand_made_row("x", "pgs", 1.0, Outcome::solved);
+    CompareRow row = hand_made_row("x", "pgs", 1.0, Verdict::solved);
     row.facts.content = "0123";
     row.key = std::string("key") + machine[0];
     const fs::path own = folder.path() / row.key;

@@ -80,7 +80,7 @@ TEST_CASE("A comparison goes on after kill -9") {
       });
   CHECK(rows.size() == 30);
   CHECK(made == 23);
-  for (const CompareRow& row : rows) CHECK(row.outcome == Outcome::solved);
+  for (const CompareRow& row : rows) CHECK(row.verdict == Verdict::solved);
 }
 
 TEST_CASE("An interrupt stops the comparison after the row under way") {
@@ -151,12 +151,12 @@ TEST_CASE("A case that cannot be read is one row with its reason, and the others
   const std::vector<CompareRow> rows = run_comparison(cases, options, follow);
   CHECK(last == 24);
   REQUIRE(rows.size() == 4 + 1 + 4 + 8);  // not again in the second repeat
-  CHECK(rows[4].outcome == Outcome::unreadable);
+  CHECK(rows[4].verdict == Verdict::unreadable);
   CHECK(rows[4].case_name == "broken.dat");
   CHECK(rows[4].solver.empty());
   CHECK_THAT(rows[4].note, Catch::Contains(broken));
   CHECK(std::count_if(rows.begin(), rows.end(),
-                      [](const CompareRow& row) { return row.outcome == Outcome::solved; }) == 16);
+                      [](const CompareRow& row) { return row.verdict == Verdict::solved; }) == 16);
   CHECK(read_whole_file(folder.path() / "results.csv").find("unreadable") != std::string::npos);
   // once mended it is tried
   write_whole_file(broken, "3\n1\n0 3 3\n3 3\n1 0 0 0 1 0 0 0 1\n-1 0 0\n0.5\n");
@@ -164,7 +164,7 @@ TEST_CASE("A case that cannot be read is one row with its reason, and the others
   const std::vector<CompareRow> mended = run_comparison(cases, options, follow);
   CHECK(mended.size() == 24);
   CHECK(std::all_of(mended.begin(), mended.end(),
-                    [](const CompareRow& row) { return row.outcome == Outcome::solved; }));
+                    [](const CompareRow& row) { return row.verdict == Verdict::solved; }));
 }
 
 TEST_CASE("A solve during which a part was killed is a row, and is not tried again") {
@@ -174,7 +174,7 @@ TEST_CASE("A solve during which a part was killed is a row, and is not tried aga
   options.is_part = true;
   const auto go_on = [](const CompareRow&, bool, size_t, size_t) { return true; };
   const std::vector<CompareRow> first = run_comparison(one_case(), options, go_on);
-  REQUIRE(first.at(0).outcome == Outcome::solved);
+  REQUIRE(first.at(0).verdict == Verdict::solved);
   CHECK_FALSE(fs::exists(folder.path() / "results.csv"));
   const fs::path file = folder.path() / "rows" / (first[0].key + ".json"),
                  mark = file.string() + ".trying";
@@ -184,13 +184,13 @@ TEST_CASE("A solve during which a part was killed is a row, and is not tried aga
   write_whole_file(mark, "");
   for (int again = 0; again < 2; ++again) {
     const CompareRow row = run_comparison(one_case(), options, go_on).at(0);
-    CHECK(row.outcome == Outcome::crashed);
+    CHECK(row.verdict == Verdict::crashed);
     CHECK_THAT(row.note, Catch::Contains("was killed"));
     CHECK_FALSE(fs::exists(mark));
   }
   // The comparison as a whole finds it, too.
   options.is_part = false;
-  CHECK(run_comparison(one_case(), options, go_on).at(0).outcome == Outcome::crashed);
+  CHECK(run_comparison(one_case(), options, go_on).at(0).verdict == Verdict::crashed);
 }
 
 TEST_CASE("A damaged row is made again") {
@@ -204,6 +204,6 @@ TEST_CASE("A damaged row is made again") {
   write_whole_file(file, read_whole_file(file).substr(0, 40));
   const std::vector<CompareRow> second = run_comparison(one_case(), options, quiet);
   REQUIRE(second.size() == 1);
-  CHECK(second[0].outcome == Outcome::solved);
+  CHECK(second[0].verdict == Verdict::solved);
   CHECK(compare_row_of_json(read_whole_file(file), file.string()).key == first[0].key);
 }

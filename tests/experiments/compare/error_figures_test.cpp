@@ -9,12 +9,12 @@ using namespace ballast;
 TEST_CASE("A case is drawn with each backend's history to its tightest tolerance") {
   std::vector<CompareRow> rows;
   for (const double tolerance : {1e-2, 1e-4}) {
-    rows.push_back(hand_made_row("x", "a", tolerance == 1e-2 ? 1.0 : 4.0, Outcome::solved));
+    rows.push_back(hand_made_row("x", "a", tolerance == 1e-2 ? 1.0 : 4.0, Verdict::solved));
     rows.back().tolerance = tolerance;
   }
-  rows.push_back(hand_made_row("x", "b", 2.0, Outcome::stopped));
-  rows.push_back(hand_made_row("x", "a", 9.0, Outcome::solved, 1));  // a repeat: not drawn
-  rows.push_back(hand_made_row("y", "a", 7.0, Outcome::solved));     // another case
+  rows.push_back(hand_made_row("x", "b", 2.0, Verdict::unsolved));
+  rows.push_back(hand_made_row("x", "a", 9.0, Verdict::solved, 1));  // a repeat: not drawn
+  rows.push_back(hand_made_row("y", "a", 7.0, Verdict::solved));     // another case
   const Figure figure = work_precision_figure(rows, "x", StartKind::cold).plot;
   CHECK(figure.name == "case_x_cold");
   REQUIRE(figure.panels.size() == 1);
@@ -35,7 +35,7 @@ TEST_CASE("A case is drawn with each backend's history to its tightest tolerance
 }
 
 TEST_CASE("Errors far below rounding do not flatten a figure") {
-  std::vector<CompareRow> rows = {hand_made_row("x", "a", 1.0, Outcome::solved)};
+  std::vector<CompareRow> rows = {hand_made_row("x", "a", 1.0, Verdict::solved)};
   rows[0].history.back().error = 1e-30;
   CHECK(work_precision_figure(rows, "x", StartKind::cold).plot.panels.at(0).y_min == 1e-16);
 }
@@ -43,8 +43,8 @@ TEST_CASE("Errors far below rounding do not flatten a figure") {
 TEST_CASE("A family is a mean over all its cases, or no curve") {
   std::vector<CompareRow> rows;
   for (const char* name : {"x1", "x2"})
-    rows.push_back(hand_made_row(name, "a", 1.0, Outcome::solved));
-  rows.push_back(hand_made_row("x1", "b", 1.0, Outcome::solved));  // b has no x2
+    rows.push_back(hand_made_row(name, "a", 1.0, Verdict::solved));
+  rows.push_back(hand_made_row("x1", "b", 1.0, Verdict::solved));  // b has no x2
   const Figure figure = family_figure(rows, "hand", StartKind::cold).plot;
   REQUIRE(figure.panels.size() == 1);
   REQUIRE(figure.panels[0].curves.size() == 1);

@@ -6,7 +6,7 @@
 namespace ballast {
 
 inline CompareRow hand_made_row(const char* case_name, const char* solver, double seconds,
-                                Outcome outcome, int repeat = 0) {
+                                Verdict verdict, int repeat = 0) {
   CompareRow r;
   r.case_name = case_name;
   r.family = "hand";
@@ -15,10 +15,9 @@ inline CompareRow hand_made_row(const char* case_name, const char* solver, doubl
   r.tolerance = 1e-4;
   r.repeat = repeat;
   r.max_seconds = 60.0;
-  r.outcome = outcome;
-  r.claimed = r.judged = outcome == Outcome::solved;
+  r.verdict = verdict;
   r.solve_seconds = seconds;
-  r.error = outcome == Outcome::solved ? 5e-5 : 1e-2;
+  r.error = verdict == Verdict::solved ? 5e-5 : 1e-2;
   r.natural_map_rms = r.error;
   r.facts.contacts = case_name[0] == 'x' ? 10 : 20;
   r.facts.mass_ratio = case_name[0] == 'x' ? 2.0 : 5.0;

@@ -9,7 +9,7 @@ using namespace ballast;
 namespace {
 
 CompareRow solve_of(const char* content, const char* name, const char* solver, double seconds) {
-  CompareRow row = hand_made_row(name, solver, seconds, Outcome::solved);
+  CompareRow row = hand_made_row(name, solver, seconds, Verdict::solved);
   row.facts.content = content;
   return row;
 }

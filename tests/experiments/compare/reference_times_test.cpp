@@ -20,11 +20,11 @@ TEST_CASE("Reference times: names that differ by their suffixes, and ratios") {
   CHECK(reference[0].tolerance == 1e-4);
   CHECK(reference[0].entries.at("x").seconds == Approx(0.5));
   const std::vector<CompareRow> rows = {
-      hand_made_row("x.hdf5", "a", 2.0, Outcome::solved),
-      hand_made_row("x.hdf5", "auto", 1.0, Outcome::solved),
-      hand_made_row("y.dat", "a", 3.0, Outcome::solved),
-      hand_made_row("y.dat", "auto", 4.0, Outcome::stopped),
-      hand_made_row("x.hdf5", "siconos_nsgs", 0.1, Outcome::solved)};
+      hand_made_row("x.hdf5", "a", 2.0, Verdict::solved),
+      hand_made_row("x.hdf5", "auto", 1.0, Verdict::solved),
+      hand_made_row("y.dat", "a", 3.0, Verdict::solved),
+      hand_made_row("y.dat", "auto", 4.0, Verdict::unsolved),
+      hand_made_row("x.hdf5", "siconos_nsgs", 0.1, Verdict::solved)};
   const std::vector<CompareTable> tables = compare_tables(rows);
   const std::vector<ReferenceComparison> compared = compare_with_reference(tables, reference);
   REQUIRE(compared.size() == 1);
@@ -43,7 +43,7 @@ TEST_CASE("What we did not solve counts with the limit, not with infinity") {
   const TemporaryFolder folder;
   const auto reference = read_reference_times(
       folder.write("ref.csv", "problem,ms_1e-4,solver_1e-4\r\nx.dat,1000,NSGS\r\n\r\n"));
-  const std::vector<CompareRow> rows = {hand_made_row("x.dat", "a", 60.0, Outcome::timeout)};
+  const std::vector<CompareRow> rows = {hand_made_row("x.dat", "a", 60.0, Verdict::timeout)};
   const std::vector<CompareTable> tables = compare_tables(rows);
   const auto compared = compare_with_reference(tables, reference);
   REQUIRE(compared.size() == 1);

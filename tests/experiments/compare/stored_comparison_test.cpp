@@ -10,10 +10,10 @@ using namespace ballast;
 
 TEST_CASE("A comparison is read back in the order of its rows, with its machine and program") {
   const TemporaryFolder folder;
-  const CompareRow rows[] = {hand_made_row("y", "pgs", 1.0, Outcome::solved),
-                             hand_made_row("x", "pgs", 1.0, Outcome::solved, 1),
-                             hand_made_row("x", "pgs", 2.0, Outcome::solved),
-                             hand_made_row("x", "nncg", 1.0, Outcome::solved)};
+  const CompareRow rows[] = {hand_made_row("y", "pgs", 1.0, Verdict::solved),
+                             hand_made_row("x", "pgs", 1.0, Verdict::solved, 1),
+                             hand_made_row("x", "pgs", 2.0, Verdict::solved),
+                             hand_made_row("x", "nncg", 1.0, Verdict::solved)};
   std::filesystem::create_directory(folder.path() / "rows");
   for (size_t k = 0; k < 4; ++k)
     folder.write("rows/" + std::to_string(7 - k) + ".json", to_json(rows[k]));

@@ -32,7 +32,7 @@ struct Asked {
                           .max_iterations = 77,
                           .max_seconds = std::numeric_limits<double>::infinity(),
                           .id = 5};
-  ExternalAnswer answer{.status = ExternalStatus::solved,
+  ExternalAnswer answer{.reason = StopReason::reached_tolerance,
                         .impulses = known.r,
                         .iterations = 3,
                         .own_residual = 1e-7,
@@ -94,7 +94,7 @@ TEST_CASE("An answer comes back with the rows of the problem") {
   const Asked a;
   write_answer(a.file, a.request, a.answer);
   const ExternalAnswer read = read_answer(a.file, a.request);
-  CHECK(read.status == ExternalStatus::solved);
+  CHECK(read.reason == StopReason::reached_tolerance);
   CHECK(read.impulses == a.answer.impulses);
   CHECK(read.iterations == 3);
   CHECK(read.own_residual == 1e-7);
@@ -144,11 +144,12 @@ TEST_CASE("What is no answer is refused with the reason") {
 
 TEST_CASE("Who cannot solve needs no impulses") {
   Asked a;
-  a.answer.status = ExternalStatus::unsupported;
+  a.answer.verdict = Verdict::unsupported;
   a.answer.impulses.resize(0);
   write_answer(a.file, a.request, a.answer);
-  CHECK(read_answer(a.file, a.request).status == ExternalStatus::unsupported);
-  a.answer.status = ExternalStatus::solved;
+  CHECK(read_answer(a.file, a.request).verdict == Verdict::unsupported);
+  a.answer.verdict = Verdict::unsolved;
+  a.answer.reason = StopReason::reached_tolerance;
   write_answer(a.file, a.request, a.answer);
   CHECK_THAT(a.refusal(), Contains("/ballast_answer/r: no such dataset"));
 }

@@ -32,13 +32,13 @@ TEST_CASE("Ballast behind its own protocol solves as it does here") {
           .problem;
   const Budget budget{1e-8, 10000, 20.0, true};
   const SolverRun here = SolverRunner().run(*make_solver("pgs"), problem, {}, budget);
-  REQUIRE(here.success);
+  REQUIRE(here.is_solved());
   const bool is_served = GENERATE(false, true);
   const auto make = external_solver({"own", own, is_served, ""}, limits);
   // More than one problem for the same process.
   for (int repeat = 0; repeat < 2; ++repeat) {
     const SolverRun there = SolverRunner().run(*make(), problem, {}, budget);
-    CHECK(there.success);
+    CHECK(there.is_solved());
     CHECK((there.solved.impulses - here.solved.impulses).cwiseAbs().maxCoeff() < 1e-7);
     CHECK(there.solved.history.size() == here.solved.history.size());
     CHECK(there.startup_seconds > 0.0);
@@ -74,12 +74,12 @@ TEST_CASE("A served program that died or failed is asked again for the next prob
   const FrictionProblem problem = make_known_solution({.bodies = 4, .contacts = 6}).problem;
   const Budget budget{1e-6, 10000, 20.0, false};
   CHECK_THROWS_WITH(SolverRunner().run(*make(), problem, {}, budget), Contains("exit code 9"));
-  CHECK(SolverRunner().run(*make(), problem, {}, budget).success);
+  CHECK(SolverRunner().run(*make(), problem, {}, budget).is_solved());
 }
 
 TEST_CASE("A program that says it failed, or leaves no answer, is a failed solve") {
   const SolverRun none = solved_by({"none", "true", false, ""});
-  CHECK_FALSE(none.success);
+  CHECK_FALSE(none.is_solved());
   CHECK_THAT(none.failure, Contains("none: answer1.hdf5: no such file"));
   const std::string failing =
       "echo noise; echo ready; read line; echo noise; echo 'failed: too large'; read line #";

@@ -39,9 +39,9 @@ run_and_kill kill_worker "in the middle of a solve"
 ! kill -0 "$(cat "$folder/first/id")" 2>/dev/null || fail "the killed worker's program still runs"
 [ "$jobs" = 5 ] || fail "$jobs jobs ran in Slurm; 2 cases by pgs and by slow, and one that was killed are 5"
 
-# Column `outcome`, by its name; notes in quotes stand behind it.
-outcomes=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "outcome") c = i; next } { print $c }' "$folder/results/results.csv" |
+# Column `verdict`, by its name; notes in quotes stand behind it.
+verdicts=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "verdict") c = i; next } { print $c }' "$folder/results/results.csv" |
   sort | uniq -c | xargs)
-[ "$outcomes" = "1 crashed 7 solved" ] || fail "outcomes of 8 solves, one of them killed: $outcomes"
+[ "$verdicts" = "1 crashed 7 solved" ] || fail "verdicts of 8 solves, one of them killed: $verdicts"
 [ -s "$folder/results/compare.html" ] || fail "no page"
 echo "PASSED: 8 rows of 5 jobs, the one that was killed among them"

@@ -31,8 +31,8 @@ TEST_CASE("Newton with bursts closes on rank-deficient problems, nearly all", "[
         SolverRunner().run(*solver, deficient(seed), {},
                            {.tolerance = 1e-10, .max_iterations = 6000, .max_seconds = 20.0});
     CAPTURE(seed, run.solved.iterations, run.error.natural_map_rms);
-    CHECK(run.success == (run.solved.reason == StopReason::reached_tolerance));
-    solved += run.success;
+    CHECK(run.is_solved() == (run.solved.reason == StopReason::reached_tolerance));
+    solved += run.is_solved();
   }
   CHECK(solved >= 18);  // seed by seed it is a matter of rounding which one stays
 }
@@ -42,7 +42,7 @@ TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[fact
   const SolverRun run = SolverRunner().run(
       *solver, deficient(1), {}, {.tolerance = 1e-10, .max_iterations = 500, .max_seconds = 20.0});
   CAPTURE(run.solved.iterations, run.error.natural_map_rms);
-  CHECK(run.success);
+  CHECK(run.is_solved());
 }
 
 TEST_CASE("bursts that are as long as a step costs are not longer", "[factors]") {
@@ -52,7 +52,7 @@ TEST_CASE("bursts that are as long as a step costs are not longer", "[factors]")
   const SolverRun run = SolverRunner().run(
       *solver, problem, {},
       {.tolerance = 1e-10, .max_iterations = 5000, .factorisations = &factorisations});
-  CHECK(run.success);
+  CHECK(run.is_solved());
   StepWork work;
   work.count(problem);
   work.learn(solver->operations());
@@ -72,8 +72,8 @@ TEST_CASE("where sweeps are enough it is nesterov_pgs, bit for bit", "[factors]"
   const auto sweeps = make_nesterov_pgs(), solver = make_newton_burst();
   const SolverRun by_sweeps = SolverRunner().run(*sweeps, problem, {}, budget);
   const SolverRun run = SolverRunner().run(*solver, problem, {}, budget);
-  REQUIRE(by_sweeps.success);
-  CHECK(run.success);
+  REQUIRE(by_sweeps.is_solved());
+  CHECK(run.is_solved());
   CHECK(run.solved.iterations == by_sweeps.solved.iterations);
   CHECK(run.solved.impulses == by_sweeps.solved.impulses);
 }
@@ -87,7 +87,7 @@ TEST_CASE("Newton takes over from sweeps to the same bits on any number of threa
     team.resize(threads);
     solver->use_team(&team);
     const SolverRun run = SolverRunner().run(*solver, deficient(3), {}, budget);
-    CHECK(run.success);
+    CHECK(run.is_solved());
     if (threads == 1) alone = run.solved.impulses;
     CHECK(run.solved.impulses == alone);
   }
@@ -102,7 +102,7 @@ TEST_CASE("steps that must lower the error come first, and the walk where they a
     const SolverRun run = SolverRunner().run(*solver, deficient(seed), {},
                                              {.tolerance = 1e-10, .max_iterations = 100000});
     const bool arrived = run.solved.reason == StopReason::reached_tolerance;
-    CHECK(run.success == arrived);
+    CHECK(run.is_solved() == arrived);
     solved += arrived;
   }
   CHECK(solved >= 9);

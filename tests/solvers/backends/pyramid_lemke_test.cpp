@@ -34,7 +34,7 @@ TEST_CASE("pyramid: along one of its directions it is Coulomb's law, between the
           SolverRunner().run(*solver, sliding_block(turn * 2.0 * half), {}, budget);
       CAPTURE(sides, turn, run.error.natural_map_rms);
       CHECK(run.solved.own_residual < 1e-12);
-      CHECK(run.success == (turn == 0.0));
+      CHECK(run.is_solved() == (turn == 0.0));
       // Opposite to the motion the hull of the directions reaches mu r_N cos(pi / sides).
       const Eigen::Vector2d motion(std::cos(turn * 2.0 * half), std::sin(turn * 2.0 * half));
       CHECK(-run.solved.impulses.tail<2>().dot(motion) ==

@@ -39,8 +39,8 @@ TEST_CASE("Siconos stops on its own measure, where it was asked to") {
   const FrictionProblem problem = small_problem();
   const SolverRun loose = solved_to(problem, SiconosMethod::nsgs, 1e-3);
   const SolverRun tight = solved_to(problem, SiconosMethod::nsgs, 1e-8);
-  CHECK(loose.success);
-  CHECK(tight.success);
+  CHECK(loose.is_solved());
+  CHECK(tight.is_solved());
   CHECK(loose.error.fclib <= 1e-3);
   CHECK(loose.error.fclib > 1e-6);  // not solved further than asked
   CHECK(loose.solved.iterations < tight.solved.iterations);
@@ -52,7 +52,7 @@ TEST_CASE("An answer that Siconos is just content with is not sent back for anot
   const FrictionProblem problem = mass_stack({1.0, 2000.0}, 3).problem;
   const SolverRun run = solved_to(problem, SiconosMethod::nsgs_full, 1e-5),
                   further = solved_to(problem, SiconosMethod::nsgs_full, 0.9e-5);
-  CHECK(run.success);
+  CHECK(run.is_solved());
   CHECK(run.solved.iterations > 100);
   CHECK(run.solved.iterations < further.solved.iterations);
 }
@@ -84,5 +84,5 @@ TEST_CASE("Siconos' Newton goes on with a sparse W where it circles with a dense
   FclibStop stop(problem, 1e-4);
   Budget budget{.tolerance = 0.0, .max_iterations = 4000};
   budget.fclib = &stop;
-  CHECK(SolverRunner().run(*make_siconos(SiconosMethod::nsn_ac), problem, {}, budget).success);
+  CHECK(SolverRunner().run(*make_siconos(SiconosMethod::nsn_ac), problem, {}, budget).is_solved());
 }

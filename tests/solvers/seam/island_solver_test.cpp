@@ -77,7 +77,7 @@ TEST_CASE(
     const auto solver = by_islands(name);
     for (int again = 0; again < 2; ++again) {  // one solver for a sequence of problems
       const SolverRun run = SolverRunner().run(*solver, all, {}, budget);
-      CHECK(run.success);
+      CHECK(run.is_solved());
       CHECK(run.error.natural_map_rms <= 1e-5);
       Eigen::Index row = 0;
       double visits = 0.0;
@@ -109,10 +109,10 @@ TEST_CASE("the reason of several islands is the worst of theirs") {
   // easy reaches the tolerance within the limit, hard does not
   const FrictionProblem all = beside({easy, hard});
   const Budget budget{.tolerance = 1e-7, .max_iterations = 60};
-  CHECK(SolverRunner().run(*make_solver("pgs"), easy, {}, budget).success);
+  CHECK(SolverRunner().run(*make_solver("pgs"), easy, {}, budget).is_solved());
   const SolverRun run = SolverRunner().run(*by_islands("pgs"), all, {}, budget);
   CHECK(run.solved.reason == StopReason::iteration_limit);
-  CHECK_FALSE(run.success);
+  CHECK_FALSE(run.is_solved());
   CHECK(run.solved.iterations <= 60);
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("contacts between bodies that cannot move get no impulse") {
   add_fixed_contact(all, Eigen::VectorXd::Zero(1));
   const SolverRun run = SolverRunner().run(*by_islands("nncg"), all,
                                            Impulses::Ones(all.row_count()), {.tolerance = 1e-6});
-  CHECK(run.success);
+  CHECK(run.is_solved());
   CHECK(run.solved.impulses[all.row_count() - 1] == 0.0);
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("a backend that refuses, fails or returns nothing says so through the 
       SolverRunner().run(*make_island_solver(std::make_unique<Failing>()), all, {}, {});
   CHECK(nothing.solved.reason == StopReason::numerical_failure);
   CHECK(nothing.solved.impulses.isZero(0.0));
-  CHECK_FALSE(nothing.success);
+  CHECK_FALSE(nothing.is_solved());
 
   FrictionProblem stored;  // W and q alone: newton_burst factorises over bodies
   stored.has_delassus = true;
@@ -147,5 +147,5 @@ TEST_CASE("a backend that refuses, fails or returns nothing says so through the 
   stored.delassus.q.setOnes(1);
   CHECK_THROWS_AS(SolverRunner().run(*by_islands("newton_burst"), stored, {}, {}),
                   UnsupportedProblem);
-  CHECK(SolverRunner().run(*by_islands("pgs"), stored, {}, {}).success);
+  CHECK(SolverRunner().run(*by_islands("pgs"), stored, {}, {}).is_solved());
 }

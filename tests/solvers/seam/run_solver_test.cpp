@@ -31,6 +31,18 @@ class Puppet final : public Solver {
 
 const KnownSolution known = make_known_solution({});
 
+constexpr StopReason claimed = StopReason::reached_tolerance;
+
+/// As the judge finds impulses that a solver returned for that reason, to 1e-8 m/s.
+SolverRun judged(const FrictionProblem& problem, const Impulses& r, StopReason reason = claimed) {
+  SolverRun run;
+  run.solved.impulses = r;
+  run.solved.reason = reason;
+  run.error = contact_error(problem, r);
+  run.verdict = verdict_of(reason, run.error, 1e-8);
+  return run;
+}
+
 }  // namespace
 
 TEST_CASE("a claim is believed only when the judge agrees") {
@@ -38,16 +50,16 @@ TEST_CASE("a claim is believed only when the judge agrees") {
   SolverRunner runner;
   puppet.answer = {known.r, StopReason::reached_tolerance, 1, 0.0, 0.0, {}};
   const SolverRun honest = runner.run(puppet, known.problem, {}, {});
-  CHECK(honest.success);
+  CHECK(honest.is_solved());
   CHECK(honest.error.natural_map_rms < 1e-12);
 
   puppet.answer.impulses = 0.99 * known.r;  // own_residual still claims 0
   const SolverRun lie = runner.run(puppet, known.problem, {}, {});
-  CHECK_FALSE(lie.success);
+  CHECK_FALSE(lie.is_solved());
   CHECK(lie.error.natural_map_rms > 1e-4);
 
   puppet.answer = {known.r, StopReason::stalled, 1, 0.0, 0.0, {}};
-  CHECK_FALSE(runner.run(puppet, known.problem, {}, {}).success);
+  CHECK_FALSE(runner.run(puppet, known.problem, {}, {}).is_solved());
 }
 
 TEST_CASE("a solver that stops on the natural map goes on until the law holds") {
@@ -106,7 +118,7 @@ TEST_CASE("a backend that throws, or returns rubbish, has failed; one that decli
   SolverRun run = runner.run(puppet, known.problem, {}, {});
   CHECK(run.solved.reason == StopReason::numerical_failure);
   CHECK(run.solved.impulses == Impulses::Zero(known.problem.row_count()));
-  CHECK_FALSE(run.success);
+  CHECK_FALSE(run.is_solved());
   puppet.on_prepare = [] { throw std::bad_alloc(); };
   CHECK(runner.run(puppet, known.problem, {}, {}).solved.reason == StopReason::numerical_failure);
   puppet.on_prepare = [] { throw UnsupportedProblem("puppet: no"); };
@@ -116,7 +128,7 @@ TEST_CASE("a backend that throws, or returns rubbish, has failed; one that decli
   puppet.answer = {Impulses::Zero(2), StopReason::reached_tolerance, 1, 0.0, 0.0, {}};
   run = runner.run(puppet, known.problem, {}, {});
   CHECK(run.solved.reason == StopReason::numerical_failure);
-  CHECK_FALSE(run.success);
+  CHECK_FALSE(run.is_solved());
   puppet.answer = {
       Impulses::Constant(known.problem.row_count(), std::numeric_limits<double>::quiet_NaN()),
       StopReason::reached_tolerance,
@@ -126,7 +138,7 @@ TEST_CASE("a backend that throws, or returns rubbish, has failed; one that decli
       {}};
   run = runner.run(puppet, known.problem, {}, {});
   CHECK_FALSE(run.error.finite);
-  CHECK_FALSE(run.success);
+  CHECK_FALSE(run.is_solved());
 }
 
 TEST_CASE("one runner and one solver serve a sequence of problems") {
@@ -139,11 +151,69 @@ TEST_CASE("one runner and one solver serve a sequence of problems") {
     settings.friction_max = 0.5;
     const FrictionProblem problem = make_known_solution(settings).problem;
     const SolverRun run = runner.run(*solver, problem, {}, {});
-    CHECK(run.success);
+    CHECK(run.is_solved());
     const auto fresh = make_gauss_seidel();
     CHECK(SolverRunner().run(*fresh, problem, {}, {}).solved.impulses ==
           run.solved.impulses);  // nothing left over
     CHECK(run.prepare_seconds >= 0.0);
     CHECK(run.solve_seconds > 0.0);
   }
+}
+
+TEST_CASE("a contact that no impulse moves and that sinks in has no solution") {
+  const Impulses none = Impulses::Zero(3);
+  CHECK(judged(immovable_contact(-1.0), none).verdict == Verdict::no_solution);
+  CHECK(judged(immovable_contact(1.0), none).verdict == Verdict::solved);
+  CHECK(judged(immovable_contact(-1.0), none, StopReason::stalled).verdict == Verdict::no_solution);
+  // an impulse there where u_N > 0 answers nothing
+  CHECK(judged(immovable_contact(1.0), Eigen::Vector3d(2.0, 0.0, 0.0)).verdict == Verdict::denied);
+}
+
+TEST_CASE("impulses that swallow the velocities solve nothing") {
+  Impulses r = Impulses::Zero(6);
+  r[0] = r[3] = 1e17;  // r - rho u == r: the natural map is zero
+  SolverRun run = judged(squeezed_contacts(), r);
+  CHECK(run.error.natural_map_rms <= 1e-8);
+  CHECK(run.error.min_normal_velocity == -1.0);
+  CHECK(run.verdict == Verdict::no_solution);
+  CHECK(run.error.fclib < 1e-8);
+  CHECK(fclib_verdict_of(claimed, run.error, 1e-8) == Verdict::no_solution);
+  run.solved.impulses.setZero(3);  // of a problem of which nothing is proved
+  CHECK(explained(rough_contact(0.5), run, 1e-8) ==
+        "no solution found; r grows without bound: 1e+17 times what a contact alone needs");
+  r[0] = r[3] = 1e3;  // on the way there
+  CHECK(judged(squeezed_contacts(), r).verdict == Verdict::denied);
+  CHECK(judged(squeezed_contacts(), r, StopReason::iteration_limit).verdict == Verdict::unsolved);
+}
+
+TEST_CASE("with much friction a small natural map is not enough") {
+  // No impulse at all: the contact sinks in, and mu |u_T| hides it.
+  SolverRun falls = judged(rough_contact(1e9), Impulses::Zero(3));
+  CHECK(falls.error.natural_map_rms < 1e-10);
+  CHECK(falls.error.approach_rms == Approx(9.81e-3));
+  CHECK(falls.verdict == Verdict::denied);
+  CHECK(explained(rough_contact(1e9), falls, 1e-8) ==
+        "the judge denies it: -u_N is 0.00981 m/s (rms), at most 4e-08 may be");
+  // What stands is solved.
+  SolverRun stands = judged(rough_contact(1e4), Eigen::Vector3d(9.81e-3, -1e-3, 0.0));
+  CHECK(stands.is_solved());
+  CHECK(explained(rough_contact(1e4), stands, 1e-8) == "solved");
+}
+
+TEST_CASE("what is not solved says why, and is searched for a proof that it cannot be") {
+  const FrictionProblem problem = rough_contact(0.5);
+  SolverRun run = judged(problem, Impulses::Zero(3));
+  CHECK_THAT(explained(problem, run, 1e-8), Catch::Contains("the natural map is"));
+  run.error.finite = false;
+  CHECK(verdict_of(claimed, run.error, 1e300) == Verdict::denied);
+  CHECK(explained(problem, run, 1e300) ==
+        "the judge denies it: the impulses, or velocities that they give, are not finite");
+  SolverRun early = judged(problem, Impulses::Zero(3), StopReason::time_limit);
+  CHECK(explained(problem, early, 1e-8) == "unsolved: time_limit");
+  CHECK(early.verdict == Verdict::unsolved);
+  SolverRun none = judged(squeezed_contacts(), Impulses::Zero(6), StopReason::stalled);
+  CHECK(explained(squeezed_contacts(), none, 1e-8) ==
+        "there is no solution: 2 contacts (one is 0) sink in at 1 m/s in the mean whatever the "
+        "impulses");
+  CHECK(none.verdict == Verdict::no_solution);
 }
