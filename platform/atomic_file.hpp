@@ -1,9 +1,10 @@
 #pragma once
-// Files that are there whole or not at all.
+// Files and folders: whole or not at all, what a name leads to, one worker at a time.
 
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -69,5 +70,57 @@ void require_own_folder(const std::filesystem::path& folder,
 void sync_to_disk(std::FILE* stream, const std::filesystem::path& file);
 /// The same for the entries of a folder: after a file was created or renamed in it.
 void sync_folder(const std::filesystem::path& folder);
+
+// What a name leads to, links followed. std::filesystem's own questions throw for a name that the
+// system refuses (longer than a file's name may be, a folder that may not be entered). Words of a
+// command line and of a scene are such names: nothing is there then.
+
+inline bool is_there(const std::filesystem::path& path) noexcept {
+  std::error_code refused;
+  return std::filesystem::exists(path, refused);
+}
+
+/// A regular file: not a folder, a pipe or a device.
+inline bool is_file(const std::filesystem::path& path) noexcept {
+  std::error_code refused;
+  return std::filesystem::is_regular_file(path, refused);
+}
+
+inline bool is_folder(const std::filesystem::path& path) noexcept {
+  std::error_code refused;
+  return std::filesystem::is_directory(path, refused);
+}
+
+/// One worker at a time: a lock that goes with its process, however that ends.
+/// flock on a file that is made for it and removed with it. The kernel lets go when the process
+/// dies, kill -9 included, and children that are another program don't inherit it. Over NFS it is a
+/// lock among all machines that mount the folder.
+class FileLock {
+ public:
+  /// Asks whether to go on waiting; called some twenty times a second.
+  using Patience = std::function<bool(double seconds_waited)>;
+
+  /// Waits until the lock is free; `patience` returning false gives up: is_held() is then false.
+  /// The folder must be there. Throws Error when the file cannot be made or locked.
+  FileLock(std::filesystem::path file, const Patience& patience);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+  bool is_held() const { return descriptor_ >= 0; }
+  /// Who holds the lock that could not be had: "process 123 on host", as far as the file says.
+  const std::string& holder() const { return holder_; }
+
+ private:
+  bool try_once();
+  void sign() const;
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::string holder_ = "another process";
+};
+
+/// For locks that are free unless somebody is at work: waits for one who is just dying.
+bool briefly(double seconds_waited);
 
 }  // namespace ballast

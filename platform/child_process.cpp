@@ -1,19 +1,16 @@
 #include "platform/child_process.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
-#include <vector>
 
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
@@ -25,53 +22,37 @@ namespace {
   throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
 }
 
-/// In the pipe:   | mark | length | the answer | mark |   A child that dies on the way leaves less.
-/// Before the answer: that it follows, and its length. After it: the same word once more.
+/// Before the answer: that it is whole, and its length. It is written last, so that a child that
+/// dies on the way leaves less.
 struct Head {
-  std::uint64_t word;
-  std::uint64_t length;
+  std::uint64_t mark, length;
 };
-constexpr std::uint64_t mark = 0x62616c6c61737421ull;
+constexpr std::uint64_t whole = 0x62616c6c61737421ull;
 
 bool expendable = false;
 
-bool write_all(int pipe, const void* data, size_t size) {
-  const char* next = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t written = write(pipe, next, size);
+bool write_at(int file, off_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = pwrite(file, bytes.data(), bytes.size(), offset);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return false;
-    next += written;
-    size -= static_cast<size_t>(written);
+    offset += written;
+    bytes.remove_prefix(static_cast<size_t>(written));
   }
   return true;
 }
 
-/// In the child: the answer goes into the pipe, everything that is printed nowhere.
-void answer_into(int pipe, const std::function<std::string()>& work) {
+/// In the child: the answer goes into the file, everything that is printed nowhere.
+void answer_into(int file, const std::function<std::string()>& work) {
   expendable = true;
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
   const std::string answer = work();
-  const Head head{mark, answer.size()};
-  const bool is_whole = write_all(pipe, &head, sizeof head) &&
-                        write_all(pipe, answer.data(), answer.size()) &&
-                        write_all(pipe, &mark, sizeof mark);
-  _exit(is_whole ? 0 : 1);
-}
-
-/// What stands between the two marks; false when something is missing.
-bool take_answer(const std::string& bytes, std::string& answer) {
-  Head head;
-  std::uint64_t last;
-  if (bytes.size() < sizeof head + sizeof last) return false;
-  std::memcpy(&head, bytes.data(), sizeof head);
-  if (head.word != mark || bytes.size() - sizeof head - sizeof last != head.length) return false;
-  std::memcpy(&last, bytes.data() + bytes.size() - sizeof last, sizeof last);
-  if (last != mark) return false;
-  answer = bytes.substr(sizeof head, head.length);
-  return true;
+  const Head head{whole, answer.size()};
+  const bool is_written = write_at(file, sizeof head, answer) &&
+                          write_at(file, 0, {reinterpret_cast<const char*>(&head), sizeof head});
+  _exit(is_written ? 0 : 1);
 }
 
 }  // namespace
@@ -79,18 +60,20 @@ bool take_answer(const std::string& bytes, std::string& answer) {
 bool is_expendable_process() { return expendable; }
 
 ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work) {
-  Pipe pipe;
-  const ChildProcess child([&] { answer_into(pipe.write_end(), work); });
-  pipe.close_write_end();
-  const bool is_closed =
-      Pipe::read_until_closed({&pipe}, max_seconds, std::numeric_limits<size_t>::max());
-  // The child is killed below, which is harmless when it is through: it has written, and is about
-  // to leave.
+  const MemoryFile file;
+  ChildProcess child([&] { answer_into(file.descriptor(), work); });
   ChildResult result;
-  if (take_answer(pipe.text, result.answer))
-    result.end = ChildEnd::complete;
-  else
-    result.end = is_closed ? ChildEnd::crashed : ChildEnd::out_of_time;
+  if (!child.ends_within(max_seconds)) {
+    result.end = ChildEnd::out_of_time;
+    return result;  // and is killed
+  }
+  std::string bytes = file.text();
+  Head head{};
+  if (bytes.size() < sizeof head) return result;
+  std::memcpy(&head, bytes.data(), sizeof head);
+  if (head.mark != whole || bytes.size() - sizeof head != head.length) return result;
+  result.end = ChildEnd::complete;
+  result.answer = bytes.substr(sizeof head);
   return result;
 }
 
@@ -136,52 +119,32 @@ bool ChildProcess::collect(bool waits) {
   return true;
 }
 
-Pipe::Pipe() {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw_no_child();
-  read_end_ = ends[0];
-  write_end_ = ends[1];
-}
-
-Pipe::~Pipe() {
-  close(read_end_);
-  close_write_end();
-}
-
-void Pipe::close_write_end() {
-  if (write_end_ >= 0) close(write_end_);
-  write_end_ = -1;
-}
-
-/// Takes what is there; false when the other end has been closed.
-bool Pipe::take() {
-  char block[1 << 16];
-  const ssize_t got = read(read_end_, block, sizeof block);
-  if (got > 0) text.append(block, static_cast<size_t>(got));
-  return got > 0 || (got < 0 && errno == EINTR);
-}
-
-bool Pipe::read_until_closed(std::initializer_list<Pipe*> pipes, double max_seconds,
-                             size_t most_bytes) {
+bool ChildProcess::ends_within(double seconds) {
   const Stopwatch watch;
-  std::vector<Pipe*> open(pipes);
-  std::vector<pollfd> waiting;
-  while (!open.empty()) {
-    const double left = max_seconds - watch.seconds();
-    size_t bytes = 0;
-    for (const Pipe* pipe : pipes) bytes += pipe->text.size();
-    if (!(left > 0.0) || bytes > most_bytes) return false;
-    // Wait until one of them has something or is closed, and read what there is.
-    waiting.clear();
-    for (const Pipe* pipe : open) waiting.push_back({pipe->read_end_, POLLIN, 0});
-    if (poll(waiting.data(), waiting.size(),
-             static_cast<int>(std::ceil(std::min(1e3 * left, 1e6)))) <= 0)
-      continue;
-    for (size_t k = open.size(); k-- > 0;)
-      if (waiting[k].revents != 0 && !open[k]->take())
-        open.erase(open.begin() + static_cast<std::ptrdiff_t>(k));
+  for (useconds_t pause = 50; !has_ended(); pause = std::min<useconds_t>(2 * pause, 1000)) {
+    if (!(watch.seconds() < seconds)) return false;
+    usleep(pause);
   }
   return true;
+}
+
+MemoryFile::MemoryFile() : descriptor_(memfd_create("ballast", MFD_CLOEXEC)) {
+  if (descriptor_ < 0) throw_no_child();
+}
+
+MemoryFile::~MemoryFile() { close(descriptor_); }
+
+std::string MemoryFile::text() const {
+  const off_t size = lseek(descriptor_, 0, SEEK_END);
+  std::string text(size > 0 ? static_cast<size_t>(size) : 0, '\0');
+  for (size_t at = 0; at < text.size();) {
+    const ssize_t got =
+        pread(descriptor_, text.data() + at, text.size() - at, static_cast<off_t>(at));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    at += static_cast<size_t>(got);
+  }
+  return text;
 }
 
 }  // namespace ballast

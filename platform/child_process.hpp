@@ -6,7 +6,6 @@
 #include <sys/types.h>
 
 #include <functional>
-#include <initializer_list>
 #include <string>
 
 namespace ballast {
@@ -42,6 +41,8 @@ class ChildProcess {
 
   /// It has ended; status() holds then.
   bool has_ended() { return collect(false); }
+  /// Waits at most so long; whether it has ended.
+  bool ends_within(double seconds);
   /// Exit code; 128 + signal when a signal ended it.
   int status() const { return status_; }
   /// Nothing when it has ended.
@@ -54,30 +55,22 @@ class ChildProcess {
   int status_ = 0;
 };
 
-/// A pipe that a child writes into; both ends are closed when this process executes another
-/// program.
-class Pipe {
+/// A file in memory that a child writes into and that is read here when the child has ended; not
+/// left open in other programs.
+class MemoryFile {
  public:
   /// Throws Error.
-  Pipe();
-  ~Pipe();
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
+  MemoryFile();
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
 
-  int write_end() const { return write_end_; }
-  /// Here, once the child has been made: only then can the child's closing be seen.
-  void close_write_end();
-
-  /// Reads all `pipes` into their texts until their writers have closed them, at most `max_seconds`
-  /// and most_bytes in all; false when it was given up.
-  static bool read_until_closed(std::initializer_list<Pipe*> pipes, double max_seconds,
-                                size_t most_bytes);
-  std::string text;  ///< what has been read
+  int descriptor() const { return descriptor_; }
+  /// All that has been written.
+  std::string text() const;
 
  private:
-  bool take();
-
-  int read_end_ = -1, write_end_ = -1;
+  int descriptor_;
 };
 
 }  // namespace ballast

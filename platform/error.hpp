@@ -19,4 +19,7 @@ class Error : public std::runtime_error {
 inline constexpr const char* broken_json =
     "a name or a bracket is missing, or a value is of another kind";
 
+/// Exit codes of the ballast program.
+enum class ExitCode { ok = 0, failure = 1, usage = 2, time_limit = 3, backend_missing = 4 };
+
 }  // namespace ballast

@@ -3,13 +3,182 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <exception>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <type_traits>
 
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
+
+/// The disk as HDF5 sees it while it makes a file: one that never fills up. HDF5 cannot recover
+/// from a write that fails: a dataset that is closed by its destructor would lose a chunk without a
+/// word, handles would stay open, and the end of the program would try again. So it is told that
+/// every write went well; the first failure is kept and thrown to whoever asks.
+class Hdf5Disk {
+ public:
+  explicit Hdf5Disk(const std::filesystem::path& target) : file(target) {}
+
+  /// Throws the Error with which a write failed.
+  void require_written() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+  /// After a failure nothing is attempted any more but reading.
+  template <class Work>
+  herr_t attempt(const Work& work) {
+    try {
+      work();
+    } catch (...) {
+      if (!failure_) failure_ = std::current_exception();
+    }
+    return 0;
+  }
+  bool has_failed() const { return failure_ != nullptr; }
+
+  AtomicFile file;
+
+ private:
+  std::exception_ptr failure_;
+};
+
+namespace {
+
+/// Number of entries.
+unsigned long long product(const Hdf5Shape& shape) {
+  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+}
+
+/// UTF-8 of any length.
+Hdf5Id text_type() {
+  Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+/// The space of an array of that shape.
+Hdf5Id space_of(const Hdf5Shape& shape) {
+  return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
+}
+
+/// Selects as many entries of `space` as whole rows along its first dimension, from row `first` on,
+/// and returns their shape; empty when there are no such rows.
+Hdf5Shape select_rows(const Hdf5Id& space, size_t first, size_t entries) {
+  Hdf5Shape count(static_cast<size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
+  H5Sget_simple_extent_dims(space, count.data(), nullptr);
+  if (count.empty()) return {};
+  // Some rows along the first dimension, all of the others.
+  Hdf5Shape start(count.size(), 0);
+  const unsigned long long rows = count[0], row = product({count.begin() + 1, count.end()});
+  start[0] = first;
+  count[0] = row > 0 ? entries / row : 0;
+  if (count[0] == 0 || entries % row != 0 || first >= rows || count[0] > rows - first) return {};
+  const herr_t selected =
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  return selected < 0 ? Hdf5Shape{} : count;
+}
+
+hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) {
+  if (!is_file(path)) file.fail(is_there(path) ? "not a regular file" : "no such file");
+  // The signature first, so that a text file and a truncated HDF5 file get different answers.
+  if (H5Fis_hdf5(path.c_str()) <= 0) file.fail("not an HDF5 file");
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0) file.fail("damaged or truncated HDF5 file");
+  return id;
+}
+
+/// A file as HDF5 has it open. `given`: up to where HDF5 has given the file's addresses away;
+/// `length`: up to where something was written.
+struct OpenFile : H5FD_t {
+  std::shared_ptr<Hdf5Disk> disk;
+  haddr_t given = 0, length = 0;
+};
+OpenFile& of(H5FD_t* file) { return *static_cast<OpenFile*>(file); }
+const OpenFile& of(const H5FD_t* file) { return *static_cast<const OpenFile*>(file); }
+
+herr_t write_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size,
+                  const void* buffer) {
+  Hdf5Disk& disk = *of(file).disk;
+  of(file).length = std::max<haddr_t>(of(file).length, offset + size);
+  if (disk.has_failed()) return 0;
+  return disk.attempt([&] {
+    disk.file.write_at(offset, {static_cast<const char*>(buffer), size});
+  });
+}
+
+/// The file ends where the last address was given away.
+herr_t end_file(H5FD_t* file, hid_t, hbool_t) {
+  OpenFile& open = of(file);
+  const bool has_changed = open.length != open.given;
+  open.length = open.given;
+  return has_changed ? open.disk->attempt([&] { open.disk->file.set_length(open.given); }) : 0;
+}
+
+hid_t register_driver() {
+  H5FD_class_t driver{};
+  driver.name = "ballast";
+  driver.maxaddr = std::numeric_limits<std::int64_t>::max();
+  driver.fc_degree = H5F_CLOSE_WEAK;
+  driver.fapl_size = sizeof(const std::shared_ptr<Hdf5Disk>*);
+  driver.open = [](const char*, unsigned, hid_t access, haddr_t) -> H5FD_t* {
+    auto* file = new OpenFile();
+    file->disk = **static_cast<const std::shared_ptr<Hdf5Disk>* const*>(H5Pget_driver_info(access));
+    return file;
+  };
+  driver.close = [](H5FD_t* file) -> herr_t {
+    delete &of(file);
+    return 0;
+  };
+  // The way HDF5 shares room out is that of its own drivers for single files.
+  driver.query = [](const H5FD_t*, unsigned long* features) -> herr_t {
+    *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
+                H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
+    return 0;
+  };
+  driver.get_eoa = [](const H5FD_t* file, H5FD_mem_t) { return of(file).given; };
+  driver.set_eoa = [](H5FD_t* file, H5FD_mem_t, haddr_t end) -> herr_t {
+    of(file).given = end;
+    return 0;
+  };
+  driver.get_eof = [](const H5FD_t* file, H5FD_mem_t) { return of(file).length; };
+  driver.read = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size, void* buffer) {
+    return of(file).disk->attempt([&] {
+      of(file).disk->file.read_at(offset, {static_cast<char*>(buffer), size});
+    });
+  };
+  driver.write = write_file;
+  driver.truncate = end_file;
+  constexpr H5FD_mem_t room[] = H5FD_FLMAP_DICHOTOMY;
+  std::ranges::copy(room, driver.fl_map);
+  return H5FDregister(&driver);
+}
+
+/// Makes an HDF5 file whose bytes go to `disk`, without times of day: equal contents are equal
+/// bytes. Returns its handle, negative when HDF5 fails.
+hid_t create_file(const std::shared_ptr<Hdf5Disk>& disk) {
+  static const hid_t driver = register_driver();
+  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
+      creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  const std::shared_ptr<Hdf5Disk>* order = &disk;
+  H5Pset_driver(access, driver, &order);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  H5Pset_obj_track_times(creation, false);
+  return H5Fcreate("on our disk", H5F_ACC_TRUNC, creation, access);
+}
+
+constexpr hsize_t chunk_bytes = 1 << 16;  // of compressed data; a sixteenth is stored as it is
+constexpr unsigned deflate_level = 4;
+
+hid_t type_in_file(Hdf5Number number) {
+  return number == Hdf5Number::float64 ? H5T_IEEE_F64LE
+         : number == Hdf5Number::int32 ? H5T_STD_I32LE
+                                       : H5T_STD_I64LE;
+}
+
+}  // namespace
 
 // What the header says in place of HDF5's own types.
 static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int> &&
@@ -30,34 +199,248 @@ std::int64_t Hdf5File::check(std::int64_t result, const std::string& action) con
   return result;
 }
 
-Hdf5Id Hdf5File::text_type() {
-  Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type, H5T_VARIABLE);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  return type;
+// ---- reading
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
+    : Hdf5File(file), file_(open_for_reading(*this, file), H5Fclose) {}
+
+/// Asks group after group: HDF5 fails on a path whose parent is missing.
+bool Hdf5Reader::has(const std::string& name) const {
+  for (size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
 }
 
-Hdf5Id Hdf5File::space_of(const Hdf5Shape& shape) {
-  return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
+Hdf5Id Hdf5Reader::open(const std::string& name) const {
+  if (!has(name)) fail(name + ": no such dataset");
+  Hdf5Id dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (dataset < 0) fail(name + ": not a dataset");
+  return dataset;
 }
 
-Hdf5Shape Hdf5File::select_rows(const Hdf5Id& space, size_t first, size_t entries) {
-  Hdf5Shape count(static_cast<size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
-  H5Sget_simple_extent_dims(space, count.data(), nullptr);
-  if (count.empty()) return {};
-  // Some rows along the first dimension, all of the others.
-  Hdf5Shape start(count.size(), 0);
-  const unsigned long long rows = count[0], row = product({count.begin() + 1, count.end()});
-  start[0] = first;
-  count[0] = row > 0 ? entries / row : 0;
-  if (count[0] == 0 || entries % row != 0 || first >= rows || count[0] > rows - first) return {};
-  const herr_t selected =
-      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  return selected < 0 ? Hdf5Shape{} : count;
+Hdf5Shape Hdf5Reader::shape(const std::string& name) const {
+  const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
+  Hdf5Shape shape(
+      static_cast<size_t>(check(H5Sget_simple_extent_ndims(space), "give the shape of " + name)));
+  H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  return shape;
 }
 
-unsigned long long Hdf5File::product(const Hdf5Shape& shape) {
-  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+/// Before memory is asked for: a damaged header can claim any number of entries. What is stored of
+/// them is part of the file, and no compression of HDF5's makes it more than 1032 times smaller.
+void Hdf5Reader::require_stored(const std::string& name, const Hdf5Id& dataset,
+                                unsigned long long entries) const {
+  constexpr unsigned long long most_compressed = 1032;
+  const unsigned long long stored = H5Dget_storage_size(dataset);
+  std::error_code error;
+  const std::uintmax_t file = std::filesystem::file_size(path_, error);
+  if (error || stored > file || entries > (stored + 1) * most_compressed)
+    fail(name + ": claims " + std::to_string(entries) + " entries, of which " +
+         std::to_string(stored) + " bytes are stored");
+}
+
+template <typename Value>
+std::vector<Value> Hdf5Reader::read(const std::string& name, std::int64_t type) const {
+  // What is stored may have any width or byte order: HDF5 converts it to `type` while reading.
+  const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose),
+               stored(H5Dget_type(dataset), H5Tclose);
+  const H5T_class_t kind = stored >= 0 ? H5Tget_class(stored) : H5T_NO_CLASS;
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(name + ": does not hold numbers");
+  const hssize_t size = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
+  if (size < 0) fail(name + ": has no readable extent");
+  require_stored(name, dataset, static_cast<unsigned long long>(size));
+  std::vector<Value> values(static_cast<size_t>(size));
+  if (size > 0 && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail(name + ": cannot be read (damaged or truncated)");
+  return values;
+}
+
+std::vector<double> Hdf5Reader::read_doubles(const std::string& name) const {
+  return read<double>(name, H5T_NATIVE_DOUBLE);
+}
+
+std::vector<int> Hdf5Reader::read_ints(const std::string& name) const {
+  return read<int>(name, H5T_NATIVE_INT);
+}
+
+std::vector<std::uint64_t> Hdf5Reader::read_keys(const std::string& name) const {
+  return read<std::uint64_t>(name, H5T_NATIVE_UINT64);
+}
+
+int Hdf5Reader::read_int(const std::string& name) const {
+  const std::vector<int> values = read_ints(name);
+  if (values.size() != 1)
+    fail(name + " has " + std::to_string(values.size()) + " entries, must have 1");
+  return values[0];
+}
+
+std::string Hdf5Reader::read_text(const std::string& name) const {
+  const Hdf5Id dataset = open(name), type(H5Dget_type(dataset), H5Tclose);
+  if (type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+    fail(name + ": is no text of fixed length");
+  const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
+  if (space < 0 || H5Sget_simple_extent_npoints(space) != 1) fail(name + ": is not one text");
+  // The stored length may include a zero at the end.
+  require_stored(name, dataset, H5Tget_size(type));
+  std::string text(H5Tget_size(type), '\0');
+  if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+    fail(name + ": cannot be read (damaged or truncated)");
+  return text.substr(0, text.find('\0'));
+}
+
+std::vector<double> Hdf5Reader::read_rows(const std::string& name, size_t first,
+                                          size_t count) const {
+  const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose);
+  const std::string what =
+      "read rows " + std::to_string(first) + " to " + std::to_string(first + count) + " of " + name;
+  Hdf5Shape of_row = shape(name);
+  if (!of_row.empty()) of_row[0] = 1;
+  const Hdf5Shape rows = select_rows(space, first, count * product(of_row));
+  if (rows.empty()) fail("HDF5 cannot " + what);
+  require_stored(name, dataset, product(rows));
+  std::vector<double> values(product(rows));
+  const Hdf5Id memory = space_of(rows);
+  check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), what);
+  return values;
+}
+
+std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
+  const Hdf5Id dataset = open(name), type = text_type(), space(H5Dget_space(dataset), H5Sclose);
+  const unsigned long long count = product(shape(name));
+  require_stored(name, dataset, count);
+  std::vector<char*> pointers(count, nullptr);
+  check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "read " + name);
+  // HDF5 allocated each text: copied, then given back to it.
+  std::vector<std::string> texts(pointers.begin(), pointers.end());
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  return texts;
+}
+
+// ---- writing
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& target, Hdf5Storage storage)
+    : Hdf5File(target),
+      storage_(storage),
+      disk_(std::make_shared<Hdf5Disk>(target)),
+      file_(create_file(disk_), H5Fclose) {
+  check(file_, "make a file");
+}
+
+std::int64_t Hdf5Writer::check(std::int64_t result, const std::string& action) const {
+  disk_->require_written();
+  return Hdf5File::check(result, action);
+}
+
+Hdf5Id Hdf5Writer::made(Hdf5Id id, const std::string& name) const {
+  check(id, "make " + name);
+  return id;
+}
+
+void Hdf5Writer::add_group(const std::string& name) {
+  const Hdf5Id creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);
+  made({H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose}, name);
+}
+
+void Hdf5Writer::add_attribute(const std::string& object, const std::string& attribute,
+                               const std::string& text) {
+  const std::string what = "write the attribute " + attribute + " of " + object;
+  const Hdf5Id type = text_type(), space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Id id(H5Acreate_by_name(file_, object.c_str(), attribute.c_str(), type, space,
+                                    H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                  H5Aclose);
+  check(id, what);
+  const char* value = text.c_str();
+  check(H5Awrite(id, type, &value), what);
+}
+
+Hdf5Id Hdf5Writer::make_dataset(const std::string& name, std::int64_t type, const Hdf5Shape& shape,
+                                Hdf5Storage storage) {
+  const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);
+  const Hdf5Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  const hsize_t bytes = product(shape) * H5Tget_size(type);
+  if (storage == Hdf5Storage::compressed && bytes > chunk_bytes / 16 && !shape.empty()) {
+    // Chunks of whole slices, about 64 kB each: shuffled (bytes of equal weight together, which
+    // compresses better), compressed, and with a checksum.
+    Hdf5Shape chunk = shape;
+    chunk[0] = std::clamp<hsize_t>(chunk_bytes * shape[0] / bytes, 1, shape[0]);
+    H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
+    H5Pset_shuffle(creation);
+    if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) H5Pset_deflate(creation, deflate_level);
+    H5Pset_fletcher32(creation);
+    // Of a dataset that is filled bit by bit so much waits for the rest of its chunk.
+    H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, 4 * chunk_bytes,
+                       H5D_CHUNK_CACHE_W0_DEFAULT);
+  }
+  const Hdf5Id space = space_of(shape);
+  return made(
+      {H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, access), H5Dclose},
+      name);
+}
+
+void Hdf5Writer::write(const std::string& name, std::int64_t stored, std::int64_t given,
+                       const void* values, const Hdf5Shape& shape) {
+  const Hdf5Id dataset = make_dataset(name, stored, shape, storage_);
+  if (product(shape) > 0)
+    check(H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
+}
+
+void Hdf5Writer::add(const std::string& name, std::span<const double> values,
+                     const Hdf5Shape& shape) {
+  write(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), shape);
+}
+
+void Hdf5Writer::add(const std::string& name, std::span<const std::int32_t> values,
+                     const Hdf5Shape& shape) {
+  write(name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.data(), shape);
+}
+
+void Hdf5Writer::add(const std::string& name, std::span<const std::int64_t> values,
+                     const Hdf5Shape& shape) {
+  write(name, H5T_STD_I64LE, H5T_NATIVE_INT64, values.data(), shape);
+}
+
+void Hdf5Writer::add(const std::string& name, std::span<const std::uint64_t> values,
+                     const Hdf5Shape& shape) {
+  write(name, H5T_STD_U64LE, H5T_NATIVE_UINT64, values.data(), shape);
+}
+
+void Hdf5Writer::add(const std::string& name, const std::vector<std::string>& texts) {
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  const Hdf5Id type = text_type();
+  const Hdf5Id dataset = make_dataset(name, type, {texts.size()}, Hdf5Storage::plain);
+  if (!texts.empty())
+    check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "write " + name);
+}
+
+void Hdf5Writer::add_text(const std::string& name, const std::string& text) {
+  const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, text.size() + 1);
+  const Hdf5Id dataset = make_dataset(name, type, {1}, Hdf5Storage::plain);
+  check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write " + name);
+}
+
+Hdf5Id Hdf5Writer::add_rows(const std::string& name, const Hdf5Shape& shape, Hdf5Number number) {
+  return make_dataset(name, type_in_file(number), shape, storage_);
+}
+
+void Hdf5Writer::write_rows(const Hdf5Id& dataset, size_t first, std::span<const double> values) {
+  const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Shape rows = select_rows(space, first, values.size());
+  if (rows.empty()) fail("HDF5 cannot select rows");
+  const Hdf5Id memory = space_of(rows);
+  check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()),
+        "write rows");
+}
+
+void Hdf5Writer::commit() {
+  // Closing makes HDF5 write its last metadata.
+  check(file_.close(), "finish the file");
+  disk_->require_written();
+  disk_->file.commit();
 }
 
 }  // namespace ballast

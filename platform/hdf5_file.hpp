@@ -2,12 +2,14 @@
 // The little of HDF5's C interface that records and problem files need, without its header. Every
 // failure is an Error that begins with the file and names the dataset; HDF5 itself prints nothing.
 //
-// Why not H5Cpp, which Debian has too: it wraps neither a driver of our own (hdf5_disk.hpp) nor
-// the switch that leaves times of day out, so half of the writer would be C all the same; its
-// header costs 0.3 s in each includer (this one: none of HDF5's), its library is one more package.
+// Why not H5Cpp, which Debian has too: it wraps neither a driver of our own nor the switch that
+// leaves times of day out, so half of the writer would be C all the same; its header costs 0.3 s in
+// each includer (this one: none of HDF5's), its library is one more package.
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,21 +52,96 @@ class Hdf5File {
   /// `result`, unless it is negative: then Error "<file>: HDF5 cannot <action>".
   std::int64_t check(std::int64_t result, const std::string& action) const;
 
-  /// UTF-8 of any length.
-  static Hdf5Id text_type();
-  /// The space of an array of that shape.
-  static Hdf5Id space_of(const Hdf5Shape& shape);
-  /// Selects as many entries of `space` as whole rows along its first dimension, from row `first`
-  /// on, and returns their shape; empty when there are no such rows.
-  static Hdf5Shape select_rows(const Hdf5Id& space, size_t first, size_t entries);
-  /// Number of entries.
-  static unsigned long long product(const Hdf5Shape& shape);
-
   const std::filesystem::path path_;
 
  private:
   int (*old_report_)(std::int64_t, void*) = nullptr;  // how HDF5 spoke of errors before us
   void* old_client_ = nullptr;
+};
+
+/// Reads an HDF5 file, whoever wrote it. Numbers are converted from whatever type they have.
+class Hdf5Reader : public Hdf5File {
+ public:
+  explicit Hdf5Reader(const std::filesystem::path& file);
+
+  bool has(const std::string& name) const;
+  Hdf5Shape shape(const std::string& name) const;
+  std::vector<double> read_doubles(const std::string& name) const;
+  std::vector<int> read_ints(const std::string& name) const;
+  std::vector<std::uint64_t> read_keys(const std::string& name) const;
+  /// The only entry of a dataset.
+  int read_int(const std::string& name) const;
+  /// As Hdf5Writer::add_text left it.
+  std::string read_text(const std::string& name) const;
+  /// `count` rows from row `first` on: what one number along the first dimension names is a row.
+  std::vector<double> read_rows(const std::string& name, size_t first, size_t count = 1) const;
+  std::vector<std::string> read_texts(const std::string& name) const;
+
+ private:
+  Hdf5Id open(const std::string& name) const;
+  void require_stored(const std::string& name, const Hdf5Id& dataset,
+                      unsigned long long entries) const;
+  template <typename Value>
+  std::vector<Value> read(const std::string& name, std::int64_t type) const;
+
+  Hdf5Id file_;
+};
+
+/// How larger datasets are stored: as they are, or compressed and with a checksum.
+enum class Hdf5Storage { plain, compressed };
+
+/// How numbers that are given as doubles are stored.
+enum class Hdf5Number { float64, int32, int64 };
+
+class Hdf5Disk;
+
+/// Writes an HDF5 file beside its target, which is replaced by commit(). The format is HDF5 1.8's,
+/// with checksums of metadata, and without times of day: equal contents are equal bytes.
+class Hdf5Writer : public Hdf5File {
+ public:
+  Hdf5Writer(const std::filesystem::path& target, Hdf5Storage storage);
+
+  void add_group(const std::string& name);
+  /// Attribute of a group or dataset; "/" is the file.
+  void add_attribute(const std::string& object, const std::string& attribute,
+                     const std::string& text);
+
+  void add(const std::string& name, std::span<const double> values, const Hdf5Shape& shape);
+  void add(const std::string& name, std::span<const std::int32_t> values, const Hdf5Shape& shape);
+  void add(const std::string& name, std::span<const std::int64_t> values, const Hdf5Shape& shape);
+  void add(const std::string& name, std::span<const std::uint64_t> values, const Hdf5Shape& shape);
+  /// One dimension.
+  template <typename Value>
+  void add(const std::string& name, const std::vector<Value>& values) {
+    add(name, std::span<const Value>(values), {values.size()});
+  }
+  void add(const std::string& name, const std::vector<std::string>& texts);
+  /// One text, stored with its length.
+  void add_text(const std::string& name, const std::string& text);
+
+  /// A dataset that is filled bit by bit: rows are what one number along its first dimension names.
+  Hdf5Id add_rows(const std::string& name, const Hdf5Shape& shape,
+                  Hdf5Number number = Hdf5Number::float64);
+  /// Whole rows, from row `first` on.
+  void write_rows(const Hdf5Id& dataset, size_t first, std::span<const double> values);
+
+  /// Makes the file safe on disk and renames it over the target. All datasets handed out must be
+  /// closed by then; nothing can be added afterwards.
+  void commit();
+
+ private:
+  /// What the disk failed with goes before what HDF5 failed with.
+  std::int64_t check(std::int64_t result, const std::string& action) const;
+  /// `id`, which is closed where that throws.
+  Hdf5Id made(Hdf5Id id, const std::string& name) const;
+  Hdf5Id make_dataset(const std::string& name, std::int64_t type, const Hdf5Shape& shape,
+                      Hdf5Storage storage);
+  void write(const std::string& name, std::int64_t stored, std::int64_t given, const void* values,
+             const Hdf5Shape& shape);
+
+  Hdf5Storage storage_;
+  std::shared_ptr<Hdf5Disk> disk_;
+  Hdf5Id file_;
 };
 
 }  // namespace ballast

@@ -1,5 +1,8 @@
 #include "platform/interrupt.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 
@@ -38,5 +41,12 @@ InterruptGuard::~InterruptGuard() {
 }
 
 bool InterruptGuard::requested() { return interrupted; }
+
+void prepare_standard_streams() {
+  // open() takes the lowest number that is free: what is below is open by then.
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) != stream) break;
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 }  // namespace ballast

@@ -1,6 +1,6 @@
 #pragma once
-// Ctrl-C, kill, a closed terminal, a batch system's warning: asked once per step, so that a run
-// ends at a step with a checkpoint.
+// What signals and closed streams do to this process. Ctrl-C, kill, a closed terminal, a batch
+// system's warning are asked for once per step, so that a run ends at a step with a checkpoint.
 
 namespace ballast {
 
@@ -16,5 +16,14 @@ class InterruptGuard {
 
   static bool requested();
 };
+
+/// What every program of ours does first, before it opens a file:
+///
+/// - Standard input, output and error that were closed (`>&-`, a daemon) are opened on /dev/null.
+///   The next file that is opened would otherwise get their number, and all that is printed would
+///   land in it: in a log or in a record.
+/// - A file that grows beyond the limit of `ulimit -f` is an error that names it (errno EFBIG), not
+///   a death by SIGXFSZ without a word.
+void prepare_standard_streams();
 
 }  // namespace ballast

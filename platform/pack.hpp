@@ -18,6 +18,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -129,5 +130,25 @@ class Unpacker {
   std::string_view rest_;
   std::string origin_;
 };
+
+// Small binary files that are read whole or refused: what they are, in which format, and a
+// checksum.
+//
+//   magic (8 letters), u32 format, u32 byte order, u64 bytes of the body, body, u64 checksum
+//   (FNV-1a) of all before it
+
+struct SealedKind {
+  std::string_view magic;         ///< 8 letters
+  std::string_view name;          ///< in messages: "checkpoint"
+  std::uint32_t format;           ///< written and read
+};
+
+/// Written to a neighbour, made safe on disk, renamed. Throws Error.
+void write_sealed_file(const std::filesystem::path& file, const SealedKind& kind,
+                       std::string_view body);
+
+/// The body. Throws Error naming the file: missing, of another kind or format, truncated, checksum
+/// wrong.
+std::string read_sealed_file(const std::filesystem::path& file, const SealedKind& kind);
 
 }  // namespace ballast

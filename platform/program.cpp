@@ -1,12 +1,19 @@
 #include "platform/program.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -14,6 +21,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
+#include "platform/interrupt.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -103,35 +111,26 @@ ChildProcess start_beside(const fs::path& program, const std::vector<std::string
 
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           double seconds) {
-  constexpr size_t most_bytes = 256u << 20;
-  Pipe output, errors, failure;  // failure: why the program could not be started
+  constexpr rlim_t most_bytes = 256u << 20;
+  const MemoryFile output, errors, failure;  // failure: why the program could not be started
   const Call call(program, arguments, plain_environment());
-  const Stopwatch watch;
-  // Where exec succeeds it closes the third pipe itself; where it fails that brings back why.
   ChildProcess child([&] {
-    const int error = call.execute(output.write_end(), errors.write_end());
-    _exit(write(failure.write_end(), &error, sizeof error) == sizeof error ? 127 : 1);
+    const rlimit limit{most_bytes, most_bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const int error = call.execute(output.descriptor(), errors.descriptor());
+    dprintf(failure.descriptor(), "%s", std::strerror(error));
+    _exit(127);
   });
-  for (Pipe* pipe : {&output, &errors, &failure}) pipe->close_write_end();
   ProgramResult result;
-  const bool is_closed = Pipe::read_until_closed({&output, &errors, &failure}, seconds, most_bytes);
-  if (int error = 0; failure.text.size() == sizeof error) {
-    std::memcpy(&error, failure.text.data(), sizeof error);
-    result.was_found = false;
-    result.status = 127;
-    result.errors = std::strerror(error);
-    return result;
-  }
-  // It may have closed its output and still go on: no waiting for ever.
-  result.timed_out = !is_closed;
-  while (!child.has_ended()) {
-    if (watch.seconds() > seconds) result.timed_out = true;
-    if (result.timed_out) child.send(SIGKILL);
-    usleep(1000);
-  }
+  result.timed_out = !child.ends_within(seconds);
+  child.send(SIGKILL);
+  child.ends_within(1e9);
   result.status = child.status();
-  result.output = std::move(output.text);
-  result.errors = std::move(errors.text);
+  result.errors = failure.text();
+  result.was_found = result.errors.empty();
+  if (!result.was_found) return result;
+  result.output = output.text();
+  result.errors = errors.text();
   return result;
 }
 
@@ -140,6 +139,219 @@ BackgroundProgram::BackgroundProgram(const fs::path& program,
     : child_(start_beside(program, arguments, log)) {}
 
 void BackgroundProgram::stop() const { child_.send(SIGTERM); }
+
+// ---- somebody else's program
+
+namespace {
+
+constexpr size_t longest_line = 4096, longest_complaint = 8192;  // bytes that are kept
+
+/// Two ends of a connection: what is written to one is read at the other.
+struct Ends {
+  int ours = -1, theirs = -1;
+};
+
+/// Sockets, because writing to one that nobody reads is an error here and not a signal.
+Ends connect_ends() {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    throw Error(std::string("cannot start a program: ") + std::strerror(errno));
+  return {ends[0], ends[1]};
+}
+
+/// The kernel lists them, each followed by a blank; what does not fit is met in the next round.
+void kill_own_children() {
+  char list[4096];
+  const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+  const ssize_t size = read(file, list, sizeof list - 1);
+  close(file);
+  list[std::max<ssize_t>(size, 0)] = '\0';
+  char* end = list;
+  for (char* next = list; *next != '\0'; next = end + 1) {
+    const long child = std::strtol(next, &end, 10);
+    if (end == next || *end != ' ') return;
+    kill(static_cast<pid_t>(child), SIGKILL);
+  }
+}
+
+/// In the supervisor, to which every orphan of the program falls: until there is none left.
+void end_descendants(pid_t program) {
+  kill(-program, SIGKILL);
+  for (;;) {
+    const pid_t ended = waitpid(-1, nullptr, WNOHANG);
+    if (ended < 0 && errno == ECHILD) return;
+    if (ended > 0) continue;
+    kill_own_children();
+    waitpid(-1, nullptr, 0);
+  }
+}
+
+struct Start {
+  const char* const* words;
+  const SupervisedLimits& limits;
+  Ends input, output, errors;
+};
+
+/// In the program's process.
+[[noreturn]] void become_program(const Start& start) {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (start.limits.memory_MB > 0.0) {
+    const auto bytes = static_cast<rlim_t>(start.limits.memory_MB * 1048576.0);
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  dup2(start.input.theirs, STDIN_FILENO);
+  dup2(start.output.theirs, STDOUT_FILENO);
+  dup2(start.errors.theirs, STDERR_FILENO);
+  if (start.limits.folder.empty() || chdir(start.limits.folder.c_str()) == 0)
+    execv(start.words[0], const_cast<char* const*>(start.words));
+  dprintf(STDERR_FILENO, "cannot be started: %s\n", std::strerror(errno));
+  _exit(127);
+}
+
+/// In the supervisor: ends with the program's status when that ends, and when it is asked to.
+[[noreturn]] void supervise(const Start& start) {
+  sigset_t awaited;
+  sigemptyset(&awaited);
+  sigaddset(&awaited, SIGCHLD);
+  sigaddset(&awaited, SIGTERM);
+  sigprocmask(SIG_BLOCK, &awaited, nullptr);
+  signal(SIGCHLD, SIG_DFL);
+  // Out of reach of the terminal's Ctrl-C; told when our parent dies; adopts who loses a parent.
+  setsid();
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const pid_t program = fork();
+  if (program < 0) _exit(127);
+  if (program == 0) become_program(start);
+  setpgid(program, program);
+  // No end of the program's streams may stay open here: nobody would see that it closed them.
+  close_range(0, ~0U, 0);
+  int status = 128 + SIGKILL;
+  for (bool goes_on = true; goes_on;) {
+    if (sigwaitinfo(&awaited, nullptr) == SIGTERM) break;
+    int how = 0;
+    for (pid_t ended; (ended = waitpid(-1, &how, WNOHANG)) > 0;) {
+      if (ended != program) continue;
+      status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
+      goes_on = false;
+    }
+  }
+  end_descendants(program);
+  _exit(status);
+}
+
+/// Takes what is there, at most once; false when the other end has been closed.
+bool take(int descriptor, std::string& text) {
+  char block[1 << 16];
+  const ssize_t got = read(descriptor, block, sizeof block);
+  if (got > 0) text.append(block, static_cast<size_t>(got));
+  return got > 0 || (got < 0 && (errno == EINTR || errno == EAGAIN));
+}
+
+void close_end(int& descriptor) {
+  if (descriptor >= 0) close(descriptor);
+  descriptor = -1;
+}
+
+}  // namespace
+
+SupervisedProgram::SupervisedProgram(const std::string& command,
+                                     const std::vector<std::string>& arguments,
+                                     const SupervisedLimits& limits) {
+  // All memory is asked for before the fork.
+  const std::string script = command + " \"$@\"";
+  std::vector<const char*> words{"/bin/sh", "-c", script.c_str(), "sh"};
+  for (const std::string& word : arguments) words.push_back(word.c_str());
+  words.push_back(nullptr);
+  const Start start{words.data(), limits, connect_ends(), connect_ends(), connect_ends()};
+  input_ = start.input.ours;
+  output_ = start.output.ours;
+  errors_ = start.errors.ours;
+  // Asked to end before it is ready to hear that, the supervisor shall hear it then.
+  sigset_t ending, before;
+  sigemptyset(&ending);
+  sigaddset(&ending, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &ending, &before);
+  supervisor_ = std::make_unique<ChildProcess>([&] { supervise(start); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  for (int end : {start.input.theirs, start.output.theirs, start.errors.theirs}) close_end(end);
+}
+
+SupervisedProgram::~SupervisedProgram() {
+  // The supervisor clears up; if even it does not end, ChildProcess kills it.
+  supervisor_->send(SIGTERM);
+  supervisor_->ends_within(10.0);
+  close_input();
+  close_end(output_);
+  close_end(errors_);
+}
+
+bool SupervisedProgram::write_line(const std::string& line) const {
+  const std::string text = line + '\n';
+  return input_ >= 0 && send(input_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
+                            static_cast<ssize_t>(text.size());
+}
+
+void SupervisedProgram::close_input() { close_end(input_); }
+
+/// Waits until it says something, and takes that; false when it has closed both of its streams.
+bool SupervisedProgram::listen(double seconds) {
+  pollfd waiting[] = {{output_, POLLIN, 0}, {errors_, POLLIN, 0}};
+  if (output_ < 0 && errors_ < 0) return false;
+  poll(waiting, 2, static_cast<int>(std::ceil(1e3 * std::clamp(seconds, 0.0, 0.1))));
+  if (waiting[0].revents != 0 && !take(output_, heard_)) close_end(output_);
+  if (waiting[1].revents != 0 && !take(errors_, complaints_)) close_end(errors_);
+  if (complaints_.size() > longest_complaint)
+    complaints_.erase(0, complaints_.size() - longest_complaint);
+  return true;
+}
+
+SupervisedProgram::Heard SupervisedProgram::read_line(std::string& line, double seconds) {
+  const Stopwatch watch;
+  for (;;) {
+    if (const size_t end = heard_.find('\n'); end != std::string::npos) {
+      line = heard_.substr(0, std::min(end, longest_line));
+      heard_.erase(0, end + 1);
+      return Heard::line;
+    }
+    // A line without end: only its beginning will be asked for.
+    if (heard_.size() > longest_line) heard_.resize(longest_line);
+    if (output_ < 0) return Heard::end;
+    const double left = seconds - watch.seconds();
+    if (!(left > 0.0) || InterruptGuard::requested()) return Heard::out_of_time;
+    listen(left);
+  }
+}
+
+bool SupervisedProgram::wait(double seconds) {
+  constexpr int pause = 200;  // microseconds
+  const Stopwatch watch;
+  while (!supervisor_->has_ended()) {
+    const double left = seconds - watch.seconds();
+    if (!(left > 0.0) || InterruptGuard::requested()) return false;
+    // It may close its streams and go on.
+    if (!listen(left)) usleep(pause);
+    heard_.clear();
+  }
+  // What it said before it ended.
+  for (pollfd last{errors_, POLLIN, 0}; errors_ >= 0 && poll(&last, 1, 0) > 0;) listen(0.0);
+  return true;
+}
+
+std::string SupervisedProgram::last_words() const {
+  const size_t end = complaints_.find_last_not_of(" \t\r\n");
+  if (end == std::string::npos) return "";
+  const size_t before = complaints_.find_last_of("\r\n", end);
+  const size_t begin = before == std::string::npos ? 0 : before + 1;
+  return complaints_.substr(begin, std::min(end + 1 - begin, size_t{200}));
+}
+
+// ---- words and this program
 
 std::string last_line(const fs::path& log) {
   std::ifstream stream(log);

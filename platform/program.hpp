@@ -1,8 +1,9 @@
 #pragma once
-// Other programs as children, without a shell: one whose output is waited for, one that runs beside
-// us and writes into a log, and this program anew.
+// Other programs as children: one whose output is waited for, one that runs beside us and writes
+// into a log, one that nobody trusts, and this program anew.
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct ProgramResult {
 };
 
 /// Runs program (looked up on PATH) with arguments, standard input empty, in the C locale and
-/// without the variables GNUPLOT* and GNUTERM; kills it after `seconds`, or when it has written
-/// more than 256 MB. Throws Error when there can be no child at all.
+/// without the variables GNUPLOT* and GNUTERM; kills it after `seconds`. It cannot write more than
+/// 256 MB. Throws Error when there can be no child at all.
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           double seconds);
 
@@ -44,6 +45,52 @@ class BackgroundProgram {
 
  private:
   ChildProcess child_;
+};
+
+// Somebody else's program, of which nothing is believed: whatever it does, waiting for it ends in
+// time, what it writes takes no memory here, and no process of its making is left.
+
+struct SupervisedLimits {
+  double memory_MB = 0.0;             ///< address space of each of its processes; 0: no limit
+  std::filesystem::path folder = {};  ///< where it starts; empty: here
+};
+
+/// It runs under a supervisor, a process of ours that kills all its descendants, those that moved
+/// to sessions of their own included, when it ends, when this object goes, or when this process
+/// dies, however that comes about.
+class SupervisedProgram {
+ public:
+  /// `command` is read by /bin/sh, which appends `arguments` to it: "python3 'my solver.py'". Its
+  /// standard input is what write_line() says. Throws Error when there can be no process.
+  SupervisedProgram(const std::string& command, const std::vector<std::string>& arguments,
+                    const SupervisedLimits& limits);
+  ~SupervisedProgram();
+  SupervisedProgram(const SupervisedProgram&) = delete;
+  SupervisedProgram& operator=(const SupervisedProgram&) = delete;
+
+  /// One line for its standard input; false when it does not take it.
+  bool write_line(const std::string& line) const;
+  /// Its standard input ends.
+  void close_input();
+
+  enum class Heard { line, end, out_of_time };
+  /// The next line of its standard output, without the line's end and cut at 4 kB. The time is
+  /// over as well when somebody asks this process to stop (InterruptGuard).
+  Heard read_line(std::string& line, double seconds);
+  /// Until it has ended, whatever it writes meanwhile; false: it still runs.
+  bool wait(double seconds);
+
+  /// After its end: exit code, 128 + signal when a signal ended it, 127 when it was not found.
+  int status() const { return supervisor_->status(); }
+  /// The last line of its standard error that says anything; empty without.
+  std::string last_words() const;
+
+ private:
+  bool listen(double seconds);
+
+  int input_ = -1, output_ = -1, errors_ = -1;
+  std::string heard_, complaints_;
+  std::unique_ptr<ChildProcess> supervisor_;
 };
 
 /// The last line of a log that says anything; without "ballast: ".

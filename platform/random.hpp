@@ -76,7 +76,7 @@ class RandomNumbers : public Words {
 };
 
 /// The generator to use. Packings depend on every bit of it. Directions and rotations:
-/// geometry/shape/random_direction.hpp.
+/// geometry/shape/pose.hpp.
 using Random = RandomNumbers<Xoshiro256>;
 
 /// What made problems (problems/algebra/known_solutions) are drawn with: a case "known:7" of a

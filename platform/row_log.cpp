@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "platform/atomic_file.hpp"
-#include "platform/content_key.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 

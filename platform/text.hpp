@@ -2,6 +2,7 @@
 // Text out of numbers and lists.
 
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -84,5 +85,18 @@ std::optional<double> parsed_number(std::string_view text);
 
 /// "59 s", "3 min 05 s", "2 h 10 min"; "?" when it is not known.
 std::string duration_text(double seconds);
+
+// Keys of what a cached result depends on: 64-bit FNV-1a, as 16 hexadecimal digits.
+
+inline std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325ull) {
+  for (unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ull;
+  return hash;
+}
+
+inline std::string hash_text(std::uint64_t hash) {
+  return printed("%016llx", static_cast<unsigned long long>(hash));
+}
+
+inline std::string content_key(std::string_view text) { return hash_text(fnv1a(text)); }
 
 }  // namespace ballast

@@ -3,7 +3,7 @@
 
 #include "experiments/external/external_files.hpp"
 #include "experiments/step/step_record.hpp"
-#include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_file.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "python/binding.hpp"
 

@@ -1,6 +1,5 @@
 // Problems, their solution and their judge for Python; what users see is ballast/__init__.py.
 
-#include "platform/kept_memory.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/files/problem_file.hpp"
 #include "python/binding.hpp"
@@ -231,8 +230,6 @@ void add_problems(py::module_& module) {
 
 PYBIND11_MODULE(_ballast, module) {
   namespace py = pybind11;
-  // A solve's workspaces come and go with each call; without this 2 % of a short solve.
-  ballast::keep_freed_memory();
   // One line each, as the program says it.
   py::register_exception<ballast::Error>(module, "Error", PyExc_RuntimeError);
   py::register_exception<ballast::InvalidProblem>(module, "InvalidProblem", PyExc_ValueError);

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 
 namespace ballast {
 namespace {

@@ -36,7 +36,6 @@ std::vector<StepQuantity> quantities(double scale) {
       {"separated by the cache", "pairs", counter(&DetectionCounters::cached_separations)},
       {"cached axis proved", "pairs", counter(&DetectionCounters::proved_axes)},
       {"full searches", "pairs", counter(&DetectionCounters::full_tests)},
-      {"points held on to", "pairs", counter(&DetectionCounters::reused)},
       {"touching pairs", "pairs", counter(&DetectionCounters::manifolds)},
       {"contacts", "contacts", column(&StepRecord::contacts)},
       {"active contacts", "contacts", column(&StepRecord::active_contacts)},

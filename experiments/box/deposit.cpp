@@ -1,9 +1,9 @@
 #include "experiments/box/deposit.hpp"
 
 #include "experiments/step/time_step.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/random.hpp"
 
 namespace ballast {
@@ -35,8 +35,7 @@ StepSettings stage_settings(const Scene& scene, BoxStage stage) {
   staged.solver.tolerance = scene.deposit.tolerance;
   staged.solver.max_iterations = scene.deposit.max_iterations;
   staged.solver.threads = threads;
-  staged.sleep = SleepSpec{};  // a packing's key says nothing of it, nor of reuse
-  staged.detection.reuse_motion = 0.0;
+  staged.sleep = SleepSpec{};  // a packing's key says nothing of it
   return step_settings(staged);
 }
 

@@ -8,7 +8,6 @@
 #include "experiments/record/progress.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
-#include "platform/file_lock.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;

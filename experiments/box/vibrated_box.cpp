@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "geometry/shape/random_direction.hpp"
-#include "platform/content_key.hpp"
+#include "geometry/shape/pose.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_key.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "experiments/commands/command.hpp"
 #include "experiments/external/external_files.hpp"
-#include "platform/kept_memory.hpp"
 #include "platform/text.hpp"
 #include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/run_solver.hpp"
@@ -54,7 +53,6 @@ void answer_file(const std::filesystem::path& problem, const std::filesystem::pa
 
 /// Until standard input ends.
 ExitCode serve(const AnswerOptions& options) {
-  keep_freed_memory();
   std::cout << "ready bodies" << std::endl;  // these alone are read where they are known
   for (std::string line; std::getline(std::cin, line);) {
     try {

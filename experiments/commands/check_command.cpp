@@ -8,7 +8,7 @@
 #include "experiments/record/checkpoint.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
-#include "platform/file_kind.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/scene/scene_file.hpp"

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "platform/exit_code.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 

@@ -7,7 +7,6 @@
 #include "experiments/commands/command.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/files/siconos_text.hpp"

@@ -17,7 +17,6 @@
 #include "experiments/view/still.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "experiments/commands/command.hpp"
-#include "platform/standard_streams.hpp"
+#include "platform/interrupt.hpp"
 
 int main(int argc, char** argv) {
   ballast::prepare_standard_streams();

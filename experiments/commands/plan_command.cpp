@@ -10,7 +10,6 @@
 #include "experiments/plans/snakemake.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 

@@ -10,7 +10,7 @@
 #include "experiments/run/run.hpp"
 #include "experiments/run_page/report.hpp"
 #include "experiments/run_page/report_origin.hpp"
-#include "platform/file_kind.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
 #include "platform/worker_team.hpp"
 

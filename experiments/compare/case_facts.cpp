@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "experiments/compare/compare_case.hpp"
-#include "platform/content_key.hpp"
+#include "platform/text.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 

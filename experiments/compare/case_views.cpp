@@ -7,7 +7,6 @@
 #include "experiments/view/problem_view.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace {

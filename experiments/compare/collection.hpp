@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/exit_code.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 

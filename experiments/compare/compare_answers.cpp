@@ -8,7 +8,7 @@
 #include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/case_views.hpp"
 #include "experiments/compare/compare_table.hpp"
-#include "platform/file_kind.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 

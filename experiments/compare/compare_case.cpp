@@ -5,8 +5,8 @@
 #include <map>
 
 #include "experiments/view/problem_view.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"

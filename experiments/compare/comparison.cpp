@@ -10,10 +10,7 @@
 #include "experiments/measure/exact_answer.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/content_key.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
-#include "platform/file_lock.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/text.hpp"
 

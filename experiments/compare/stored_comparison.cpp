@@ -5,7 +5,6 @@
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;

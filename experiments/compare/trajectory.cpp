@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "platform/pack.hpp"
-#include "platform/sealed_file.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
@@ -64,7 +63,7 @@ void write_trajectory(const std::filesystem::path& file, const Trajectory& traje
 }
 
 void read_trajectory(const std::filesystem::path& file, Trajectory& trajectory) {
-  unpack(read_sealed_file(file, trajectory_kind).bytes, file.string() + ": trajectory", trajectory);
+  unpack(read_sealed_file(file, trajectory_kind), file.string() + ": trajectory", trajectory);
 }
 
 }  // namespace ballast

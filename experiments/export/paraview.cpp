@@ -6,7 +6,6 @@
 #include "experiments/export/vtp_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {

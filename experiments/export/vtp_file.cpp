@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "platform/atomic_file.hpp"
-#include "platform/base64.hpp"
+#include "platform/deflate.hpp"
 #include "platform/error.hpp"
 #include "platform/pack.hpp"
 

@@ -7,8 +7,6 @@
 
 #include "experiments/external/external_program.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/content_key.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/toml_reader.hpp"
 

@@ -4,8 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/files/stored_problem.hpp"

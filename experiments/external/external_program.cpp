@@ -13,7 +13,7 @@
 #include "experiments/external/external_files.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
-#include "platform/supervised_program.hpp"
+#include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "solvers/seam/fclib_stop.hpp"
 

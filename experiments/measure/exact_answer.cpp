@@ -3,7 +3,6 @@
 #include "platform/atomic_file.hpp"
 #include "platform/child_process.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/seam/run_solver.hpp"

@@ -9,7 +9,6 @@
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 

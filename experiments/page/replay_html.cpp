@@ -4,7 +4,6 @@
 #include <array>
 
 #include "experiments/page/html.hpp"
-#include "platform/base64.hpp"
 #include "platform/deflate.hpp"
 
 namespace ballast {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/file_kind.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 

@@ -7,8 +7,8 @@
 #include "experiments/measure/run_summary.hpp"
 #include "experiments/record/record_file.hpp"
 #include "experiments/record/record_system.hpp"
-#include "platform/content_key.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_text.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/plans/plan.hpp"
-#include "platform/exit_code.hpp"
+#include "platform/error.hpp"
 #include "platform/status_line.hpp"
 
 namespace ballast {

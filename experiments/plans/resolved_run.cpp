@@ -2,8 +2,8 @@
 
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/row_log.hpp"
 #include "problems/scene/scene_file.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "experiments/box/packing_cache.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;

@@ -5,7 +5,6 @@
 
 #include "platform/error.hpp"
 #include "platform/pack.hpp"
-#include "platform/sealed_file.hpp"
 
 namespace ballast {
 namespace {
@@ -93,8 +92,8 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
-  const SealedBody body = read_sealed_file(file, checkpoint_kind);
-  Unpacker unpacker(body.bytes, file.string() + ": checkpoint");
+  const std::string body = read_sealed_file(file, checkpoint_kind);
+  Unpacker unpacker(body, file.string() + ": checkpoint");
   Checkpoint checkpoint;
   std::vector<double> numbers;
   carry_motion(unpacker, checkpoint);

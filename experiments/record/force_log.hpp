@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "experiments/step/step_memory.hpp"
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "platform/row_log.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 

@@ -8,8 +8,7 @@
 #include "experiments/record/force_log.hpp"
 #include "experiments/record/row_parts.hpp"
 #include "platform/error.hpp"
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 
 namespace ballast {
 

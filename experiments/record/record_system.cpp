@@ -4,7 +4,7 @@
 
 #include "geometry/shape/convex_hull.hpp"
 #include "platform/error.hpp"
-#include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_file.hpp"
 
 namespace ballast {
 namespace {

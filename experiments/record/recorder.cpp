@@ -5,11 +5,10 @@
 #include "experiments/record/force_log.hpp"
 #include "experiments/record/record_file.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/content_key.hpp"
 #include "platform/csv.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/row_log.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "platform/row_log.hpp"
 
 namespace ballast {

@@ -13,7 +13,6 @@
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
-#include "platform/kept_memory.hpp"
 
 namespace ballast {
 namespace {
@@ -22,9 +21,6 @@ namespace {
 long steps_between(double rate, double h) {
   return rate > 0.0 ? std::max(1L, std::lround(1.0 / (rate * h))) : 0;
 }
-
-/// After so many steps most arrays have their size.
-constexpr long growing_steps = 1000;
 
 /// The loop with all that it writes.
 class Drive {
@@ -49,10 +45,7 @@ class Drive {
   }
 
   DriveEnd loop() {
-    give_memory_back();  // of making tables
-    return_large_blocks();
     const Stopwatch watch;
-    const long grown = run_.state.step + growing_steps;
     Stopwatch since_saved;
     DriveEnd end = DriveEnd::finished;
     // The first frame is the state that the drive begins with.
@@ -61,10 +54,7 @@ class Drive {
       StepRecord record = stepper_.step(run_.state, run_.memory);
       measure(record);
       store(record);
-      if (run_.state.step == grown) keep_freed_memory();
-      // Only where the stepper starts afresh does a resumed run have the same bits.
-      if (!is_due(stepper_.steps_between_restarts()) || run_.state.step >= scene_.step_count())
-        continue;
+      if (run_.state.step >= scene_.step_count()) continue;
       if (InterruptGuard::requested())
         end = DriveEnd::interrupted;
       else if (watch.seconds() > order_.max_seconds)
@@ -143,7 +133,6 @@ void note_record(const RunFolder& folder, double velocity_scale, Manifest& manif
 
 DriveEnd drive(const ResolvedScene& resolved, const DriveOrder& order, PreparedRun& run,
                Manifest& manifest) {
-  give_memory_back();  // of making grains
   const StepSettings settings = step_settings(resolved.scene);
   manifest.summary("step_s", settings.h);
   manifest.summary("velocity_scale_m_s", settings.velocity_scale());
@@ -152,8 +141,6 @@ DriveEnd drive(const ResolvedScene& resolved, const DriveOrder& order, PreparedR
   const long first = run.state.step;
   // What the steps need is given back before the record is put together in memory.
   const DriveEnd end = Drive(resolved, order, settings, run, recorder).loop();
-  give_memory_back();
-  return_large_blocks();
   if (run.state.step > first)
     manifest.summary("ms_per_step",
                      1e3 * watch.seconds() / static_cast<double>(run.state.step - first));

@@ -7,8 +7,8 @@
 #include "experiments/record/record_system.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
 

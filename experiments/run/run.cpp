@@ -7,8 +7,6 @@
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
-#include "platform/file_lock.hpp"
 #include "platform/interrupt.hpp"
 #include "solvers/solver_list.hpp"
 

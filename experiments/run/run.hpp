@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/record/progress.hpp"
-#include "platform/exit_code.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 

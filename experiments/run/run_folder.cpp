@@ -8,7 +8,6 @@
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {

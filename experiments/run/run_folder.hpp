@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/file_kind.hpp"
+#include "platform/atomic_file.hpp"
 
 namespace ballast {
 

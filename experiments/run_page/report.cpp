@@ -14,7 +14,6 @@
 #include "experiments/view/run_view.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/error.hpp"
-#include "platform/kept_memory.hpp"
 #include "platform/program.hpp"
 
 namespace ballast {
@@ -62,7 +61,6 @@ page::Replay replay_of_run(RunData& data) {
 }  // namespace
 
 void write_report(const std::filesystem::path& folder) {
-  give_memory_back();  // of the run
   RunData data = read_run_data(folder);
   const RunSummary summary = summarise(data.steps, data.facts);
   note_what_cannot_be_said(summary, data);

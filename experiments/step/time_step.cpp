@@ -71,10 +71,6 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& set
   if (settings.solver.threads > 1) share_work(settings.solver.threads);
 }
 
-int TimeStepper::steps_between_restarts() const {
-  return settings_.detection.reuse_motion > 0.0 ? settings_.detection.refresh_steps : 1;
-}
-
 /// Detection, assembly, solution and judgement have the same bits whatever the number of threads.
 void TimeStepper::share_work(int threads) {
   constexpr int parts_of_thread = 4;  // work of parts is known beforehand only roughly
@@ -121,7 +117,6 @@ void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
   // Two bodies further apart than the sum of their reaches cannot touch within the step.
   for (size_t b = 0; b < system_.bodies.size(); ++b)
     reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
-  if (mid.step % settings_.detection.refresh_steps == 0) detector_.refresh();
   resting_.detect(detector_, mid.pose, reach_, memory, contacts_);
   // A contact that was there in the last step begins with the impulse that it had then.
   if (settings_.solver.warm_start)

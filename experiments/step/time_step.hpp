@@ -52,10 +52,6 @@ class TimeStepper {
   /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite.
   StepRecord step(MotionState& state, StepMemory& memory);
 
-  /// The same bits follow from a MotionState and StepMemory whose step is a multiple of this; 1 but
-  /// where points are held on to (DetectionSettings::reuse_motion).
-  int steps_between_restarts() const;
-
   /// The problem solved last, its solution, and the contacts it came from: for capture and export.
   /// Sleepers' contacts are in the StepMemory alone.
   const FrictionProblem& problem() const { return problem_; }

@@ -7,7 +7,7 @@
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
 #include "experiments/view/problem_bodies.hpp"
-#include "platform/file_kind.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "problems/algebra/errors_by_contact.hpp"
 #include "problems/files/captured_problem.hpp"

@@ -6,7 +6,7 @@
 
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
-#include "platform/file_kind.hpp"
+#include "platform/atomic_file.hpp"
 
 namespace ballast {
 namespace {

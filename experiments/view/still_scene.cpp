@@ -3,8 +3,8 @@
 #include "experiments/box/packing_cache.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {

@@ -3,17 +3,13 @@
 #include "experiments/page/html.hpp"
 #include "experiments/view/pack_view.hpp"
 #include "experiments/view/still.hpp"
-#include "platform/kept_memory.hpp"
 
 namespace ballast {
 
 page::Replay replay_of(const ViewData& view) {
   const bool moves = view.frames.size() > 1;
-  give_memory_back();  // of reading
-  // the picture first: its room is free again when the data need theirs
   std::string still =
       still_png(view, 0, {.width = 640, .height = 420, .colour = moves ? "speed" : "size"});
-  give_memory_back();  // of drawing
   page::Replay replay = pack_view(view);
   replay.still = std::move(still);
   replay.caption = page::words(moves ? "view.motion" : "view.still");

@@ -6,7 +6,7 @@
 namespace ballast {
 namespace {
 
-constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
+constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 
 /// Index of the largest value, the smallest among equals.
 int argmax(const double* values, int padded) {
@@ -34,7 +34,7 @@ AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
   for (Side& side : side_) {
     side.bound.resize(faces);
     side.value.resize(faces);
-    side.heights.resize(static_cast<size_t>(faces) * kWitnesses);
+    side.heights.resize(static_cast<size_t>(faces) * most_witnesses);
     side.edges.reserve(edges);
   }
   turned_.reserve(edges);
@@ -59,7 +59,7 @@ AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const Separa
                                AxisFeature& hint, SeparatingAxis& axis) {
   // Branch and bound over all facets of the Minkowski difference: the faces of both bodies, then
   // those pairs of edges that no witness rules out.
-  best_ = start ? start->separation : kMinusInfinity;
+  best_ = start ? start->separation : minus_infinity;
   best_feature_ = start ? start->feature : AxisFeature{};
   edge_pairs_.clear();
   for (int own : {0, 1}) start_side(pair, own);
@@ -90,7 +90,7 @@ void AxisSearch::start_side(const ShapePair& pair, int own) {
   // most n.c - r: the height of c over a face, less r, bounds the face's separation from above.
   faces.evaluate(pair.other[own] * other.bounds().ball_centre, side.bound.data());
   for (int f = 0; f < faces.padded(); ++f) side.bound[f] -= other.bounds().ball_radius;
-  std::fill_n(side.value.begin(), faces.padded(), kMinusInfinity);
+  std::fill_n(side.value.begin(), faces.padded(), minus_infinity);
 }
 
 /// `point`: in the frame of body `own`, of the other body.
@@ -98,7 +98,7 @@ void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) 
   const AffineRows& faces = pair.shape[own]->faces();
   Side& side = side_[own];
   const int slot =
-      std::min(side.witnesses, kWitnesses - 1);  // when full, the last place is used again
+      std::min(side.witnesses, most_witnesses - 1);  // when full, the last place is used again
   double* __restrict heights = side.heights.data() + static_cast<size_t>(slot) * faces.padded();
   double* __restrict bound = side.bound.data();
   // The same with a point w of the other body: its height over a face bounds the separation.
@@ -138,10 +138,10 @@ bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
   const double margin = proof_margin(pair);
   while (true) {
     const int f = argmax(side.bound.data(), padded);
-    if (!(side.bound[f] >= best_ - margin) || side.bound[f] == kMinusInfinity) return false;
+    if (!(side.bound[f] >= best_ - margin) || side.bound[f] == minus_infinity) return false;
     const FaceSeparation found = face_separation(pair, own, f, heights_);
     side.value[f] = found.separation;
-    side.bound[f] = kMinusInfinity;
+    side.bound[f] = minus_infinity;
     if (found.separation >= best_) {
       best_ = found.separation;
       best_feature_ = AxisFeature::of_face(own, f);
@@ -162,7 +162,7 @@ void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   const CollisionShape& shape = *pair.shape[own];
   Side& side = side_[own];
   const size_t stride = shape.faces().padded();
-  // 1e-8: the normal of nearly parallel edges is known to rounding / kParallelSine only.
+  // 1e-8: the normal of nearly parallel edges is known to rounding / parallel_sine only.
   const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.bounds().unevenness;
   side.edges.clear();
   for (int e = 0; e < shape.edge_count(); ++e) {

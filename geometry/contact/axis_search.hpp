@@ -63,7 +63,7 @@ class AxisSearch {
   bool search_edges(const ShapePair& pair, double alert);
   AxisFeature choose(const ShapePair& pair) const;
 
-  static constexpr int kWitnesses = 12;
+  static constexpr int most_witnesses = 12;
   Heights heights_;
   Side side_[2];
   std::vector<EdgePair> edge_pairs_;  // evaluated, near or above the best when they were

@@ -4,17 +4,15 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/shape/area_vector.hpp"
-#include "geometry/shape/front_search.hpp"
-#include "geometry/shape/sorted_by_key.hpp"
+#include "geometry/shape/point_sets.hpp"
 
 namespace ballast {
 namespace {
 
-constexpr int kLanes = 8;       // one AVX-512 register, two AVX, four SSE2
-constexpr double kFar = 1e100;  // [m]; finite, so that sums of padding stay finite
+constexpr int lanes = 8;            // one AVX-512 register, two AVX, four SSE2
+constexpr double far_away = 1e100;  // [m]; finite, so that sums of padding stay finite
 
-int rounded_up(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
+int rounded_up(int count) { return (count + lanes - 1) / lanes * lanes; }
 
 /// The nearest number of single precision that is not above.
 float rounded_down(double value) {
@@ -79,7 +77,7 @@ double AffineRows::value(int row, const Vec3& d) const {
 
 CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
   bounds_.circumradius = polyhedron.circumradius();
-  vertices_ = AffineRows(polyhedron.vertex_count(), kFar);
+  vertices_ = AffineRows(polyhedron.vertex_count(), far_away);
   for (int v = 0; v < polyhedron.vertex_count(); ++v) vertices_.set(v, polyhedron.vertex(v), 0.0);
   const std::vector<int> patch = merge_coplanar(polyhedron);
   const std::vector<int> corners = build_faces(polyhedron, patch);
@@ -126,8 +124,7 @@ std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
                                              const std::vector<int>& patch) {
   const int count = 1 + *std::max_element(patch.begin(), patch.end());
   const SortedByKey by_patch = sorted_by_key(patch, count);
-  faces_ = AffineRows(count, -kFar);
-  const FrontSearch search(polyhedron.vertices());
+  faces_ = AffineRows(count, -far_away);
   std::vector<int> first_corner, corners;
   // A patch of one face is that face. Of several the outline is the polygon, and
   // its area vector gives the normal.
@@ -141,10 +138,9 @@ std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
     }
     // Through the highest vertex and not the mean of the corners: no
     // vertex is in front of its face.
-    double offset = -kFar;
-    const auto look = [&](int v) { return offset = std::max(offset, vertices_.value(v, normal)); };
-    for (const int v : loop) look(v);
-    search.visit_higher(normal, offset, look);
+    double offset = -far_away;
+    for (int v = 0; v < vertices_.count(); ++v)
+      offset = std::max(offset, vertices_.value(v, normal));
     faces_.set(p, normal, -offset);
     first_corner.push_back(static_cast<int>(corners.size()));
     for (const int v : loop) {
@@ -154,46 +150,28 @@ std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
   }
   first_corner.push_back(static_cast<int>(corners.size()));
   first_corner_.keep(first_corner);
-  measure_isolation(polyhedron, patch);
+  measure_isolation();
   return corners;
 }
 
 /// The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
-void CollisionShape::measure_isolation(const Polyhedron& polyhedron,
-                                       const std::vector<int>& patch) {
-  // Cosines nearer to each other than this may be out of order for their roundings.
-  constexpr double slack = 1e-14, sixty_degrees = 0.5;
-  std::vector<Vec3> normals;
-  for (int f = 0; f < faces_.count(); ++f) normals.push_back(faces_.xyz(f));
-  struct Nearest {
-    double floor = sixty_degrees - slack, sine = 1.0;
-  };
-  const auto look = [&](int f, int g, Nearest& nearest) {
-    const Vec3 &own = normals[static_cast<size_t>(f)], &other = normals[static_cast<size_t>(g)];
-    const double cosine = own.dot(other);
-    if (g == f || cosine < sixty_degrees) return nearest.floor;
-    nearest.sine = std::min(nearest.sine, own.cross(other).norm());  // <= angle
-    return nearest.floor = std::max(nearest.floor, cosine - slack);
-  };
-  // Neighbours first: of many faces hardly any other is nearer, and few are then looked at.
-  std::vector<Nearest> nearest(normals.size());
-  for (int f = 0; f < polyhedron.face_count(); ++f)
-    for (const int g : polyhedron.face_neighbours(f))
-      look(patch[f], patch[g], nearest[static_cast<size_t>(patch[f])]);
-  const FrontSearch search(normals);
-  isolation_.reserve(normals.size());
+void CollisionShape::measure_isolation() {
+  isolation_.reserve(faces_.count());
   for (int f = 0; f < faces_.count(); ++f) {
-    Nearest& own = nearest[static_cast<size_t>(f)];
-    search.visit_higher(normals[static_cast<size_t>(f)], own.floor,
-                        [&](int g) { return look(f, g, own); });
-    isolation_.push_back(rounded_down(own.sine));
+    const Vec3 own = faces_.xyz(f);
+    double sine = 1.0;
+    for (int g = 0; g < faces_.count(); ++g) {
+      const Vec3 other = faces_.xyz(g);
+      if (g == f || own.dot(other) < 0.5) continue;
+      sine = std::min(sine, own.cross(other).norm());  // <= angle
+    }
+    isolation_.push_back(rounded_down(sine));
   }
 }
 
 /// Writes the edges between patches, and where they stand in the loops of the two faces beside.
 void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch,
                                  std::span<const int> corners) {
-  const FrontSearch search(polyhedron.vertices());
   std::vector<int> edges, corner_edge(corners.size());
   drop_.reserve(corner_edge.size() / 2);
   const auto enter = [&](int f, int from) {
@@ -207,7 +185,7 @@ void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector
     enter(ends.left, ends.tail);
     enter(ends.right, ends.head);
     edges.insert(edges.end(), {ends.tail, ends.head, ends.left, ends.right});
-    drop_.push_back(rounded_down(drop_below(ends, polyhedron, corners, search)));
+    drop_.push_back(rounded_down(drop_below(ends, polyhedron)));
   }
   edges_.keep(edges);
   corner_edge_.keep(corner_edge);
@@ -216,22 +194,13 @@ void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector
 /// Edge::drop: the common normal with an edge u is n = p left_normal + q right_normal with p, q
 /// = |right_normal.u|, |left_normal.u| times length / (sine |along x u|), so that the least sum
 /// of a vertex's depths below both faces bounds its depth along n.
-double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron,
-                                  std::span<const int> corners, const FrontSearch& search) const {
+double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron) const {
   const Face left = face(edge.left), right = face(edge.right);
-  // It is the highest vertex along the sum of the normals.
-  double below = kFar, floor = -kFar;
-  const double offsets = left.offset + right.offset;
-  const double rounding = 1e-14 * (std::abs(offsets) + polyhedron.circumradius());
-  const auto look = [&](int v) {
-    if (v == edge.tail || v == edge.head) return floor;
-    below = std::min(below, left.offset - left.normal.dot(polyhedron.vertex(v)) + right.offset -
-                                right.normal.dot(polyhedron.vertex(v)));
-    return floor = offsets - below - rounding;
-  };
-  for (const int f : {edge.left, edge.right})
-    for (int k = first_corner_[f]; k < first_corner_[f + 1]; ++k) look(corners[k]);
-  search.visit_higher(left.normal + right.normal, floor, look);
+  double below = far_away;
+  for (int v = 0; v < polyhedron.vertex_count(); ++v)
+    if (v != edge.tail && v != edge.head)
+      below = std::min(below, left.offset - left.normal.dot(polyhedron.vertex(v)) + right.offset -
+                                  right.normal.dot(polyhedron.vertex(v)));
   const double length = (polyhedron.vertex(edge.head) - polyhedron.vertex(edge.tail)).norm();
   return below * length / left.normal.cross(right.normal).norm();
 }
@@ -254,16 +223,14 @@ void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron,
 /// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is
 /// larger: the mean is always strictly inside, the origin of a user's frame need not be.
 void CollisionShape::build_ball(const Polyhedron& polyhedron) {
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : polyhedron.vertices()) mean += p;
-  mean /= static_cast<double>(polyhedron.vertex_count());
+  const Vec3 middle = mean(polyhedron.vertices());
   const auto radius_about = [&](const Vec3& centre) {
-    double nearest = kFar;
+    double nearest = far_away;
     for (int f = 0; f < faces_.count(); ++f)
       nearest = std::min(nearest, face(f).offset - face(f).normal.dot(centre));
     return nearest;
   };
-  if (radius_about(mean) > radius_about(Vec3::Zero())) bounds_.ball_centre = mean;
+  if (radius_about(middle) > radius_about(Vec3::Zero())) bounds_.ball_centre = middle;
   bounds_.ball_radius = radius_about(bounds_.ball_centre);
 }
 

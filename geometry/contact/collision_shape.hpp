@@ -4,15 +4,38 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "geometry/contact/short_numbers.hpp"
 #include "geometry/shape/polyhedron.hpp"
 
 namespace ballast {
 
-class FrontSearch;
+/// A list of numbers >= 0, of features of a shape, that takes two bytes each while all are small:
+/// ordinary grains have some dozen features, a mesh may have a hundred thousand.
+class ShortNumbers {
+ public:
+  /// `numbers`: all of them; they do not change any more.
+  void keep(const std::vector<int>& numbers) {
+    bool is_short = true;
+    for (const int number : numbers) is_short = is_short && number <= UINT16_MAX;
+    short_.clear();
+    long_.clear();
+    if (is_short)
+      short_.assign(numbers.begin(), numbers.end());
+    else
+      long_ = numbers;
+    short_.shrink_to_fit();
+    long_.shrink_to_fit();
+  }
+  int operator[](int k) const { return long_.empty() ? short_[k] : long_[k]; }
+  int size() const { return static_cast<int>(short_.size() + long_.size()); }
+
+ private:
+  std::vector<std::uint16_t> short_;
+  std::vector<int> long_;
+};
 
 /// Rows (x, y, z, w) stored column by column, padded to a multiple of 8 rows. A row stands for the
 /// affine function d -> (x, y, z).d + w.
@@ -134,11 +157,10 @@ class CollisionShape {
  private:
   std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
   std::vector<int> build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
-  void measure_isolation(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  void measure_isolation();
   void build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch,
                    std::span<const int> corners);
-  double drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron,
-                    std::span<const int> corners, const FrontSearch& search) const;
+  double drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron) const;
   void build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
   void build_ball(const Polyhedron& polyhedron);
 

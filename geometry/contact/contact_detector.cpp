@@ -30,7 +30,7 @@ std::vector<BroadPhase::Body> broad_phase_bodies(const DetectedBodies& bodies) {
 struct ContactDetector::State {
   State(std::vector<ContactShape> shapes, const DetectionSettings& detection)
       : settings(detection),
-        bodies(std::move(shapes), detection.use_cache ? detection.reuse_motion : 0.0),
+        bodies(std::move(shapes)),
         broad_phase(broad_phase_bodies(bodies), chosen_skin(settings.skin, bodies.tables)),
         part_of(bodies.shapes.size(), 0) {
     parts.emplace_back(bodies, settings);
@@ -62,10 +62,6 @@ void ContactDetector::use_team(WorkerTeam* team, int parts) {
   s.team = team;
   while (static_cast<int>(s.parts.size()) < parts) s.parts.emplace_back(s.bodies, s.settings);
   s.share();
-}
-
-void ContactDetector::refresh() {
-  for (DetectionPart& part : state_->parts) part.drop_held();
 }
 
 void ContactDetector::detect(std::span<const Pose> poses, std::span<const double> reach,

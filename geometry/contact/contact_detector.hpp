@@ -7,16 +7,14 @@
 #include <vector>
 
 #include "geometry/contact/contact_point.hpp"
-#include "geometry/contact/contact_shape.hpp"
-#include "geometry/contact/detection_settings.hpp"
 
 namespace ballast {
 
 class WorkerTeam;
 
 /// Contact detection for one set of bodies, with a memory from step to step. The memory makes it
-/// fast and changes nothing: contacts depend only on the poses and reaches given, unless
-/// reuse_motion is set. They come sorted by (body_a, body_b, feature).
+/// fast and changes nothing: contacts depend only on the poses and reaches given.
+/// They come sorted by (body_a, body_b, feature).
 class ContactDetector {
  public:
   ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings);
@@ -31,10 +29,6 @@ class ContactDetector {
               std::vector<ContactPoint>& contacts);
 
   const DetectionCounters& counters() const;
-
-  /// Lets go of all points that were held on to: the next contacts depend on their poses and
-  /// reaches alone.
-  void refresh();
 
   /// From now on the work is done in so many parts, by `team` (null: by the caller alone), which
   /// must outlive the detector. The same contacts, whatever their number.

@@ -81,32 +81,4 @@ EdgesMeeting::EdgesMeeting(const PairFrame& pair, const SeparatingAxis& axis,
   rise_b = std::abs(beside_a.normal.dot(along_b)) / (b.length * beside_a.cosine);
 }
 
-CarriedContact::CarriedContact(const ShapePair& pair, const SeparatingAxis& axis)
-    : kind_(axis.feature.kind) {
-  const Vec3 normal = contact_normal(pair, axis);
-  // Kept in the frame of the body that it belongs to, so that it turns with that body.
-  if (kind_ == AxisKind::face_of_a) first_ = normal;
-  if (kind_ == AxisKind::face_of_b) first_ = pair.other[1].rotation * normal;
-  if (kind_ == AxisKind::edges) {
-    first_ = pair.shape[0]->edge(axis.feature.a).along;
-    second_ = pair.shape[1]->edge(axis.feature.b).along;
-    if (first_.cross(pair.other[0].rotation * second_).dot(normal) < 0.0) second_ = -second_;
-  }
-}
-
-Vec3 CarriedContact::normal(const RelativePose& b_in_a) const {
-  if (kind_ == AxisKind::face_of_a) return first_;
-  if (kind_ == AxisKind::face_of_b) return b_in_a.rotation * first_;
-  return first_.cross(b_in_a.rotation * second_).normalized();
-}
-
-ManifoldPoint CarriedContact::point(std::uint64_t key, const Vec3& on_a, const Vec3& on_b,
-                                    const Vec3& normal) const {
-  const double gap = normal.dot(on_b - on_a);
-  // The vertex says where the point is: its foot on the face may have slid.
-  if (kind_ == AxisKind::face_of_a) return {key, midway_from_b(on_b, gap, normal), gap};
-  if (kind_ == AxisKind::face_of_b) return {key, midway_from_a(on_a, gap, normal), gap};
-  return {key, 0.5 * (on_a + on_b), gap};
-}
-
 }  // namespace ballast

@@ -14,7 +14,7 @@
 //
 // with x_a and x_b the places on the surfaces of a and b. The proofs need d, s and h alone and the
 // law needs n, g and x alone: another rule changes contact_normal, contact_gap and contact_at below
-// (and CarriedContact, if points are held on to), and nothing in the search.
+// and nothing in the search.
 //
 // clang-format off
 // case            feature     normal n          places                         height h of place x
@@ -29,7 +29,7 @@
 // flat edges      an edge of  the same          that point and the corners of  (n_f.x - o_f)/n_f.d
 //                 each                          the common part of the faces
 //                                               beside the edges, cut along d
-// parallel edges  never a feature (kParallelSine): the faces beside them separate as well
+// parallel edges  never a feature (parallel_sine): the faces beside them separate as well
 // plane           a wall      the plane's n_P   every vertex within reach      n_P.(x - p)
 // clang-format on
 //
@@ -41,19 +41,19 @@
 // translational distance between two convex polyhedra", ICRA 1986. The points are chosen as in
 // Gregorius, "Robust contact creation for physics simulations", GDC 2015; the flat edges are ours.
 //
-// Who asks: contact_manifold.hpp collects the points within reach and keeps the most useful ones,
-// lone_point.hpp proves that the rule gives no more than one, held_manifold.hpp carries points on
-// to later poses, detection_part.cpp turns them to the world frame. Places are collected by their
-// heights, so that a rule whose gaps are smaller than the heights misses some at the rim.
+// Who asks: contact_manifold.hpp proves that the rule gives no more than one point, or collects the
+// points within reach and keeps the most useful ones; detection_part.cpp turns them to the world
+// frame. Places are collected by their heights, so that a rule whose gaps are smaller than the
+// heights misses some at the rim.
 
-#include "geometry/contact/contact_shape.hpp"
+#include "geometry/contact/contact_point.hpp"
 #include "geometry/contact/face_clipping.hpp"
 
 namespace ballast {
 
 /// A contact point of two polyhedra, in a's frame.
 struct ManifoldPoint {
-  std::uint64_t key;  ///< unique within the pair (feature_key.hpp)
+  std::uint64_t key;  ///< unique within the pair (contact_point.hpp)
   Vec3 position;      ///< midway between the two surfaces [m]
   double gap;         ///< along the normal [m]; negative = overlap
 };
@@ -133,27 +133,5 @@ inline Vec3 midway_from_a(const Vec3& on_a, double gap, const Vec3& normal) {
 /// reference's frame: on b for a face of a and for two edges, on a for a face of b.
 ManifoldPoint contact_at(const PairFrame& pair, const SeparatingAxis& axis,
                          const ClippedPoint& place);
-
-// ---- the same at later poses
-
-/// The normal and the points of a pair whose bodies have moved a little, by the same features as
-/// before: the normal turns with the face or the edges that define it, and each point stays on the
-/// material of both bodies.
-class CarriedContact {
- public:
-  CarriedContact() = default;
-  CarriedContact(const ShapePair& pair, const SeparatingAxis& axis);
-
-  /// Unit, in a's frame, from a to b.
-  Vec3 normal(const RelativePose& b_in_a) const;
-  /// `on_a`, `on_b`: where the point is on each body now, in a's frame. Sets position and gap.
-  ManifoldPoint point(std::uint64_t key, const Vec3& on_a, const Vec3& on_b,
-                      const Vec3& normal) const;
-
- private:
-  AxisKind kind_ = AxisKind::none;
-  Vec3 first_, second_;  // the face's normal from a to b in its body's frame; or each body's edge,
-                         // their cross product from a to b
-};
 
 }  // namespace ballast

@@ -1,21 +1,93 @@
 #pragma once
-// A contact point, as detection reports it and everything after it reads it.
+// What contact detection is given and what it reports: shapes, settings, contact points and the
+// names by which they are known from step to step.
 
 #include <cstdint>
 
-#include "geometry/shape/pose.hpp"
+#include "geometry/shape/polyhedron.hpp"
 
 namespace ballast {
+
+/// The half-space {x : normal.x >= 0} in the body frame of a wall; the wall's pose places it.
+/// normal points into the free side, where the grains are.
+struct Plane {
+  Vec3 normal = Vec3::UnitZ();
+};
+
+/// A body as detection sees it: a polyhedron (in its body frame) or a plane.
+struct ContactShape {
+  const Polyhedron* polyhedron = nullptr;  ///< not owned; null for a plane
+  Plane plane;                             ///< used when polyhedron is null
+  bool fixed = false;  ///< never moves and carries no unknown: two fixed bodies are never a pair
+};
+
+struct DetectionSettings {
+  int max_points = 4;     ///< per pair of polyhedra; the deepest is always kept
+  double skin = 0.0;      ///< broad-phase margin [m]; 0 = chosen from the shapes
+  bool use_cache = true;  ///< start from last step's axis; off: every pair from scratch (the same
+                          ///< contacts, slower)
+};
+
+/// Counters of the last detect().
+struct DetectionCounters {
+  long candidate_pairs = 0;       ///< pairs in the broad phase's list
+  long cached_separations = 0;    ///< pairs dismissed by the axis that separated them last time, or
+                                  ///< by the rest of its proven distance
+  long proved_axes = 0;           ///< pairs whose last axis was proved to be the best one again
+  long full_tests = 0;            ///< pairs that needed the whole separating-axis search
+  long manifolds = 0;             ///< pairs with at least one contact point
+  long broad_phase_rebuilds = 0;  ///< since construction
+
+  DetectionCounters& operator+=(const DetectionCounters& other) {
+    candidate_pairs += other.candidate_pairs;
+    cached_separations += other.cached_separations;
+    proved_axes += other.proved_axes;
+    full_tests += other.full_tests;
+    manifolds += other.manifolds;
+    broad_phase_rebuilds += other.broad_phase_rebuilds;
+    return *this;
+  }
+};
 
 /// One contact point between body a and body b. A plane is always a; of two polyhedra a has the
 /// smaller index. contact_normal.hpp says how normal, position and gap are chosen.
 struct ContactPoint {
   int body_a, body_b;
-  std::uint64_t feature;  ///< key of the features that touch (feature_key.hpp): unique within the
+  std::uint64_t feature;  ///< key of the features that touch: unique within the
                           ///< pair, the same from step to step while they do
   Vec3 normal;            ///< unit, world frame, from a to b; one normal for all points of a pair
   Vec3 position;          ///< world frame [m], midway between the two surfaces
   double gap;  ///< signed distance along the normal at this point [m]; negative = overlap
 };
+
+/// The features that meet at a point. They do not name the reference face, so that a point keeps
+/// its key when the reference changes from one body's face to the other's, or to the face beside
+/// it.
+enum class PointKind : std::uint8_t {
+  vertex_of_a,  ///< a vertex of a over a face of b: the index in a, nothing in b
+  vertex_of_b,
+  edges,  ///< an edge of each
+  sides   ///< two sides of the reference face that share no corner: left behind by rounding only
+};
+
+/// The kind stands in the two top bits, then 31 bits for the index in each body. A vertex of b has
+/// the vertex's own number as its key.
+inline std::uint64_t feature_key(PointKind kind, int a, int b) {
+  constexpr std::uint64_t code[] = {1, 0, 2, 3};
+  return code[static_cast<int>(kind)] << 62 | static_cast<std::uint64_t>(a) << 31 |
+         static_cast<std::uint64_t>(b);
+}
+
+/// Vertex `index` of body 0 (a) or 1 (b).
+inline std::uint64_t vertex_key(int body, int index) {
+  return body == 0 ? feature_key(PointKind::vertex_of_a, index, 0)
+                   : feature_key(PointKind::vertex_of_b, 0, index);
+}
+
+/// Edge `own` of body 0 (a) or 1 (b) and edge `other` of the other body.
+inline std::uint64_t edges_key(int body, int own, int other) {
+  return body == 0 ? feature_key(PointKind::edges, own, other)
+                   : feature_key(PointKind::edges, other, own);
+}
 
 }  // namespace ballast

@@ -1,9 +1,41 @@
 #include "geometry/contact/detection_part.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace ballast {
+
+DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies)
+    : shapes(std::move(bodies)), rotations(shapes.size()), travel(shapes.size()) {
+  // Bodies of one polyhedron share its tables.
+  std::map<const Polyhedron*, int> number;
+  std::vector<const Polyhedron*> distinct;
+  for (const ContactShape& body : shapes) {
+    table_of.push_back(-1);
+    if (!body.polyhedron) continue;
+    const auto [at, is_new] = number.emplace(body.polyhedron, static_cast<int>(distinct.size()));
+    if (is_new) distinct.push_back(body.polyhedron);
+    table_of.back() = at->second;
+  }
+  tables.reserve(distinct.size());
+  for (const Polyhedron* polyhedron : distinct) tables.emplace_back(*polyhedron);
+  for (int i = 0; i < count(); ++i) bounds.push_back(shape(i) ? shape(i)->bounds() : BodyBounds{});
+}
+
+void DetectedBodies::take(std::span<const Pose> new_poses, std::span<const double> new_reach) {
+  poses = new_poses;
+  reach = new_reach;
+  for (size_t i = 0; i < poses.size(); ++i) rotations[i] = poses[i].rotation.toRotationMatrix();
+  // Motion summed up step by step: of two times, the difference of the
+  // sums bounds the motion between.
+  for (size_t i = 0; i < previous_.size(); ++i) {
+    const Travel step = step_bound(previous_[i], poses[i]);
+    travel[i].shift += step.shift;
+    travel[i].turn += step.turn;
+  }
+  previous_.assign(poses.begin(), poses.end());
+}
 
 DetectionPart::DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings)
     : bodies_(bodies), settings_(settings), search_(bodies.tables) {
@@ -21,7 +53,6 @@ void DetectionPart::take_range(int begin, int end, size_t pairs) {
   // no memory, and to grow would copy.
   const size_t room = pairs + pairs / 2;
   records_.touching.reserve(room);
-  if (bodies_.holds()) records_.held.reserve(room);
   records_.is_kept.reserve(room);
   records_.vacant.reserve(room);
 }
@@ -36,26 +67,18 @@ void DetectionPart::drop_others() {
 void DetectionPart::adopt(CandidatePair& pair, DetectionPart& from) {
   const int old = std::exchange(pair.touching, new_place());
   records_.touching[pair.touching] = from.records_.touching[old];
-  if (bodies_.holds()) records_.held[pair.touching] = from.records_.held[old];
   from.records_.vacant.push_back(old);
 }
 
-/// Holds no points yet.
 int DetectionPart::new_place() {
   if (records_.vacant.empty()) {
     records_.touching.emplace_back();
-    if (bodies_.holds()) records_.held.emplace_back();
     records_.is_kept.push_back(0);
     return static_cast<int>(records_.touching.size()) - 1;
   }
   const int place = records_.vacant.back();
   records_.vacant.pop_back();
-  if (bodies_.holds()) records_.held[place].drop();
   return place;
-}
-
-void DetectionPart::drop_held() {
-  for (HeldManifold& held : records_.held) held.drop();
 }
 
 void DetectionPart::detect(BroadPhase& broad_phase, std::vector<ContactPoint>& contacts) {
@@ -123,7 +146,7 @@ void DetectionPart::bound_separated(CandidatePair& pair, double distance, double
 /// Contacts of all bodies with a plane: every vertex within reach is a point.
 void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts) {
   const std::span<const Pose> poses = bodies_.poses;
-  const std::span<const double> reach = bodies_.given_reach;  // never held on to
+  const std::span<const double> reach = bodies_.reach;
   const Vec3 normal = contact_normal(bodies_.rotations[plane], bodies_.shapes[plane].plane);
   const Vec3& origin = poses[plane].position;
   for (int b = 0; b < bodies_.count(); ++b) {
@@ -162,7 +185,6 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   const Mat3& rotation = bodies_.rotations[a];
   const RelativePose b_in_a{rotation.transpose() * bodies_.rotations[b],
                             rotation.transpose() * between};
-  if (append_held(candidate, b_in_a, contacts)) return;
   candidate.apart_below = -1.0;
   SeparatingAxis axis;
   const double turn = bodies_.travel[a].turn + bodies_.travel[b].turn;
@@ -198,48 +220,19 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
          contacts);
 }
 
-/// Appends points that the search found within `reach`. Where points are held on to, that is the
-/// wide reach, and only those within the given one are contacts now.
 void DetectionPart::append(const CandidatePair& candidate, const PairFrame& frame,
                            const SeparatingAxis& axis, std::span<const ManifoldPoint> points,
                            std::vector<ContactPoint>& contacts) {
   const int a = candidate.a, b = candidate.b;
-  append(candidate, contact_normal(frame, axis), points,
-         bodies_.given_reach[a] + bodies_.given_reach[b], contacts);
-  if (!bodies_.holds()) return;
-  const ShapePair pair(*bodies_.shape(a), *bodies_.shape(b), frame.other[0]);
-  records_.held[candidate.touching].hold(pair, axis, points, bodies_.reach[a] + bodies_.reach[b]);
-}
-
-void DetectionPart::append(const CandidatePair& candidate, const Vec3& normal,
-                           std::span<const ManifoldPoint> points, double alert,
-                           std::vector<ContactPoint>& contacts) {
+  const double alert = bodies_.reach[a] + bodies_.reach[b];
   const size_t before = contacts.size();
-  const Mat3& rotation = bodies_.rotations[candidate.a];
-  const Vec3 normal_W = rotation * normal, origin = bodies_.poses[candidate.a].position;
+  const Mat3& rotation = bodies_.rotations[a];
+  const Vec3 normal_W = rotation * contact_normal(frame, axis), origin = bodies_.poses[a].position;
   for (const ManifoldPoint& point : points)
     if (point.gap <= alert)
-      contacts.push_back({candidate.a, candidate.b, point.key, normal_W,
-                          origin + rotation * point.position, point.gap});
+      contacts.push_back(
+          {a, b, point.key, normal_W, origin + rotation * point.position, point.gap});
   if (contacts.size() > before) ++counters_.manifolds;
-}
-
-/// Appends the pair's held points. False if it has none, or none that are still valid; these are
-/// then dropped.
-bool DetectionPart::append_held(const CandidatePair& candidate, const RelativePose& b_in_a,
-                                std::vector<ContactPoint>& contacts) {
-  if (!bodies_.holds() || candidate.touching < 0) return false;
-  HeldManifold& held = records_.held[candidate.touching];
-  const double alert = bodies_.given_reach[candidate.a] + bodies_.given_reach[candidate.b];
-  if (!held.is_valid(b_in_a, bodies_.bounds[candidate.b].circumradius, alert)) {
-    held.drop();
-    return false;
-  }
-  ++counters_.reused;
-  Vec3 normal;
-  std::array<ManifoldPoint, HeldManifold::most_points> storage;
-  append(candidate, normal, held.points(b_in_a, alert, normal, storage), alert, contacts);
-  return true;
 }
 
 void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair,
@@ -254,14 +247,8 @@ void DetectionPart::fetch(const BroadPhase& broad_phase, size_t next) const {
   if (next >= chosen_.size()) return;
   const int record = broad_phase.pairs()[chosen_[next]].touching;
   if (record < 0) return;
-  const auto fetch_all = [](const auto& object) {
-    const char* lines = reinterpret_cast<const char*>(&object);
-    for (size_t line = 0; line < sizeof object; line += 64) __builtin_prefetch(lines + line);
-  };
-  if (bodies_.holds())
-    fetch_all(records_.held[record]);
-  else
-    fetch_all(records_.touching[record]);
+  const char* lines = reinterpret_cast<const char*>(&records_.touching[record]);
+  for (size_t line = 0; line < sizeof(TouchingPair); line += 64) __builtin_prefetch(lines + line);
 }
 
 bool DetectionPart::boxes_within_reach(const CandidatePair& pair, double alert) const {

@@ -2,17 +2,43 @@
 // A share of the pairs that a detection looks at, with its memory of them and scratch memory of its
 // own, so that threads can look at several shares at the same time.
 
+#include <span>
 #include <vector>
 
 #include "geometry/contact/axis_search.hpp"
-#include "geometry/contact/contact_manifold.hpp"
+#include "geometry/contact/broad_phase.hpp"
 #include "geometry/contact/contact_point.hpp"
-#include "geometry/contact/detected_bodies.hpp"
-#include "geometry/contact/detection_settings.hpp"
-#include "geometry/contact/held_manifold.hpp"
 #include "geometry/contact/touching_pair.hpp"
 
 namespace ballast {
+
+/// The bodies as a detection finds them: shapes, poses, and how far each has moved. Read by all
+/// parts of a detection, written only between detections.
+struct DetectedBodies {
+  explicit DetectedBodies(std::vector<ContactShape> bodies);
+
+  /// The poses and reaches of this call; both must outlive it.
+  void take(std::span<const Pose> new_poses, std::span<const double> new_reach);
+
+  int count() const { return static_cast<int>(shapes.size()); }
+  /// Null for a plane.
+  const CollisionShape* shape(int body) const {
+    return table_of[body] < 0 ? nullptr : &tables[table_of[body]];
+  }
+
+  std::vector<ContactShape> shapes;
+  std::vector<CollisionShape> tables;  ///< one per distinct polyhedron, in the order of first use
+  std::vector<int> table_of;           ///< of each body; -1 for planes
+  std::vector<BodyBounds> bounds;      ///< of all bodies, in one place; zero for planes
+
+  std::span<const Pose> poses;    ///< of this call
+  std::vector<Mat3> rotations;    ///< R_WB at these poses
+  std::span<const double> reach;  ///< of this call [m]
+  std::vector<Travel> travel;     ///< since the first call
+
+ private:
+  std::vector<Pose> previous_;  // poses of the last call
+};
 
 /// The planes and pairs whose first body a lies in a range. The contacts of part 0, then those of
 /// part 1 and so on, are in the order of all contacts.
@@ -30,7 +56,6 @@ class DetectionPart {
   void drop_others();
   /// Takes over the memory of a pair.
   void adopt(CandidatePair& pair, DetectionPart& from);
-  void drop_held();
 
   /// Appends the contacts of its range, sorted by (body_a, body_b, feature).
   void detect(BroadPhase& broad_phase, std::vector<ContactPoint>& contacts);
@@ -44,13 +69,8 @@ class DetectionPart {
   void fetch(const BroadPhase& broad_phase, size_t next) const;
   void detect_plane(int plane, std::vector<ContactPoint>& contacts);
   void detect_pair(CandidatePair& pair, std::vector<ContactPoint>& contacts);
-  bool append_held(const CandidatePair& candidate, const RelativePose& b_in_a,
-                   std::vector<ContactPoint>& contacts);
   void append(const CandidatePair& candidate, const PairFrame& frame, const SeparatingAxis& axis,
               std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts);
-  void append(const CandidatePair& candidate, const Vec3& normal,
-              std::span<const ManifoldPoint> points, double alert,
-              std::vector<ContactPoint>& contacts);
   void remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis,
                 double turn);
   void bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const;
@@ -62,7 +82,6 @@ class DetectionPart {
   /// longer listed are given to the next ones.
   struct Records {
     std::vector<TouchingPair> touching;
-    std::vector<HeldManifold> held;  // if points are held on to
     std::vector<int> vacant;
     std::vector<char> is_kept;
   };

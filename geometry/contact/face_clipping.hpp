@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/contact/feature_key.hpp"
+#include "geometry/contact/contact_point.hpp"
 #include "geometry/contact/separating_axis.hpp"
 
 namespace ballast {
@@ -25,9 +25,9 @@ class FaceClipper {
   /// Room for every polygon of ordinary grains: buffers change places while clipping, so each must
   /// be large enough at once.
   FaceClipper() {
-    polygon_.reserve(kRoom);
-    clipped_.reserve(kRoom);
-    distance_.reserve(kRoom);
+    polygon_.reserve(room);
+    clipped_.reserve(room);
+    distance_.reserve(room);
   }
 
   using FaceView = CollisionShape::FaceView;
@@ -44,7 +44,7 @@ class FaceClipper {
                                      double thickness);
 
  private:
-  static constexpr size_t kRoom = 128;
+  static constexpr size_t room = 128;
   struct Plane {
     Vec3 outward;
     double offset;

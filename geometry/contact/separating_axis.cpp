@@ -99,7 +99,7 @@ std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape:
   const Vec3 cross = along_a.cross(along_b);
   const double sign = left_a > 0.0 ? 1.0 : -1.0, length = cross.norm(),
                sine = length / (a.length * b.length);
-  if (sine < kParallelSine) return std::nullopt;
+  if (sine < parallel_sine) return std::nullopt;
   facet.cross = sign * length;
   facet.nearly_parallel = !(sine > 1e-3);
   if (facet.nearly_parallel) return facet;

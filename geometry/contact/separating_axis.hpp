@@ -88,7 +88,7 @@ inline double proof_margin(const PairFrame& pair) { return 4e-13 * pair.size(); 
 
 /// Edges with a smaller sine of the angle between them count as parallel: their cross product is
 /// mostly rounding. The facet left out is a sliver of this width relative to the edge.
-constexpr double kParallelSine = 1e-7;
+constexpr double parallel_sine = 1e-7;
 
 /// Scratch: one double per padded vertex of the largest shape.
 using Heights = std::vector<double>;

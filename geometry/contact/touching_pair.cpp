@@ -7,7 +7,7 @@ namespace ballast {
 
 namespace {
 
-constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr double largest = std::numeric_limits<double>::max();
 
 EdgeOfFace edge_of_copy(const CollisionShape::Edge& edge, const FaceCopy& face, int own) {
   return {edge, face.view().sides, own};
@@ -17,11 +17,11 @@ EdgeOfFace edge_of_copy(const CollisionShape::Edge& edge, const FaceCopy& face, 
 /// others.
 struct LowestCorner {
   int place = 0;  // in the face's loop; of equals the smallest vertex
-  double height = kLargest, clearance = kLargest;
+  double height = largest, clearance = largest;
 };
 LowestCorner lowest_corner(const FaceCopy& face, const Vec3& direction) {
   LowestCorner low;
-  double second = kLargest;
+  double second = largest;
   for (int k = 0; k < face.count; ++k) {
     const double height = vertex_height(direction, face.corner[k].position);
     const bool is_lower =
@@ -81,13 +81,13 @@ void TouchingPair::record_faces(const ShapePair& pair, int support, double turn,
   const Vec3 direction = pair.other[1 - own].rotation * faces.reference.face.normal;
   other.vertices().evaluate(direction, heights.data());
   const double lowest = heights[support];
-  for (const CollisionShape::Corner& corner : corners) heights[corner.vertex] = kLargest;
+  for (const CollisionShape::Corner& corner : corners) heights[corner.vertex] = largest;
   faces.clearance = *std::min_element(heights.begin(), heights.begin() + other.vertices().count());
   faces.clearance -= lowest;
   // The faces that compete with the incident one, corner by corner.
   const double cosine = faces.incident.face.normal.dot(direction);
   for (size_t k = 0; k < corners.size(); ++k) {
-    faces.lead[k] = kLargest;
+    faces.lead[k] = largest;
     const int vertex = corners[k].vertex;
     for (int i = 0; i < other.vertex_face_count(vertex); ++i)
       if (const int g = other.vertex_face(vertex, i); g != incident)
@@ -138,7 +138,7 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
                                  vertex_on_face(pair, axis, reference.face, support.position));
     return Look::touching;
   }
-  if (!(faces.lead[low.place] - 2.0 * turned > 2.0 * kEqualCosines)) return Look::undecided;
+  if (!(faces.lead[low.place] - 2.0 * turned > 2.0 * equal_cosines)) return Look::undecided;
   points = manifold.points(pair, axis, {reference, faces.incident.view(), support.position}, alert,
                            max_points);
   return Look::touching;

@@ -11,7 +11,6 @@
 #include <variant>
 
 #include "geometry/contact/contact_manifold.hpp"
-#include "geometry/contact/lone_point.hpp"
 
 namespace ballast {
 

@@ -1,61 +1,160 @@
 #include "geometry/shape/convex_hull.hpp"
 
+#include <libqhull_r/qhull_ra.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <sstream>
 #include <string>
-
-#include "geometry/shape/area_vector.hpp"
-#include "geometry/shape/close_pairs.hpp"
-#include "geometry/shape/coplanar_faces.hpp"
-#include "geometry/shape/face_loops.hpp"
-#include "geometry/shape/qhull_loops.hpp"
+#include <utility>
 
 namespace ballast {
 
 namespace {
 
+/// Faces as closed loops of point indices.
+using Loops = std::vector<std::vector<int>>;
+
 // Lengths below are relative to half the largest extent.
 
 /// Points closer than this are one point.
-constexpr double kWeld = 1e-9;
+constexpr double weld = 1e-9;
 /// Thinner sets are flat: they would not outlive the tolerances that follow.
-constexpr double kFlat = 1e-8;
-/// qhull's own error bound, option 'E': it merges facets that are coplanar within a few of these. A
-/// tenth of Polyhedron's tolerance, as a merged facet is flat only to several of them. The second
-/// is for the rare sets whose detail is of just the first's size, where qhull's merging goes too
-/// far or gives up: they are resolved instead.
-constexpr double kMerge[] = {1e-10, 1e-14};
-/// Corners of faces that rise less than this over the chord of their neighbours are dropped: they
-/// would make needles, whose planes mean nothing. Above Polyhedron's tolerance of 1e-9 of a size
-/// that is at most 2 sqrt(3) half-extents.
-constexpr double kCorner = 4e-9;
+constexpr double thinnest = 1e-8;
 
-/// Throws on NaN and on too few points; returns the points moved to their box's centre and scaled
-/// to half-extent 1, so that qhull's tolerances are relative.
-std::vector<Vec3> normalised(std::span<const Vec3> points) {
+/// What is one face, and what is no corner.
+struct Tolerance {
+  /// qhull's own error bound, option 'E': it merges facets that are coplanar within a few of these.
+  double merge;
+  /// Corners of faces that rise less than this over the chord of their neighbours are dropped: they
+  /// would make needles, whose planes mean nothing.
+  double corner;
+};
+/// A tenth of Polyhedron's tolerance, as a merged facet is flat only to several of it; corners
+/// above that tolerance of 1e-9 of a size that is at most 2 sqrt(3) half-extents.
+constexpr Tolerance exact_tolerance{1e-10, 4e-9};
+/// For the rare sets whose detail is of just the first's size, where qhull's merging goes too far
+/// or gives up: they are resolved instead.
+constexpr Tolerance finer_tolerance{1e-14, 4e-9};
+
+/// A message stream in memory: qhull writes its complaints there instead of to stderr.
+class Messages {
+ public:
+  Messages() : file_(open_memstream(&text_, &length_)) {
+    if (!file_) throw std::bad_alloc();
+  }
+  ~Messages() {
+    std::fclose(file_);
+    std::free(text_);
+  }
+  Messages(const Messages&) = delete;
+  Messages& operator=(const Messages&) = delete;
+  FILE* file() { return file_; }
+
+ private:
+  char* text_ = nullptr;
+  size_t length_ = 0;
+  FILE* file_;
+};
+
+/// One qhull run and its memory.
+class QhullRun {
+ public:
+  QhullRun(std::vector<double>& coordinates, double merge) {
+    qh_zero(&qh_, messages_.file());
+    std::ostringstream command;
+    command << "qhull Pp E" << merge;  // Pp: no warnings about precision
+    std::string text = command.str();  // qhull wants it writable
+    const int code =
+        qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False,
+                     text.data(), nullptr, messages_.file());
+    if (code != qh_ERRnone) {
+      release();
+      // What qhull says is written for its own users.
+      throw InvalidPolyhedron("their hull is thinner than its numbers are exact");
+    }
+  }
+  ~QhullRun() { release(); }
+  QhullRun(const QhullRun&) = delete;
+  QhullRun& operator=(const QhullRun&) = delete;
+
+  /// Vertex loops of the merged facets, in qhull's order of facets; orientation and starting vertex
+  /// as they come.
+  Loops loops() {
+    Loops result;
+    qhT* qh = &qh_;  // the name that qhull's macros expect
+    facetT* facet;
+    FORALLfacets { result.push_back(loop(facet)); }
+    return result;
+  }
+
+ private:
+  /// qhull keeps two stores: large blocks, and a pool of small ones that is freed by itself.
+  void release() {
+    qh_freeqhull(&qh_, !qh_ALL);
+    int blocks, bytes;
+    qh_memfreeshort(&qh_, &blocks, &bytes);
+  }
+
+  std::vector<int> loop(facetT* facet) {
+    qhT* qh = &qh_;
+    std::vector<int> vertices;
+    vertexT *vertex, **vertexp;
+    FOREACHvertex_(facet->vertices) vertices.push_back(qh_pointid(qh, vertex->point));
+    if (facet->simplicial) return vertices;
+    // a merged facet's vertices are unordered: chain its ridges, which are its edges in 3-d
+    std::vector<std::pair<int, int>> links;
+    ridgeT *ridge, **ridgep;
+    FOREACHridge_(facet->ridges) {
+      links.emplace_back(qh_pointid(qh, SETfirstt_(ridge->vertices, vertexT)->point),
+                         qh_pointid(qh, SETsecondt_(ridge->vertices, vertexT)->point));
+    }
+    // From corner to corner along the ridge that does not lead back, until the loop closes.
+    std::vector<int> chain{links.front().first};
+    for (int at = links.front().second; at != chain.front();) {
+      chain.push_back(at);
+      const auto next = std::find_if(links.begin(), links.end(), [&](const auto& link) {
+        const int previous = chain[chain.size() - 2];
+        return (link.first == at && link.second != previous) ||
+               (link.second == at && link.first != previous);
+      });
+      if (next == links.end() || chain.size() > links.size()) {
+        throw InvalidPolyhedron("a face of the hull is no simple loop");
+      }
+      at = next->first == at ? next->second : next->first;
+    }
+    return chain;
+  }
+
+  Messages messages_;
+  qhT qh_;
+};
+
+/// Half the largest extent. Throws on NaN and on too few points.
+double half_extent(std::span<const Vec3> points) {
   if (points.size() < 4)
     throw InvalidPolyhedron("no convex hull: at least 4 points are needed, got " +
                             std::to_string(points.size()));
-  Vec3 low = points[0], high = points[0];
   for (size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite())
       throw InvalidPolyhedron("no convex hull: point " + std::to_string(i) +
                               " has a coordinate that is NaN or infinite");
-    low = low.cwiseMin(points[i]);
-    high = high.cwiseMax(points[i]);
   }
-  const double half = 0.5 * (high - low).maxCoeff();
+  const double half = 0.5 * bounds_of(points).largest_extent();
   if (!(half > 0.0)) throw InvalidPolyhedron("no convex hull: all points coincide");
   // The cube of the half-extent stands for the volume: no mass could
   // be computed where it overflows.
   if (!std::isfinite(half * half * half))
     throw InvalidPolyhedron("no convex hull: the volume overflows");
-  std::vector<Vec3> scaled;
-  for (const Vec3& p : points) scaled.push_back((p - 0.5 * (low + high)) / half);
-  return scaled;
+  return half;
 }
 
-/// Throws when the points lie on a line or in a plane: thickness below kFlat.
+/// Throws when the points lie on a line or in a plane: thickness below thinnest.
 void check_spatial(const std::vector<Vec3>& points) {
   const auto farthest = [&](auto distance) {
     return *std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
@@ -68,18 +167,29 @@ void check_spatial(const std::vector<Vec3>& points) {
   const Vec3 along = (farthest([&](const Vec3& p) { return (p - a).norm(); }) - a).normalized();
   const auto from_line = [&](const Vec3& p) { return (p - a - along * along.dot(p - a)).norm(); };
   const Vec3 c = farthest(from_line);
-  if (!(from_line(c) > kFlat))
+  if (!(from_line(c) > thinnest))
     throw InvalidPolyhedron("no convex hull: all points lie on one line");
   const Vec3 normal = along.cross(c - a).normalized();
   const auto from_plane = [&](const Vec3& p) { return std::abs(normal.dot(p - a)); };
-  if (!(from_plane(farthest(from_plane)) > kFlat))
+  if (!(from_plane(farthest(from_plane)) > thinnest))
     throw InvalidPolyhedron("no convex hull: all points lie in one plane");
 }
 
-/// Ascending indices of the points, without those within kWeld of one that stays (the smaller index
+/// The points moved to their box's centre and scaled to half-extent 1, so that qhull's tolerances
+/// are relative. Throws where they span no solid.
+std::vector<Vec3> normalised(std::span<const Vec3> points) {
+  const double half = half_extent(points);
+  const Bounds box = bounds_of(points);
+  std::vector<Vec3> scaled;
+  for (const Vec3& p : points) scaled.push_back((p - 0.5 * (box.low + box.high)) / half);
+  check_spatial(scaled);
+  return scaled;
+}
+
+/// Ascending indices of the points, without those within weld of one that stays (the smaller index
 /// stays).
 std::vector<int> distinct(const std::vector<Vec3>& points) {
-  const std::vector<int> first = first_close(points, kWeld);
+  const std::vector<int> first = first_close(points, weld);
   std::vector<int> kept;
   for (size_t i = 0; i < points.size(); ++i) {
     if (first[i] == static_cast<int>(i)) kept.push_back(static_cast<int>(i));
@@ -87,17 +197,53 @@ std::vector<int> distinct(const std::vector<Vec3>& points) {
   return kept;
 }
 
-/// The flattest corner of each face where it is flatter than kCorner, straight or re-entrant:
+/// Puts loops of a convex solid in one order, whoever listed them: outward, each from its smallest
+/// index, in ascending order.
+void make_canonical(Loops& loops, std::span<const Vec3> points) {
+  Vec3 inside = Vec3::Zero();
+  double count = 0.0;
+  for (const auto& loop : loops) {
+    for (const int v : loop) inside += points[v];
+    count += static_cast<double>(loop.size());
+  }
+  inside /= count;
+  for (auto& loop : loops) {
+    if (area_vector(loop, points).dot(points[loop[0]] - inside) < 0.0)
+      std::reverse(loop.begin(), loop.end());
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  }
+  std::sort(loops.begin(), loops.end());
+}
+
+/// The solid of these loops, outward; its vertices keep the order of the points, without those of
+/// no loop. Throws InvalidPolyhedron as Polyhedron's constructor.
+Polyhedron solid_of(std::span<const Vec3> points, Loops loops) {
+  std::vector<int> index(points.size(), -1);
+  for (const auto& loop : loops)
+    for (const int v : loop) index[v] = 0;
+  std::vector<Vec3> vertices;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (index[i] < 0) continue;
+    index[i] = static_cast<int>(vertices.size());
+    vertices.push_back(points[i]);
+  }
+  for (auto& loop : loops)
+    for (int& v : loop) v = index[v];
+  return Polyhedron(std::move(vertices), loops);
+}
+
+/// The flattest corner of each face where it is flatter than `lowest_kept`, straight or re-entrant:
 /// merging leaves such behind too. At most one per face and none beside another: once it is gone,
 /// the hull of the other points may well keep the neighbour.
-std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points) {
+std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points,
+                              double lowest_kept) {
   std::vector<int> flat;
   std::vector<bool> is_listed(points.size(), false);
   const auto listed = [&](int v) { return is_listed[static_cast<size_t>(v)]; };
   for (const auto& loop : loops) {
     const size_t n = loop.size();
     const Vec3 normal = area_vector(loop, points).normalized();
-    double lowest = kCorner;
+    double lowest = lowest_kept;
     int corner = -1;
     for (size_t k = 0; k < n; ++k) {
       // |in x out| is twice the triangle of a corner and its neighbours; over the chord |in + out|
@@ -121,7 +267,7 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
 
 /// Faces of the hull as canonical loops of point indices. Each round drops the corners that are too
 /// flat and starts again without them: one round for almost all inputs.
-Loops hull_loops(const std::vector<Vec3>& points, double merge) {
+Loops hull_loops(const std::vector<Vec3>& points, const Tolerance& tolerance) {
   std::vector<int> kept = distinct(points);
   while (kept.size() >= 4) {
     // Only the points that are left are handed over, under new numbers; what comes back is put into
@@ -129,11 +275,11 @@ Loops hull_loops(const std::vector<Vec3>& points, double merge) {
     std::vector<double> coordinates;
     for (const int i : kept)
       coordinates.insert(coordinates.end(), points[i].begin(), points[i].end());
-    Loops loops = qhull_loops(coordinates, merge);
+    Loops loops = QhullRun(coordinates, tolerance.merge).loops();
     for (auto& loop : loops)
       for (int& v : loop) v = kept[v];
     make_canonical(loops, points);
-    std::vector<int> flat = flat_corners(loops, points);
+    std::vector<int> flat = flat_corners(loops, points, tolerance.corner);
     if (flat.empty()) return loops;
     std::sort(flat.begin(), flat.end());
     std::erase_if(kept, [&](int i) { return std::binary_search(flat.begin(), flat.end(), i); });
@@ -141,40 +287,97 @@ Loops hull_loops(const std::vector<Vec3>& points, double merge) {
   throw InvalidPolyhedron("fewer than 4 distinct corners");
 }
 
+/// Moves corners to where the planes of their faces meet: least squares through the corners of each
+/// face, and the shortest way of each corner to its planes, by turns. A face with three corners is
+/// flat wherever they are, so only larger ones ask. Whether all come to agree.
+bool flatten(const Loops& loops, std::vector<Vec3>& points) {
+  constexpr int most_turns = 200;  // corners of three faces need two
+  constexpr double most_off = 1e-11;
+  std::vector<std::vector<int>> faces_at(points.size());
+  std::vector<int> large;
+  for (size_t f = 0; f < loops.size(); ++f) {
+    if (loops[f].size() == 3) continue;
+    for (const int v : loops[f]) faces_at[v].push_back(static_cast<int>(large.size()));
+    large.push_back(static_cast<int>(f));
+  }
+  std::vector<Vec3> normal(large.size()), centre(large.size());
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixX3d> shortest;
+  shortest.setThreshold(1e-5);  // planes that are nearly parallel tell nothing across both
+  double off = 1.0;
+  for (int turn = 0; turn < most_turns && off > 1e-14; ++turn) {
+    for (size_t k = 0; k < large.size(); ++k) {
+      const std::vector<int>& loop = loops[large[k]];
+      centre[k].setZero();
+      for (const int v : loop) centre[k] += points[v] / static_cast<double>(loop.size());
+      Mat3 scatter = Mat3::Zero();
+      for (const int v : loop)
+        scatter += (points[v] - centre[k]) * (points[v] - centre[k]).transpose();
+      // Across the direction in which the corners scatter least.
+      normal[k] = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvectors().col(0);
+    }
+    off = 0.0;
+    for (size_t v = 0; v < points.size(); ++v) {
+      const auto count = static_cast<Eigen::Index>(faces_at[v].size());
+      if (count == 0) continue;
+      Eigen::MatrixX3d normals(count, 3);
+      Eigen::VectorXd heights(count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const int k = faces_at[v][i];
+        normals.row(i) = normal[k].transpose();
+        heights[i] = normal[k].dot(points[v] - centre[k]);
+      }
+      off = std::max(off, heights.cwiseAbs().maxCoeff());
+      points[v] -= shortest.compute(normals).solve(heights);
+    }
+  }
+  return off < most_off;
+}
+
+/// How far a point lies outside at most [m].
+double farthest_outside(const Polyhedron& solid, std::span<const Vec3> points) {
+  double farthest = 0.0;
+  for (int f = 0; f < solid.face_count(); ++f)
+    for (const Vec3& p : points)
+      farthest = std::max(farthest, solid.normal(f).dot(p) - solid.offset(f));
+  return farthest;
+}
+
 }  // namespace
 
 Polyhedron convex_hull(std::span<const Vec3> points) {
   const std::vector<Vec3> scaled = normalised(points);
-  check_spatial(scaled);
   // From qhull only the faces are taken; the solid is built from the caller's own coordinates, and
   // its constructor checks everything once more.
   try {
-    return solid_of(points, hull_loops(scaled, kMerge[0]));
+    return solid_of(points, hull_loops(scaled, exact_tolerance));
   } catch (const InvalidPolyhedron&) {
     // The finer attempt below decides.
   }
   try {
-    return solid_of(points, hull_loops(scaled, kMerge[1]));
+    return solid_of(points, hull_loops(scaled, finer_tolerance));
   } catch (const InvalidPolyhedron& error) {
     throw InvalidPolyhedron(
         std::string("no convex hull: the points are almost flat or degenerate: ") + error.what());
   }
 }
 
-Polyhedron convex_hull_of_mesh(const Polyhedron& mesh) {
-  const std::vector<Vec3> scaled = normalised(mesh.vertices());
-  // Back from the lengths of the constants above to metres.
-  const double half = (mesh.vertex(0) - mesh.vertex(1)).norm() / (scaled[0] - scaled[1]).norm();
-  const FaceGroups groups = coplanar_groups(mesh, 2.0 * kMerge[0] * half);
-  if (std::optional<Loops> loops = joined_faces(mesh, groups, kCorner * half)) {
-    make_canonical(*loops, scaled);
-    try {
-      if (flat_corners(*loops, scaled).empty()) return solid_of(mesh.vertices(), *loops);
-    } catch (const InvalidPolyhedron&) {
-      // Neighbours that are neither flat nor bent: qhull decides.
+Polyhedron rounded_hull(std::span<const Vec3> points, double rounding) {
+  const std::vector<Vec3> scaled = normalised(points);
+  const double half = half_extent(points);
+  try {
+    const Loops loops = hull_loops(scaled, {rounding, 40.0 * rounding});
+    std::vector<Vec3> moved = scaled;
+    if (flatten(loops, moved)) {
+      std::vector<Vec3> corners;
+      for (size_t v = 0; v < points.size(); ++v)
+        corners.push_back(points[v] + half * (moved[v] - scaled[v]));
+      const Polyhedron solid = solid_of(corners, loops);
+      if (farthest_outside(solid, points) < 10.0 * rounding * half) return solid;
     }
+  } catch (const InvalidPolyhedron&) {
+    // Faces were joined that are none.
   }
-  return convex_hull(mesh.vertices());
+  return convex_hull(points);
 }
 
 }  // namespace ballast

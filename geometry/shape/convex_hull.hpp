@@ -14,10 +14,11 @@ namespace ballast {
 /// the message names the reason.
 Polyhedron convex_hull(std::span<const Vec3> points);
 
-/// convex_hull of the vertices of a mesh that is convex already: its coplanar faces are joined, in
-/// linear time; convex_hull itself is asked only where they make no sound solid. The same bits as
-/// convex_hull where neighbours either lie in one plane to 1e-11 of the size or are bent by more
-/// than 1e-8 of it. Throws as convex_hull.
-Polyhedron convex_hull_of_mesh(const Polyhedron& mesh);
+/// The solid that was meant by points that were rounded by about `rounding` of half their extent,
+/// as single precision does: what lies in one plane to that is one face again, and its corners are
+/// moved to where the planes of their faces meet. No point is then farther than ten roundings
+/// outside. Where no such solid is found, it is the hull of the points as they are. Throws as
+/// convex_hull.
+Polyhedron rounded_hull(std::span<const Vec3> points, double rounding);
 
 }  // namespace ballast

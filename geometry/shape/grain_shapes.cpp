@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "geometry/shape/convex_hull.hpp"
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 
 namespace ballast {
 

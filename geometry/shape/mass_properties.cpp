@@ -48,9 +48,7 @@ Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& 
 MassProperties mass_properties(const Polyhedron& polyhedron) {
   // About a point inside and not about the origin: for a mesh far from its origin the tetrahedra
   // would be large, nearly cancel, and leave few digits.
-  Vec3 reference = Vec3::Zero();
-  for (const Vec3& p : polyhedron.vertices()) reference += p;
-  reference /= polyhedron.vertex_count();
+  const Vec3 reference = mean(polyhedron.vertices());
 
   double volume = 0.0;
   Vec3 first = Vec3::Zero();

@@ -1,22 +1,321 @@
 #include "geometry/shape/mesh_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "geometry/shape/convex_hull.hpp"
-#include "geometry/shape/nearly_convex.hpp"
-#include "geometry/shape/obj_format.hpp"
-#include "geometry/shape/rounded_hull.hpp"
-#include "geometry/shape/stl_format.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 
 namespace {
 
-using raw_mesh::Place;
-using raw_mesh::RawMesh;
+/// A mesh as it stands in the file: its vertex indices are in range, nothing else is checked. Lines
+/// count from 1; in binary files they are 0.
+struct RawMesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::vector<int>> faces;
+  std::vector<int> vertex_lines, face_lines;
+  bool is_single = false;  ///< its numbers are single precision
+};
+
+/// A place in a file, for messages "file: line N: defect".
+struct Place {
+  const std::filesystem::path& file;
+  int line = 0;
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw MeshFileError(file.string() + (line > 0 ? ": line " + std::to_string(line) : "") + ": " +
+                        message);
+  }
+};
+
+/// The next word of `text` (blanks separate), taken off its front; empty at the end.
+std::string_view next_word(std::string_view& text) {
+  constexpr std::string_view blanks = " \t\r\n\v\f";
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(blanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+/// The next line of `text` without its end, taken off its front.
+std::string_view next_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  return line;
+}
+
+/// At most 40 characters of a word, unprintable ones as '?', for quoting in a message.
+std::string quoted(std::string_view word) {
+  std::string result(1, '\'');
+  result.append(word.substr(0, 40)).append(word.size() > 40 ? "...'" : "'");
+  for (char& c : result)
+    if (c < 32 || c > 126) c = '?';
+  return result;
+}
+
+/// A whole word as a number, in the C locale whatever the program's locale is.
+template <class Number>
+bool parse(std::string_view word, Number& number) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size() && !word.empty();
+}
+
+/// A coordinate: a finite number.
+double parse_coordinate(std::string_view word, const Place& place) {
+  double value = 0.0;
+  if (word.empty()) place.fail("a coordinate is missing");
+  if (!parse(word, value)) place.fail(quoted(word) + " is no number in range");
+  if (!std::isfinite(value)) place.fail("coordinate " + quoted(word) + " is not finite");
+  return value;
+}
+
+// ---- OBJ
+
+constexpr std::array<std::string_view, 15> ignored = {
+    "vn", "vt",  "vp",     "o",      "g",      "s",      "mg",        "l",
+    "p",  "lod", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj"};
+
+void read_vertex(std::string_view rest, const Place& place, RawMesh& mesh) {
+  Vec3 p;
+  for (double& x : p) x = parse_coordinate(next_word(rest), place);
+  // a weight or a colour may follow: numbers too, but of no meaning here
+  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+    parse_coordinate(word, place);
+  mesh.vertices.push_back(p);
+  mesh.vertex_lines.push_back(place.line);
+}
+
+/// Corners are v, v/vt, v//vn or v/vt/vn; negative v count back from the last vertex so far.
+void read_face(std::string_view rest, const Place& place, RawMesh& mesh) {
+  std::vector<int> face;
+  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+    int index = 0;
+    if (!parse(word.substr(0, word.find('/')), index) || index == 0)
+      place.fail(quoted(word) + " is no vertex index (they count from 1, or from -1 backwards)");
+    const int known = static_cast<int>(mesh.vertices.size());
+    if (index < -known)
+      place.fail("face names vertex " + std::to_string(index) + " of " + std::to_string(known));
+    face.push_back(index > 0 ? index - 1 : known + index);
+  }
+  if (face.size() < 3)
+    place.fail("face has " + std::to_string(face.size()) + " vertices: at least 3 are needed");
+  mesh.faces.push_back(std::move(face));
+  mesh.face_lines.push_back(place.line);
+}
+
+/// Wavefront OBJ: the statements v and f; texture, normals, groups and materials are passed over.
+/// `file`: for messages only. Throws MeshFileError on unknown statements, bad numbers and faces
+/// that name a vertex that is not there.
+RawMesh read_obj(const std::filesystem::path& file, std::string_view text) {
+  RawMesh mesh;
+  for (Place place{file, 1}; !text.empty(); ++place.line) {
+    std::string_view line = next_line(text);
+    line = line.substr(0, line.find('#'));
+    const std::string_view keyword = next_word(line);
+    if (keyword == "v") {
+      read_vertex(line, place, mesh);
+    } else if (keyword == "f") {
+      read_face(line, place, mesh);
+    } else if (!keyword.empty() &&
+               std::find(ignored.begin(), ignored.end(), keyword) == ignored.end()) {
+      place.fail("unknown OBJ statement " + quoted(keyword));
+    }
+  }
+  // Indices are checked at the end: a face may name vertices that come after it.
+  const int count = static_cast<int>(mesh.vertices.size());
+  for (size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (const int v : mesh.faces[f]) {
+      if (v >= count)
+        Place{file, mesh.face_lines[f]}.fail("face names vertex " + std::to_string(v + 1) + " of " +
+                                             std::to_string(count));
+    }
+  }
+  return mesh;
+}
+
+// ---- STL
+
+/// Corners this close, relative to the largest extent, are one: binary files are single precision.
+constexpr double same_corner = 1e-6;
+constexpr size_t header_bytes = 84, record_bytes = 50;  // [bytes], the count included
+
+/// Corners of the triangles, three by three, and each triangle's line (0 in binary files).
+struct Soup {
+  std::vector<Vec3> corners;
+  std::vector<int> lines;
+};
+
+std::uint32_t little_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (int k = 3; k >= 0; --k) value = value << 8 | static_cast<unsigned char>(bytes[k]);
+  return value;
+}
+
+Soup read_binary(const std::filesystem::path& file, std::string_view content) {
+  const Place place{file};
+  if (content.size() < header_bytes)
+    place.fail("neither text STL (no 'solid') nor binary STL (" + std::to_string(content.size()) +
+               " bytes are less than the header's 84)");
+  const std::uint64_t count = little_endian(content.substr(80));
+  if (content.size() != header_bytes + record_bytes * count)
+    place.fail("truncated or no binary STL: " + std::to_string(count) + " triangles take " +
+               std::to_string(header_bytes + record_bytes * count) + " bytes, the file has " +
+               std::to_string(content.size()));
+  Soup soup;
+  // A record, all numbers little-endian floats; the normal is not read:
+  //
+  //     bytes   0         12         24         36         48      50
+  //             | normal  | corner 0 | corner 1 | corner 2 | unused |
+  for (std::uint64_t t = 0; t < count; ++t) {
+    const std::string_view record = content.substr(header_bytes + record_bytes * t, record_bytes);
+    for (int k = 0; k < 3; ++k) {
+      Vec3 p;  // after the normal's 12 bytes
+      for (int x = 0; x < 3; ++x)
+        p[x] = std::bit_cast<float>(little_endian(record.substr(12 + 12 * k + 4 * x)));
+      if (!p.allFinite())
+        place.fail("triangle " + std::to_string(t) + " has a coordinate that is not finite");
+      soup.corners.push_back(p);
+    }
+    soup.lines.push_back(0);
+  }
+  return soup;
+}
+
+/// Word after word of a text STL, with the line they stand on; keywords in either case, as found in
+/// the wild.
+class TextReader {
+ public:
+  TextReader(const std::filesystem::path& file, std::string_view text)
+      : place_{file, 0}, text_(text) {}
+
+  std::string_view word() {
+    std::string_view found;
+    while ((found = next_word(line_)).empty() && !text_.empty()) {
+      line_ = next_line(text_);
+      ++place_.line;
+    }
+    return found;
+  }
+  void skip_line() { line_ = {}; }  // the name after solid and endsolid is free text
+  void expect(std::string_view keyword) {
+    const std::string_view found = word();
+    if (found.empty())
+      place_.fail("the file ends where '" + std::string(keyword) + "' should stand");
+    if (!same(found, keyword))
+      place_.fail("expected '" + std::string(keyword) + "', found " + quoted(found));
+  }
+  double coordinate() { return parse_coordinate(word(), place_); }
+  const Place& place() const { return place_; }
+
+  static bool same(std::string_view word, std::string_view keyword) {
+    return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
+      return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+    });
+  }
+
+ private:
+  Place place_;
+  std::string_view text_, line_;
+};
+
+/// After the word "facet". Normals may be anything, even NaN, as some writers have it for thin
+/// triangles.
+void read_facet(TextReader& reader, Soup& soup) {
+  soup.lines.push_back(reader.place().line);
+  reader.expect("normal");
+  for (int x = 0; x < 3; ++x) reader.word();
+  reader.expect("outer");
+  reader.expect("loop");
+  for (int k = 0; k < 3; ++k) {
+    reader.expect("vertex");
+    Vec3 p;
+    for (double& x : p) x = reader.coordinate();
+    soup.corners.push_back(p);
+  }
+  reader.expect("endloop");
+  reader.expect("endfacet");
+}
+
+/// Solids, one after the other; line breaks mean nothing but for the names:
+///
+///     solid NAME
+///       facet normal x y z   outer loop   (vertex x y z) three times   endloop   endfacet
+///     endsolid NAME
+Soup read_text(const std::filesystem::path& file, std::string_view content) {
+  Soup soup;
+  TextReader reader(file, content);
+  for (std::string_view word = reader.word(); !word.empty(); word = reader.word()) {
+    if (!TextReader::same(word, "solid"))
+      reader.place().fail("expected 'solid', found " + quoted(word));
+    reader.skip_line();
+    for (word = reader.word(); TextReader::same(word, "facet"); word = reader.word())
+      read_facet(reader, soup);
+    if (word.empty()) reader.place().fail("the file ends where 'facet' or 'endsolid' should stand");
+    if (!TextReader::same(word, "endsolid"))
+      reader.place().fail("expected 'facet' or 'endsolid', found " + quoted(word));
+    reader.skip_line();
+  }
+  return soup;
+}
+
+/// For each corner the first corner of the soup that it agrees with to same_corner of the size.
+std::vector<int> first_equals(const std::vector<Vec3>& corners) {
+  if (corners.empty()) return {};
+  const double reach = same_corner * bounds_of(corners).largest_extent();
+  std::vector<int> first = first_close(corners, reach);
+  // Smaller indices are resolved already.
+  for (size_t i = 0; i < first.size(); ++i) first[i] = first[first[i]];
+  return first;
+}
+
+/// STL: a soup of triangles, as text or binary (80 bytes of header, count, 50 bytes per triangle,
+/// little-endian), told apart by the content. Normals are passed over: the order of the corners
+/// says which side is outside. Corners that agree to same_corner of the largest extent are welded
+/// into one vertex. `file`: for messages only. Throws MeshFileError.
+RawMesh read_stl(const std::filesystem::path& file, std::string_view content) {
+  // a binary header may start with "solid" too; text holds no zero byte
+  const bool has_zero = content.find('\0') != std::string_view::npos;
+  std::string_view start = content;
+  const bool is_text = !has_zero && TextReader::same(next_word(start), "solid");
+  const Soup soup = is_text ? read_text(file, content) : read_binary(file, content);
+
+  // Every triangle brings its own corners: those that are the same become one vertex, numbered in
+  // the order in which they first appear.
+  RawMesh mesh;
+  const std::vector<int> first = first_equals(soup.corners);
+  std::vector<int> index(soup.corners.size(), -1);
+  for (size_t t = 0; t < soup.lines.size(); ++t) {
+    std::vector<int> face;
+    for (size_t k = 3 * t; k < 3 * t + 3; ++k) {
+      int& v = index[first[k]];
+      if (v < 0) {
+        v = static_cast<int>(mesh.vertices.size());
+        mesh.vertices.push_back(soup.corners[k]);
+        mesh.vertex_lines.push_back(soup.lines[t]);
+      }
+      face.push_back(v);
+    }
+    mesh.faces.push_back(std::move(face));
+  }
+  mesh.face_lines = soup.lines;
+  mesh.is_single = !is_text;
+  return mesh;
+}
+
+// ---- what is made of either
 
 /// Dents and steps up to this part of the size are rounding of the file's numbers (single
 /// precision, six digits): 16 roundings of single precision, more where the solid lies far from the
@@ -60,8 +359,7 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
     Place{file}.fail("the scale must be positive and finite");
   const Format format = format_of(file);
   const std::string content = content_of(file);
-  RawMesh mesh =
-      format == Format::obj ? raw_mesh::read_obj(file, content) : raw_mesh::read_stl(file, content);
+  RawMesh mesh = format == Format::obj ? read_obj(file, content) : read_stl(file, content);
   if (mesh.vertices.empty()) Place{file}.fail("the file has no vertices");
   for (Vec3& p : mesh.vertices) p *= scale;
   return mesh;
@@ -82,21 +380,56 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
   Place{file, line}.fail(error.what() + counting);
 }
 
-/// The solid that was meant by a mesh that is convex to `tolerance` only.
-Polyhedron rounded_solid(const RawMesh& mesh, double tolerance) {
-  const Polyhedron nearly(mesh.vertices, mesh.faces, tolerance,
-                          0.5 * tolerance);  // throws when the mesh is really broken
-  return rounded_hull(hull_of_nearly_convex(nearly, tolerance), tolerance);
+/// Throws for what would be compared with itself for minutes.
+void require_few(const std::filesystem::path& file, size_t vertices) {
+  if (vertices > most_mesh_vertices)
+    Place{file}.fail("has " + std::to_string(vertices) + " vertices, at most " +
+                     std::to_string(most_mesh_vertices) +
+                     " are taken: thin it first (MeshLab: Quadric Edge Collapse Decimation)");
 }
 
-/// Whether two neighbouring faces lie in one plane: contact patches want them as one polygon.
-bool has_coplanar_neighbours(const Polyhedron& polyhedron) {
+/// Whether two neighbouring faces lie in one plane to `reach` [m]: contact patches want them as one
+/// polygon.
+bool has_coplanar_neighbours(const Polyhedron& polyhedron, double reach) {
   return std::ranges::any_of(polyhedron.edges(), [&](const Polyhedron::Edge& edge) {
     return std::ranges::all_of(polyhedron.face(edge.right), [&](int v) {
       const Vec3 arm = polyhedron.vertex(v) - polyhedron.vertex(edge.tail);
-      return std::abs(polyhedron.normal(edge.left).dot(arm)) <= 1e-9 * polyhedron.circumradius();
+      return std::abs(polyhedron.normal(edge.left).dot(arm)) <= reach;
     });
   });
+}
+
+/// Throws InvalidPolyhedron where a vertex lies deeper than `most` [m] within the hull of all.
+void require_near(const std::vector<Vec3>& vertices, const Polyhedron& hull, double most) {
+  const double extent = bounds_of(vertices).largest_extent();
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    double depth = std::numeric_limits<double>::infinity();
+    for (int f = 0; f < hull.face_count() && depth > most; ++f)
+      depth = std::min(depth, hull.offset(f) - hull.normal(f).dot(vertices[v]));
+    if (depth > most)
+      throw InvalidPolyhedron(printed("not convex: vertex %zu lies %g of the size within the hull "
+                                      "of the others",
+                                      v, depth / extent),
+                              -1, static_cast<int>(v));
+  }
+}
+
+/// A mesh that is convex as it stands is taken, but for two kinds: single precision, whose faces
+/// are fitted anew, and polygons cut into pieces, which are joined.
+Polyhedron solid_of_mesh(const RawMesh& mesh) {
+  const double tolerance = file_tolerance(mesh);
+  const double extent = bounds_of(mesh.vertices).largest_extent();
+  try {
+    Polyhedron solid(mesh.vertices, mesh.faces);
+    const double flat = mesh.is_single ? tolerance * extent : 1e-9 * solid.circumradius();
+    if (!has_coplanar_neighbours(solid, flat)) return solid;
+    if (!mesh.is_single) return convex_hull(mesh.vertices);
+  } catch (const InvalidPolyhedron&) {
+    // Really broken where it is not convex to the tolerance either.
+    const Polyhedron nearly(mesh.vertices, mesh.faces, tolerance, 0.5 * tolerance);
+    require_near(mesh.vertices, convex_hull(mesh.vertices), tolerance * extent);
+  }
+  return rounded_hull(mesh.vertices, tolerance);
 }
 
 }  // namespace
@@ -104,22 +437,9 @@ bool has_coplanar_neighbours(const Polyhedron& polyhedron) {
 Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
   const RawMesh mesh = read_raw(file, scale);
   if (mesh.faces.empty()) Place{file}.fail("the file has no faces");
-  const double tolerance = file_tolerance(mesh);
+  require_few(file, mesh.vertices.size());
   try {
-    // Of so many, few in single precision are convex as they stand.
-    if (mesh.is_single && mesh.vertices.size() >= many_vertices)
-      return rounded_solid(mesh, tolerance);
-    try {
-      // A mesh that is convex as it stands is taken, but for two kinds: single precision, whose
-      // faces are fitted anew, and polygons cut into pieces, which are joined.
-      Polyhedron polyhedron(mesh.vertices, mesh.faces);
-      if (has_coplanar_neighbours(polyhedron))
-        polyhedron = mesh.vertices.size() < many_vertices ? convex_hull(mesh.vertices)
-                                                          : convex_hull_of_mesh(polyhedron);
-      return mesh.is_single ? rounded_hull(std::move(polyhedron), tolerance) : polyhedron;
-    } catch (const InvalidPolyhedron&) {
-      return rounded_solid(mesh, tolerance);
-    }
+    return solid_of_mesh(mesh);
   } catch (const InvalidPolyhedron& error) {
     fail_at(file, mesh, error);
   }
@@ -128,8 +448,9 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
 Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale) {
   const RawMesh mesh = read_raw(file, scale);
   try {
-    return mesh.is_single ? rounded_hull(mesh.vertices, file_tolerance(mesh))
-                          : convex_hull(mesh.vertices);
+    Polyhedron hull = convex_hull(mesh.vertices);
+    require_few(file, hull.vertices().size());
+    return mesh.is_single ? rounded_hull(hull.vertices(), file_tolerance(mesh)) : hull;
   } catch (const InvalidPolyhedron& error) {
     Place{file}.fail(error.what());
   }

@@ -1,19 +1,29 @@
 #pragma once
 // OBJ and STL (text and binary), so that a user's own digitised grains run.
 
+#include <cstddef>
 #include <filesystem>
 
-#include "geometry/shape/mesh_file_error.hpp"
 #include "geometry/shape/polyhedron.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
+
+/// A mesh file that cannot be read. what() is one line: the file's name, the line or the face, and
+/// the defect.
+class MeshFileError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Solids with more vertices are refused: detection compares all faces with all vertices once.
+inline constexpr size_t most_mesh_vertices = 10000;
 
 /// Reads a closed convex polyhedron; the format follows the suffix (.obj, .stl). `scale` multiplies
 /// coordinates (0.001 for millimetres). STL vertices are welded when they agree to 1e-6 of the
 /// size. Coplanar neighbours become one polygon; in binary STL, which is single precision, they are
 /// coplanar to 1e-6 of the size. Dents up to that, which single precision and short decimals leave,
-/// are closed by taking the hull; deeper ones are errors.
-/// Throws MeshFileError.
+/// are closed by taking the hull (rounded_hull); deeper ones are errors. Throws MeshFileError.
 Polyhedron read_mesh(const std::filesystem::path& file, double scale = 1.0);
 
 /// As read_mesh, but takes the convex hull of the vertices instead of insisting on convexity: for

@@ -1,7 +1,9 @@
 #pragma once
-// Where the points of a set lie.
+// Sets of points, and things put in the order of small whole numbers.
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "geometry/shape/pose.hpp"
 
@@ -21,13 +23,34 @@ struct Bounds {
 };
 
 /// Of at least one point.
-inline Bounds bounds_of(std::span<const Vec3> points) {
-  Bounds bounds{points[0], points[0]};
-  for (const Vec3& p : points) {
-    bounds.low = bounds.low.cwiseMin(p);
-    bounds.high = bounds.high.cwiseMax(p);
-  }
-  return bounds;
+Bounds bounds_of(std::span<const Vec3> points);
+
+/// Twice the area of a vertex loop times its unit normal [m^2], right-handed about the loop: a fan
+/// of triangles about its first vertex (Newell's normal), so that loops far from the origin lose no
+/// digits. The loop holds indices into `points` and need not be flat.
+inline Vec3 area_vector(std::span<const int> loop, std::span<const Vec3> points) {
+  const Vec3& first = points[loop[0]];
+  Vec3 sum = Vec3::Zero();
+  for (size_t k = 2; k < loop.size(); ++k)
+    sum += (points[loop[k - 1]] - first).cross(points[loop[k]] - first);
+  return sum;
 }
+
+/// For each point the smallest index of a point at most `reach` from it: its own where none before
+/// it is that close. O(n log n) for sets with few points that are close or equal.
+std::vector<int> first_close(std::span<const Vec3> points, double reach);
+
+/// Positions of keys, by key: those of key k are order[begin[k]] to before order[begin[k + 1]],
+/// ascending.
+struct SortedByKey {
+  std::vector<int> begin, order;
+
+  std::span<const int> of(int key) const {
+    return {order.data() + begin[key], static_cast<size_t>(begin[key + 1] - begin[key])};
+  }
+};
+
+/// In linear time. `keys`: each from 0 to before `key_count`.
+SortedByKey sorted_by_key(std::span<const int> keys, int key_count);
 
 }  // namespace ballast

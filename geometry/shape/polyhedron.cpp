@@ -3,27 +3,103 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <sstream>
 #include <tuple>
 #include <utility>
-
-#include "geometry/shape/area_vector.hpp"
-#include "geometry/shape/mesh_checks.hpp"
-#include "geometry/shape/point_sets.hpp"
-#include "geometry/shape/sorted_by_key.hpp"
 
 namespace ballast {
 
 namespace {
 
-using mesh_checks::At;
-using mesh_checks::invalid;
+/// Where a defect lies: a face, a vertex, or neither.
+struct At {
+  int face = -1, vertex = -1;
+};
+
+/// Throws InvalidPolyhedron; the message is the parts, one after the other.
+template <class... Parts>
+[[noreturn]] void invalid(At at, const Parts&... parts) {
+  std::ostringstream message;
+  (message << ... << parts);
+  throw InvalidPolyhedron(message.str(), at.face, at.vertex);
+}
+
+/// At least four vertices, with finite coordinates.
+void check_coordinates(std::span<const Vec3> vertices) {
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    if (!vertices[v].allFinite())
+      invalid(At{.vertex = static_cast<int>(v)}, "vertex ", v,
+              " has a coordinate that is NaN or infinite");
+  }
+  if (vertices.size() < 4)
+    invalid(At{}, "a polyhedron needs at least 4 vertices, got ", vertices.size());
+}
+
+/// Faces of at least three vertices, indices in range, no vertex twice in a face, none unused.
+void check_indices(int vertex_count, const std::vector<std::vector<int>>& faces) {
+  std::vector<bool> used(vertex_count, false);
+  std::vector<int> last_face(vertex_count, -1);  // that a vertex was found in
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const At here{.face = static_cast<int>(f)};
+    if (faces[f].size() < 3)
+      invalid(here, "face ", f, " has ", faces[f].size(), " vertices: at least 3 are needed");
+    for (const int v : faces[f]) {
+      if (v < 0 || v >= vertex_count)
+        invalid(here, "face ", f, " names vertex ", v, " of ", vertex_count);
+      if (last_face[v] == static_cast<int>(f))
+        invalid(here, "face ", f, " passes through vertex ", v, " twice");
+      last_face[v] = static_cast<int>(f);
+      used[v] = true;
+    }
+  }
+  for (int v = 0; v < vertex_count; ++v) {
+    if (!used[v]) invalid(At{.vertex = v}, "vertex ", v, " belongs to no face");
+  }
+}
+
+/// No two vertices within `reach` [m] of each other.
+void check_distinct(std::span<const Vec3> vertices, double reach) {
+  const std::vector<int> first = first_close(vertices, reach);
+  for (size_t v = 0; v < first.size(); ++v)
+    if (first[v] != static_cast<int>(v))
+      invalid(At{.vertex = static_cast<int>(v)}, "vertices ", first[v], " and ", v, " coincide");
+}
+
+/// A vertex may lie `tolerance` times the size of the whole mesh off the plane normal.x = offset.
+/// Corners that all turn left by less than pi, once around, make the loop a simple convex polygon.
+void check_loop(std::span<const Vec3> vertices, int face, std::span<const int> loop,
+                const Vec3& normal, double offset, double size, double tolerance) {
+  const size_t n = loop.size();
+  if (n == 3) return;
+  for (const int v : loop) {
+    const double height = normal.dot(vertices[v]) - offset;
+    if (std::abs(height) > tolerance * size)
+      invalid(At{.face = face}, "face ", face, " is not flat: vertex ", v, " lies ",
+              std::abs(height) / size, " of the size off its plane");
+  }
+  // Once around, the exterior angles of a simple polygon sum to 2 pi and those of one that winds
+  // twice to 4 pi. Each is taken from the sine and cosine between the edges before and behind.
+  double turning = 0.0;  // [rad]
+  for (size_t k = 0; k < n; ++k) {
+    const Vec3 in = vertices[loop[k]] - vertices[loop[(k + n - 1) % n]];
+    const Vec3 out = vertices[loop[(k + 1) % n]] - vertices[loop[k]];
+    const double sine = normal.dot(in.cross(out)) / (in.norm() * out.norm());
+    if (!(sine > 1e-12))
+      invalid(At{.face = face}, "face ", face, " is not strictly convex at vertex ", loop[k],
+              " (straight or re-entrant corner)");
+    turning += std::atan2(sine, in.normalized().dot(out.normalized()));
+  }
+  if (turning > 3.0 * std::numbers::pi)
+    invalid(At{.face = face}, "face ", face, " winds around itself more than once");
+}
 
 }  // namespace
 
 Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
                        double tolerance, double rounding)
     : vertices_(std::move(vertices)) {
-  mesh_checks::check_coordinates(vertices_);
+  check_coordinates(vertices_);
   const Vec3 centre = mean(vertices_);
   for (const Vec3& p : vertices_) {
     size_ = std::max(size_, (p - centre).norm());
@@ -34,8 +110,8 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
     invalid(At{}, "coordinates are too large: the volume overflows");
   // Each check may rely on those before it: valid indices, distinct vertices, a closed surface in
   // one piece, flat faces, and only then that the whole is convex.
-  mesh_checks::check_indices(vertex_count(), faces);
-  mesh_checks::check_distinct(vertices_, tolerance * size_);
+  check_indices(vertex_count(), faces);
+  check_distinct(vertices_, tolerance * size_);
   build_faces(faces);
   join_faces();
   check_one_piece();
@@ -194,7 +270,7 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
     volume6 += area2.dot(centre - inside);
     surface2 += length;
     thinness.push_back(extent / length);
-    mesh_checks::check_loop(vertices_, f, loop, normals_[f], offsets_[f], size_, tolerance);
+    check_loop(vertices_, f, loop, normals_[f], offsets_[f], size_, tolerance);
   }
   const double thickness =
       2.0 / 3.0 * volume6 / surface2;  // of a plate: volume over half the surface
@@ -210,19 +286,19 @@ void Polyhedron::check_convex(double tolerance, double rounding,
                               const std::vector<double>& thinness) const {
   const double computed = 4.0 * std::numeric_limits<double>::epsilon() * (circumradius_ + size_);
   const double known = std::max(computed, rounding * size_);
-  std::vector<double> blur;  // of each face's plane within the solid [m]
-  for (int f = 0; f < face_count(); ++f) blur.push_back(known * (1.0 + 2.0 * size_ * thinness[f]));
-  const bool has_triangles_only = face_vertices_.size() == 3 * normals_.size();
-  if (has_triangles_only &&
-      mesh_checks::is_surely_convex(vertices_, face_vertices_, face_neighbours_, normals_, blur))
-    return;
-  std::vector<int> first;
-  std::vector<double> allowed;
+  // With distinct vertices, convex faces and one sphere this is enough: a surface that covered the
+  // hull more than once would need each corner of the hull twice.
   for (int f = 0; f < face_count(); ++f) {
-    first.push_back(face(f)[0]);
-    allowed.push_back(tolerance * size_ + blur[f]);
+    // The second: how well the face's plane is known within the solid.
+    const double allowed = tolerance * size_ + known * (1.0 + 2.0 * size_ * thinness[f]);
+    const Vec3& origin = vertices_[face(f)[0]];
+    for (int v = 0; v < vertex_count(); ++v) {
+      const double height = normals_[f].dot(vertices_[v] - origin);
+      if (height > allowed)
+        invalid(At{.face = f}, "not convex: vertex ", v, " lies ", height / size_,
+                " of the size in front of face ", f);
+    }
   }
-  mesh_checks::check_convex(vertices_, first, normals_, allowed, size_);
 }
 
 Polyhedron make_box(const Vec3& size) {

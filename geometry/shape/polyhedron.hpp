@@ -2,13 +2,24 @@
 // A convex polyhedron with everything that contact detection walks along: faces, edges, neighbours.
 
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "geometry/shape/invalid_polyhedron.hpp"
-#include "geometry/shape/pose.hpp"
-#include "geometry/shape/sorted_by_key.hpp"
+#include "geometry/shape/point_sets.hpp"
 
 namespace ballast {
+
+/// A mesh that is not a closed convex outward non-degenerate polyhedron; what() names the face,
+/// edge or vertex.
+class InvalidPolyhedron : public std::runtime_error {
+ public:
+  explicit InvalidPolyhedron(const std::string& what, int at_face = -1, int at_vertex = -1)
+      : std::runtime_error(what), face(at_face), vertex(at_vertex) {}
+
+  /// Where, for readers that know the line; -1 when the defect is no single face or vertex.
+  int face, vertex;
+};
 
 /// Convex polyhedron, immutable, in its own frame [m]. Built once, shared by all bodies of its
 /// shape. Thousands are kept: what follows from the faces is made when it is asked for.

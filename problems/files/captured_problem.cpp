@@ -2,8 +2,7 @@
 
 #include <variant>
 
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "platform/text.hpp"
 #include "problems/files/fclib_file.hpp"
 #include "problems/files/problem_file_error.hpp"

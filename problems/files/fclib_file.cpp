@@ -5,8 +5,7 @@
 #include <span>
 #include <string>
 
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "problems/files/problem_file_error.hpp"
 
 namespace ballast {

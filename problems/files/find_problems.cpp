@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "problems/files/problem_file.hpp"
 
 namespace ballast {

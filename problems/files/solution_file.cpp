@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "problems/files/problem_file_error.hpp"
 #include "problems/files/stored_problem.hpp"
 

@@ -141,16 +141,6 @@ void check_volume(const TomlTable& table, const ControlVolumeSpec& volume, const
     table.fail("margin_y", "leaves nothing, expected less than half of box.width");
 }
 
-void check_detection(const TomlTable& table, const DetectionSettings& detection,
-                     const SleepSpec& sleep) {
-  if (table.has("reuse_motion") && !detection.use_cache)
-    table.fail("reuse_motion", "needs use_cache = true");
-  if (table.has("reuse_motion") && sleep.enabled)
-    table.fail("reuse_motion", "given together with sleep.enabled = true");
-  if (table.has("refresh_steps") && !table.has("reuse_motion"))
-    table.fail("refresh_steps", "has no meaning without reuse_motion");
-}
-
 void read_numerics(TomlTable& root, Scene& scene) {
   // resolved only where given: a run from before it keeps its text and its key
   if (root.has("sleep"))
@@ -164,10 +154,7 @@ void read_numerics(TomlTable& root, Scene& scene) {
   read_keys(solver, solver_keys, scene.solver);
   solver.finish();
   scene.correction = read_section(root.section("correction"), correction_keys);
-  scene.detection = read_section(root.section("detection"), detection_keys,
-                                 [&](const TomlTable& table, const DetectionSettings& detection) {
-                                   check_detection(table, detection, scene.sleep);
-                                 });
+  scene.detection = read_section(root.section("detection"), detection_keys);
   scene.record = read_section(root.section("record"), record_keys);
 }
 

@@ -1,7 +1,7 @@
 #include "problems/scene/scene_key.hpp"
 
-#include "platform/content_key.hpp"
 #include "platform/pack.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 

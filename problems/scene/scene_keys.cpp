@@ -84,16 +84,6 @@ const SceneKeys<DetectionSettings> detection_keys{
      "margin of the broad phase; 0: chosen from the shapes"},
     {"use_cache", flag(&DetectionSettings::use_cache),
      "start from the last step's separating axes; the contacts are the same without"},
-    {"reuse_motion", number(&DetectionSettings::reuse_motion, part_of_one, "of circumradii"),
-     "a pair's contact points are held on to until its bodies have moved against each other by "
-     "this part of the sum of their circumradii: **not exact** "
-     "([method.md](../theory/method.md)); "
-     "1e-3 is "
-     "a good value. Not together with sleep; a deposit never does",
-     Presence::only_where_given, "off"},
-    {"refresh_steps", whole(&DetectionSettings::refresh_steps, 1),
-     "then all points are found anew every so many steps; checkpoints are at multiples of this",
-     Presence::only_where_given},
 };
 
 const SceneKeys<RecordSpec> record_keys{

@@ -5,7 +5,6 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/file_kind.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file_error.hpp"
 #include "problems/scene/toml_reader.hpp"

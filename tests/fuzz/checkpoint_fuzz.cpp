@@ -2,7 +2,7 @@
 // fuzzer gets behind it. What is taken is written as the same bytes.
 
 #include "experiments/record/checkpoint.hpp"
-#include "platform/sealed_file.hpp"
+#include "platform/pack.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
 using namespace ballast;
@@ -18,7 +18,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Checkpoint checkpoint = read_checkpoint(file);
     const auto copy = fuzz::input_folder().path() / "copy.bin";
     write_checkpoint(copy, checkpoint);
-    if (read_sealed_file(copy, kind).bytes != fuzz::text_of(data, size))
+    if (read_sealed_file(copy, kind) != fuzz::text_of(data, size))
       fuzz::finding("written as other bytes");
   });
   return 0;

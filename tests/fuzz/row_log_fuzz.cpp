@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "platform/content_key.hpp"
 #include "platform/row_log.hpp"
+#include "platform/text.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
 using namespace ballast;

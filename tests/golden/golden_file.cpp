@@ -2,8 +2,8 @@
 
 #include <sstream>
 
-#include "platform/content_key.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast::golden {
 namespace {

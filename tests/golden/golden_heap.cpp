@@ -3,7 +3,7 @@
 
 #include "experiments/step/time_step.hpp"
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/golden/golden_values.hpp"

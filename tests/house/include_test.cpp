@@ -27,7 +27,7 @@ const std::vector<std::pair<std::string, Words>> law = {
 /// Beginning of a third-party header -> beginnings of the paths that may include it.
 const std::vector<std::pair<std::string, Words>> third_party = {
     {"Eigen/", {"geometry/", "problems/", "solvers/", "experiments/", "tests/"}},
-    {"libqhull_r/", {"geometry/shape/qhull_loops"}},
+    {"libqhull_r/", {"geometry/shape/convex_hull"}},
     {"hdf5.h", {"platform/hdf5", "tests/"}},
     {"zlib.h", {"platform/deflate", "tests/"}},
     {"toml++/", {"problems/scene/"}},
@@ -41,8 +41,6 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"nlopt.h", {"solvers/backends/nlopt", "tests/solvers/backends/nlopt"}},
     {"siconos/", {"solvers/backends/siconos"}},
     {"immintrin.h", {"solvers/gauss_seidel/lanes_"}},  // the processor's own operations
-    {"link.h", {"platform/kept_memory"}},              // of the GNU C library
-    {"malloc.h", {"platform/kept_memory"}},            // of the GNU C library
     {"catch2/", {"tests/catch.hpp", "tests/test_main.cpp"}},
 };
 

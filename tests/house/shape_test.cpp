@@ -12,7 +12,7 @@ using namespace ballast::house;
 
 namespace {
 
-constexpr size_t longest_file = 300;  // lines
+constexpr size_t longest_file = 500;  // lines
 constexpr size_t widest_line = 100;   // columns
 
 std::vector<std::string> breaches(const std::string& path, const std::string& text) {
@@ -77,14 +77,15 @@ TEST_CASE("what is too long or too wide is seen") {
   CHECK(breaches("a.hpp", "int x;\n").size() == 1);
 }
 
-TEST_CASE("what a name leads to is asked for by platform/file_kind.hpp alone") {
+TEST_CASE("what a name leads to is asked for by platform/atomic_file alone") {
   const std::regex throwing(R"(filesystem::(exists|is_regular_file|is_directory)\(|)"
                             R"(\bfs::(exists|is_regular_file|is_directory)\((?!status\)))");
   REQUIRE(std::regex_search("if (fs::exists(file)) {", throwing));
   REQUIRE_FALSE(std::regex_search("fs::exists(status)", throwing));
   for (const SourceFile& file : all_sources(false)) {
     INFO(file.path);
-    if (file.path != "platform/file_kind.hpp") CHECK_FALSE(std::regex_search(file.text, throwing));
+    if (!file.path.starts_with("platform/atomic_file"))
+      CHECK_FALSE(std::regex_search(file.text, throwing));
   }
 }
 

@@ -1,14 +1,17 @@
 #include "platform/atomic_file.hpp"
 
-#include <cerrno>
-
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
+#include <memory>
+#include <string>
 #include <thread>
 
+#include "platform/child_process.hpp"
+#include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/file_size_limit.hpp"
@@ -226,4 +229,114 @@ TEST_CASE("results go into a folder that is new, empty, or has such results") {
   CHECK_THAT(said(), Catch::StartsWith(results.string() + ": holds files"));
   fs::create_directory(results / "runs");
   CHECK(said() == "no error");
+}
+
+TEST_CASE("what a name leads to, links followed") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "file", link = folder.path() / "link";
+  std::ofstream(file) << "x";
+  std::filesystem::create_symlink(file, link);
+  const auto pipe = folder.path() / "pipe", missing = folder.path() / "missing";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+
+  CHECK((is_there(file) && is_file(file) && !is_folder(file)));
+  CHECK((is_there(link) && is_file(link)));
+  CHECK((is_there(folder.path()) && is_folder(folder.path()) && !is_file(folder.path())));
+  CHECK((is_there(pipe) && !is_file(pipe) && !is_folder(pipe)));
+  CHECK_FALSE((is_there(missing) || is_file(missing) || is_folder(missing)));
+}
+
+TEST_CASE("a name that the system refuses leads to nothing") {
+  const std::string longer_than_any(5000, 'n');
+  REQUIRE_THROWS(std::filesystem::exists(longer_than_any));
+  CHECK_FALSE(is_there(longer_than_any));
+  CHECK_FALSE(is_file(longer_than_any));
+  CHECK_FALSE(is_folder(longer_than_any));
+}
+
+namespace {
+
+bool at_once(double) { return false; }
+
+/// A process that holds the lock until it is killed.
+class Holder {
+ public:
+  explicit Holder(const fs::path& file)
+      : child_(std::make_unique<ChildProcess>([&] {
+          const FileLock lock(file, at_once);
+          for (;;) pause();
+        })) {
+    const Stopwatch watch;
+    while ((!fs::exists(file) || fs::is_empty(file)) && watch.seconds() < 30.0) usleep(1000);
+    REQUIRE(fs::exists(file));
+  }
+  void die() { child_.reset(); }
+
+ private:
+  std::unique_ptr<ChildProcess> child_;
+};
+
+}  // namespace
+
+TEST_CASE("a free lock is had at once, and its file goes with it") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "lock";
+  for (int k = 0; k < 2; ++k) {
+    const FileLock lock(file, at_once);
+    CHECK(lock.is_held());
+    CHECK(fs::exists(file));
+  }
+  CHECK_FALSE(fs::exists(file));
+}
+
+TEST_CASE("one holder at a time, who is named to the others") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "lock";
+  const Holder other(file);
+  const FileLock lock(file, at_once);
+  CHECK_FALSE(lock.is_held());
+  CHECK(lock.holder() == read_whole_file(file));
+}
+
+TEST_CASE("a lock that was not had leaves the holder's file alone") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "lock";
+  const FileLock mine(file, at_once);
+  { const FileLock second(file, at_once); }
+  CHECK(fs::exists(file));
+  CHECK_FALSE(FileLock(file, at_once).is_held());
+}
+
+TEST_CASE("the lock of a killed process is free, although its file is still there") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "lock";
+  Holder other(file);
+  other.die();
+  CHECK(fs::exists(file));
+  CHECK(FileLock(file, at_once).is_held());
+}
+
+TEST_CASE("patience is asked with the seconds waited, and waiting ends when the holder goes") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "lock";
+  Holder other(file);
+  std::vector<double> waited;
+  const FileLock lock(file, [&](double seconds) {
+    waited.push_back(seconds);
+    if (waited.size() == 3) other.die();
+    return waited.size() < 100;
+  });
+  CHECK(lock.is_held());
+  REQUIRE(waited.size() >= 3);
+  CHECK(waited[0] == 0.0);
+  CHECK(waited[2] == Approx(0.1));
+  CHECK(briefly(2.9));
+  CHECK_FALSE(briefly(3.0));
+}
+
+TEST_CASE("a lock in a folder that is not there is an error with its name") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "absent" / "lock";
+  CHECK_THROWS_WITH(FileLock(file, at_once),
+                    file.string() + ": cannot make the lock: No such file or directory");
 }

@@ -148,24 +148,6 @@ TEST_CASE("a child dies with the process that made it") {
   CHECK_FALSE(is_alive());
 }
 
-TEST_CASE("pipes are read together until all are closed, or it is too long or too much") {
-  Pipe a, b;
-  const auto write_to = [](Pipe& pipe, const std::string& text) {
-    REQUIRE(write(pipe.write_end(), text.data(), text.size()) == static_cast<ssize_t>(text.size()));
-  };
-  write_to(a, "one");
-  write_to(b, "two");
-  a.close_write_end();
-  CHECK_FALSE(Pipe::read_until_closed({&a, &b}, 0.05, 100));  // b is open
-  CHECK(a.text == "one");
-  CHECK(b.text == "two");
-  write_to(b, " more");
-  CHECK_FALSE(Pipe::read_until_closed({&b}, 10.0, 5));
-  b.close_write_end();
-  CHECK(Pipe::read_until_closed({&b}, 10.0, 100));
-  CHECK(b.text == "two more");
-}
-
 TEST_CASE("a child knows that it may be lost") {
   CHECK_FALSE(is_expendable_process());
   const ChildResult result =

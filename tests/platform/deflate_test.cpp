@@ -20,3 +20,12 @@ TEST_CASE("the check sum of PNG files") {
   CHECK(crc32_of("123456789") == 0xcbf43926u);  // the known value of this polynomial
   CHECK(crc32_of("IEND") == 0xae426082u);       // as at the end of every PNG
 }
+
+// The examples of RFC 4648, section 10, and bytes that are no text.
+TEST_CASE("bytes as base64") {
+  CHECK(base64("").empty());
+  CHECK(base64("f") == "Zg==");
+  CHECK(base64("fo") == "Zm8=");
+  CHECK(base64("foobar") == "Zm9vYmFy");
+  CHECK(base64(std::string("\0\xff\xfe", 3)) == "AP/+");
+}

@@ -1,10 +1,13 @@
 #include "platform/interrupt.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 
@@ -67,5 +70,34 @@ TEST_CASE("a warning may come twice, nohup is respected, and who stops reading e
             if (InterruptGuard::requested()) _exit(4);
           }
           raise(SIGHUP);
+        }) == 0);
+}
+
+TEST_CASE("with closed standard streams, no file gets their number") {
+  const auto first_number = [](std::initializer_list<int> closed) {
+    return end_of([&] {
+      for (const int stream : closed) close(stream);
+      prepare_standard_streams();
+      const int opened = open("/dev/null", O_RDONLY);
+      // What is printed goes nowhere, without an error.
+      _exit(write(STDOUT_FILENO, "x", 1) == 1 && write(STDERR_FILENO, "x", 1) == 1 ? opened : 99);
+    });
+  };
+  CHECK(first_number({1}) > 2);
+  CHECK(first_number({2}) > 2);
+  CHECK(first_number({0, 1, 2}) > 2);
+  CHECK(first_number({0, 2}) > 2);
+}
+
+TEST_CASE("a file over the limit is an error, not a death") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "file").string();
+  CHECK(end_of([&] {
+          prepare_standard_streams();
+          const rlimit small{4, 4};
+          setrlimit(RLIMIT_FSIZE, &small);
+          const int opened = open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+          if (write(opened, "12345678", 8) != 4) _exit(2);  // as much as fits
+          _exit(write(opened, "5678", 4) < 0 && errno == EFBIG ? 0 : 1);
         }) == 0);
 }

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "platform/child_process.hpp"
-#include "platform/kept_memory.hpp"
 #include "tests/catch.hpp"
 
 namespace ballast {
@@ -29,7 +28,6 @@ inline long peak_memory(const std::function<void()>& work) {
   return 0;
 #endif
   const ChildResult child = run_in_child(1e9, [&] {
-    give_memory_back();
     const long before = memory_entry("VmRSS:");
     work();
     return std::to_string(memory_entry("VmHWM:") - before);

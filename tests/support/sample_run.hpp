@@ -11,7 +11,7 @@
 
 #include "experiments/record/recorder.hpp"
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

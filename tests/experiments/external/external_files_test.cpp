@@ -7,8 +7,7 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"

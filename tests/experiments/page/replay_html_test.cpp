@@ -1,5 +1,4 @@
 #include "experiments/page/html.hpp"
-#include "platform/base64.hpp"
 #include "platform/deflate.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/page_sample.hpp"

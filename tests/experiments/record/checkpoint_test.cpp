@@ -1,7 +1,6 @@
 #include "experiments/record/checkpoint.hpp"
 
 #include "platform/pack.hpp"
-#include "platform/sealed_file.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/sample_run.hpp"
 

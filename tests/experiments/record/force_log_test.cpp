@@ -1,6 +1,6 @@
 #include "experiments/record/force_log.hpp"
 
-#include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_file.hpp"
 #include "tests/support/hdf5_attribute.hpp"
 #include "tests/support/sample_record.hpp"
 

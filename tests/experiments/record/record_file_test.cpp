@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "experiments/record/bits_generation.hpp"
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "tests/support/hdf5_attribute.hpp"
 #include "tests/support/sample_record.hpp"
 

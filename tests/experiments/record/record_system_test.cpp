@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "tests/support/sample_record.hpp"
 
 using namespace ballast;

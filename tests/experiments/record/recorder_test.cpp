@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_file.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/sample_record.hpp"
 

@@ -113,36 +113,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "the same bits where contact points are held on to, whatever stopped the run in between") {
-  const Workplace place;
-  const auto holding = [&](const char* name, bool holds) {
-    RunOptions options = small_run(place.folder / name, place.folder / "packings");
-    options.overrides = {"scene.duration=0.04", "record.checkpoint_seconds=1e-3",
-                         "solver.max_iterations=300"};
-    if (holds) options.overrides.push_back("detection.reuse_motion=1e-3");
-    if (holds) options.overrides.push_back("detection.refresh_steps=7");
-    return options;
-  };
-  REQUIRE(run(holding("exact", false)).code == ExitCode::ok);
-  REQUIRE(run(holding("whole", true)).code == ExitCode::ok);
-  const std::string physics = physics_of(place.folder / "whole"),
-                    state = state_of(place.folder / "whole");
-  CHECK(physics != physics_of(place.folder / "exact"));  // it does something
-  RunOptions options = holding("stopped", true);
-  options.max_seconds = 0.02;
-  int stops = 0;
-  while (run(options).code == ExitCode::time_limit) {
-    CHECK(read_checkpoint(RunFolder(place.folder / "stopped").checkpoint()).state.step % 7 == 0);
-    options.resume = true;
-    options.max_seconds *= 1.05;
-    REQUIRE(++stops < 200);
-  }
-  CHECK(stops >= 2);
-  CHECK(physics_of(place.folder / "stopped") == physics);
-  CHECK(state_of(place.folder / "stopped") == state);
-}
-
 TEST_CASE("what a run shows: no grain escapes, overlap stays small, the energy account closes") {
   const Workplace place;
   REQUIRE(run(small_run(place.folder / "run", place.folder / "p")).code == ExitCode::ok);

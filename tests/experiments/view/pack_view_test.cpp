@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/base64.hpp"
 #include "platform/deflate.hpp"
 #include "tests/support/sample_run.hpp"
 #include "tests/support/unpacked_history.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/view/quantised.hpp"
 
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/unpacked_history.hpp"
 

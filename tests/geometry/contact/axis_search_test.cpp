@@ -33,7 +33,7 @@ bool same_bits(const SeparatingAxis& p, const SeparatingAxis& q) {
 
 TEST_CASE("the separation is the oracle's, over all placements") {
   AxisSearch search(collision_pool());
-  for (const Placement placement : kPlacements) {
+  for (const Placement placement : placements) {
     Random random(1000 + static_cast<int>(placement));
     double worst = 0.0;
     int overlapping = 0, faces = 0;
@@ -72,7 +72,7 @@ TEST_CASE("the separation is the oracle's, over all placements") {
 
 TEST_CASE(
     "edges closer to parallel than the threshold cost no more than the sliver they leave out") {
-  // the facet left out is kParallelSine of an edge wide; an axis beside it is that much off
+  // the facet left out is parallel_sine of an edge wide; an axis beside it is that much off
   AxisSearch search(collision_pool());
   Random random(4);
   double worst = 0.0;
@@ -94,7 +94,7 @@ TEST_CASE("outcome and axis do not depend on the hint") {
   Random random(2);
   int proved = 0, by_hint = 0;
   for (int i = 0; i < 20000; ++i) {
-    const PairCase c = random_case(kPlacements[i % std::size(kPlacements)], random);
+    const PairCase c = random_case(placements[i % std::size(placements)], random);
     const ShapePair pair = c.pair();
     const double alert = random.below(2) == 0 ? 1e9 : std::pow(10.0, -random.uniform(1.0, 6.0));
     AxisFeature best;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/shape/convex_hull.hpp"
 #include "tests/catch.hpp"
@@ -113,56 +114,18 @@ TEST_CASE("the ball lies inside also when the origin does not") {
   CHECK(shape.bounds().ball_centre.isApprox(Vec3(5, 0, 0)));
 }
 
-namespace {
-
-/// Not above the value, and no farther below than the next number of single precision.
-bool is_rounded_down(double found, double value) {
-  return found <= value && std::nextafter(static_cast<float>(found), HUGE_VALF) > value;
-}
-
-}  // namespace
-
-TEST_CASE("what is found by searching is what a look at all faces and vertices finds") {
-  Random random(21);
-  for (int trial = 0; trial < 12; ++trial) {
-    std::vector<Vec3> points;
-    const Vec3 size(1.0, random.uniform(0.1, 1.0), random.uniform(0.1, 1.0));
-    for (int i = 0; i < 20 + 60 * trial; ++i)
-      points.push_back(random_direction(random).cwiseProduct(size));
-    const Polyhedron polyhedron = convex_hull(points);
-    const CollisionShape shape(polyhedron);
-    for (int f = 0; f < shape.faces().count(); ++f) {
-      const CollisionShape::Face face = shape.face(f);
-      double offset = -1e30, isolation = 1.0;
-      for (int v = 0; v < polyhedron.vertex_count(); ++v)
-        offset = std::max(offset, shape.vertices().value(v, face.normal));
-      for (int g = 0; g < shape.faces().count(); ++g) {
-        const Vec3 other = shape.face(g).normal;
-        if (g != f && face.normal.dot(other) >= 0.5)
-          isolation = std::min(isolation, face.normal.cross(other).norm());
-      }
-      CHECK(face.offset == offset);
-      CHECK(is_rounded_down(face.isolation, isolation));
-    }
-    for (int e = 0; e < shape.edge_count(); ++e) {
-      const CollisionShape::Edge edge = shape.edge(e);
-      const CollisionShape::Face left = shape.face(edge.left), right = shape.face(edge.right);
-      double below = 1e100;
-      for (int v = 0; v < polyhedron.vertex_count(); ++v)
-        if (v != edge.tail && v != edge.head)
-          below = std::min(below, left.offset - left.normal.dot(polyhedron.vertex(v)) +
-                                      right.offset - right.normal.dot(polyhedron.vertex(v)));
-      CHECK(
-          is_rounded_down(edge.drop, below * edge.length / left.normal.cross(right.normal).norm()));
-    }
+TEST_CASE("numbers come back whether two bytes hold them or not") {
+  for (const int largest : {0, 7, 65535, 65536, 1 << 30}) {
+    std::vector<int> given(100);
+    std::iota(given.begin(), given.end(), 0);
+    given[50] = largest;
+    ShortNumbers kept;
+    kept.keep({1 << 20});  // what was there before is forgotten
+    kept.keep(given);
+    REQUIRE(kept.size() == 100);
+    for (int k = 0; k < 100; ++k) CHECK(kept[k] == given[static_cast<size_t>(k)]);
   }
-}
-
-TEST_CASE("a shape of many faces is made in a time that grows as their number") {
-  Random random(22);
-  std::vector<Vec3> points;
-  for (int i = 0; i < 60000; ++i) points.push_back(random_direction(random));
-  // All pairs of faces would be 1.4e10, and as many pairs of faces and vertices.
-  const CollisionShape shape(convex_hull(points));
-  CHECK(shape.faces().count() > 119000);  // a few are merged
+  ShortNumbers none;
+  none.keep({});
+  CHECK(none.size() == 0);
 }

@@ -266,34 +266,3 @@ TEST_CASE("a plane: its normal, and half a gap from the vertex") {
   CHECK(midway_from_b(Vec3(1, 2, 3), 0.5, Vec3::UnitZ()) == Vec3(1, 2, 2.75));
   CHECK(midway_from_a(Vec3(1, 2, 2.5), 0.5, Vec3::UnitZ()) == Vec3(1, 2, 2.75));
 }
-
-TEST_CASE("a carried contact: nothing changes at rest, and the normal follows its feature") {
-  Random random(74);
-  Heights heights(512);
-  int kinds[4] = {};
-  for (int i = 0; i < 2000; ++i) {
-    const PairCase c = random_case(Placement::near_touching, random);
-    const ShapePair pair = c.pair();
-    const Contact contact = contact_of(pair, 1e-4);
-    if (contact.points.empty() || contact.axis.inside < 0.0) continue;
-    const CarriedContact carried(pair, contact.axis);
-    const Vec3 normal = carried.normal(c.b_in_a);
-    CHECK((normal - contact.normal).norm() <= 1e-12);
-    const ManifoldPoint& p = contact.points[0];
-    const Vec3 half = 0.5 * p.gap * contact.normal;
-    const ManifoldPoint again = carried.point(p.key, p.position - half, p.position + half, normal);
-    CHECK(again.key == p.key);
-    CHECK(std::abs(again.gap - p.gap) <= 1e-12 * c.size());
-    CHECK((again.position - p.position).norm() <= 1e-12 * c.size());
-    // turned by a milliradian, the normal is that of the same feature there
-    const RelativePose later{turn(0.06, random_direction(random)) * c.b_in_a.rotation,
-                             c.b_in_a.position};
-    const ShapePair moved(*pair.shape[0], *pair.shape[1], later);
-    const auto axis = evaluate_axis(moved, contact.axis.feature, heights);
-    if (!axis) continue;
-    ++kinds[static_cast<int>(contact.axis.feature.kind)];
-    CHECK((carried.normal(later) - contact_normal(moved, *axis)).norm() <= 1e-9);
-  }
-  for (const AxisKind kind : {AxisKind::face_of_a, AxisKind::face_of_b, AxisKind::edges})
-    CHECK(kinds[static_cast<int>(kind)] > 100);
-}

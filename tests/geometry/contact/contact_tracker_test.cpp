@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

@@ -1,5 +1,3 @@
-// Detection in parts, on threads: the contacts of one part alone, to the last bit.
-
 #include "geometry/contact/detection_part.hpp"
 
 #include "platform/worker_team.hpp"
@@ -47,7 +45,7 @@ TEST_CASE("two parts, one after the other, append the contacts of all bodies in 
   Packing packing(60, 0.25, 8);
   const DetectionSettings settings;
   ContactDetector whole(packing.shapes, settings);
-  DetectedBodies bodies(packing.shapes, 0.0);
+  DetectedBodies bodies(packing.shapes);
   std::vector<BroadPhase::Body> list;
   for (int i = 0; i < bodies.count(); ++i)
     list.push_back({bodies.shape(i), packing.shapes[i].fixed});
@@ -69,4 +67,44 @@ TEST_CASE("two parts, one after the other, append the contacts of all bodies in 
   CHECK(contacts.size() > of_first + 20);
   for (size_t i = 0; i < contacts.size(); ++i) CHECK((contacts[i].body_a < cut) == (i < of_first));
   CHECK(first.counters().manifolds + second.counters().manifolds == whole.counters().manifolds);
+}
+
+TEST_CASE("bodies of one polyhedron share its tables; planes have none") {
+  const Polyhedron small = make_box(Vec3(1, 1, 1)), large = make_box(Vec3(2, 2, 2));
+  const DetectedBodies bodies(
+      {{&large, {}, false}, ContactShape{}, {&small, {}, false}, {&large, {}, false}});
+  REQUIRE(bodies.tables.size() == 2);
+  CHECK(bodies.shape(0) == bodies.shape(3));
+  CHECK(bodies.shape(0) != bodies.shape(2));
+  CHECK(bodies.shape(1) == nullptr);
+  CHECK(bodies.bounds[0].circumradius == large.circumradius());
+  CHECK(bodies.bounds[1].circumradius == 0.0);
+  CHECK(bodies.bounds[2].circumradius == small.circumradius());
+}
+
+TEST_CASE("the travel bounds how far any point of a body has moved since the first call") {
+  Packing packing(20, 0.3, 9);
+  DetectedBodies bodies(packing.shapes);
+  const std::vector<Pose> start = packing.poses;
+  bodies.take(start, packing.reach);
+  for (const Travel& travel : bodies.travel) CHECK((travel.shift == 0.0 && travel.turn == 0.0));
+  std::vector<std::vector<Pose>> path;  // outlives the calls
+  for (int k = 0; k < 30; ++k) {
+    packing.move(1e-3);
+    path.push_back(packing.poses);
+    bodies.take(path.back(), packing.reach);
+  }
+  int moved_bodies = 0;
+  for (int i = 0; i < bodies.count(); ++i) {
+    CHECK(bodies.rotations[i] == packing.poses[i].rotation.toRotationMatrix());
+    if (!bodies.shape(i)) continue;
+    const Travel& travel = bodies.travel[i];
+    double farthest = 0.0;
+    for (const Vec3& vertex : bodies.shapes[i].polyhedron->vertices())
+      farthest = std::max(farthest, (packing.poses[i] * vertex - start[i] * vertex).norm());
+    CHECK(farthest <= travel.shift + bodies.bounds[i].circumradius * travel.turn + 1e-14);
+    moved_bodies += farthest > 1e-3;
+    if (packing.shapes[i].fixed) CHECK(travel.shift == 0.0);
+  }
+  CHECK(moved_bodies > 10);
 }

@@ -169,7 +169,7 @@ BruteForce brute_force(const Polyhedron& a, const Polyhedron& b, const RelativeP
     for (const Polyhedron::Edge& eb : b.edges()) {
       const Vec3 along_b = b_in_a.rotation * (b.vertex(eb.head) - b.vertex(eb.tail));
       const double sine = along_a.cross(along_b).norm() / (along_a.norm() * along_b.norm());
-      if (sine < kParallelSine) continue;
+      if (sine < parallel_sine) continue;
       if (sine < 1e-4) best.near_parallel = true;
       const Vec3 n =
           sine < 1e-4 ? unit_cross(along_a, along_b) : along_a.cross(along_b).normalized();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/contact/separating_axis.hpp"
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 
 namespace ballast::testing {
 
@@ -43,10 +43,10 @@ enum class Placement {
   inside,          ///< one within the other
   apart            ///< up to a few diameters
 };
-constexpr Placement kPlacements[] = {Placement::near_touching,  Placement::deep,
-                                     Placement::parallel_faces, Placement::parallel_edges,
-                                     Placement::offset_copy,    Placement::inside,
-                                     Placement::apart};
+constexpr Placement placements[] = {Placement::near_touching,  Placement::deep,
+                                    Placement::parallel_faces, Placement::parallel_edges,
+                                    Placement::offset_copy,    Placement::inside,
+                                    Placement::apart};
 std::string name(Placement placement);
 
 struct PairCase {

@@ -119,7 +119,7 @@ TEST_CASE("seen from the other body every axis is the same") {
   Random random(12);
   Heights heights = scratch();
   for (int i = 0; i < 2000; ++i) {
-    const PairCase c = random_case(kPlacements[i % 3], random);
+    const PairCase c = random_case(placements[i % 3], random);
     const ShapePair pair = c.pair();
     const ShapePair swapped(*pair.shape[1], *pair.shape[0], c.b_in_a.inverse());
     const AxisFeature feature =
@@ -143,7 +143,7 @@ TEST_CASE("an axis proved to be the best is the best") {
   Heights heights = scratch();
   int proved = 0, of_touching = 0, touching = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Placement placement = kPlacements[i % std::size(kPlacements)];
+    const Placement placement = placements[i % std::size(placements)];
     const PairCase c = random_case(placement, random);
     const ShapePair pair = c.pair();
     double oracle = NAN;

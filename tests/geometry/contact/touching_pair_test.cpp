@@ -52,7 +52,7 @@ TEST_CASE("a remembered pair says what the tables say, bit for bit, or nothing")
   Heights heights(1024);
   int touching[4] = {}, several[4] = {}, apart = 0, undecided = 0;
   for (int i = 0; i < 40000; ++i) {
-    const PairCase c = random_case(kPlacements[i % std::size(kPlacements)], random);
+    const PairCase c = random_case(placements[i % std::size(placements)], random);
     const Known before = ask_tables(c.pair(), {});
     if (is_separated(before.outcome)) continue;
     TouchingPair remembered;

@@ -6,7 +6,7 @@
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mass_properties.hpp"
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -151,27 +151,6 @@ TEST_CASE("the pieces of a partition sum to the whole") {
                              Vec3(ticks[0][i + 1], ticks[1][j + 1], ticks[2][k + 1]), grain.volume);
     CHECK(sum == Approx(grain.volume).epsilon(1e-11));
   }
-}
-
-TEST_CASE("a count of random points agrees") {
-  BoxClipper clipper;
-  Random random(13);
-  const PrincipalShape grain = make_grain({}, 1.0, 7);
-  const Pose pose{Vec3(0.1, -0.2, 0.3), random_rotation(random)};
-  const Vec3 lo(-0.2, -1.5, -0.1), hi(1.5, 0.4, 1.5);
-  const auto planes = half_spaces(grain.shape, pose, lo, hi);
-  const int count = 100000;
-  int hits = 0;
-  for (int n = 0; n < count; ++n) {
-    const Vec3 x = uniform_point(random, -1.5, 1.5);
-    bool inside = true;
-    for (const HalfSpace& plane : planes) inside = inside && plane.normal.dot(x) < plane.offset;
-    hits += inside;
-  }
-  const double estimate = 27.0 * hits / count,
-               deviation = 27.0 * std::sqrt(static_cast<double>(hits)) / count;
-  CHECK(std::abs(clipper.volume(grain.shape, pose, lo, hi, grain.volume) - estimate) <
-        5.0 * deviation);
 }
 
 TEST_CASE("a used workspace gives the same bits as a new one") {

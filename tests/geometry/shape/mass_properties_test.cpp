@@ -4,7 +4,7 @@
 
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

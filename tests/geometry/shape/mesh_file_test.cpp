@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <cstring>
 #include <set>
-#include <tuple>
 
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mass_properties.hpp"
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
+#include "platform/random.hpp"
+#include "platform/text.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/shape/mesh_test_files.hpp"
 #include "tests/support/mesh_writer.hpp"
@@ -39,11 +40,13 @@ std::set<std::vector<std::array<double, 3>>> solid(const Polyhedron& p) {
 
 }  // namespace
 
-TEST_CASE("OBJ gives back the same polyhedron, bit for bit") {
+TEST_CASE("OBJ gives back the same polyhedron, STL the same solid, bit for bit") {
   const TemporaryFolder folder;
-  const fs::path file = folder.path() / "grain.obj";
+  const fs::path file = folder.path() / "grain.obj", stl = folder.path() / "grain.STL";
   for (int seed = 0; seed < 40; ++seed) {
     const Polyhedron p = seed == 0 ? make_box({0.1, 0.2, 0.3}) : make_grain({}, 0.0125, seed).shape;
+    write_mesh(stl, p);
+    CHECK(solid(read_mesh(stl)) == solid(p));
     write_mesh(file, p);
     const Polyhedron q = read_mesh(file);
     REQUIRE(q.face_count() == p.face_count());
@@ -51,16 +54,6 @@ TEST_CASE("OBJ gives back the same polyhedron, bit for bit") {
                      q.vertices().end()));
     for (int f = 0; f < p.face_count(); ++f)
       CHECK(std::equal(p.face(f).begin(), p.face(f).end(), q.face(f).begin(), q.face(f).end()));
-  }
-}
-
-TEST_CASE("STL gives back the same solid, bit for bit") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "grain.STL";
-  for (int seed = 0; seed < 40; ++seed) {
-    const Polyhedron p = seed == 0 ? make_box({0.1, 0.2, 0.3}) : make_grain({}, 0.0125, seed).shape;
-    write_mesh(file, p);
-    CHECK(solid(read_mesh(file)) == solid(p));
   }
 }
 
@@ -86,11 +79,11 @@ TEST_CASE("OBJ as other programs write it") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "cube.obj";
   const std::set<std::vector<std::array<double, 3>>> cube = [&] {
-    save(file, kCube);
+    save(file, cube_obj);
     return solid(read_mesh(file));
   }();
   REQUIRE(cube.size() == 6);
-  std::string text = kCube;
+  std::string text = cube_obj;
   SECTION("comments, groups, materials, blank lines") {
     text = "# made by\nmtllib a.mtl\no cube\n\ng side\nusemtl stone\ns off\n" +
            with(text, "f 1 5 7 3", "f 1 5 7 3 # left");
@@ -152,7 +145,7 @@ TEST_CASE("text STL as other programs write it") {
 
 TEST_CASE("the scale multiplies coordinates") {
   const TemporaryFolder folder;
-  save(folder.path() / "cube.obj", kCube);
+  save(folder.path() / "cube.obj", cube_obj);
   CHECK(mass_properties(read_mesh(folder.path() / "cube.obj", 0.001)).volume == Approx(1e-9));
   CHECK(mass_properties(read_mesh_hull(folder.path() / "cube.obj", 2.0)).volume == Approx(8.0));
   for (const double scale : {0.0, -1.0, std::nan("")})
@@ -165,10 +158,10 @@ TEST_CASE("scanned grains: the hull of whatever the vertices are") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "scan.obj";
   save(file,
-       with(kCube, "f 1 5 7 3\n", "") + "v 0.5 0.5 0.5\n");  // open, with a stray vertex inside
+       with(cube_obj, "f 1 5 7 3\n", "") + "v 0.5 0.5 0.5\n");  // open, with a stray vertex inside
   CHECK(complaint([&] { read_mesh(file); }) != "");
   CHECK(read_mesh_hull(file).face_count() == 6);
-  save(file, kCube.substr(0, kCube.find('f')));  // a point cloud
+  save(file, cube_obj.substr(0, cube_obj.find('f')));  // a point cloud
   CHECK(read_mesh_hull(file).face_count() == 6);
   save(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
   const std::string said = complaint([&] { read_mesh_hull(file); });
@@ -200,7 +193,7 @@ TEST_CASE("a smooth sphere in single precision, whose thin triangles know their 
   // Near the origin, and so far that four digits of it are left.
   for (const double away : {0.0, 40.0}) {
     INFO(away);
-    const UvSphere sphere = make_uv_sphere(120, 200);
+    const UvSphere sphere = make_uv_sphere(40, 60);
     const Quat turn = random_rotation(random);
     std::vector<Vec3> corners;
     for (const Vec3& v : sphere.vertices)
@@ -223,42 +216,171 @@ TEST_CASE("a pipe or a device is no mesh, and is not waited for") {
   CHECK_THAT(complaint([&] { read_mesh(zero); }), Catch::Contains("it is a device"));
 }
 
-TEST_CASE("a large mesh is read in a time that grows as its size") {
-  // 120000 triangles on six flat sides: each face against each vertex would be 7e9 looks.
+TEST_CASE("a mesh of too many vertices is refused, unless its hull has few") {
   const TemporaryFolder folder;
-  const int n = 100;
+  const fs::path file = folder.path() / "sphere.obj";
+  const UvSphere sphere = make_uv_sphere(100, 102);
   std::string text;
-  const auto number = [&](int i, int j, int k) {
-    text += "v " + std::to_string(i) + ' ' + std::to_string(j) + ' ' + std::to_string(k) + '\n';
+  for (const Vec3& p : sphere.vertices)
+    text += printed("v %.17g %.17g %.17g\n", p.x(), p.y(), p.z());
+  for (const std::vector<int>& face : sphere.faces) {
+    text += 'f';
+    for (const int v : face) text += ' ' + std::to_string(v + 1);
+    text += '\n';
+  }
+  save(file, text);
+  const std::string said = complaint([&] { read_mesh(file); });
+  CHECK_THAT(said, Catch::StartsWith(file.string() + ": has 10100 vertices, at most 10000"));
+  CHECK(complaint([&] { read_mesh_hull(file); }) == said);
+  save(file, [&] {
+    std::string cloud = cube_obj.substr(0, cube_obj.find('f'));
+    for (int k = 0; k < 20000; ++k) cloud += printed("v 0.5 %g 0.5\n", 1e-5 * k);
+    return cloud;
+  }());
+  CHECK(read_mesh_hull(file).vertex_count() == 8);
+}
+
+TEST_CASE("every broken mesh is one line that names the file, the line and the defect") {
+  struct Broken {
+    std::string name, content, place, defect;
   };
-  std::map<std::tuple<int, int, int>, int> index;
-  std::string faces;
-  const auto vertex = [&](std::array<int, 3> p) {
-    const auto [found, is_new] =
-        index.emplace(std::tuple(p[0], p[1], p[2]), static_cast<int>(index.size()) + 1);
-    if (is_new) number(p[0], p[1], p[2]);
-    return std::to_string(found->second);
+  const std::string box = [] {
+    const TemporaryFolder folder;
+    write_mesh(folder.path() / "box.stl", make_box({1, 2, 3}));
+    return load(folder.path() / "box.stl");
+  }();
+  const std::string binary = binary_stl(make_box({1, 2, 3}));
+  std::string binary_nan = binary;
+  const float nan = std::nanf("");
+  std::memcpy(binary_nan.data() + 84 + 50 + 12, &nan, 4);
+  std::string binary_open = binary.substr(0, binary.size() - 50);
+  binary_open[80] = 11;
+  std::string inside_out = cube_obj;
+  for (const auto& [from, to] : {std::pair("1 5 7 3", "3 7 5 1"),
+                                 {"2 4 8 6", "6 8 4 2"},
+                                 {"1 2 6 5", "5 6 2 1"},
+                                 {"3 7 8 4", "4 8 7 3"},
+                                 {"1 3 4 2", "2 4 3 1"},
+                                 {"5 6 8 7", "7 8 6 5"}})
+    inside_out = with(inside_out, from, to);
+
+  const std::vector<Broken> table = {
+      {"empty.obj", "", "", "the file is empty"},
+      {"empty.stl", "", "", "the file is empty"},
+      {"garbage.obj",
+       "\x7f"
+       "ELF\x02\x01 what is this",
+       ": line 1", "unknown OBJ statement '?ELF"},
+      {"garbage.stl", "what is this", "", "neither text STL (no 'solid') nor binary STL (12 bytes"},
+      {"points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n", "", "the file has no faces"},
+      {"comment.obj", "# nothing\n", "", "the file has no vertices"},
+      {"unknown.obj", with(cube_obj, "f 3", "face 3"), ": line 12", "unknown OBJ statement 'face'"},
+      {"word.obj", with(cube_obj, "v 1 0 0", "v 1 zero 0"), ": line 2", "'zero' is no number"},
+      {"comma.obj", with(cube_obj, "v 1 0 0", "v 1,0 0 0"), ": line 2", "'1,0' is no number"},
+      {"huge.obj", with(cube_obj, "v 1 0 0", "v 1e999 0 0"), ": line 2",
+       "'1e999' is no number in range"},
+      {"overflow.obj", with(cube_obj, "v 1 1 1", "v 1e200 1 1"), "", "too large"},
+      {"short.obj", with(cube_obj, "v 1 0 0", "v 1 0"), ": line 2", "a coordinate is missing"},
+      {"nan.obj", with(cube_obj, "v 1 1 0", "v 1 nan 0"), ": line 4",
+       "coordinate 'nan' is not finite"},
+      {"inf.obj", with(cube_obj, "v 1 1 0", "v 1 1 -inf"), ": line 4",
+       "coordinate '-inf' is not finite"},
+      {"index.obj", with(cube_obj, "2 4 8 6", "2 4 9 6"), ": line 10", "face names vertex 9 of 8"},
+      {"zero.obj", with(cube_obj, "2 4 8 6", "2 4 0 6"), ": line 10", "'0' is no vertex index"},
+      {"negative.obj", with(cube_obj, "2 4 8 6", "2 4 -9 6"), ": line 10",
+       "face names vertex -9 of 8"},
+      {"word_index.obj", with(cube_obj, "2 4 8 6", "2 4 x 6"), ": line 10",
+       "'x' is no vertex index"},
+      {"huge_index.obj", with(cube_obj, "2 4 8 6", "2 4 99999999999 6"), ": line 10",
+       "is no vertex index"},
+      {"line.obj", with(cube_obj, "2 4 8 6", "2 4"), ": line 10", "face has 2 vertices"},
+      {"repeat.obj", with(cube_obj, "2 4 8 6", "2 4 4 6"), ": line 10",
+       "face 1 passes through vertex 3 twice"},
+      {"open.obj", with(cube_obj, "f 5 6 8 7\n", ""), ": line 11",
+       "the mesh is open at edge 4-5: only face 2 has it"},
+      {"manifold.obj", cube_obj + "f 5 6 8 7\n", ": line 15",
+       "edge 4-5 is shared by 3 faces (non-manifold), the last of them face 6"},
+      {"turned.obj", with(cube_obj, "5 6 8 7", "7 8 6 5"), ": line 14",
+       "one of them is turned over"},
+      {"inward.obj", inside_out, "", "all faces are turned inward"},
+      {"unused.obj", with(cube_obj, "f 1 ", "v 3 3 3\nf 1 "), ": line 9",
+       "vertex 8 belongs to no face"},
+      {"dent.obj", with(cube_obj, "v 1 1 1", "v 0.6 0.6 0.6"), ": line 10", "face 1 is not flat"},
+      {"flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 4 3 2\nf 1 3 4\nf 1 4 2\n", "",
+       "the mesh is flat"},
+      {"name.stl", with(box, "facet normal", "facette normal"), ": line 2",
+       "expected 'facet' or 'endsolid', found 'facette'"},
+      {"vertex.stl", with(box, "vertex -0.5", "vertex minus"), ": line 4", "'minus' is no number"},
+      {"nan.stl", with(box, "vertex -0.5", "vertex nan"), ": line 4", "not finite"},
+      {"four.stl", with(box, "endloop", "vertex 1 1 1\nendloop"), ": line 7",
+       "expected 'endloop', found 'vertex'"},
+      {"cut.stl", box.substr(0, box.rfind("outer")), ": line 79", "the file ends where 'outer'"},
+      {"noend.stl", with(box, "endsolid ballast\n", ""), ": line 85",
+       "the file ends where 'facet' or 'endsolid'"},
+      {"after.stl", box + "and more", ": line 87", "expected 'solid', found 'and'"},
+      {"none.stl", "solid nothing\nendsolid nothing\n", "", "the file has no vertices"},
+      {"open.stl", box.substr(0, box.rfind("facet normal")) + "endsolid\n", ": line ",
+       "the mesh is open"},
+      {"twice.stl", box + box, ": line ", "is shared by 4 faces"},
+      {"needle.stl", with(box, "vertex -0.5 -1 -1.5", "vertex -0.5 1 1.5"), ": line 2",
+       "face 0 passes through vertex"},
+      {"truncated.stl", binary.substr(0, binary.size() - 7), "",
+       "12 triangles take 684 bytes, the file has 677"},
+      {"longer.stl", binary + "x", "", "12 triangles take 684 bytes, the file has 685"},
+      {"header.stl", binary.substr(0, 50), "", "neither text STL"},
+      {"nan_binary.stl", binary_nan, "", "triangle 1 has a coordinate that is not finite"},
+      {"open_binary.stl", binary_open, "", "the mesh is open"},
+      {"grain.ply", cube_obj, "", "unknown suffix '.ply'"},
+      {"grain", cube_obj, "", "unknown suffix ''"},
   };
-  for (int axis = 0; axis < 3; ++axis)
-    for (const int side : {0, n})
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-          std::vector<std::string> loop;
-          for (const auto& [a, b] :
-               {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
-            std::array<int, 3> p{};
-            p[static_cast<size_t>(axis)] = side;
-            p[static_cast<size_t>((axis + 1) % 3)] = i + a;
-            p[static_cast<size_t>((axis + 2) % 3)] = j + b;
-            loop.push_back(vertex(p));
-          }
-          if (side == 0) std::reverse(loop.begin(), loop.end());
-          faces += "f " + loop[0] + ' ' + loop[1] + ' ' + loop[2] + "\nf " + loop[0] + ' ' +
-                   loop[2] + ' ' + loop[3] + '\n';
-        }
-  const fs::path file = folder.path() / "cube.obj";
-  save(file, text + faces);
-  const Polyhedron cube = read_mesh(file);
-  CHECK(cube.face_count() == 6);
-  CHECK(cube.vertex_count() == 8);
+  const TemporaryFolder folder;
+  for (const Broken& b : table) {
+    const fs::path file = folder.path() / b.name;
+    save(file, b.content);
+    const std::string said = complaint([&] { read_mesh(file); });
+    CAPTURE(b.name, said);
+    CHECK(said.starts_with(file.string() + b.place));
+    CHECK(said.find(b.defect) != std::string::npos);
+    CHECK(said.find('\n') == std::string::npos);
+    CHECK(said.size() > file.string().size() + 10);
+  }
+  const fs::path missing = folder.path() / "missing.obj";
+  CHECK(complaint([&] { read_mesh(missing); }) ==
+        missing.string() + ": cannot open: No such file or directory");
+  fs::create_directory(folder.path() / "folder.obj");
+  CHECK(complaint([&] { read_mesh(folder.path() / "folder.obj"); }).find("Is a directory") !=
+        std::string::npos);
+}
+
+TEST_CASE("mutilated files are read or refused, never worse") {
+  const TemporaryFolder folder;
+  Random random(9);
+  const Polyhedron grain = make_grain({}, 1.0, 1).shape;
+  write_mesh(folder.path() / "a.obj", grain);
+  write_mesh(folder.path() / "a.stl", grain);
+  const std::vector<std::pair<std::string, std::string>> sources = {
+      {"b.obj", load(folder.path() / "a.obj")},
+      {"b.stl", load(folder.path() / "a.stl")},
+      {"b.stl", binary_stl(grain)}};
+  int refused = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    auto [name, content] = sources[trial % 3];
+    for (int change = 1 + random.below(4); change > 0; --change) {
+      const size_t at = random.below(static_cast<int>(content.size()));
+      switch (random.below(3)) {
+        case 0:
+          content[at] = static_cast<char>(random.below(256));
+          break;
+        case 1:
+          content.erase(at, 1 + random.below(20));
+          break;
+        default:
+          content.insert(at, content.substr(random.below(static_cast<int>(content.size())), 10));
+      }
+    }
+    save(folder.path() / name, content);
+    refused += complaint([&] { read_mesh(folder.path() / name); }) != "";
+    complaint([&] { read_mesh_hull(folder.path() / name); });
+  }
+  CHECK(refused > 1000);
 }

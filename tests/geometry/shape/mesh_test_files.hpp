@@ -61,7 +61,7 @@ inline std::string binary_stl(const Polyhedron& p, const std::string& header = "
   return bytes + triangles;
 }
 
-inline const std::string kCube =
+inline const std::string cube_obj =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
     "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
 

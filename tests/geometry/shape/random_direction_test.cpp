@@ -1,4 +1,4 @@
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 
 #include "tests/catch.hpp"
 

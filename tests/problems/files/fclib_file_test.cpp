@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "platform/hdf5_reader.hpp"
+#include "platform/hdf5_file.hpp"
 #include "tests/problems/files/problem_file_support.hpp"
 
 using namespace ballast;

@@ -1,7 +1,6 @@
 #include "problems/files/solution_file.hpp"
 
-#include "platform/hdf5_reader.hpp"
-#include "platform/hdf5_writer.hpp"
+#include "platform/hdf5_file.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file_error.hpp"
 #include "tests/catch.hpp"

@@ -3,7 +3,7 @@
 
 #include "problems/mechanics/assemble.hpp"
 
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

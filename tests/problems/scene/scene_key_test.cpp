@@ -1,7 +1,7 @@
 #include "problems/scene/scene_key.hpp"
 
 #include "geometry/shape/mesh_file.hpp"
-#include "platform/content_key.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/mesh_writer.hpp"

@@ -1,8 +1,8 @@
-#include "geometry/shape/close_pairs.hpp"
+#include "geometry/shape/point_sets.hpp"
 
 #include <algorithm>
 
-#include "geometry/shape/random_direction.hpp"
+#include "geometry/shape/pose.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -34,8 +34,13 @@ TEST_CASE("the first close point is the one that a look at all pairs finds") {
   CHECK(first_close({}, 1.0).empty());
 }
 
-TEST_CASE("many equal points are no more work than others") {
-  // With all pairs of them this would be 5e11.
-  const std::vector<Vec3> points(1000000, Vec3(1, 2, 3));
-  CHECK(first_close(points, 1e-6) == std::vector<int>(points.size(), 0));
+TEST_CASE("positions come by key, those of one key in their order") {
+  const std::vector<int> keys{2, 0, 3, 2, 0, 2};
+  const SortedByKey sorted = sorted_by_key(keys, 5);
+  CHECK(sorted.order == std::vector{1, 4, 0, 3, 5, 2});
+  CHECK(sorted.begin == std::vector{0, 2, 2, 5, 6, 6});
+  CHECK(sorted.of(2).size() == 3);
+  CHECK(sorted.of(2)[1] == 3);
+  CHECK(sorted.of(1).empty());
+  CHECK(sorted_by_key({}, 2).begin == std::vector{0, 0, 0});
 }

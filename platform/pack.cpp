@@ -1,9 +1,7 @@
-#include "platform/sealed_file.hpp"
+#include "platform/pack.hpp"
 
 #include "platform/atomic_file.hpp"
-#include "platform/content_key.hpp"
-#include "platform/error.hpp"
-#include "platform/pack.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -28,7 +26,7 @@ void write_sealed_file(const std::filesystem::path& file, const SealedKind& kind
   out.commit();
 }
 
-SealedBody read_sealed_file(const std::filesystem::path& file, const SealedKind& kind) {
+std::string read_sealed_file(const std::filesystem::path& file, const SealedKind& kind) {
   const std::string bytes = read_whole_file(file);
   const std::string name(kind.name);
   const auto refuse = [&](const std::string& why) { throw Error(file.string() + ": " + why); };
@@ -45,7 +43,7 @@ SealedBody read_sealed_file(const std::filesystem::path& file, const SealedKind&
   head.numbers(format, byte_order, body);
   if (byte_order != this_byte_order)
     refuse(name + " was written on a machine of another byte order");
-  if (format < kind.oldest || format > kind.format)
+  if (format != kind.format)
     refuse(name + " has format " + std::to_string(format) + ", this program reads format " +
            std::to_string(kind.format));
   const std::uint64_t rest = bytes.size() - head_bytes;
@@ -56,7 +54,7 @@ SealedBody read_sealed_file(const std::filesystem::path& file, const SealedKind&
   end.number(checksum);
   if (checksum != fnv1a(all.substr(0, bytes.size() - checksum_bytes)))
     refuse(name + " is damaged: its checksum is wrong");
-  return {format, bytes.substr(head_bytes, body)};
+  return bytes.substr(head_bytes, body);
 }
 
 }  // namespace ballast

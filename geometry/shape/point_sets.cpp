@@ -1,0 +1,51 @@
+#include "geometry/shape/point_sets.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace ballast {
+
+Bounds bounds_of(std::span<const Vec3> points) {
+  Bounds bounds{points[0], points[0]};
+  for (const Vec3& p : points) {
+    bounds.low = bounds.low.cwiseMin(p);
+    bounds.high = bounds.high.cwiseMax(p);
+  }
+  return bounds;
+}
+
+std::vector<int> first_close(std::span<const Vec3> points, double reach) {
+  // Close points have close heights along any direction. Along this one no usual set has many
+  // equal heights, so that few pairs need be measured.
+  const Vec3 direction = Vec3(0.5321, 0.6173, 0.5794).normalized();
+  std::vector<std::pair<double, int>> order;
+  for (size_t i = 0; i < points.size(); ++i)
+    order.emplace_back(direction.dot(points[i] - points[0]), static_cast<int>(i));
+  std::sort(order.begin(), order.end());
+  std::vector<int> first(points.size());
+  std::iota(first.begin(), first.end(), 0);
+  for (size_t i = 0; i < order.size(); ++i) {
+    // twice the reach: the heights are rounded
+    for (size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= 2.0 * reach;
+         ++j) {
+      const auto [a, b] = std::minmax(order[i].second, order[j].second);
+      if ((points[a] - points[b]).norm() <= reach) first[b] = std::min(first[b], a);
+    }
+  }
+  return first;
+}
+
+SortedByKey sorted_by_key(std::span<const int> keys, int key_count) {
+  SortedByKey sorted;
+  // Counted and summed up: where each key's positions begin.
+  sorted.begin.assign(static_cast<size_t>(key_count) + 1, 0);
+  for (const int key : keys) ++sorted.begin[key + 1];
+  for (int k = 0; k < key_count; ++k) sorted.begin[k + 1] += sorted.begin[k];
+  std::vector<int> next(sorted.begin.begin(), sorted.begin.end() - 1);
+  sorted.order.resize(keys.size());
+  for (size_t i = 0; i < keys.size(); ++i) sorted.order[next[keys[i]]++] = static_cast<int>(i);
+  return sorted;
+}
+
+}  // namespace ballast
