@@ -242,24 +242,6 @@ TEST_CASE("reduction keeps the deepest point and most of the area") {
   }
 }
 
-TEST_CASE("crossed edges touch at one point, midway") {
-  const CollisionShape rod(make_box(Vec3(10, 1, 1)));
-  const Mat3 on_edge = Eigen::AngleAxisd(0.25 * std::acos(-1.0), Vec3::UnitX()).toRotationMatrix();
-  const Mat3 cross = Eigen::AngleAxisd(1.0, Vec3::UnitZ()).toRotationMatrix();
-  const Vec3 offset(0.7, 0.4, std::sqrt(2.0) - 0.02);
-  const ShapePair pair(rod, rod,
-                       {on_edge.transpose() * cross * on_edge, on_edge.transpose() * offset});
-  const Found found = find(pair, 0.0, 4);
-  REQUIRE(found.points.size() == 1);
-  CHECK(found.points[0].gap == Approx(-0.02).epsilon(1e-12));
-  const Vec3 upright = on_edge * found.points[0].position;
-  // the lower rod's edge runs along x through y = 0, the upper one's along the turned x through the
-  // offset
-  CHECK(upright.y() == Approx(0.0).margin(1e-14));
-  CHECK(upright.x() == Approx(0.7 - 0.4 / std::tan(1.0)));
-  CHECK(upright.z() == Approx(std::sqrt(0.5) - 0.01));
-}
-
 namespace {
 
 constexpr double reach = 1e-4;

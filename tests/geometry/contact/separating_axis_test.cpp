@@ -15,17 +15,6 @@ namespace {
 
 Heights scratch() { return Heights(512); }
 
-AxisFeature mirrored(const AxisFeature& feature) {
-  switch (feature.kind) {
-    case AxisKind::face_of_a:
-      return {AxisKind::face_of_b, -1, feature.a};
-    case AxisKind::face_of_b:
-      return {AxisKind::face_of_a, feature.b, -1};
-    default:
-      return {feature.kind, feature.b, feature.a};
-  }
-}
-
 int top_face(const CollisionShape& shape) {
   int best = 0;
   for (int f = 0; f < shape.faces().count(); ++f)
@@ -113,29 +102,6 @@ TEST_CASE("two edges form a facet exactly if both are supports along their commo
     }
   }
   CHECK(facets > 5000);
-}
-
-TEST_CASE("seen from the other body every axis is the same") {
-  Random random(12);
-  Heights heights = scratch();
-  for (int i = 0; i < 2000; ++i) {
-    const PairCase c = random_case(placements[i % 3], random);
-    const ShapePair pair = c.pair();
-    const ShapePair swapped(*pair.shape[1], *pair.shape[0], c.b_in_a.inverse());
-    const AxisFeature feature =
-        i % 2 ? AxisFeature{AxisKind::face_of_a, random.below(pair.shape[0]->faces().count()), -1}
-              : AxisFeature{AxisKind::edges, random.below(pair.shape[0]->edge_count()),
-                            random.below(pair.shape[1]->edge_count())};
-    const auto axis = evaluate_axis(pair, feature, heights);
-    const auto other = evaluate_axis(swapped, mirrored(feature), heights);
-    if (!axis || !other) continue;
-    const double small = 1e-12 * c.size();
-    CHECK(std::abs(axis->separation - other->separation) <= small);
-    CHECK((c.b_in_a.rotation * other->direction + axis->direction).norm() <= 1e-12);
-    CHECK(std::abs(axis->inside - other->inside) <=
-          1e3 * small);  // ill-conditioned for nearly parallel edges
-    CHECK(std::abs(axis->clearance - other->clearance) <= 1e3 * small);
-  }
 }
 
 TEST_CASE("an axis proved to be the best is the best") {
