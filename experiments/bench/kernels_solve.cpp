@@ -6,7 +6,7 @@
 #include "experiments/bench/kernels.hpp"
 #include "platform/random.hpp"
 #include "problems/algebra/contact_error.hpp"
-#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
 #include "solvers/parts/contact_operator.hpp"
 #include "solvers/parts/shifted_delassus.hpp"
 #include "solvers/parts/sparse_factor.hpp"
@@ -37,7 +37,7 @@ struct ProblemWork {
 struct SweepWork {
   FrictionProblem problem;
   Impulses start, end;
-  BodySweep sweep;
+  AnySweep sweep;
 
   enum class Precision { in_double, single };
   /// Single precision where groups are swept (WideSweep::allow_single), refreshed by error().
@@ -46,9 +46,9 @@ struct SweepWork {
         start(repeated(from.warm, copies)),
         end(start.size()) {
     sweep.prepare(problem);
-    sweep.allow_single(precision == Precision::single);
-    sweep.load(problem, start);
-    sweep.start_search();
+    sweep->allow_single(precision == Precision::single);
+    sweep->load(problem, start);
+    sweep->start_search();
   }
 };
 
@@ -126,24 +126,24 @@ void add_sweep_kernels(const KernelProblem& problem, int streaming_copies,
     kernels.push_back({"sweep", name, "ns/contact",
                        static_cast<double>(work->problem.contact_count()), std::move(call)});
   };
-  add("sweep, the packing alone", cached, [cached] { cached->sweep.sweep(); });
-  add("sweep, streaming copies of it", streaming, [streaming] { streaming->sweep.sweep(); });
+  add("sweep, the packing alone", cached, [cached] { cached->sweep->sweep(); });
+  add("sweep, streaming copies of it", streaming, [streaming] { streaming->sweep->sweep(); });
   // What an iteration of nncg does between two looks at the error.
   const SearchStep step{0.1, 1.0};
   add("sweep along a search, the packing alone", cached,
-      [cached, step] { cached->sweep.sweep(step); });
+      [cached, step] { cached->sweep->sweep_along(step); });
   add("sweep along a search, streaming", streaming,
-      [streaming, step] { streaming->sweep.sweep(step); });
+      [streaming, step] { streaming->sweep->sweep_along(step); });
   add("sweep in float lanes, the packing alone", float_lanes,
-      [float_lanes] { float_lanes->sweep.sweep(); });
+      [float_lanes] { float_lanes->sweep->sweep(); });
   add("sweep in float lanes along a search", float_lanes,
-      [float_lanes, step] { float_lanes->sweep.sweep(step); });
+      [float_lanes, step] { float_lanes->sweep->sweep_along(step); });
   add("error in float lanes, with the refresh in double", float_lanes,
-      [float_lanes] { float_lanes->sweep.error(); });
-  add("error", cached, [cached] { cached->sweep.error(); });
+      [float_lanes] { float_lanes->sweep->error(); });
+  add("error", cached, [cached] { cached->sweep->error(); });
   add("prepare", cached, [cached] { cached->sweep.prepare(cached->problem); });
-  add("load", cached, [cached] { cached->sweep.load(cached->problem, cached->start); });
-  add("store", cached, [cached] { cached->sweep.store(cached->problem, cached->end); });
+  add("load", cached, [cached] { cached->sweep->load(cached->problem, cached->start); });
+  add("store", cached, [cached] { cached->sweep->store(cached->problem, cached->end); });
 }
 
 void add_one_contact_kernels(std::vector<Kernel>& kernels) {

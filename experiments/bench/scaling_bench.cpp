@@ -14,7 +14,7 @@
 #include "platform/error.hpp"
 #include "platform/pack.hpp"
 #include "platform/worker_team.hpp"
-#include "solvers/gauss_seidel/body_sweep.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -31,14 +31,14 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
                      int threads) {
   WorkerTeam team;
   team.resize(threads);
-  BodySweep sweep;
+  AnySweep sweep;
   sweep.use_team(&team);
   sweep.prepare(problem);
-  sweep.load(problem, start);
+  sweep->load(problem, start);
   std::vector<double> seconds;
   for (int k = 0; k < sweeps; ++k) {
     const Stopwatch watch;
-    sweep.sweep();
+    sweep->sweep();
     seconds.push_back(watch.seconds());
   }
   return quantile(seconds, 0.5);

@@ -3,12 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/gauss_seidel/body_sweep.hpp"
-#include "solvers/gauss_seidel/delassus_sweep.hpp"
-#include "solvers/gauss_seidel/either_form.hpp"
-#include "solvers/gauss_seidel/swept_error.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
 #include "solvers/parts/anderson.hpp"
-#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
@@ -20,40 +16,31 @@ class AndersonPgs final : public Solver {
  public:
   explicit AndersonPgs(const AndersonPgsSettings& settings) : settings_(settings) {}
 
-  void prepare(const FrictionProblem& problem) override {
-    sweeps_.visit(problem, [&](auto& sweep) { sweep.prepare(problem); });
-  }
+  void prepare(const FrictionProblem& problem) override { sweep_.prepare(problem); }
 
-  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    return sweeps_.visit(
-        problem, [&](auto& sweep) { return iterate(sweep, problem, std::move(start), budget); });
-  }
-
- private:
-  template <typename Sweep>
-  Solved iterate(Sweep& sweep, const FrictionProblem& problem, Impulses r, const Budget& budget) {
+  Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {4, 1.1});
-    sweep.load(problem, r);
-    sweep.store(problem, r);
-    iteration.evaluated(sweep.error(), r);
-    begin(sweep);
+    const auto load = [&] { sweep_->load(problem, r); };
+    load();
+    sweep_->store(problem, r);
+    iteration.evaluated(sweep_->error(), r);
+    begin();
     while (iteration.next()) {
-      sweep.sweep();
+      sweep_->sweep();
       if (iteration.error_due())
-        iteration.evaluated(
-            swept_error(sweep, problem, iteration, r, [&] { sweep.load(problem, r); }), r);
-      sweep.save(image_);
+        iteration.evaluated(swept_error(*sweep_, problem, iteration, r, load), r);
+      sweep_->save(image_);
       extrapolate();
-      sweep.restore(x_);
+      sweep_->restore(x_);
     }
     return iteration.finish(std::move(r));
   }
 
+ private:
   // No past: the first sweep is taken as it comes.
-  template <typename Sweep>
-  void begin(const Sweep& sweep) {
-    sweep.impulse_weights(weights_);
-    sweep.save(x_);
+  void begin() {
+    sweep_->impulse_weights(weights_);
+    sweep_->save(x_);
     good_image_ = x_;
     mixing_.reset(settings_.memory);
     last_change_ = std::numeric_limits<double>::infinity();
@@ -77,7 +64,7 @@ class AndersonPgs final : public Solver {
   }
 
   AndersonPgsSettings settings_;
-  EitherForm<BodySweep, DelassusSweep> sweeps_;
+  AnySweep sweep_;
   Anderson mixing_;
   Eigen::VectorXd x_, image_, good_image_, weights_;
   double last_change_ = 0.0;

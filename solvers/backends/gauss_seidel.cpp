@@ -2,10 +2,7 @@
 
 #include <utility>
 
-#include "solvers/gauss_seidel/body_sweep.hpp"
-#include "solvers/gauss_seidel/delassus_sweep.hpp"
-#include "solvers/gauss_seidel/swept_error.hpp"
-#include "solvers/seam/iteration.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
 
 namespace ballast {
 namespace {
@@ -14,53 +11,36 @@ class GaussSeidel final : public Solver {
  public:
   explicit GaussSeidel(const GaussSeidelSettings& settings)
       : schedule_{settings.first_check, settings.check_growth}, variant_(settings.variant) {
-    if (!variant_.plain()) bodies_.use_variants();
+    if (!variant_.plain()) sweep_.use_variants();
   }
 
-  void prepare(const FrictionProblem& problem) override {
-    // A stored W is swept along its rows. Otherwise the bodies' velocities carry from contact to
-    // contact what an impulse changes, and W is never formed.
-    if (problem.has_delassus && !problem.has_dynamics)
-      delassus_.prepare(problem);
-    else
-      bodies_.prepare(problem);
-  }
+  void prepare(const FrictionProblem& problem) override { sweep_.prepare(problem); }
+  void use_team(WorkerTeam* team) override { sweep_.use_team(team); }
 
-  void use_team(WorkerTeam* team) override { bodies_.use_team(team); }
-
-  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    return problem.has_delassus && !problem.has_dynamics
-               ? iterate(delassus_, problem, std::move(start), budget)
-               : iterate(bodies_, problem, std::move(start), budget);
-  }
-
- private:
-  template <typename Sweep>
-  Solved iterate(Sweep& sweep, const FrictionProblem& problem, Impulses r, const Budget& budget) {
+  Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, schedule_);
     order_.begin(variant_, variant_.plain() ? 0 : problem.contact_count());
-    allow_single(sweep, budget);
-    // Stored at once: impulses that move nothing have been dropped.
-    sweep.load(problem, r);
-    sweep.store(problem, r);
-    iteration.evaluated(sweep.error(), r);
+    allow_single(*sweep_, budget);
+    const auto load = [&] { sweep_->load(problem, r); };
+    load();
+    sweep_->store(problem, r);  // impulses that move nothing have been dropped
+    iteration.evaluated(sweep_->error(), r);
     while (iteration.next()) {
       if (variant_.plain())
-        sweep.sweep();
+        sweep_->sweep();
       else
-        sweep.sweep(variant_, order_.next());
-      if (!iteration.error_due()) continue;
-      iteration.evaluated(
-          swept_error(sweep, problem, iteration, r, [&] { sweep.load(problem, r); }), r);
+        sweep_->sweep_by(variant_, order_.next());
+      if (iteration.error_due())
+        iteration.evaluated(swept_error(*sweep_, problem, iteration, r, load), r);
     }
     return iteration.finish(std::move(r));
   }
 
+ private:
   CheckSchedule schedule_;
   SweepVariant variant_;
   ContactOrder order_;
-  BodySweep bodies_;
-  DelassusSweep delassus_;
+  AnySweep sweep_;
 };
 
 }  // namespace

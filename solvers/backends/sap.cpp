@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/parts/newton_system.hpp"
+#include "solvers/parts/newton_step.hpp"
 #include "solvers/parts/shifted_delassus.hpp"
 #include "solvers/parts/slip_shift.hpp"
 #include "solvers/seam/iteration.hpp"

@@ -18,7 +18,7 @@ constexpr double body_contact = 1000.0, body_unknown = 25.0, front_operation = 0
 constexpr double filled_unknowns = 20.0;
 /// The step of Coulomb's law takes a line search and a refinement more.
 constexpr double coulomb = 1.65;
-/// The same of a stored W (newton_matrix.hpp): dense where rows are few or W is nearly full, with
+/// The same of a stored W (newton_step.hpp): dense where rows are few or W is nearly full, with
 /// half of the contacts pressed until it is known which are. A sparse factorisation is mostly
 /// bookkeeping, row by row.
 constexpr double few_rows = 200.0, nearly_full = 0.1, matrix_contact = 1700.0;

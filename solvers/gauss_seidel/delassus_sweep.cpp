@@ -32,7 +32,6 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
       }
     block_begin_.push_back(static_cast<int>(block_contact_.size()));
   }
-  // The entries, into their blocks.
   blocks_.assign(9 * block_contact_.size(), 0.0);
   slot.assign(contacts, -1);
   for (int c = 0; c < contacts; ++c) {
@@ -95,7 +94,7 @@ void DelassusSweep::sweep() {
   }
 }
 
-void DelassusSweep::sweep(const SweepVariant& variant, const std::vector<int>& contacts) {
+void DelassusSweep::sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) {
   for (const int c : contacts) {
     Contact& contact = contacts_[c];
     const PrincipalContact& local = contact.local;
@@ -115,7 +114,7 @@ void DelassusSweep::sweep(const SweepVariant& variant, const std::vector<int>& c
   }
 }
 
-double DelassusSweep::error() const {
+double DelassusSweep::error() {
   RootMeanSquare mean;
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const Contact& contact = contacts_[c];
@@ -123,16 +122,15 @@ double DelassusSweep::error() const {
     Eigen::Vector3d u;
     velocity(c, u.data());
     const Eigen::Vector3d r(r_[3 * c], r_[3 * c + 1], r_[3 * c + 2]);
-    const double value =
-        ContactJudge::scaled_natural_map(r, u, contact.local.mu, contact.lambda_max);
-    mean.add(value);
+    mean.add(ContactJudge::scaled_natural_map(r, u, contact.local.mu, contact.lambda_max));
   }
   return mean.value();
 }
 
-/// The impulses are the whole iterate: velocities follow from them.
-void DelassusSweep::save(Eigen::VectorXd& state) const {
+/// Velocities follow from the impulses.
+Eigen::Index DelassusSweep::save(Eigen::VectorXd& state) const {
   state = Eigen::Map<const Eigen::VectorXd>(r_.data(), static_cast<Eigen::Index>(r_.size()));
+  return state.size();
 }
 
 void DelassusSweep::restore(const Eigen::VectorXd& state) {

@@ -8,29 +8,27 @@
 #include <vector>
 
 #include "problems/algebra/friction_problem.hpp"
-#include "solvers/gauss_seidel/sweep_variant.hpp"
+#include "solvers/gauss_seidel/contact_sweep.hpp"
 #include "solvers/parts/one_contact.hpp"
 
 namespace ballast {
 
-class DelassusSweep {
+class DelassusSweep final : public ContactSweep {
  public:
+  /// `problem` has a stored W.
   void prepare(const FrictionProblem& problem);
-  void load(const FrictionProblem& problem, const Impulses& r);
-  void store(const FrictionProblem& problem, Impulses& r) const;
 
-  /// Every contact once, in the given order.
-  void sweep();
-  /// The contacts named, in that order, another way: for comparison, not for speed.
-  void sweep(const SweepVariant& variant, const std::vector<int>& contacts);
-  /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
-  double error() const;
-
+  void load(const FrictionProblem& problem, const Impulses& r) override;
+  void store(const FrictionProblem& problem, Impulses& r) const override;
+  /// In the given order.
+  void sweep() override;
+  void sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) override;
+  double error() override;
   /// The impulses, three per contact: the whole of the iterate.
-  void save(Eigen::VectorXd& state) const;
-  void restore(const Eigen::VectorXd& state);
+  Eigen::Index save(Eigen::VectorXd& state) const override;
+  void restore(const Eigen::VectorXd& state) override;
   /// sqrt(lambda_max(W_cc)) for each of them.
-  void impulse_weights(Eigen::VectorXd& weights) const;
+  void impulse_weights(Eigen::VectorXd& weights) const override;
 
  private:
   struct Contact {

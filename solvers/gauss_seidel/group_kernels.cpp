@@ -1,5 +1,7 @@
 #include "solvers/gauss_seidel/group_kernels.hpp"
 
+#include "solvers/parts/one_contact.hpp"
+
 namespace ballast {
 
 extern const GroupKernels sse2_group_kernels;
@@ -23,5 +25,18 @@ const std::vector<const GroupKernels*>& all_group_kernels() {
 }
 
 const GroupKernels& group_kernels() { return *all_group_kernels().front(); }
+
+double slip_root(double s2, double c1, double c2, double mu, double y, double t1, double t2) {
+  PrincipalContact contact;
+  contact.inverse_normal = contact.s1 = contact.inverse_s1 = 1.0;
+  contact.s2 = s2;
+  contact.inverse_s2 = 1.0 / s2;
+  contact.c1 = c1;
+  contact.c2 = c2;
+  contact.mu = mu;
+  double x = 0.0;
+  slide(contact, y, t1, t2, x);
+  return x;
+}
 
 }  // namespace ballast

@@ -1,11 +1,9 @@
 // Compiled for avx512 (solvers/CMakeLists.txt).
-#include "solvers/gauss_seidel/lanes_avx512.hpp"
-
 #include "solvers/gauss_seidel/kernel_table.hpp"
 
 namespace ballast {
 
 extern const GroupKernels avx512_group_kernels;
-const GroupKernels avx512_group_kernels = kernels_of<Lanes8d, 2, Lanes16s, 1>("avx512");
+const GroupKernels avx512_group_kernels = kernels_of<64, 2, 1>("avx512");
 
 }  // namespace ballast

@@ -1,11 +1,9 @@
 // Compiled for sse2 (solvers/CMakeLists.txt).
-#include "solvers/gauss_seidel/lanes_sse2.hpp"
-
 #include "solvers/gauss_seidel/kernel_table.hpp"
 
 namespace ballast {
 
 extern const GroupKernels sse2_group_kernels;
-const GroupKernels sse2_group_kernels = kernels_of<Lanes2d, 2, Lanes4s, 2>("sse2");
+const GroupKernels sse2_group_kernels = kernels_of<16, 2, 2>("sse2");
 
 }  // namespace ballast

@@ -1,63 +1,218 @@
 #pragma once
-// The table of one instruction set. Included by the sources group_kernels_*.cpp alone.
+// The table of one instruction set, and the loops of group_kernels.hpp that are needed in double
+// alone: records, and the judge's error. Included by the sources group_kernels_*.cpp alone.
 
-#include "solvers/gauss_seidel/exact_loops.hpp"
-#include "solvers/gauss_seidel/sweep_loops.hpp"
+#include "solvers/gauss_seidel/group_sweep.hpp"
 
 namespace ballast {
 
-template <typename V, int K, typename Group>
-struct LoopsOf {
-  using Loops = GroupLoops<Group>;
-  using Impulses = typename Loops::Impulses;
-  using Run = typename Loops::Run;
-  using Body = typename Loops::Body;
-
-  static void sweep(const Run (&runs)[2], Body* bodies) {
-    sweep_loop<V, K, false>(runs, {}, bodies, nullptr);
-  }
-  static void search(const Run (&runs)[2], SearchStep step, Body* bodies, double (&squares)[2]) {
-    sweep_loop<V, K, true>(runs, step, bodies, squares);
-  }
-  static void push(const Group* groups, const Impulses* impulses, int count, Body* bodies) {
-    push_loop<V>(groups, impulses, count, bodies);
-  }
-  static constexpr Loops loops() { return {sweep, search, push}; }
-};
-
-template <typename V, int K, typename Group>
-struct ExactLoopsOf : LoopsOf<V, K, Group> {
-  using Impulses = typename LoopsOf<V, K, Group>::Impulses;
-  using Single = typename ExactLoops<Group>::Single;
-
-  static void make_principal(Group* groups, GroupFrame* frames, int count) {
-    make_principal_loop<V>(groups, frames, count);
-  }
-  static double error(const Group* groups, const Impulses* impulses, const GroupFrame* frames,
-                      int count, const BodyRow<double>* bodies, Single* single) {
-    return error_loop<V>(groups, impulses, frames, count, bodies, single);
-  }
-  static constexpr ExactLoops<Group> exact() {
-    return {LoopsOf<V, K, Group>::loops(), make_principal, error};
-  }
-};
-
-template <typename V>
-void move_bodies(int count, SearchStep step, BodyRow<typename V::Number>* w,
-                 BodyRow<typename V::Number>* before, BodyRow<typename V::Number>* direction) {
-  move_bodies_loop<V>(count, step, w->w, before->w, direction->w);
+/// W_cc's entry (i, j) from the rows as given.
+template <typename V, typename Group>
+BALLAST_INLINE V block_entry(const Group& k, int lane, int i, int j) {
+  const auto product = [lane](const auto& x, const auto& y) __attribute__((always_inline)) {
+    return (V::load(x[0] + lane) * V::load(y[0] + lane) +
+            V::load(x[1] + lane) * V::load(y[1] + lane)) +
+           V::load(x[2] + lane) * V::load(y[2] + lane);
+  };
+  const V mass = V::load(k.inverse_mass[0] + lane) + V::load(k.inverse_mass[1] + lane);
+  return product(k.line[i], k.line[j]) * mass +
+         (product(k.turn[0][i], k.turn[0][j]) + product(k.turn[1][i], k.turn[1][j]));
 }
 
-/// So many vectors of doubles, of singles are solved side by side.
-template <typename Doubles, int DoubleVectors, typename Singles, int SingleVectors>
+/// 1 / x; 1 where x is not positive (no contact there: zero rows stay zero).
+template <typename V>
+BALLAST_INLINE V inverse_or_one(V x) {
+  const V one = V::all(1.0);
+  return select(less(V::all(0.0), x), one / x, one);
+}
+
+template <typename V>
+BALLAST_INLINE void times(double* numbers, V factor) {
+  (V::load(numbers) * factor).store(numbers);
+}
+
+/// See make_principal in solvers/parts/one_contact.cpp.
+template <typename V>
+BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f, int lane) {
+  const V zero = V::all(0.0), one = V::all(1.0), half = V::all(0.5), rounding = V::all(0x1p-52);
+  const V w00 = block_entry<V>(k, lane, 0, 0), w10 = block_entry<V>(k, lane, 1, 0),
+          w20 = block_entry<V>(k, lane, 2, 0), w11 = block_entry<V>(k, lane, 1, 1),
+          w21 = block_entry<V>(k, lane, 2, 1), w22 = block_entry<V>(k, lane, 2, 2);
+  const V inverse = inverse_or_one(w00), given_c1 = w10 * inverse, given_c2 = w20 * inverse;
+  const V p = w11 - given_c1 * w10, q = w21 - given_c1 * w20, r = w22 - given_c2 * w20;
+  // The eigenvectors of S, by whichever form does not cancel.
+  const V middle = half * (p + r), delta = half * (p - r), h = square_root(delta * delta + q * q);
+  const auto turned = less(zero, h), second = less(delta, zero);
+  const V inverse_h = inverse_or_one(h), size = select(second, zero - delta, delta);
+  const V large = square_root(half + half * size * inverse_h), small = half * q * inverse_h / large;
+  const V cosine = select(turned, select(second, large, small), one),
+          sine = select(turned, select(second, zero - small, zero - large), zero);
+  const V trace = w00 + w11 + w22;
+  const V least = rounding * trace, low = middle - h, high = middle + h;
+  const V s1 = select(less(low, least), least, low), s2 = select(less(high, least), least, high);
+  const V c1 = cosine * given_c1 + sine * given_c2, c2 = cosine * given_c2 - sine * given_c1;
+
+  // A lane without a contact: n = t = s2 = 1.
+  const auto there = less(zero, w00);
+  // Told apart: contacts that nothing moves along the normal, up to rounding (wide_sweep.cpp).
+  keep(less(V::all(0.25) * rounding * trace, w00), w00).store(f.lambda_max + lane);
+  const V n = square_root(select(there, w00, one)), t = square_root(select(there, s1, one));
+  const V over_n = one / n, over_t = one / t;
+  const V mu = V::load(f.mu + lane), scaled_mu = mu * t * over_n;
+  n.store(f.normal + lane);
+  over_n.store(f.inverse_normal + lane);
+  t.store(f.tangent + lane);
+  over_t.store(f.inverse_tangent + lane);
+  cosine.store(f.cosine + lane);
+  sine.store(f.sine + lane);
+  const V ratio = select(there, s2 / s1, one);
+  ratio.store(k.s2 + lane);
+  (one / ratio).store(k.inverse_s2 + lane);
+  (c1 * n * over_t).store(k.c1 + lane);
+  (c2 * n * over_t).store(k.c2 + lane);
+  scaled_mu.store(k.mu + lane);
+  inverse_or_one(scaled_mu).store(k.inverse_mu + lane);
+
+  // Normal row over n; tangents turned, c times the normal row taken off, over t.
+  const auto change = [&](double* normal, double* first, double* second_row)
+      __attribute__((always_inline)) {
+    const V x = V::load(normal), y = V::load(first), z = V::load(second_row);
+    (x * over_n).store(normal);
+    ((cosine * y + sine * z - c1 * x) * over_t).store(first);
+    ((cosine * z - sine * y - c2 * x) * over_t).store(second_row);
+  };
+  change(k.bias[0] + lane, k.bias[1] + lane, k.bias[2] + lane);
+  for (int j = 0; j < 3; ++j) {
+    change(k.line[0][j] + lane, k.line[1][j] + lane, k.line[2][j] + lane);
+    for (auto& turn : k.turn) change(turn[0][j] + lane, turn[1][j] + lane, turn[2][j] + lane);
+  }
+}
+
+/// One row: W_cc is a number.
+template <typename V, typename Group>
+BALLAST_INLINE void make_principal_lanes(Group& k, GroupFrame& f, int lane) {
+  V w = block_entry<V>(k, lane, 0, 0);
+  if constexpr (requires { k.wall; }) {
+    const V wall = V::load(k.wall + lane);
+    w = w + wall * wall;
+  }
+  const V n = square_root(select(less(V::all(0.0), w), w, V::all(1.0))), over_n = V::all(1.0) / n;
+  n.store(f.normal + lane);
+  over_n.store(f.inverse_normal + lane);
+  w.store(f.lambda_max + lane);
+  times(k.bias[0] + lane, over_n);
+  for (int j = 0; j < 3; ++j) {
+    times(k.line[0][j] + lane, over_n);
+    for (auto& turn : k.turn) times(turn[0][j] + lane, over_n);
+  }
+  if constexpr (requires { k.wall; }) times(k.wall + lane, over_n);
+}
+
+/// ExactLoops::make_principal
+template <typename V, typename Group>
+void make_principal_loop(Group* groups, GroupFrame* frames, int count) {
+  for (int g = 0; g < count; ++g)
+    for (int lane = 0; lane < group_lanes; lane += V::width)
+      make_principal_lanes<V>(groups[g], frames[g], lane);
+}
+
+/// The judge's scaled natural map |r - P_K(r - rho (u + mu |u_T| n))| / rho, squared (see
+/// problems/algebra/friction_cone.hpp).
+template <typename V>
+BALLAST_INLINE V natural_map_square(const FrictionGroup<double>& k, const GroupFrame& f, int lane,
+                                    const V* r, const V* moved) {
+  const V zero = V::all(0.0), c1 = V::load(k.c1 + lane), c2 = V::load(k.c2 + lane),
+          t = V::load(f.tangent + lane), over_t = V::load(f.inverse_tangent + lane),
+          mu = V::load(f.mu + lane), lambda = V::load(f.lambda_max + lane);
+  // Impulse and velocity in the problem's units, along the principal tangents.
+  const V rn = (r[0] - c1 * r[1] - c2 * r[2]) * V::load(f.inverse_normal + lane),
+          r1 = r[1] * over_t, r2 = r[2] * over_t;
+  const V un = moved[0] * V::load(f.normal + lane), u1 = (moved[1] + c1 * moved[0]) * t,
+          u2 = (moved[2] + c2 * moved[0]) * t;
+  const V rho = inverse_or_one(lambda);
+  const V xn = rn - rho * (un + mu * square_root(u1 * u1 + u2 * u2)), x1 = r1 - rho * u1,
+          x2 = r2 - rho * u2;
+  // The projection onto the cone.
+  const V tangential = square_root(x1 * x1 + x2 * x2);
+  const auto polar = at_most(mu * tangential, zero - xn), inside = at_most(tangential, mu * xn);
+  const V n = (mu * tangential + xn) / (V::all(1.0) + mu * mu),
+          scale = mu * n / select(less(zero, tangential), tangential, V::all(1.0));
+  const auto projected = [&](V inner, V outer) __attribute__((always_inline)) {
+    return select(polar, zero, select(inside, inner, outer));
+  };
+  const V en = rn - projected(xn, n), e1 = r1 - projected(x1, scale * x1),
+          e2 = r2 - projected(x2, scale * x2);
+  return (en * en + e1 * e1 + e2 * e2) * (lambda * lambda);
+}
+
+/// One row: n |y' - max(0, y' - u')|.
+template <typename V, typename Group>
+BALLAST_INLINE V natural_map_square(const Group&, const GroupFrame& f, int lane, const V* r,
+                                    const V* moved) {
+  const V candidate = r[0] - moved[0];
+  const V e = (r[0] - select(less(candidate, V::all(0.0)), V::all(0.0), candidate)) *
+              V::load(f.normal + lane);
+  return select(less(V::all(0.0), V::load(f.lambda_max + lane)), e * e, V::all(0.0));
+}
+
+/// The contacts' velocities, a wall's part included.
+template <typename V, typename Group>
+BALLAST_INLINE void contact_velocities(const Group& k, int lane, const BodyRow<double>* bodies,
+                                       V* moved) {
+  V a[6], b[6];
+  gather_bodies(bodies, k.body[0] + lane, a);
+  gather_bodies(bodies, k.body[1] + lane, b);
+  for (int i = 0; i < Group::rows; ++i) moved[i] = velocity(k, i, lane, a, b);
+  if constexpr (requires { k.wall; })
+    moved[0] =
+        moved[0] + V::load(k.wall + lane) * V::all(*reinterpret_cast<const double*>(at_offset(
+                                                static_cast<const void*>(bodies), k.wall_body)));
+}
+
+/// ExactLoops::error
+template <typename V, typename Group>
+double error_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses,
+                  const GroupFrame* frames, int count, const BodyRow<double>* bodies,
+                  typename ExactLoops<Group>::Single* single) {
+  constexpr int rows = Group::rows;
+  LaneSums<V> sums;
+  for (int g = 0; g < count; ++g) {
+    const Group& k = groups[g];
+    alignas(64) double all_moved[rows][group_lanes];
+    for (int lane = 0; lane < group_lanes; lane += V::width) {
+      V r[rows], moved[rows];
+      contact_velocities(k, lane, bodies, moved);
+      for (int i = 0; i < rows; ++i) {
+        r[i] = V::load(impulses[g].y[i] + lane);
+        moved[i].store(all_moved[i] + lane);
+      }
+      sums.add(lane, natural_map_square(k, frames[g], lane, r, moved));
+    }
+    if (!single) continue;
+    for (int i = 0; i < rows; ++i)
+      for (int lane = 0; lane < group_lanes; ++lane)
+        single[g].bias[i][lane] = static_cast<float>(all_moved[i][lane]);
+  }
+  return sums.total();
+}
+
+template <typename V, int K, typename Group>
+constexpr GroupLoops<Group> loops{sweep_loop<V, K, Group>, push_loop<V, Group>};
+template <typename V, int K, typename Group>
+constexpr ExactLoops<Group> exact_loops{loops<V, K, Group>, make_principal_loop<V, Group>,
+                                        error_loop<V, Group>};
+
+/// With registers of so many bytes; so many vectors of doubles, of singles are solved side by side.
+template <int Bytes, int DoubleVectors, int SingleVectors>
 constexpr GroupKernels kernels_of(const char* instruction_set) {
+  using D = Lanes<double, Bytes>;
+  using S = Lanes<float, Bytes>;
+  constexpr int d = DoubleVectors, s = SingleVectors;
   return {instruction_set,
-          {ExactLoopsOf<Doubles, DoubleVectors, FrictionGroup<double>>::exact(),
-           ExactLoopsOf<Doubles, DoubleVectors, OneRowGroup<double>>::exact(),
-           ExactLoopsOf<Doubles, DoubleVectors, WallGroup<double>>::exact(), move_bodies<Doubles>},
-          {LoopsOf<Singles, SingleVectors, FrictionGroup<float>>::loops(),
-           LoopsOf<Singles, SingleVectors, OneRowGroup<float>>::loops(),
-           LoopsOf<Singles, SingleVectors, WallGroup<float>>::loops(), move_bodies<Singles>}};
+          {exact_loops<D, d, FrictionGroup<double>>, exact_loops<D, d, OneRowGroup<double>>,
+           exact_loops<D, d, WallGroup<double>>, move_bodies<D>},
+          {loops<S, s, FrictionGroup<float>>, loops<S, s, OneRowGroup<float>>,
+           loops<S, s, WallGroup<float>>, move_bodies<S>}};
 }
 
 }  // namespace ballast

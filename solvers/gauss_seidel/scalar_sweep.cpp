@@ -3,271 +3,325 @@
 #include <algorithm>
 #include <cmath>
 
+#include "platform/for_each_cpu.hpp"
+#include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
+#include "solvers/gauss_seidel/lanes.hpp"
 
 namespace ballast {
 namespace {
 
-/// Both sides' rows of G = H L^-T; a side that does not move gets zero rows and the velocity
-/// `nowhere`, which stays zero.
+using Record = ScalarSweep::Record;
+using Impulse = ScalarSweep::Impulse;
+using Velocity = ScalarSweep::Velocity;
+
+// GCC's vector extensions: the same element-wise operations in the same order on every instruction
+// set, hence the same bits (-ffp-contract=off keeps multiplications and additions apart).
+using Vector8 = double __attribute__((vector_size(64)));
+using Vector4 = double __attribute__((vector_size(32)));
+
+BALLAST_INLINE Vector8 load8(const double* x) { return *reinterpret_cast<const Vector8*>(x); }
+BALLAST_INLINE void store8(double* x, const Vector8& value) {
+  *reinterpret_cast<Vector8*>(x) = value;
+}
+
+BALLAST_INLINE Vector4 halves(const Vector8& x) {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
+}
+
+/// The sums of three vectors' entries.
+BALLAST_INLINE Vector4 three_sums(const Vector8& x, const Vector8& y, const Vector8& z) {
+  const Vector4 p = halves(x), q = halves(y), s = halves(z);
+  const Vector4 pq =
+      __builtin_shufflevector(p, q, 0, 4, 2, 6) + __builtin_shufflevector(p, q, 1, 5, 3, 7);
+  const Vector4 ss =
+      __builtin_shufflevector(s, s, 0, 0, 2, 2) + __builtin_shufflevector(s, s, 1, 1, 3, 3);
+  return __builtin_shufflevector(pq, ss, 0, 1, 4, 5) + __builtin_shufflevector(pq, ss, 2, 3, 6, 7);
+}
+
+/// G w over both sides.
+BALLAST_INLINE Vector4 relative_velocity(const Record& k, const Vector8& wa, const Vector8& wb) {
+  const auto moved = [&](int i) __attribute__((always_inline)) {
+    return load8(k.rows[0][i]) * wa + load8(k.rows[1][i]) * wb;
+  };
+  return three_sums(moved(0), moved(1), moved(2));
+}
+
+/// Solves one contact and moves its bodies.
+BALLAST_INLINE void relax(const Record& k, Impulse& r, Velocity* velocity) {
+  double* va = velocity[k.body[0]].w;
+  double* vb = velocity[k.body[1]].w;
+  const Vector8 wa = load8(va), wb = load8(vb);
+  const Vector4 u = relative_velocity(k, wa, wb);
+  // The impulse that would stop the contact, then the law.
+  double y = r.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
+  double t1 = r.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
+  double t2 = r.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
+  apply_coulomb(k.local, y, t1, t2, r.slip);
+  // The bodies feel the change: w += G^T (dy, d1, d2).
+  const double dy = y - r.y[0], d1 = t1 - r.y[1], d2 = t2 - r.y[2];
+  r.y[0] = y;
+  r.y[1] = t1;
+  r.y[2] = t2;
+  const auto push = [&](int s) __attribute__((always_inline)) {
+    return load8(k.rows[s][0]) * dy + load8(k.rows[s][1]) * d1 + load8(k.rows[s][2]) * d2;
+  };
+  store8(va, wa + push(0));
+  store8(vb, wb + push(1));
+}
+
+BALLAST_FOR_EACH_CPU
+void sweep_records(const Record* records, Impulse* impulses, int count, Velocity* velocity) {
+  for (int c = 0; c < count; ++c) relax(records[c], impulses[c], velocity);
+}
+
+/// w += G^T change.
+void push_bodies(const Record& k, const double* change, Velocity* velocity) {
+  for (int s = 0; s < 2; ++s)
+    for (int j = 0; j < ScalarSweep::width; ++j)
+      velocity[k.body[s]].w[j] +=
+          k.rows[s][0][j] * change[0] + k.rows[s][1][j] * change[1] + k.rows[s][2][j] * change[2];
+}
+
+/// One contact another way; plain loops, as this way is for comparison.
+void resolve_by_variant(const SweepVariant& variant, const Record& k, Impulse& r, double lambda_max,
+                        Velocity* velocity) {
+  double y[3] = {r.y[0], r.y[1], r.y[2]};
+  if (k.row_count == 1) {
+    // Every rule solves one row exactly: what is left is relaxation.
+    relax(k, r, velocity);
+    y[0] = std::max(0.0, y[0] + variant.relaxation * (r.y[0] - y[0]));
+  } else {
+    double u[3] = {k.bias[0], k.bias[1], k.bias[2]};
+    for (int i = 0; i < 3; ++i)
+      for (int s = 0; s < 2; ++s)
+        for (int j = 0; j < 6; ++j) u[i] += k.rows[s][i][j] * velocity[k.body[s]].w[j];
+    resolve_by_variant(variant, k.local, lambda_max, u, y, r.slip);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double change = y[i] - r.y[i];
+    r.y[i] = y[i];
+    for (int s = 0; s < 2; ++s)
+      for (int j = 0; j < 6; ++j) velocity[k.body[s]].w[j] += k.rows[s][i][j] * change;
+  }
+}
+
+/// Arguments in registers: through memory, the vectors that the caller's clone makes of them would
+/// not be forwarded.
+[[gnu::noinline]] double judged(double rn, double r1, double r2, double un, double u1, double u2,
+                                double mu, double lambda_max) {
+  return ContactJudge::scaled_natural_map({rn, r1, r2}, {un, u1, u2}, mu, lambda_max);
+}
+
+/// The judge's scaled natural map at the current iterate [m/s].
+BALLAST_FOR_EACH_CPU
+double natural_map(const Record& k, const Impulse& r, double lambda_max, const Velocity* velocity) {
+  const Vector4 moved =
+      relative_velocity(k, load8(velocity[k.body[0]].w), load8(velocity[k.body[1]].w));
+  // From the record's (y, r_T) and (u_N, u_T - c u_N) back to r and u, as the judge wants them.
+  const double un = moved[0] + k.bias[0];
+  return judged(r.y[0] - k.local.c1 * r.y[1] - k.local.c2 * r.y[2], r.y[1], r.y[2], un,
+                moved[1] + k.bias[1] + k.local.c1 * un, moved[2] + k.bias[2] + k.local.c2 * un,
+                k.local.mu, lambda_max);
+}
+
+/// Both sides' rows of G = H L^-T as the problem gives them; a side that does not move gets zero
+/// rows and the velocity `nowhere`, which stays zero.
 template <int Rows>
 void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots, int c,
-                int nowhere, double (*rows)[Rows][row_width], int* body) {
+                int nowhere, Record& k) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
   const int bodies[2] = {dynamics.body_a[c], dynamics.body_b[c]};
   for (int s = 0; s < 2; ++s) {
-    std::fill(rows[s][0], rows[s][0] + Rows * row_width, 0.0);
-    body[s] = nowhere;
+    k.body[s] = bodies[s] < 0 ? nowhere : bodies[s];
     if (bodies[s] < 0) continue;
-    body[s] = bodies[s];
-    roots[bodies[s]].scaled_columns<Rows>(block, [side = rows[s]](int k, const double* column) {
-      for (int i = 0; i < Rows; ++i) side[i][k] = column[i];
+    roots[bodies[s]].scaled_columns<Rows>(block, [&k, s](int j, const double* column) {
+      for (int i = 0; i < Rows; ++i) k.rows[s][i][j] = column[i];
     });
     block += Rows * roots[bodies[s]].dofs;
   }
 }
 
-}  // namespace
-
-void ScalarSweep::prepare(const FrictionProblem& problem) {
-  prepare_ranges(problem);
-  prepare_bodies(problem.dynamics);
-  // Records do not depend on each other: every thread makes its share.
-  run_parts(team_, size_of(team_), [&](int member) {
-    const std::vector<int>& order = plan_.contacts();
-    const size_t begin = order.size() * member / size_of(team_),
-                 end = order.size() * (member + 1) / size_of(team_);
-    for (size_t i = begin; i < end; ++i)
-      if (is_one_row_[order[i]])
-        prepare_one_row(problem, order[i], record_[order[i]]);
-      else
-        prepare_friction(problem, order[i], record_[order[i]]);
-  });
-}
-
-/// Numbers the records in the order of the plan.
-void ScalarSweep::prepare_ranges(const FrictionProblem& problem) {
-  const int contacts = problem.contact_count();
-  record_.resize(contacts);
-  is_one_row_.resize(contacts);
-  nowhere_.resize(contacts);
-  int friction = 0, one_row = 0, nowhere = problem.dynamics.body_count();
-  // Records of a part follow each other, friction before one row; each part has a zero velocity of
-  // its own for what does not move.
-  const auto number = [&](const std::vector<SweepPlan::Part>& parts, std::vector<Range>& ranges) {
-    ranges.clear();
-    for (const SweepPlan::Part& part : parts) {
-      ranges.push_back(
-          {friction, part.friction_end - part.begin, one_row, part.end - part.friction_end});
-      for (int i = part.begin; i < part.end; ++i) {
-        const int c = plan_.contacts()[i];
-        nowhere_[c] = nowhere;
-        is_one_row_[c] = i >= part.friction_end;
-        record_[c] = is_one_row_[c] ? one_row++ : friction++;
-      }
-      ++nowhere;
-    }
+/// From H L^-T and the given bias to principal coordinates. Returns lambda_max(W_cc).
+BALLAST_FOR_EACH_CPU
+double to_principal(Record& k, double mu, TangentTurn& turn) {
+  // W_cc = G G^T from six scalar products of rows, several at once.
+  const auto product = [&k](int i, int j) __attribute__((always_inline)) {
+    return load8(k.rows[0][i]) * load8(k.rows[0][j]) + load8(k.rows[1][i]) * load8(k.rows[1][j]);
   };
-  number(plan_.interiors(), interiors_);
-  number(plan_.interfaces(), interfaces_);
-  friction_.resize(friction);
-  friction_impulse_.resize(friction);
-  turn_.resize(friction);
-  lambda_max_.resize(friction);
-  one_row_.resize(one_row);
-  one_row_impulse_.resize(one_row);
-  one_row_lambda_max_.resize(one_row);
+  const Vector4 first = three_sums(product(0, 0), product(1, 0), product(2, 0));
+  const Vector4 rest = three_sums(product(1, 1), product(2, 1), product(2, 2));
+  Eigen::Matrix3d w;
+  w << first[0], first[1], first[2], first[1], rest[0], rest[1], first[2], rest[1], rest[2];
+  make_principal(w, mu, k.local, turn);
+  if (k.row_count == 1) return w(0, 0);
+
+  // Tangents turned, and c times the normal row taken off, as PrincipalContact wants it.
+  turn.to_principal(k.bias[1], k.bias[2]);
+  k.bias[1] -= k.local.c1 * k.bias[0];
+  k.bias[2] -= k.local.c2 * k.bias[0];
+  for (auto& rows : k.rows) {
+    const Vector8 n = load8(rows[0]), t1 = load8(rows[1]), t2 = load8(rows[2]);
+    store8(rows[1], turn.cosine * t1 + turn.sine * t2 - k.local.c1 * n);
+    store8(rows[2], turn.cosine * t2 - turn.sine * t1 - k.local.c2 * n);
+  }
+  return largest_eigenvalue(w);
 }
+
+}  // namespace
 
 template <typename Task>
 void ScalarSweep::for_parts(const Task& task) {
-  run_parts(team_, static_cast<int>(interiors_.size()), [&](int part) { task(interiors_[part]); });
-  run_parts(team_, static_cast<int>(interfaces_.size()),
-            [&](int part) { task(interfaces_[part]); });
+  const int interiors = static_cast<int>(plan_.interiors().size()),
+            interfaces = static_cast<int>(plan_.interfaces().size());
+  run_parts(team_, interiors, [&](int k) { task(plan_.interiors()[k], k); });
+  run_parts(team_, interfaces, [&](int k) { task(plan_.interfaces()[k], interiors + k); });
 }
 
-// Masses factored, and the free velocities in the variables w = L^T v.
+void ScalarSweep::prepare(const FrictionProblem& problem) {
+  const std::vector<int>& order = plan_.contacts();
+  place_.resize(order.size());
+  for (size_t i = 0; i < order.size(); ++i) place_[order[i]] = static_cast<int>(i);
+  part_error_.resize(plan_.interiors().size() + plan_.interfaces().size());
+  prepare_bodies(problem.dynamics);
+  records_.assign(order.size(), {});
+  impulses_.resize(order.size());
+  turn_.resize(order.size());
+  lambda_max_.resize(order.size());
+  for_parts([&](const SweepPlan::Part& part, int number) {
+    for (int i = part.begin; i < part.end; ++i)
+      prepare_record(problem, i, problem.dynamics.body_count() + number);
+  });
+}
+
+/// Masses factored, and the free velocities in the variables w = L^T v.
 void ScalarSweep::prepare_bodies(const DynamicsForm& dynamics) {
-  // Bodies, then the zero velocities of what never moves.
   factor_masses(dynamics, roots_);
-  const int bodies = dynamics.body_count();
-  free_velocity_.assign(bodies + interiors_.size() + interfaces_.size(), BodyVelocity{});
-  velocity_.resize(free_velocity_.size());
-  for (int b = 0; b < bodies; ++b) {
+  free_velocity_.assign(dynamics.body_count() + part_error_.size(), {});
+  for (int b = 0; b < dynamics.body_count(); ++b) {
     double* w = free_velocity_[b].w;
-    const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];
-    std::copy(v, v + dynamics.body_dofs(b), w);
+    std::copy_n(dynamics.v_free.data() + dynamics.dof_begin[b], dynamics.body_dofs(b), w);
     roots_[b].multiply_upper(w);
   }
+  velocity_ = free_velocity_;
 }
 
-// Rows and bias of one contact, then its principal coordinates.
-void ScalarSweep::prepare_friction(const FrictionProblem& problem, int c, int record) {
-  FrictionRecord& k = friction_[record];
-  scale_rows(problem.dynamics, roots_, c, nowhere_[c], k.rows, k.body);
-  std::copy_n(problem.dynamics.bias.data() + problem.row_begin[c], 3, k.bias);
-  make_principal(k, problem.friction[c], turn_[record], lambda_max_[record]);
-}
-
-void ScalarSweep::prepare_one_row(const FrictionProblem& problem, int c, int record) {
-  OneRowRecord& k = one_row_[record];
-  double rows[2][1][row_width];
-  scale_rows(problem.dynamics, roots_, c, nowhere_[c], rows, k.body);
-  for (int s = 0; s < 2; ++s) std::copy_n(rows[s][0], row_width, k.rows[s]);
-  k.bias = problem.dynamics.bias[problem.row_begin[c]];
-  make_principal(k, one_row_lambda_max_[record]);
+/// Rows and bias of one contact, then its principal coordinates.
+void ScalarSweep::prepare_record(const FrictionProblem& problem, int place, int nowhere) {
+  const int c = plan_.contacts()[place];
+  Record& k = records_[place];
+  k.row_count = problem.contact_rows(c);
+  const auto scale = k.row_count == 3 ? scale_rows<3> : scale_rows<1>;
+  scale(problem.dynamics, roots_, c, nowhere, k);
+  std::copy_n(problem.dynamics.bias.data() + problem.row_begin[c], k.row_count, k.bias);
+  turn_[place] = {};
+  lambda_max_[place] = to_principal(k, problem.friction[c], turn_[place]);
 }
 
 void ScalarSweep::load(const FrictionProblem& problem, const Impulses& r) {
   // The bodies start free, and every impulse pushes them once.
   velocity_ = free_velocity_;
   for (int c = 0; c < problem.contact_count(); ++c) {
-    const double* rc = r.data() + problem.row_begin[c];
-    const int record = record_[c];
-    if (is_one_row_[c]) {
-      load_impulse(one_row_[record], rc, one_row_impulse_[record], velocity_.data());
-    } else {
-      load_impulse(friction_[record], turn_[record], rc, friction_impulse_[record],
-                   velocity_.data());
-      friction_impulse_[record].slip = 0.0;
-    }
+    const Record& k = records_[place_[c]];
+    Impulse& impulse = impulses_[place_[c]];
+    const double* given = r.data() + problem.row_begin[c];
+    impulse = {};
+    // An impulse that moves nothing would stay as it was given.
+    if (k.local.inverse_normal > 0.0) std::copy_n(given, k.row_count, impulse.y);
+    turn_[place_[c]].to_principal(impulse.y[1], impulse.y[2]);
+    // PrincipalContact's y = r_N + c . r_T stands in place of r_N.
+    impulse.y[0] = impulse.y[0] + k.local.c1 * impulse.y[1] + k.local.c2 * impulse.y[2];
+    push_bodies(k, impulse.y, velocity_.data());
   }
 }
 
 void ScalarSweep::store(const FrictionProblem& problem, Impulses& r) const {
   for (int c = 0; c < problem.contact_count(); ++c) {
-    double* rc = r.data() + problem.row_begin[c];
-    const int record = record_[c];
-    if (is_one_row_[c])
-      rc[0] = one_row_impulse_[record];
-    else
-      store_impulse(friction_[record], turn_[record], friction_impulse_[record], rc);
+    const Record& k = records_[place_[c]];
+    const double* y = impulses_[place_[c]].y;
+    Eigen::Vector3d stored(y[0] - k.local.c1 * y[1] - k.local.c2 * y[2], y[1], y[2]);
+    turn_[place_[c]].from_principal(stored[1], stored[2]);
+    std::copy_n(stored.data(), k.row_count, r.data() + problem.row_begin[c]);
   }
 }
 
 void ScalarSweep::sweep() {
-  for_parts([this](const Range& range) {
-    sweep_friction(friction_.data() + range.friction, friction_impulse_.data() + range.friction,
-                   range.friction_count, velocity_.data());
-    sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row,
-                  range.one_row_count, velocity_.data());
+  for_parts([this](const SweepPlan::Part& part, int) {
+    sweep_records(records_.data() + part.begin, impulses_.data() + part.begin,
+                  part.end - part.begin, velocity_.data());
   });
 }
 
-void ScalarSweep::start_search() {
-  friction_search_.assign(friction_.size(), ImpulseSearch{});
-  one_row_search_.assign(one_row_.size(), OneRowSearch{});
-  velocity_before_.assign(velocity_.size(), BodyVelocity{});
-  velocity_direction_.assign(velocity_.size(), BodyVelocity{});
-}
-
-/// A slab's velocities, by the thread that sweeps its interior next: they stay in its cache.
-void ScalarSweep::move_along(std::span<const int> bodies, SearchStep step) {
-  // `before` is the velocity with which the last sweep began.
-  for (const int b : bodies)
-    for (int i = 0; i < body_width; ++i) {
-      double &x = velocity_[b].w[i], &p = velocity_direction_[b].w[i],
-             &before = velocity_before_[b].w[i];
-      const double change = x - before, along = step.beta * p + step.ahead * change;
-      p = along + step.gain * change;
-      x += along;
-      before = x;
-    }
-}
-
-double ScalarSweep::sweep(SearchStep step) {
-  const auto sweep_range = [&](Range& range) {
-    range.change_square =
-        sweep_friction(friction_.data() + range.friction, friction_impulse_.data() + range.friction,
-                       friction_search_.data() + range.friction, step, range.friction_count,
-                       velocity_.data()) +
-        sweep_one_row(one_row_.data() + range.one_row, one_row_impulse_.data() + range.one_row,
-                      one_row_search_.data() + range.one_row, step, range.one_row_count,
-                      velocity_.data());
-  };
-  // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
-  run_parts(team_, static_cast<int>(interiors_.size()), [&](int slab) {
-    move_along(plan_.bodies(slab), step);
-    sweep_range(interiors_[slab]);
-  });
-  run_parts(team_, static_cast<int>(interfaces_.size()),
-            [&](int k) { sweep_range(interfaces_[k]); });
-  double square = 0.0;
-  for (const std::vector<Range>* ranges : {&interiors_, &interfaces_})
-    for (const Range& range : *ranges) square += range.change_square;
-  return square;
-}
-
-void ScalarSweep::sweep(const SweepVariant& variant, const std::vector<int>& contacts) {
-  for (const int c : contacts) {
-    const int record = record_[c];
-    if (is_one_row_[c])
-      resolve_by_variant(variant, one_row_[record], one_row_impulse_[record], velocity_.data());
-    else
-      resolve_by_variant(variant, friction_[record], friction_impulse_[record], lambda_max_[record],
-                         velocity_.data());
-  }
+void ScalarSweep::sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) {
+  for (const int c : contacts)
+    resolve_by_variant(variant, records_[place_[c]], impulses_[place_[c]], lambda_max_[place_[c]],
+                       velocity_.data());
 }
 
 double ScalarSweep::error() {
-  // The same sums in the same order, whoever made them.
-  for_parts([this](Range& range) {
+  for_parts([this](const SweepPlan::Part& part, int number) {
     RootMeanSquare mean;
     // As the judge does: contacts that nothing moves are left out.
-    for (int k = range.friction; k < range.friction + range.friction_count; ++k) {
-      if (!(lambda_max_[k] > 0.0)) continue;
-      const double value =
-          natural_map(friction_[k], friction_impulse_[k], lambda_max_[k], velocity_.data());
-      mean.add(value);
-    }
-    for (int k = range.one_row; k < range.one_row + range.one_row_count; ++k) {
-      if (!(one_row_lambda_max_[k] > 0.0)) continue;
-      const double value =
-          natural_map(one_row_[k], one_row_impulse_[k], one_row_lambda_max_[k], velocity_.data());
-      mean.add(value);
-    }
-    range.error = mean;
+    for (int k = part.begin; k < part.end; ++k)
+      if (lambda_max_[k] > 0.0)
+        mean.add(natural_map(records_[k], impulses_[k], lambda_max_[k], velocity_.data()));
+    part_error_[number] = mean;
   });
-  // The parts' sums, always in the same order.
+  // The parts' sums, always in the same order, whoever made them.
   RootMeanSquare mean;
-  for (const std::vector<Range>* ranges : {&interiors_, &interfaces_})
-    for (const Range& range : *ranges) mean.add(range.error);
+  for (const RootMeanSquare& part : part_error_) mean.add(part);
   return mean.value();
 }
 
-void ScalarSweep::save(Eigen::VectorXd& state) const {
-  // Impulses with friction, those of one row, then velocities: restore() reads the same order.
-  state.resize(3 * friction_.size() + one_row_.size() + body_width * velocity_.size());
+Eigen::Index ScalarSweep::save(Eigen::VectorXd& state) const {
+  Eigen::Index impulses = 0;
+  for (const Record& k : records_) impulses += k.row_count;
+  state.resize(impulses + width * static_cast<Eigen::Index>(velocity_.size()));
   double* x = state.data();
-  for (const FrictionImpulse& k : friction_impulse_) x = std::copy_n(k.y, 3, x);
-  x = std::copy(one_row_impulse_.begin(), one_row_impulse_.end(), x);
-  for (const BodyVelocity& v : velocity_) x = std::copy_n(v.w, body_width, x);
+  for (size_t k = 0; k < records_.size(); ++k)
+    x = std::copy_n(impulses_[k].y, records_[k].row_count, x);
+  for (const Velocity& v : velocity_) x = std::copy_n(v.w, width, x);
+  return impulses;
 }
 
 void ScalarSweep::restore(const Eigen::VectorXd& state) {
   const double* x = state.data();
-  for (FrictionImpulse& k : friction_impulse_) {
-    std::copy_n(x, 3, k.y);
-    x += 3;
-  }
-  for (double& k : one_row_impulse_) k = *x++;
-  for (BodyVelocity& v : velocity_) {
-    std::copy_n(x, body_width, v.w);
-    x += body_width;
+  for (size_t k = 0; k < records_.size(); x += records_[k++].row_count)
+    std::copy_n(x, records_[k].row_count, impulses_[k].y);
+  for (Velocity& v : velocity_) {
+    std::copy_n(x, width, v.w);
+    x += width;
   }
 }
 
+/// Part by part, contacts with friction and those of one row apart.
+double ScalarSweep::square_of(const Eigen::VectorXd& change) const {
+  const double* d = change.data();
+  double sum = 0.0;
+  for (const auto* parts : {&plan_.interiors(), &plan_.interfaces()})
+    for (const SweepPlan::Part& part : *parts) {
+      double friction = 0.0, one_row = 0.0;
+      for (int i = part.begin; i < part.friction_end; ++i, d += 3)
+        friction += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+      for (int i = part.friction_end; i < part.end; ++i, ++d) one_row += *d * *d;
+      sum += friction + one_row;
+    }
+  return sum;
+}
+
 void ScalarSweep::impulse_weights(Eigen::VectorXd& weights) const {
-  // Roots of W's diagonal in the records' coordinates, where a
-  // contact's block is diag(W_NN, s1, s2).
-  weights.resize(3 * friction_.size() + one_row_.size());
-  double* x = weights.data();
-  for (const FrictionRecord& k : friction_) {
-    *x++ = k.local.inverse_normal > 0.0 ? 1.0 / std::sqrt(k.local.inverse_normal) : 0.0;
-    *x++ = std::sqrt(k.local.s1);
-    *x++ = std::sqrt(k.local.s2);
+  // In the records' coordinates a contact's block is diag(W_NN, s1, s2).
+  std::vector<double> roots;
+  for (size_t k = 0; k < records_.size(); ++k) {
+    const PrincipalContact& local = records_[k].local;
+    if (records_[k].row_count == 1)
+      roots.push_back(std::sqrt(lambda_max_[k]));
+    else
+      roots.insert(roots.end(),
+                   {local.inverse_normal > 0.0 ? 1.0 / std::sqrt(local.inverse_normal) : 0.0,
+                    std::sqrt(local.s1), std::sqrt(local.s2)});
   }
-  for (const double lambda_max : one_row_lambda_max_) *x++ = std::sqrt(lambda_max);
+  weights = Eigen::VectorXd::Map(roots.data(), static_cast<Eigen::Index>(roots.size()));
 }
 
 }  // namespace ballast

@@ -1,6 +1,7 @@
 #pragma once
-// The order of a sweep over bodies: slabs of bodies that threads can sweep side by side, and within
-// a slab an order in which one contact rarely waits for the one before.
+// The order of a sweep over bodies: slabs of bodies that threads can sweep side by side, within a
+// slab an order in which one contact rarely waits for the one before, and contacts that vectors can
+// solve side by side.
 //
 // A sweep is a chain of dependencies only where contacts share a body. Contacts in the order of
 // their bodies wait for each other at every step (28 ns a contact); taken by turns from all bodies
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "problems/algebra/friction_problem.hpp"
+#include "solvers/gauss_seidel/group_kernels.hpp"
 
 namespace ballast {
 
@@ -64,6 +66,36 @@ class SweepPlan {
   double widest_ = 0.0;          ///< the largest of them
   std::vector<int> contacts_;
   std::vector<Part> interiors_, interfaces_;
+};
+
+/// Contacts in groups that are solved side by side: no two contacts of a group share a body, and
+/// groups one after the other keep the order in which each body's contacts come. Sweeping group
+/// after group is therefore the same Gauss-Seidel sweep as contact after contact. They depend on
+/// the contacts and their order alone, never on the width of registers.
+class ContactGroups {
+ public:
+  /// Forgets all groups. Bodies are 0 .. bodies - 1.
+  void begin(int bodies);
+
+  /// Appends groups of these contacts. A contact goes into the first group that has a free lane and
+  /// comes after all groups of this call with one of its bodies. `body_a`, `body_b`: of each
+  /// contact, -1: nothing that could be shared.
+  void add(std::span<const int> contacts, std::span<const int> body_a, std::span<const int> body_b);
+
+  int count() const { return static_cast<int>(fill_.size()); }
+  /// The contacts in a group's lanes; -1: none.
+  std::span<const int, group_lanes> lanes(int group) const {
+    return std::span<const int, group_lanes>(lanes_.data() + group * group_lanes, group_lanes);
+  }
+
+ private:
+  int first_with_room(int group);
+  void append_group();
+
+  std::vector<int> lanes_;  ///< group_lanes a group
+  std::vector<int> fill_;   ///< contacts of each group
+  std::vector<int> next_;   ///< itself while there is room, else a later group to ask
+  std::vector<int> last_;   ///< of each body: its last group
 };
 
 }  // namespace ballast

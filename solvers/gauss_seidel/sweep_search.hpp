@@ -6,46 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/gauss_seidel/body_sweep.hpp"
-#include "solvers/gauss_seidel/delassus_sweep.hpp"
-#include "solvers/gauss_seidel/either_form.hpp"
-#include "solvers/gauss_seidel/swept_error.hpp"
-#include "solvers/seam/iteration.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
 
 namespace ballast {
-
-/// The sweep over bodies along its search: velocities are linear in the impulses and take the same
-/// combination of their own past, so that nothing is recomputed.
-struct BodySearch {
-  BodySweep sweep;
-
-  void start() { sweep.start_search(); }
-  /// Moves along the search, then sweeps. Returns the square of what the sweep changed.
-  double advance(SearchStep step) { return sweep.sweep(step); }
-};
-
-/// The same over a stored W, whose sweep keeps impulses alone.
-struct MatrixSearch {
-  DelassusSweep sweep;
-  Eigen::VectorXd swept, before, direction;
-
-  void start() {
-    sweep.save(before);
-    direction.setZero(before.size());
-  }
-  double advance(SearchStep step) {
-    sweep.save(swept);
-    before = swept - before;
-    direction = step.beta * direction + step.ahead * before;
-    swept += direction;
-    direction += step.gain * before;
-    before = swept;
-    sweep.restore(swept);
-    sweep.sweep();
-    sweep.save(swept);
-    return (swept - before).squaredNorm();
-  }
-};
 
 /// When to look at the error. The square of what a sweep changes comes for nothing, and while a
 /// solve goes on it stays in one proportion to the square of the error, within a tenth.
@@ -80,35 +43,25 @@ class SweepSearch final : public Solver {
   /// last. A search may come to iterates far worse than one before.
   explicit SweepSearch(bool returns_best) : returns_best_(returns_best) {}
 
-  void prepare(const FrictionProblem& problem) override {
-    searches_.visit(problem, [&](auto& search) { search.sweep.prepare(problem); });
-  }
+  void prepare(const FrictionProblem& problem) override { sweep_.prepare(problem); }
+  void use_team(WorkerTeam* team) override { sweep_.use_team(team); }
 
-  void use_team(WorkerTeam* team) override { searches_.bodies.sweep.use_team(team); }
-
-  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    return searches_.visit(
-        problem, [&](auto& search) { return iterate(search, problem, std::move(start), budget); });
-  }
-
- private:
-  template <typename Search>
-  Solved iterate(Search& search, const FrictionProblem& problem, Impulses r, const Budget& budget) {
+  Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {8, 1.3, 1.5});
     SweptChange change(budget.aim());
     Rule rule;
     const auto begin = [&] {
       rule.forget();
-      search.start();
+      sweep_->start_search();
     };
     const auto load = [&] {
-      search.sweep.load(problem, r);
+      sweep_->load(problem, r);
       begin();
     };
-    allow_single(search.sweep, budget);
+    allow_single(*sweep_, budget);
     load();
-    search.sweep.store(problem, r);
-    const double first_error = search.sweep.error();
+    sweep_->store(problem, r);
+    const double first_error = sweep_->error();
     rule.see(first_error);
     iteration.evaluated(first_error, r);
     Impulses best(returns_best_ ? problem.row_count() : 0);  // of all looks
@@ -122,9 +75,9 @@ class SweepSearch final : public Solver {
     };
     if (returns_best_) remember(first_error);
     while (iteration.next()) {
-      square = search.advance(rule.next(square));
+      square = sweep_->sweep_along(rule.next(square));
       if (!iteration.error_due() && !change.promises(iteration.count(), square)) continue;
-      const double error = swept_error(search.sweep, problem, iteration, r, load);
+      const double error = swept_error(*sweep_, problem, iteration, r, load);
       iteration.evaluated(error, r);
       if (returns_best_) remember(error);
       change.seen(iteration.count(), square, error);
@@ -133,26 +86,25 @@ class SweepSearch final : public Solver {
     }
     Solved solved = iteration.finish(std::move(is_best ? best : r));
     if (returns_best_ && !is_best && solved.reason != StopReason::reached_tolerance)
-      go_back(search, problem, best, solved);
+      go_back(problem, best, solved);
     return solved;
   }
 
+ private:
   /// To the best, swept once more in double: what is returned obeys each contact's law.
-  template <typename Search>
-  static void go_back(Search& search, const FrictionProblem& problem, const Impulses& best,
-                      Solved& solved) {
-    if constexpr (requires { search.sweep.allow_single(false); }) search.sweep.allow_single(false);
-    search.sweep.load(problem, best);
-    search.sweep.sweep();
-    const double error = search.sweep.error();
+  void go_back(const FrictionProblem& problem, const Impulses& best, Solved& solved) {
+    sweep_->allow_single(false);
+    sweep_->load(problem, best);
+    sweep_->sweep();
+    const double error = sweep_->error();
     if (error >= solved.own_residual) return;
-    search.sweep.store(problem, solved.impulses);
+    sweep_->store(problem, solved.impulses);
     solved.own_residual = error;
     if (!solved.history.empty()) solved.history.back().error = error;
   }
 
   bool returns_best_;
-  EitherForm<BodySearch, MatrixSearch> searches_;
+  AnySweep sweep_;
 };
 
 }  // namespace ballast

@@ -46,12 +46,12 @@ double block_lambda_max(const FrictionGroup<double>& k, const GroupFrame& f, int
 }  // namespace
 
 bool WideSweep::prepare(const FrictionProblem& problem) {
-  // False for other bodies than grains and driven walls, and where groups would stay nearly empty.
   if (!sort_bodies(problem.dynamics) || !group_contacts(problem)) return false;
   factor_masses(problem.dynamics, roots_);
-  const bool made = make_records(problem, exact_.friction, kernels_->exact.friction) &&
-                    make_records(problem, exact_.one_row, kernels_->exact.one_row) &&
-                    make_records(problem, exact_.wall, kernels_->exact.wall);
+  bool made = true;
+  for_kinds(
+      [&](auto& kind, const auto& loops) { made = made && make_records(problem, kind, loops); },
+      exact_, kernels_->exact);
   if (made) free_bodies(problem.dynamics);
   single_made_ = false;
   return made;
@@ -102,10 +102,12 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
 /// In the order of the plan, part by part.
 bool WideSweep::group_contacts(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
-  exact_.for_kinds([](auto& kind) {
-    kind.groups.clear();
-    kind.frames.clear();
-  });
+  for_kinds(
+      [](auto& kind) {
+        kind.groups.clear();
+        kind.frames.clear();
+      },
+      exact_);
   // Of each contact, the grains: walls are no conflict, and go by themselves.
   const auto grains = [&](const std::vector<int>& given, std::vector<int>& kept) {
     kept.assign(given.begin(), given.end());
@@ -122,10 +124,9 @@ bool WideSweep::group_contacts(const FrictionProblem& problem) {
     if (!group_part(problem, plan_.interiors()[k], interiors_[k])) return false;
   for (size_t k = 0; k < interfaces_.size(); ++k)
     if (!group_part(problem, plan_.interfaces()[k], interfaces_[k])) return false;
-  exact_.for_kinds([](auto& kind) { kind.impulses.resize(kind.groups.size()); });
+  for_kinds([](auto& kind) { kind.impulses.resize(kind.groups.size()); }, exact_);
   int groups = 0;
-  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
-    for (const Part& part : *parts) groups += part.friction.count + part.one_row.count;
+  for_each_part([&](const Part& part) { groups += part.friction.count + part.one_row.count; });
   size_t walls = 0;
   for (const GroupFrame& f : exact_.wall.frames)
     walls += group_lanes - std::count(f.contact, f.contact + group_lanes, -1);
@@ -178,9 +179,11 @@ bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part
   }
   // Between this part's groups and the next one's.
   if (!interfaces_.empty())
-    exact_.for_kinds([this]<typename Group>(Kind<Group>& kind) {
-      add_empty_groups(kind, elements_apart<GroupImpulses<float, Group::rows>>());
-    });
+    for_kinds(
+        [this]<typename Group>(Kind<Group>& kind) {
+          add_empty_groups(kind, elements_apart<GroupImpulses<float, Group::rows>>());
+        },
+        exact_);
   return true;
 }
 

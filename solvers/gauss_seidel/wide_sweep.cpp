@@ -2,32 +2,91 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <type_traits>
 
 namespace ballast {
+namespace {
+
+/// Of a group of this kind.
+template <typename Kind>
+constexpr int impulse_numbers(const Kind&) {
+  return sizeof(Kind::Loops::Impulses::y) / sizeof(typename Kind::Loops::Number);
+}
+
+/// Rounding of single precision may be this share of the error.
+constexpr double allowed_share = 1.0 / 30.0;
+
+constexpr double single_rounding = 0x1p-24;
+
+/// A contact rests that opens this many times as fast as the error: on the box as many sweeps are
+/// then taken as without rests; a few more with 4 and less.
+constexpr double rests_from = 16.0;
+
+template <typename From, typename To, int Rows>
+void cast_rows(const From (&from)[Rows][group_lanes], To (&to)[Rows][group_lanes]) {
+  for (int i = 0; i < Rows; ++i)
+    for (int lane = 0; lane < group_lanes; ++lane) to[i][lane] = static_cast<To>(from[i][lane]);
+}
+
+template <typename From, typename To>
+void cast_lanes(const From (&from)[group_lanes], To (&to)[group_lanes]) {
+  for (int lane = 0; lane < group_lanes; ++lane) to[lane] = static_cast<To>(from[lane]);
+}
+
+/// A body's row takes half as many bytes.
+constexpr int halved(int offset) { return offset / 2; }
+
+template <typename Double, typename Single>
+void cast_group(const Double& k, Single& s) {
+  cast_rows(k.bias, s.bias);
+  cast_rows(k.inverse_mass, s.inverse_mass);
+  for (int i = 0; i < Double::rows; ++i) {
+    cast_rows(k.line[i], s.line[i]);
+    for (int side = 0; side < 2; ++side) cast_rows(k.turn[side][i], s.turn[side][i]);
+  }
+  for (int side = 0; side < 2; ++side)
+    for (int lane = 0; lane < group_lanes; ++lane) s.body[side][lane] = halved(k.body[side][lane]);
+  if constexpr (requires { k.mu; }) {
+    cast_lanes(k.s2, s.s2);
+    cast_lanes(k.inverse_s2, s.inverse_s2);
+    cast_lanes(k.c1, s.c1);
+    cast_lanes(k.c2, s.c2);
+    cast_lanes(k.mu, s.mu);
+    cast_lanes(k.inverse_mu, s.inverse_mu);
+  }
+  if constexpr (requires { k.wall; }) {
+    cast_lanes(k.wall, s.wall);
+    s.wall_body = halved(k.wall_body);
+  }
+}
+
+}  // namespace
 
 void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
-  // To the groups' coordinates.
-  exact_.for_kinds([&](auto& kind) {
-    for (size_t g = 0; g < kind.groups.size(); ++g) {
-      kind.impulses[g] = {};
-      const GroupFrame& f = kind.frames[g];
-      auto& y = kind.impulses[g].y;
-      for (int i = 0; i < group_lanes; ++i) {
-        if (f.contact[i] < 0) continue;
-        const double* rc = r.data() + problem.row_begin[f.contact[i]];
-        // The y' of group_record.hpp: n r_N + c' . (t r_T), with r_T
-        // turned to the principal tangents.
-        y[0][i] = f.normal[i] * rc[0];
-        if constexpr (requires { kind.groups[g].mu; }) {
-          const auto& k = kind.groups[g];
-          y[1][i] = f.tangent[i] * (f.cosine[i] * rc[1] + f.sine[i] * rc[2]);
-          y[2][i] = f.tangent[i] * (f.cosine[i] * rc[2] - f.sine[i] * rc[1]);
-          y[0][i] += k.c1[i] * y[1][i] + k.c2[i] * y[2][i];
+  for_kinds(
+      [&](auto& kind) {
+        for (size_t g = 0; g < kind.groups.size(); ++g) {
+          kind.impulses[g] = {};
+          const GroupFrame& f = kind.frames[g];
+          auto& y = kind.impulses[g].y;
+          for (int i = 0; i < group_lanes; ++i) {
+            if (f.contact[i] < 0) continue;
+            const double* rc = r.data() + problem.row_begin[f.contact[i]];
+            // The y' of group_kernels.hpp: n r_N + c' . (t r_T), with r_T
+            // turned to the principal tangents.
+            y[0][i] = f.normal[i] * rc[0];
+            if constexpr (requires { kind.groups[g].mu; }) {
+              const auto& k = kind.groups[g];
+              y[1][i] = f.tangent[i] * (f.cosine[i] * rc[1] + f.sine[i] * rc[2]);
+              y[2][i] = f.tangent[i] * (f.cosine[i] * rc[2] - f.sine[i] * rc[1]);
+              y[0][i] += k.c1[i] * y[1][i] + k.c2[i] * y[2][i];
+            }
+          }
         }
-      }
-    }
-  });
+      },
+      exact_);
   for_parts(exact_, [this](const Part& part) { push_part(part); });
   in_single_ = false;
   single_begins_ = single_allowed_;
@@ -37,13 +96,12 @@ void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
 void WideSweep::push_part(const Part& part) {
   std::copy_n(free_.begin() + part.bodies.begin, part.bodies.count,
               exact_.bodies.begin() + part.bodies.begin);
-  const auto push = [this](const auto& kind, const auto& loops, Range range) {
-    loops.push(kind.groups.data() + range.begin, kind.impulses.data() + range.begin, range.count,
-               exact_.bodies.data());
-  };
-  push(exact_.friction, kernels_->exact.friction, part.friction);
-  push(exact_.one_row, kernels_->exact.one_row, part.one_row);
-  push(exact_.wall, kernels_->exact.wall, part.wall);
+  for_kinds(
+      [this](const auto& kind, const auto& loops, const Range& range) {
+        loops.push(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
+                   range.count, exact_.bodies.data());
+      },
+      exact_, kernels_->exact, part);
 }
 
 /// The rows that another core wrote last, all at the same time: one by one, as the groups of an
@@ -62,31 +120,34 @@ void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) 
 void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   // What nothing moves is in no group.
   r.setZero(problem.row_count());
-  exact_.for_kinds([&](const auto& kind) {
-    for (size_t g = 0; g < kind.groups.size(); ++g) {
-      const GroupFrame& f = kind.frames[g];
-      const auto& y = kind.impulses[g].y;
-      for (int i = 0; i < group_lanes; ++i) {
-        if (f.contact[i] < 0) continue;
-        double* rc = r.data() + problem.row_begin[f.contact[i]];
-        rc[0] = f.inverse_normal[i] * y[0][i];
-        if constexpr (requires { kind.groups[g].mu; }) {
-          const auto& k = kind.groups[g];
-          rc[0] = f.inverse_normal[i] * (y[0][i] - k.c1[i] * y[1][i] - k.c2[i] * y[2][i]);
-          const double t1 = f.inverse_tangent[i] * y[1][i], t2 = f.inverse_tangent[i] * y[2][i];
-          rc[1] = f.cosine[i] * t1 - f.sine[i] * t2;
-          rc[2] = f.sine[i] * t1 + f.cosine[i] * t2;
+  for_kinds(
+      [&](const auto& kind) {
+        for (size_t g = 0; g < kind.groups.size(); ++g) {
+          const GroupFrame& f = kind.frames[g];
+          const auto& y = kind.impulses[g].y;
+          for (int i = 0; i < group_lanes; ++i) {
+            if (f.contact[i] < 0) continue;
+            double* rc = r.data() + problem.row_begin[f.contact[i]];
+            rc[0] = f.inverse_normal[i] * y[0][i];
+            if constexpr (requires { kind.groups[g].mu; }) {
+              const auto& k = kind.groups[g];
+              rc[0] = f.inverse_normal[i] * (y[0][i] - k.c1[i] * y[1][i] - k.c2[i] * y[2][i]);
+              const double t1 = f.inverse_tangent[i] * y[1][i], t2 = f.inverse_tangent[i] * y[2][i];
+              rc[1] = f.cosine[i] * t1 - f.sine[i] * t2;
+              rc[2] = f.sine[i] * t1 + f.cosine[i] * t2;
+            }
+          }
         }
-      }
-    }
-  });
+      },
+      exact_);
 }
 
 /// Two parts without a common body, or one: of both first the contacts with friction, then those of
-/// one row, then the driven walls'. Calls sweep(loops, runs) for each kind.
-template <typename Number, typename Kernels, typename Sweep>
-void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels,
-                            std::span<const Part> parts, const Sweep& sweep) {
+/// one row, then the driven walls'.
+template <typename Number, typename Kernels>
+void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels, const SearchStep* step,
+                            std::span<Part> parts) {
+  for (Part& part : parts) part.change_square = 0.0;
   const auto sweep_kind = [&](auto& kind, const auto& loops, Range Part::*range) {
     using Run = typename std::decay_t<decltype(kind)>::Loops::Run;
     Run runs[2] = {};
@@ -97,75 +158,49 @@ void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels,
                  kind.search.empty() ? nullptr : kind.search.data() + at.begin,
                  all ? nullptr : kind.awake.data() + at.begin, all ? at.count : at.awake};
     }
-    sweep(loops, runs);
+    double squares[2] = {};
+    loops.sweep(runs, step, state.bodies.data(), squares);
+    for (size_t k = 0; k < parts.size(); ++k) parts[k].change_square += squares[k];
   };
   sweep_kind(state.friction, kernels.friction, &Part::friction);
   sweep_kind(state.one_row, kernels.one_row, &Part::one_row);
   sweep_kind(state.wall, kernels.wall, &Part::wall);
 }
 
+/// Interiors first, with the bodies that are theirs; then the interfaces between slabs.
 template <typename Number, typename Kernels>
-void WideSweep::sweep_in(State<Number>& state, const Kernels& kernels) {
-  const auto sweep = [&](std::span<Part> parts) {
-    sweep_parts(state, kernels, parts, [&state](const auto& loops, const auto& runs) {
-      loops.sweep(runs, state.bodies.data());
-    });
-  };
-  for_pairs(interiors_, sweep);
+double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const SearchStep* step) {
+  for_pairs(interiors_, [&](std::span<Part> parts) {
+    for (const Part& part : parts)
+      if (step)
+        kernels.move_bodies(part.bodies.count, *step, state.bodies.data() + part.bodies.begin,
+                            state.before.data() + part.bodies.begin,
+                            state.direction.data() + part.bodies.begin);
+    sweep_parts(state, kernels, step, parts);
+  });
   for_pairs(interfaces_, [&](std::span<Part> parts) {
     for (const Part& part : parts) fetch_shared(state, part);
-    sweep(parts);
+    sweep_parts(state, kernels, step, parts);
   });
+  double square = 0.0;
+  for_each_part([&square](const Part& part) { square += part.change_square; });
+  return square;
 }
 
-void WideSweep::sweep() {
+double WideSweep::sweep_in_precision(const SearchStep* step) {
   if (single_begins_) enter_single();
-  in_single_ ? sweep_in(single_, kernels_->single) : sweep_in(exact_, kernels_->exact);
+  return in_single_ ? sweep_in(single_, kernels_->single, step)
+                    : sweep_in(exact_, kernels_->exact, step);
 }
 
 template <typename Number>
 void WideSweep::start_search_in(State<Number>& state) {
-  state.for_kinds([](auto& kind) { kind.search.assign(kind.groups.size(), {}); });
+  for_kinds([](auto& kind) { kind.search.assign(kind.groups.size(), {}); }, state);
   state.before = state.bodies;
   state.direction.assign(state.bodies.size(), {});
 }
 
 void WideSweep::start_search() { in_single_ ? start_search_in(single_) : start_search_in(exact_); }
-
-template <typename Number, typename Kernels>
-double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, SearchStep step) {
-  const auto search = [&](std::span<Part> parts) {
-    for (Part& part : parts) part.change_square = 0.0;
-    sweep_parts(state, kernels, parts, [&](const auto& loops, const auto& runs) {
-      double squares[2];
-      loops.search(runs, step, state.bodies.data(), squares);
-      for (size_t k = 0; k < parts.size(); ++k) parts[k].change_square += squares[k];
-    });
-  };
-  // Interiors first, with the bodies that are theirs; then the interfaces between slabs.
-  for_pairs(interiors_, [&](std::span<Part> parts) {
-    for (const Part& part : parts)
-      kernels.move_bodies(part.bodies.count, step, state.bodies.data() + part.bodies.begin,
-                          state.before.data() + part.bodies.begin,
-                          state.direction.data() + part.bodies.begin);
-    search(parts);
-  });
-  for_pairs(interfaces_, [&](std::span<Part> parts) {
-    for (const Part& part : parts) fetch_shared(state, part);
-    search(parts);
-  });
-  // Added up in the order of the parts: the same bits whatever the number of threads.
-  double square = 0.0;
-  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
-    for (const Part& part : *parts) square += part.change_square;
-  return square;
-}
-
-double WideSweep::sweep(SearchStep step) {
-  if (single_begins_) enter_single();
-  return in_single_ ? sweep_in(single_, kernels_->single, step)
-                    : sweep_in(exact_, kernels_->exact, step);
-}
 
 double WideSweep::error() {
   if (!in_single_) return error_in_double();
@@ -179,45 +214,47 @@ double WideSweep::error() {
 double WideSweep::error_in_double() {
   for_parts(exact_, [this](Part& part) {
     if (in_single_) settle(part);
-    const auto error = [this](const auto& kind, auto& single, const auto& loops, Range range) {
-      return loops.error(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
-                         kind.frames.data() + range.begin, range.count, exact_.bodies.data(),
-                         in_single_ ? single.groups.data() + range.begin : nullptr);
-    };
-    part.error_square =
-        error(exact_.friction, single_.friction, kernels_->exact.friction, part.friction) +
-        error(exact_.one_row, single_.one_row, kernels_->exact.one_row, part.one_row) +
-        error(exact_.wall, single_.wall, kernels_->exact.wall, part.wall);
+    part.error_square = 0.0;
+    for_kinds(
+        [&](const auto& kind, auto& single, const auto& loops, const Range& range) {
+          part.error_square +=
+              loops.error(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
+                          kind.frames.data() + range.begin, range.count, exact_.bodies.data(),
+                          in_single_ ? single.groups.data() + range.begin : nullptr);
+        },
+        exact_, single_, kernels_->exact, part);
   });
-  // The parts' sums, always in the same order.
   double sum = 0.0;
-  for (const std::vector<Part>* parts : {&interiors_, &interfaces_})
-    for (const Part& part : *parts) sum += part.error_square;
+  for_each_part([&sum](const Part& part) { sum += part.error_square; });
   return contacts_ > 0 ? std::sqrt(sum / contacts_) : 0.0;
 }
 
-void WideSweep::save(Eigen::VectorXd& state) const {
-  // Impulses kind by kind, then velocities: restore() reads the same order.
+/// Impulses kind by kind, then velocities: restore() reads the same order.
+Eigen::Index WideSweep::save(Eigen::VectorXd& state) const {
   Eigen::Index size = 0;
-  exact_.for_kinds([&](const auto& kind) {
-    for (const auto& k : kind.impulses) size += sizeof k.y / sizeof(double);
-  });
+  for_kinds([&](const auto& kind) { size += kind.impulses.size() * impulse_numbers(kind); },
+            exact_);
   state.resize(size + 8 * static_cast<Eigen::Index>(exact_.bodies.size()));
   double* x = state.data();
-  exact_.for_kinds([&](const auto& kind) {
-    for (const auto& k : kind.impulses) x = std::copy_n(k.y[0], sizeof k.y / sizeof(double), x);
-  });
+  for_kinds(
+      [&](const auto& kind) {
+        for (const auto& k : kind.impulses) x = std::copy_n(k.y[0], impulse_numbers(kind), x);
+      },
+      exact_);
   for (const BodyRow<double>& body : exact_.bodies) x = std::copy_n(body.w, 8, x);
+  return size;
 }
 
 void WideSweep::restore(const Eigen::VectorXd& state) {
   const double* x = state.data();
-  exact_.for_kinds([&](auto& kind) {
-    for (auto& k : kind.impulses) {
-      std::copy_n(x, sizeof k.y / sizeof(double), k.y[0]);
-      x += sizeof k.y / sizeof(double);
-    }
-  });
+  for_kinds(
+      [&](auto& kind) {
+        for (auto& k : kind.impulses) {
+          std::copy_n(x, impulse_numbers(kind), k.y[0]);
+          x += impulse_numbers(kind);
+        }
+      },
+      exact_);
   for (BodyRow<double>& body : exact_.bodies) {
     std::copy_n(x, 8, body.w);
     x += 8;
@@ -227,14 +264,157 @@ void WideSweep::restore(const Eigen::VectorXd& state) {
 /// In the groups' coordinates W's diagonal is (1, 1, s2).
 void WideSweep::impulse_weights(Eigen::VectorXd& weights) const {
   std::vector<double> roots;
-  exact_.for_kinds([&](const auto& kind) {
-    for (const auto& k : kind.groups) {
-      roots.insert(roots.end(), std::min(k.rows, 2) * group_lanes, 1.0);
-      if constexpr (requires { k.s2; })
-        for (const double s2 : k.s2) roots.push_back(std::sqrt(s2));
-    }
-  });
+  for_kinds(
+      [&](const auto& kind) {
+        for (const auto& k : kind.groups) {
+          roots.insert(roots.end(), std::min(k.rows, 2) * group_lanes, 1.0);
+          if constexpr (requires { k.s2; })
+            for (const double s2 : k.s2) roots.push_back(std::sqrt(s2));
+        }
+      },
+      exact_);
   weights = Eigen::VectorXd::Map(roots.data(), static_cast<Eigen::Index>(roots.size()));
+}
+
+// Sweeps in single precision, made good in double at every look at the error.
+//
+// At a look the impulses are taken to double and push the bodies in double; each contact's velocity
+// that follows becomes its bias, and the bodies of the single state start at zero again. So where
+// the single sweeps come to rest is the double problem's solution, and what they round is the
+// change since the last look. What is left is the rounding of the impulses themselves.
+
+/// Records are cast once for each prepare(), impulses now; what follows from them is that of the
+/// rounded impulses.
+void WideSweep::enter_single() {
+  single_begins_ = false;
+  in_single_ = true;
+  for_kinds(
+      [](const auto& exact, auto& single) {
+        single.impulses.resize(exact.groups.size());
+        single.groups.resize(exact.groups.size());
+        single.awake.resize(exact.groups.size());
+      },
+      exact_, single_);
+  for_parts(exact_, [this](const Part& part) {
+    for_kinds(
+        [this](const auto& exact, auto& single, const Range& range) {
+          for (int g = range.begin; g < range.begin + range.count; ++g) {
+            if (!single_made_) cast_group(exact.groups[g], single.groups[g]);
+            cast_rows(exact.impulses[g].y, single.impulses[g].y);
+            cast_lanes(exact.impulses[g].miss, single.impulses[g].miss);
+          }
+        },
+        exact_, single_, part);
+  });
+  single_made_ = true;
+  single_.bodies.assign(exact_.bodies.size(), {});
+  last_bodies_ = exact_.bodies;
+  start_search();
+  refresh();
+  choose_awake(error_in_double());  // which makes the biases, too
+}
+
+/// The iterate in double, and how large its impulses are.
+void WideSweep::refresh() {
+  last_bodies_.swap(exact_.bodies);
+  for_parts(exact_, [this](Part& part) {
+    double squares[group_lanes] = {};
+    for_kinds(
+        [&squares](const auto& single, auto& exact, const Range& range) {
+          for (int g = range.begin; g < range.begin + range.count; ++g) {
+            cast_rows(single.impulses[g].y, exact.impulses[g].y);
+            cast_lanes(single.impulses[g].miss, exact.impulses[g].miss);
+            for (int lane = 0; lane < group_lanes; ++lane) {
+              const double y = exact.frames[g].normal[lane] * exact.impulses[g].y[0][lane];
+              squares[lane] += y * y;
+            }
+          }
+        },
+        single_, exact_, part);
+    part.impulse_square = std::accumulate(squares, squares + group_lanes, 0.0);
+    push_part(part);
+  });
+}
+
+/// How far the single sweeps were off, over a slab's bodies: between the velocities that they had
+/// and those that their impulses give. The single bodies start at zero, and the last change stays.
+void WideSweep::settle(Part& part) {
+  part.drift_square = 0.0;
+  for (int b = part.bodies.begin; b < part.bodies.begin + part.bodies.count; ++b) {
+    for (int i = 0; i < 3; ++i) {
+      const double off = exact_.bodies[b].w[i] - last_bodies_[b].w[i] - single_.bodies[b].w[i];
+      part.drift_square += off * off;
+    }
+    for (int i = 0; i < 8; ++i) single_.before[b].w[i] -= single_.bodies[b].w[i];
+    single_.bodies[b] = {};
+  }
+}
+
+/// The rounding of an impulse, as a velocity of its contact, is no smaller than 2^-24 n y'. Beside
+/// it stands the rms drift of the bodies' velocities.
+bool WideSweep::single_suffices(double error) const {
+  double impulses = 0.0, drift = 0.0, bodies = 0.0;
+  for_each_part([&](const Part& part) {
+    impulses += part.impulse_square;
+    drift += part.drift_square;
+    bodies += part.bodies.count;
+  });
+  const double rounding = single_rounding * std::sqrt(impulses / std::max(1, contacts_));
+  return rounding + std::sqrt(drift / bodies) <= allowed_share * error;
+}
+
+/// A group rests whose contacts have no impulse and open by far: the sweep would leave them so. One
+/// that closes in between is seen by the next look.
+void WideSweep::choose_awake(double error) {
+  const double least =
+      may_rest_ ? rests_from * error : std::numeric_limits<double>::infinity();  // [m/s]
+  const auto rests = [least](const auto& kind, const GroupFrame& frame, int g) {
+    const auto& y = kind.impulses[g].y;
+    for (int lane = 0; lane < group_lanes; ++lane) {
+      if (frame.contact[lane] < 0) continue;
+      if (!(frame.normal[lane] * kind.groups[g].bias[0][lane] > least)) return false;
+      for (size_t i = 0; i < std::size(y); ++i)
+        if (y[i][lane] != 0 || (!kind.search.empty() && (kind.search[g].direction[i][lane] != 0 ||
+                                                         kind.search[g].change[i][lane] != 0)))
+          return false;
+    }
+    return true;
+  };
+  for_parts(exact_, [&](Part& part) {
+    for_kinds(
+        [&](const auto& exact, auto& single, Range& range) {
+          range.awake = 0;
+          for (int g = 0; g < range.count; ++g)
+            if (!rests(single, exact.frames[range.begin + g], range.begin + g))
+              single.awake[range.begin + range.awake++] = g;
+        },
+        exact_, single_, part);
+  });
+}
+
+int WideSweep::resting_groups() const {
+  int resting = 0;
+  for_each_part([&](const Part& part) {
+    for (const Range& range : {part.friction, part.one_row, part.wall})
+      resting += in_single_ ? range.count - range.awake : 0;
+  });
+  return resting;
+}
+
+void WideSweep::leave_single() {
+  in_single_ = false;
+  start_search();
+}
+
+bool WideSweep::finish_in_double() {
+  single_begins_ = false;
+  if (!in_single_) return false;
+  // One more sweep in double: every contact then obeys its law as if all sweeps had been.
+  refresh();
+  leave_single();
+  sweep();
+  start_search();
+  return true;
 }
 
 }  // namespace ballast

@@ -1,5 +1,5 @@
 #pragma once
-// The Gauss-Seidel sweep over bodies, sixteen contacts at a time (group_record.hpp).
+// The Gauss-Seidel sweep over bodies, sixteen contacts at a time (group_kernels.hpp).
 //
 // For what a time step gives: bodies with six unknowns and the mass diag(m, m, m, 3 x 3), contacts
 // whose sides have opposite linear parts, and driven walls of one unknown without friction. Of
@@ -12,13 +12,12 @@
 #include "platform/worker_team.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/algebra/mass_root.hpp"
-#include "solvers/gauss_seidel/contact_groups.hpp"
-#include "solvers/gauss_seidel/group_kernels.hpp"
+#include "solvers/gauss_seidel/contact_sweep.hpp"
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 
 namespace ballast {
 
-class WideSweep {
+class WideSweep final : public ContactSweep {
  public:
   /// Both outlive the sweep.
   explicit WideSweep(const SweepPlan& plan) : plan_(plan) {}
@@ -29,23 +28,23 @@ class WideSweep {
   /// The plan has been prepared for `problem`. False, and nothing else may be called: another kind
   /// of problem, or one whose groups would stay empty for the most part.
   bool prepare(const FrictionProblem& problem);
-  /// As in BodySweep.
-  void load(const FrictionProblem& problem, const Impulses& r);
-  void store(const FrictionProblem& problem, Impulses& r) const;
-  void sweep();
-  double sweep(SearchStep step);
-  void start_search();
-  double error();
-  void save(Eigen::VectorXd& state) const;
-  void restore(const Eigen::VectorXd& state);
-  void impulse_weights(Eigen::VectorXd& weights) const;
+
+  void load(const FrictionProblem& problem, const Impulses& r) override;
+  void store(const FrictionProblem& problem, Impulses& r) const override;
+  void sweep() override { sweep_in_precision(nullptr); }
+  void start_search() override;
+  double sweep_along(SearchStep step) override { return sweep_in_precision(&step); }
+  double error() override;
+  Eigen::Index save(Eigen::VectorXd& state) const override;
+  void restore(const Eigen::VectorXd& state) override;
+  void impulse_weights(Eigen::VectorXd& weights) const override;
 
   /// Whether sweeps from the next load() on are in single precision, until finish_in_double() or
   /// until their rounding shows in the error. Loads, stores and errors are in double in any case.
-  void allow_single(bool allowed) { single_allowed_ = allowed; }
+  void allow_single(bool allowed) override { single_allowed_ = allowed; }
   /// Where sweeps were in single precision: one more in double, and the next ones are too, to the
   /// next load(). Says whether that was so. A search begins anew.
-  bool finish_in_double();
+  bool finish_in_double() override;
   bool is_single() const { return in_single_; }
 
   /// For tests: another instruction set, sweeps over every group, how many are passed over.
@@ -72,20 +71,6 @@ class WideSweep {
     Kind<WallGroup<Number>> wall;
     /// By row_of_body_; and one row for each part of the plan that never moves.
     std::vector<BodyRow<Number>> bodies, before, direction;
-
-    /// Calls task(kind) for the three kinds.
-    template <typename Task>
-    void for_kinds(const Task& task) {
-      task(friction);
-      task(one_row);
-      task(wall);
-    }
-    template <typename Task>
-    void for_kinds(const Task& task) const {
-      task(friction);
-      task(one_row);
-      task(wall);
-    }
   };
   /// Groups begin to begin + count of a kind. In single precision those are swept whose distances
   /// from `begin` are kind.awake[begin] to before kind.awake[begin + awake].
@@ -103,6 +88,20 @@ class WideSweep {
     double error_square = 0.0;   ///< of error()
     double impulse_square = 0.0, drift_square = 0.0;  ///< of the last look in single precision
   };
+
+  /// Calls task(friction...), then the same with what `each` has for one row and for walls.
+  template <typename Task, typename... Each>
+  static void for_kinds(const Task& task, Each&... each) {
+    task(each.friction...);
+    task(each.one_row...);
+    task(each.wall...);
+  }
+  /// All parts, always in the same order: sums over them have the same bits whoever made them.
+  template <typename Task>
+  void for_each_part(const Task& task) const {
+    for (const Part& part : interiors_) task(part);
+    for (const Part& part : interfaces_) task(part);
+  }
 
   bool sort_bodies(const DynamicsForm& dynamics);
   void place_bodies(const DynamicsForm& dynamics);
@@ -141,13 +140,12 @@ class WideSweep {
   template <typename Number>
   void fetch_shared(const State<Number>& state, const Part& interface) const;
   void push_part(const Part& part);
-  template <typename Number, typename Kernels, typename Sweep>
-  void sweep_parts(State<Number>& state, const Kernels& kernels, std::span<const Part> parts,
-                   const Sweep& sweep);
   template <typename Number, typename Kernels>
-  void sweep_in(State<Number>& state, const Kernels& kernels);
+  void sweep_parts(State<Number>& state, const Kernels& kernels, const SearchStep* step,
+                   std::span<Part> parts);
   template <typename Number, typename Kernels>
-  double sweep_in(State<Number>& state, const Kernels& kernels, SearchStep step);
+  double sweep_in(State<Number>& state, const Kernels& kernels, const SearchStep* step);
+  double sweep_in_precision(const SearchStep* step);
   template <typename Number>
   void start_search_in(State<Number>& state);
 
@@ -177,7 +175,7 @@ class WideSweep {
   std::vector<Part> interiors_, interfaces_;
 
   // In single precision, bodies hold what has changed since the last look, and the velocities that
-  // the contacts had then are their biases: rounding is that of the change. See wide_single.cpp.
+  // the contacts had then are their biases: rounding is that of the change.
   State<float> single_;
   std::vector<BodyRow<double>> last_bodies_;  ///< exact_.bodies of the last look
   bool single_made_ = false;                  ///< records cast since prepare()

@@ -69,7 +69,6 @@ void BodyMatrix::analyse(const std::vector<int>& dof_begin) {
   matrix_.resizeNonZeros(outer.back());
   std::copy(outer.begin(), outer.end(), matrix_.outerIndexPtr());
   std::copy(inner.begin(), inner.end(), matrix_.innerIndexPtr());
-  // Where the blocks are: the rows of a column ascend.
   const auto find = [&](int row_body, int column_body) -> Place {
     if (row_body < 0 || column_body < 0) return {0, 0};
     const int begin = outer[dof_begin[column_body]], end = outer[dof_begin[column_body] + 1];

@@ -7,7 +7,6 @@
 
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/parts/front_lu.hpp"
-#include "solvers/parts/sparse_factor.hpp"
 #include "solvers/parts/unit_mass_contacts.hpp"
 
 namespace ballast {

@@ -18,7 +18,6 @@ void ConeProgram::take(const FrictionProblem& problem) {
   std::vector<int> here(moving_.row_count(), -1);
   std::vector<double> scale;
   double largest_lambda = 0.0;
-  // Rows of the program, each with the square root of its block's scale.
   for (int k = 0; k < moving_.contact_count(); ++k) {
     const int rows = friction[k] > 0.0 ? 3 : 1;
     for (int i = 0; i < rows; ++i) {
@@ -30,7 +29,6 @@ void ConeProgram::take(const FrictionProblem& problem) {
     largest_lambda = std::max(largest_lambda, moving_.lambda_max[k]);
   }
   scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
-  // The unit: the largest entry of q becomes one.
   q.resize(row_count());
   for (int i = 0; i < row_count(); ++i) q[i] = scale_[i] * moving_.q[row_[i]];
   unit_ = q.size() > 0 ? q.lpNorm<Eigen::Infinity>() : 0.0;

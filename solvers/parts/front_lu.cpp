@@ -117,7 +117,6 @@ void FrontLu::place_entries(const SparseColumns& a) {
 }
 
 bool FrontLu::factor(const SparseColumns& a) {
-  // What a pivot is compared with.
   for (int j = 0; j < a.cols(); ++j) {
     double largest = 0.0;
     for (int e = a.outerIndexPtr()[j]; e < a.outerIndexPtr()[j + 1]; ++e)
@@ -209,7 +208,6 @@ bool FrontLu::eliminate(const Front& front, int number, double* boundary, bool s
       task(first, std::min(most_columns, columns - first));
     });
   };
-  // The own columns, strip by strip where others take part.
   const int most = shares ? strip : own;
   for (int j = 0; j < own; j += most) {
     const int width = std::min(most, own - j), right = own - j - width, below = rows - j - width;
@@ -229,7 +227,6 @@ bool FrontLu::eliminate(const Front& front, int number, double* boundary, bool s
       return false;
   }
   if (outside == 0) return true;
-  // The rest of the own rows, and what is left for the parent.
   by_columns(outside, [&](int first, int count) {
     double* at = rest + static_cast<std::int64_t>(first) * own;
     solve_unit_lower(own, count, a, rows, at, own);

@@ -13,16 +13,9 @@
 #include <Eigen/Dense>
 
 #include "platform/worker_team.hpp"
-#include "solvers/parts/front_layout.hpp"
-#include "solvers/parts/front_tree.hpp"
-#include "solvers/parts/sparse_pattern.hpp"
+#include "solvers/parts/sparse_factor.hpp"
 
 namespace ballast {
-
-/// An order of elimination with little fill: nested dissection of the graph by METIS, a function of
-/// the graph alone. Where nodes are few or the library is content with less, it may be another
-/// order.
-std::vector<int> dissection_order(const BlockGraph& graph);
 
 /// A = L U in an order of its own.
 class FrontLu {

@@ -104,7 +104,6 @@ Eigen::VectorXd Lemke::solution() const {
   for (const int variable : basis_)
     if (variable >= n_ && variable < 2 * n_) active.push_back(variable - n_);
   if (active.empty()) return z;
-  // m z + q = 0 on the active ones, solved afresh.
   const Eigen::MatrixXd block = (*m_)(active, active);
   const Eigen::VectorXd right = -q_(active);
   const Eigen::VectorXd x = block.partialPivLu().solve(right);

@@ -16,23 +16,20 @@ bool ChangeNorms::within(double tolerance) const {
          velocity_max < largest * tolerance && energy_max < largest * tolerance;
 }
 
-void LocalChange::prepare(const FrictionProblem& problem) { operator_.prepare(problem); }
-
-ChangeNorms LocalChange::at(const Impulses& r) {
-  operator_.velocity(r, u_);
+ChangeNorms local_change(ContactOperator& contacts, const Impulses& r) {
+  Eigen::VectorXd u;
+  contacts.velocity(r, u);
   double carrying = 0.0, d_squares = 0.0, w_squares = 0.0, energies = 0.0, dm_squares = 0.0,
          drift = 0.0, largest_d = 0.0, largest_dm = 0.0;
-  for (int c = 0; c < operator_.contact_count(); ++c) {
-    if (!(operator_.rho()[c] > 0.0)) continue;  // nothing moves it
-    // The contact on its own, and what that changes.
-    const Eigen::Matrix3d& w = operator_.diagonal()[c];
-    const Eigen::Vector3d before = operator_.at(r, c), free = operator_.at(u_, c) - w * before;
+  for (int c = 0; c < contacts.contact_count(); ++c) {
+    if (!(contacts.rho()[c] > 0.0)) continue;  // nothing moves it
+    const Eigen::Matrix3d& w = contacts.diagonal()[c];
+    const Eigen::Vector3d before = contacts.at(r, c), free = contacts.at(u, c) - w * before;
     Eigen::Vector3d after;
     double slip = 0.0;
-    solve_one_contact(w, free, operator_.friction(c), after, slip);
+    solve_one_contact(w, free, contacts.friction(c), after, slip);
     const Eigen::Vector3d d = w * (before - after), m = 0.5 * (before + after);
     if (m.isZero(0.0)) continue;
-    // The sums of which the norms are made.
     const Eigen::Vector3d wr = w * before, wr_after = w * after;
     carrying += 1.0;
     d_squares += d.squaredNorm();
@@ -58,7 +55,7 @@ class ChangeStopped final : public Solver {
 
   void prepare(const FrictionProblem& problem) override {
     backend_->prepare(problem);
-    change_.prepare(problem);
+    contacts_.prepare(problem);
   }
 
   void use_team(WorkerTeam* team) override { backend_->use_team(team); }
@@ -74,7 +71,6 @@ class ChangeStopped final : public Solver {
       burst.max_iterations = std::min(burst.max_iterations, rule_.every);
       const int asked = burst.max_iterations;
       Solved next = backend_->solve(problem, std::move(whole.impulses), burst);
-      // Booked as one solve.
       for (const HistoryPoint& point : next.history)
         whole.history.push_back(
             {whole.iterations + point.iteration, begun + point.seconds, point.error});
@@ -85,7 +81,7 @@ class ChangeStopped final : public Solver {
       whole.reason = next.reason;
       // The backend has nothing more to do, or failed, or the rule is met, or nothing is left.
       if (next.iterations < asked || whole.impulses.size() != problem.row_count()) return whole;
-      if (change_.at(whole.impulses).within(rule_.tolerance)) {
+      if (local_change(contacts_, whole.impulses).within(rule_.tolerance)) {
         whole.reason = StopReason::stalled;
         return whole;
       }
@@ -96,7 +92,7 @@ class ChangeStopped final : public Solver {
  private:
   std::unique_ptr<Solver> backend_;
   ChangeRule rule_;
-  LocalChange change_;
+  ContactOperator contacts_;
 };
 
 }  // namespace

@@ -32,17 +32,8 @@ struct ChangeNorms {
   bool within(double tolerance) const;
 };
 
-/// The norms of one problem at any impulses.
-class LocalChange {
- public:
-  /// `problem` must outlive the use. Throws InvalidProblem for a singular mass.
-  void prepare(const FrictionProblem& problem);
-  ChangeNorms at(const Impulses& r);
-
- private:
-  ContactOperator operator_;
-  Eigen::VectorXd u_;
-};
+/// At the impulses r. `w` has been prepared for the problem.
+ChangeNorms local_change(ContactOperator& w, const Impulses& r);
 
 struct ChangeRule {
   double tolerance = 1.666e-4;

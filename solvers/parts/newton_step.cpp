@@ -6,6 +6,145 @@
 #include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
+namespace {
+
+/// A dense factorisation of so many rows is faster than looking for zeros.
+constexpr int few_rows = 160;
+/// Beyond, it is where at least this share of the square is filled, up to so many rows.
+constexpr double nearly_full = 0.3;
+constexpr int most_dense_rows = 600;
+
+}  // namespace
+
+/// The contacts with by_u = 0, and the list of the others.
+bool NewtonSystem::solve_idle(const FrictionProblem& problem,
+                              const std::vector<ContactLinearisation>& linear,
+                              const std::vector<double>& alpha, Impulses& dr) {
+  pressed_.clear();
+  pressed_rows_ = 0;
+  pressed_entries_ = 0;
+  b_.resize(problem.contact_count());
+  place_.resize(problem.row_count());
+  dr.resize(problem.row_count());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const ContactLinearisation& l = linear[c];
+    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+    b_[c] = l.by_r + alpha[c] * l.by_u;
+    if (!b_[c].allFinite() || !l.f.allFinite()) return false;
+    const bool is_pressed = rows == 3 ? !l.by_u.isZero(0.0) : l.by_u(0, 0) != 0.0;
+    for (int i = 0; i < rows; ++i) place_[first + i] = is_pressed ? pressed_rows_ + i : -1;
+    if (is_pressed) {
+      pressed_.push_back(c);
+      pressed_rows_ += rows;
+      const int* outer = problem.delassus.w.outerIndexPtr();
+      pressed_entries_ += outer[first + rows] - outer[first];
+    } else if (rows == 3) {
+      dr.segment<3>(first) = -(b_[c].inverse() * l.f);
+    } else {
+      dr[first] = -l.f[0] / b_[c](0, 0);
+    }
+    if (!is_pressed && !dr.segment(first, rows).allFinite()) return false;
+  }
+  return true;
+}
+
+bool NewtonSystem::solve_dense(const FrictionProblem& problem,
+                               const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(pressed_rows_, pressed_rows_);
+  Eigen::VectorXd right(pressed_rows_);
+  for (const int c : pressed_) {
+    const int first = problem.row_begin[c], rows = problem.contact_rows(c), at = place_[first];
+    right.segment(at, rows) = -linear[c].f.head(rows);
+    const auto by_u = linear[c].by_u.topLeftCorner(rows, rows);
+    for (int i = 0; i < rows; ++i)
+      for (SparseRows::InnerIterator w(problem.delassus.w, first + i); w; ++w)
+        // The dr of an idle contact is known already and goes to the right-hand side.
+        if (place_[w.col()] < 0)
+          right.segment(at, rows) -= by_u.col(i) * (w.value() * dr[w.col()]);
+        else
+          matrix.col(place_[w.col()]).segment(at, rows) += by_u.col(i) * w.value();
+    matrix.block(at, at, rows, rows) += b_[c].topLeftCorner(rows, rows);
+  }
+  const Eigen::VectorXd solution = matrix.partialPivLu().solve(right);
+  if (!solution.allFinite()) return false;
+  for (int row = 0; row < problem.row_count(); ++row)
+    if (place_[row] >= 0) dr[row] = solution[place_[row]];
+  return true;
+}
+
+/// All contacts, so that the pattern stays and is ordered once; idle ones have B alone in their
+/// rows.
+bool NewtonSystem::solve_sparse(const FrictionProblem& problem,
+                                const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+  const int all_rows = problem.row_count();
+  std::vector<Eigen::Triplet<double>> gains, own;
+  Eigen::VectorXd right(all_rows);
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+    right.segment(first, rows) = -linear[c].f.head(rows);
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < rows; ++j) {
+        gains.emplace_back(first + i, first + j, linear[c].by_u(i, j));
+        own.emplace_back(first + i, first + j, b_[c](i, j));
+      }
+  }
+  // Zeros among them stay entries.
+  SparseColumns gain(all_rows, all_rows), diagonal(all_rows, all_rows);
+  gain.setFromTriplets(gains.begin(), gains.end());
+  diagonal.setFromTriplets(own.begin(), own.end());
+  const SparseColumns matrix = SparseColumns(gain * SparseColumns(problem.delassus.w)) + diagonal;
+  if (!sparse_lu_.factor(matrix)) return false;
+  sparse_lu_.solve(matrix, right, dr, 1);
+  return dr.allFinite();
+}
+
+void NewtonSystem::prepare(const ContactOperator& w) {
+  operations_ = 0.0;
+  if (!w.problem().has_dynamics) return;
+  matrix_.prepare(w.problem());
+  operations_ = matrix_.operations();
+}
+
+bool NewtonSystem::solve_bodies(const ContactOperator& w,
+                                const std::vector<ContactLinearisation>& linear,
+                                const std::vector<double>& alpha, Impulses& dr) {
+  const FrictionProblem& problem = w.problem();
+  const DynamicsForm& d = problem.dynamics;
+  // The contacts' equations give dr = -B^-1 f - E du, du = H dv, and the bodies' M dv = H^T dr.
+  gain_.resize(linear.size());
+  source_.resize(linear.size());
+  dr.resize(problem.row_count());
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const Eigen::Matrix3d inverse = (linear[c].by_r + alpha[c] * linear[c].by_u).inverse();
+    source_[c] = inverse * linear[c].f;
+    gain_[c] = inverse * linear[c].by_u;
+    if (problem.contact_rows(c) == 1)
+      gain_[c] = Eigen::Vector3d(gain_[c](0, 0), 0.0, 0.0).asDiagonal();
+    if (!source_[c].allFinite() || !gain_[c].allFinite()) return false;
+    w.put(dr, c, -source_[c]);
+  }
+  contact_to_body_impulse(d, problem.row_begin, dr, right_);
+  if (!matrix_.solve(gain_, right_, dv_)) return false;
+  body_to_contact_velocity(d, problem.row_begin, dv_, u_);
+  // It adds the bias, which a change of velocity has not.
+  u_ -= d.bias;
+  for (int c = 0; c < problem.contact_count(); ++c)
+    w.put(dr, c, -source_[c] - gain_[c] * w.at(u_, c));
+  return true;
+}
+
+bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
+                         const std::vector<double>& alpha, Impulses& dr) {
+  const FrictionProblem& problem = w.problem();
+  if (problem.has_dynamics) return solve_bodies(w, linear, alpha, dr);
+  if (!solve_idle(problem, linear, alpha, dr)) return false;
+  if (pressed_.empty()) return true;
+  const double square = static_cast<double>(pressed_rows_) * pressed_rows_;
+  const bool is_full = static_cast<double>(pressed_entries_) > nearly_full * square;
+  const bool is_dense = pressed_rows_ <= few_rows || (is_full && pressed_rows_ <= most_dense_rows);
+  operations_ = is_dense ? square * pressed_rows_ / 3.0 : 0.0;
+  return is_dense ? solve_dense(problem, linear, dr) : solve_sparse(problem, linear, dr);
+}
 
 void NewtonStep::prepare(const FrictionProblem& problem) {
   w_.prepare(problem);
@@ -53,7 +192,6 @@ double NewtonStep::residual_of(const Impulses& r, const Eigen::VectorXd& u) cons
 }
 
 bool NewtonStep::newton(int halvings) {
-  // The law of every contact, linearised at the iterate with its proximal term.
   linear_.resize(w_.contact_count());
   for (int c = 0; c < w_.contact_count(); ++c) {
     if (w_.rho()[c] > 0.0)

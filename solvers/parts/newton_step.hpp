@@ -1,12 +1,68 @@
 #pragma once
 // One damped Newton step on the contact equations of all contacts, with an optional proximal term
-// around a centre.
+// around a centre; and its linear system.
 
 #include <vector>
 
-#include "solvers/parts/newton_system.hpp"
+#include "solvers/parts/body_matrix.hpp"
+#include "solvers/parts/contact_equation.hpp"
+#include "solvers/parts/contact_operator.hpp"
 
 namespace ballast {
+
+/// The linear system of a Newton step on all contacts at once:
+///
+///   by_r dr + by_u du = -f  at every contact,   du = W dr + alpha dr   (alpha: a proximal term, 0
+///   for none)
+///
+/// With the dynamics form the impulses are eliminated, dr = -B^-1 (f + by_u H dv), B = by_r + alpha
+/// by_u, and (M + H^T B^-1 by_u H) dv = -H^T B^-1 f is solved in the bodies' velocities: few
+/// unknowns, a pattern of bodies that touch.
+///
+/// With a stored W it is (B + by_u W) dr = -f. A contact that nothing presses has by_u = 0, and its
+/// own rows give its dr. The others are a dense system where they are few or W is nearly full, and
+/// a sparse one with W's pattern elsewhere.
+class NewtonSystem {
+ public:
+  /// Pattern and positions of all blocks. `w` has been prepared for the problem.
+  void prepare(const ContactOperator& w);
+
+  /// dr of the system above. `linear[c]` per contact; `alpha` [1/kg] per contact, > 0 with the
+  /// dynamics form (there B must be regular, and at a sticking contact by_r = 0). False: a singular
+  /// matrix.
+  bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
+             const std::vector<double>& alpha, Impulses& dr);
+
+  /// FrontLu::use_team
+  void use_team(WorkerTeam* team) { matrix_.use_team(team); }
+  /// Of a factorisation over bodies (FrontLu::operations); of the last dense one of a stored W:
+  /// multiplications with their additions. 0: it was a sparse one, or there was none.
+  double operations() const { return operations_; }
+
+ private:
+  bool solve_bodies(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
+                    const std::vector<double>& alpha, Impulses& dr);
+  bool solve_idle(const FrictionProblem& problem, const std::vector<ContactLinearisation>& linear,
+                  const std::vector<double>& alpha, Impulses& dr);
+  bool solve_dense(const FrictionProblem& problem, const std::vector<ContactLinearisation>& linear,
+                   Impulses& dr);
+  bool solve_sparse(const FrictionProblem& problem, const std::vector<ContactLinearisation>& linear,
+                    Impulses& dr);
+
+  double operations_ = 0.0;
+  // The dynamics form:
+  std::vector<Eigen::Matrix3d> gain_;    ///< E = B^-1 by_u per contact
+  std::vector<Eigen::Vector3d> source_;  ///< B^-1 f
+  BodyMatrix matrix_;
+  Eigen::VectorXd right_, dv_, u_;
+  // A stored W:
+  std::vector<Eigen::Matrix3d> b_;
+  std::vector<int> pressed_;  ///< contacts with by_u != 0
+  std::vector<int> place_;    ///< of each row among those of pressed contacts; -1: none
+  int pressed_rows_ = 0;
+  long pressed_entries_ = 0;  ///< of W in their rows
+  LuFactor sparse_lu_;
+};
 
 /// The iterate (r, u = W r + q) of a Newton method. The residual is that of F(r, u + alpha (r -
 /// centre)) = 0.

@@ -51,20 +51,10 @@ ContactStatus solve_one_contact(const Eigen::Matrix3d& w, const Eigen::Vector3d&
   PrincipalContact contact;
   TangentTurn turn;
   make_principal(w, mu, contact, turn);
-  double q1 = q[1], q2 = q[2];
-  turn.to_principal(q1, q2);
-  // The impulse that stops all motion, u = 0: y = -q_N / W_NN and r_T = -S^-1 (q_T - c q_N).
-  double y = -q[0] * contact.inverse_normal;
-  double t1 = -(q1 - contact.c1 * q[0]) * contact.inverse_s1,
-         t2 = -(q2 - contact.c2 * q[0]) * contact.inverse_s2;
   double x = lambda > 0.0 ? contact.s1 + lambda : 0.0;
-  const ContactStatus status = apply_coulomb(contact, y, t1, t2, x);
+  r.setZero();
+  const ContactStatus status = resolve_contact(contact, turn, q.data(), r.data(), x);
   lambda = status == ContactStatus::slip && mu > 0.0 ? x - contact.s1 : 0.0;
-  // Back to the given coordinates: r_N = y - c . r_T, and the tangents turned back.
-  r[0] = y - contact.c1 * t1 - contact.c2 * t2;
-  turn.from_principal(t1, t2);
-  r[1] = t1;
-  r[2] = t2;
   return status;
 }
 

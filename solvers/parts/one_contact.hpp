@@ -137,19 +137,20 @@ inline ContactStatus apply_coulomb(const PrincipalContact& contact, double& y, d
 /// One contact solved while all others are held. In: its impulse r and the velocity u that all
 /// impulses give it, in the given tangents; out: r. `slip`: the last slip root, kept for the next
 /// visit.
-inline void resolve_contact(const PrincipalContact& contact, const TangentTurn& turn,
-                            const double* velocity, double* r, double& slip) {
+inline ContactStatus resolve_contact(const PrincipalContact& contact, const TangentTurn& turn,
+                                     const double* velocity, double* r, double& slip) {
   double u1 = velocity[1], u2 = velocity[2], t1 = r[1], t2 = r[2];
   turn.to_principal(u1, u2);
   turn.to_principal(t1, t2);
   double y = r[0] + contact.c1 * t1 + contact.c2 * t2 - velocity[0] * contact.inverse_normal;
   t1 -= (u1 - contact.c1 * velocity[0]) * contact.inverse_s1;
   t2 -= (u2 - contact.c2 * velocity[0]) * contact.inverse_s2;
-  apply_coulomb(contact, y, t1, t2, slip);
+  const ContactStatus status = apply_coulomb(contact, y, t1, t2, slip);
   r[0] = y - contact.c1 * t1 - contact.c2 * t2;
   turn.from_principal(t1, t2);
   r[1] = t1;
   r[2] = t2;
+  return status;
 }
 
 /// Take-off, stick, or slip by a bracketed one-dimensional root; see slide() for the bracket's

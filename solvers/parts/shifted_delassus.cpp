@@ -10,10 +10,7 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
     h_ = sparse_h(problem);
     return bodies_.prepare(problem);
   }
-  // A stored W may be unsymmetric by some per cent: then LU in place of Cholesky.
   stored_ = problem.delassus.w;
-  const SparseColumns transposed = stored_.transpose();
-  symmetric_ = (stored_ - transposed).norm() <= 1e-14 * stored_.norm();
 }
 
 bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
@@ -21,24 +18,19 @@ bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
   shift_ = shift;
   sigma_ = sigma;
   if (dynamics_) return bodies_.factor(sigma_);
-  sum_ = stored_;
+  SparseColumns sum = stored_;
   const FrictionProblem& problem = w_->problem();
   for (int c = 0; c < problem.contact_count(); ++c)
     for (int j = 0; j < problem.contact_rows(c); ++j)
       for (int i = 0; i < problem.contact_rows(c); ++i)
-        sum_.coeffRef(problem.row_begin[c] + i, problem.row_begin[c] + j) += shift_[c](i, j);
-  sum_.makeCompressed();
-  return symmetric_ ? cholesky_.factor(sum_) : lu_.factor(sum_);
+        sum.coeffRef(problem.row_begin[c] + i, problem.row_begin[c] + j) += shift_[c](i, j);
+  sum.makeCompressed();
+  sum_.analyse(sum, problem.row_begin);
+  return sum_.factor(sum);
 }
 
 void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  if (!dynamics_) {
-    if (symmetric_)
-      cholesky_.solve(b, x);
-    else
-      lu_.solve(sum_, b, x);
-    return;
-  }
+  if (!dynamics_) return sum_.solve(b, x);
   // Woodbury: x = Sigma (b - H (M + H^T Sigma H)^-1 H^T Sigma b).
   const FrictionProblem& problem = w_->problem();
   scaled_.resize(b.size());

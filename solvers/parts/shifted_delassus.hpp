@@ -4,13 +4,12 @@
 //
 // Dynamics form, Sigma = P^-1: in velocity space, sparse and never rank deficient (Woodbury),
 //   (W + P)^-1 b = Sigma b - Sigma H (M + H^T Sigma H)^-1 H^T Sigma b
-// Stored W: W + P itself, by CHOLMOD when W is symmetric, by UMFPACK when it is not.
+// Stored W: W + P itself, eliminated contact by contact.
 
 #include <vector>
 
 #include "solvers/parts/body_matrix.hpp"
 #include "solvers/parts/contact_operator.hpp"
-#include "solvers/parts/sparse_factor.hpp"
 
 namespace ballast {
 
@@ -30,19 +29,21 @@ class ShiftedDelassus {
   /// singular. `x` may be `b`.
   void solve_bodies(const Eigen::VectorXd& b, Eigen::VectorXd& x) { bodies_.solve_once(b, x); }
   /// FrontLu::use_team
-  void use_team(WorkerTeam* team) { bodies_.use_team(team); }
+  void use_team(WorkerTeam* team) {
+    bodies_.use_team(team);
+    sum_.use_team(team);
+  }
 
  private:
   void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
   ContactOperator* w_ = nullptr;
-  bool dynamics_ = false, symmetric_ = true;
+  bool dynamics_ = false;
   BodyMatrix bodies_;                           ///< dynamics form
   SparseRows h_;                                ///< the same
-  SparseColumns stored_, sum_;                  ///< W, W + P
+  SparseColumns stored_;                        ///< W
+  FrontLu sum_;                                 ///< W + P
   std::vector<Eigen::Matrix3d> sigma_, shift_;  ///< P^-1, P
-  CholeskyFactor cholesky_;
-  LuFactor lu_;
   Eigen::VectorXd scaled_, body_, contact_, residual_, correction_;
 };
 

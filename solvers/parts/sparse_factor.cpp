@@ -6,90 +6,9 @@
 #include <cholmod.h>
 #include <umfpack.h>
 
-#include "solvers/parts/front_lu.hpp"
-
 namespace ballast {
 
 bool has_sparse_factors() { return true; }
-
-namespace {
-
-/// CHOLMOD's view of the lower triangle of a symmetric matrix in compressed columns: nothing is
-/// copied. `x` null: the pattern alone.
-cholmod_sparse lower_view(size_t rows, size_t entries, const int* outer, const int* inner,
-                          const double* x) {
-  cholmod_sparse view{};
-  view.nrow = view.ncol = rows;
-  view.nzmax = entries;
-  view.p = const_cast<int*>(outer);
-  view.i = const_cast<int*>(inner);
-  view.x = const_cast<double*>(x);
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = x ? CHOLMOD_REAL : CHOLMOD_PATTERN;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
-}
-
-}  // namespace
-
-struct CholeskyFactor::State {
-  cholmod_common common;
-  cholmod_factor* factor = nullptr;
-  cholmod_dense *x = nullptr, *y = nullptr,
-                *e = nullptr;  // kept: cholmod_solve2 then allocates nothing
-  SparsePattern pattern;
-
-  State() {
-    cholmod_start(&common);
-    common.print = 0;
-    common.quick_return_if_not_posdef = 1;
-    common.supernodal = CHOLMOD_AUTO;
-    common.final_ll = 1;  // the simplicial L D L^T would take an indefinite matrix
-  }
-  ~State() {
-    cholmod_free_factor(&factor, &common);
-    cholmod_free_dense(&x, &common);
-    cholmod_free_dense(&y, &common);
-    cholmod_free_dense(&e, &common);
-    cholmod_finish(&common);
-  }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-};
-
-CholeskyFactor::CholeskyFactor() : state_(new State, [](State* state) { delete state; }) {}
-
-// The ordering is kept while the pattern is the same; the numbers are new every time.
-bool CholeskyFactor::factor(const SparseColumns& a) {
-  State& s = *state_;
-  cholmod_sparse view = lower_view(static_cast<size_t>(a.rows()), static_cast<size_t>(a.nonZeros()),
-                                   a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr());
-  if (!s.factor || !s.pattern.is(a)) {
-    cholmod_free_factor(&s.factor, &s.common);
-    s.factor = cholmod_analyze(&view, &s.common);
-    if (!s.factor) return false;
-    s.pattern.take(a);
-  }
-  cholmod_factorize(&view, s.factor, &s.common);
-  // `minor` is the column at which a pivot was not positive: n where all were.
-  return s.common.status == CHOLMOD_OK && s.factor->minor == s.factor->n;
-}
-
-void CholeskyFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  State& s = *state_;
-  // CHOLMOD's view of b: nothing is copied.
-  cholmod_dense right{};
-  right.nrow = right.nzmax = right.d = static_cast<size_t>(b.size());
-  right.ncol = 1;
-  right.x = const_cast<double*>(b.data());
-  right.xtype = CHOLMOD_REAL;
-  right.dtype = CHOLMOD_DOUBLE;
-  cholmod_solve2(CHOLMOD_A, s.factor, &right, nullptr, &s.x, nullptr, &s.y, &s.e, &s.common);
-  x = Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(s.x->x), b.size());
-}
 
 struct LuFactor::State {
   void *symbolic = nullptr, *numeric = nullptr;
@@ -120,7 +39,6 @@ LuFactor::LuFactor() : state_(new State, [](State* state) { delete state; }) {}
 bool LuFactor::factor(const SparseColumns& a) {
   State& s = *state_;
   const int n = static_cast<int>(a.rows());
-  // As above: a symbolic analysis for each new pattern only.
   umfpack_di_free_numeric(&s.numeric);
   if (!s.symbolic || !s.pattern.is(a)) {
     umfpack_di_free_symbolic(&s.symbolic);
@@ -155,8 +73,15 @@ std::vector<int> dissection_order(const BlockGraph& graph) {
   }
   std::iota(order.begin(), order.end(), 0);
   if (inner.empty()) return order;
-  cholmod_sparse view =
-      lower_view(static_cast<size_t>(nodes), inner.size(), outer.data(), inner.data(), nullptr);
+  cholmod_sparse view{};
+  view.nrow = view.ncol = static_cast<size_t>(nodes);
+  view.nzmax = inner.size();
+  view.p = outer.data();
+  view.i = inner.data();
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_PATTERN;
+  view.sorted = view.packed = 1;
   cholmod_common common;
   cholmod_start(&common);
   common.print = 0;

@@ -1,38 +1,43 @@
 #pragma once
-// Sparse factorisations by SuiteSparse: the only place that knows CHOLMOD and UMFPACK. Beside them
-// stands our own, parts/front_lu, for matrices whose unknowns come in blocks.
-//
-// Both keep the symbolic analysis while the pattern stays the same, so that a sequence of matrices
-// is ordered once.
+// A sparse factorisation by SuiteSparse: the only place that knows UMFPACK, and CHOLMOD for its
+// ordering. Beside it stands our own, parts/front_lu, for matrices whose unknowns come in blocks.
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include <Eigen/Dense>
+#include <Eigen/Sparse>
 
-#include "solvers/parts/sparse_pattern.hpp"
+#include "solvers/parts/front_tree.hpp"
 
 namespace ballast {
+
+using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
 /// This build has SuiteSparse. Where it has not, sparse_factor_missing.cpp stands in: whatever
 /// factorises still compiles and links, factor() throws UnsupportedProblem, and the list of solvers
 /// offers none of it.
 bool has_sparse_factors();
 
-/// A = L L^T for symmetric positive definite A (CHOLMOD: best of AMD and METIS, supernodal).
-class CholeskyFactor {
+/// Where a sparse matrix has entries, remembered: the symbolic work on it is kept while the next
+/// matrix has the same.
+class SparsePattern {
  public:
-  CholeskyFactor();
-
-  /// Reads the lower triangle of `a` (square, compressed). Analyses when the pattern is not the
-  /// last one's. False: not positive definite to working precision; then solve() must not be
-  /// called.
-  bool factor(const SparseColumns& a);
-  /// x = A^-1 b, b of the size of A. `x` may be `b`.
-  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+  /// `a` compressed.
+  bool is(const SparseColumns& a) const {
+    return static_cast<Eigen::Index>(outer_.size()) == a.outerSize() + 1 &&
+           static_cast<Eigen::Index>(inner_.size()) == a.nonZeros() &&
+           std::equal(outer_.begin(), outer_.end(), a.outerIndexPtr()) &&
+           std::equal(inner_.begin(), inner_.end(), a.innerIndexPtr());
+  }
+  void take(const SparseColumns& a) {
+    outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
+    inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
+  }
 
  private:
-  struct State;
-  std::unique_ptr<State, void (*)(State*)> state_;
+  std::vector<int> outer_, inner_;
 };
 
 /// P A Q = L U for a general square A (UMFPACK, symmetric strategy first: our matrices are nearly
@@ -52,5 +57,10 @@ class LuFactor {
   struct State;
   std::unique_ptr<State, void (*)(State*)> state_;
 };
+
+/// An order of elimination with little fill: nested dissection of the graph by METIS, a function of
+/// the graph alone. Where nodes are few or the library is content with less, it may be another
+/// order.
+std::vector<int> dissection_order(const BlockGraph& graph);
 
 }  // namespace ballast

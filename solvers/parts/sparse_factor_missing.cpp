@@ -1,7 +1,6 @@
 // Compiled in place of sparse_factor.cpp and front_lu.cpp where SuiteSparse is not used.
 
 #include "solvers/parts/front_lu.hpp"
-#include "solvers/parts/sparse_factor.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
@@ -14,10 +13,6 @@ namespace {
 }  // namespace
 
 bool has_sparse_factors() { return false; }
-
-CholeskyFactor::CholeskyFactor() : state_(nullptr, nullptr) {}
-bool CholeskyFactor::factor(const SparseColumns&) { decline(); }
-void CholeskyFactor::solve(const Eigen::VectorXd&, Eigen::VectorXd&) { decline(); }
 
 LuFactor::LuFactor() : state_(nullptr, nullptr) {}
 bool LuFactor::factor(const SparseColumns&) { decline(); }

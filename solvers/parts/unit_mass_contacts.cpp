@@ -13,7 +13,6 @@ void UnitMassContacts::prepare(const FrictionProblem& problem) {
   std::vector<Eigen::Matrix3d> diagonal;
   delassus_diagonal(problem, roots, diagonal);
   bodies_ = d.body_count();
-  // The free velocities.
   free_ = Eigen::VectorXd::Zero(unknown_count());
   for (int b = 0; b < bodies_; ++b) {
     double* x = free_.data() + width * b;
@@ -21,7 +20,6 @@ void UnitMassContacts::prepare(const FrictionProblem& problem) {
     // x = L^T v: the kinetic energy is |x|^2 / 2.
     roots[b].multiply_upper(x);
   }
-  // The blocks of every contact.
   row_begin_ = problem.row_begin;
   contacts_.resize(problem.contact_count());
   for (int c = 0; c < contact_count(); ++c) {

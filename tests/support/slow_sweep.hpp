@@ -4,7 +4,6 @@
 #include <numeric>
 #include <vector>
 
-#include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 #include "solvers/parts/one_contact.hpp"
@@ -13,7 +12,7 @@
 
 namespace ballast {
 
-/// An order that gives what BodySweep gives, where no wall is driven.
+/// An order that gives what a sweep over bodies gives, where no wall is driven.
 inline std::vector<int> plan_order(const FrictionProblem& problem) {
   SweepPlan plan;
   plan.prepare(problem);
@@ -43,24 +42,6 @@ void slow_sweep(const FrictionProblem& problem, const Eigen::MatrixXd& w, const 
     double slip = 0.0;
     solve_one_contact(block, others, problem.friction[c], own, slip);
     r.segment(begin, rows) = own.head(rows);
-  }
-}
-
-/// Four sweeps beside their twin's in the given order. `problem`: as `sweep` takes it; `dynamics`:
-/// the same in the dynamics form.
-template <class Sweep, class Order>
-void check_beside_slow_sweep(Sweep& sweep, const FrictionProblem& problem,
-                             const FrictionProblem& dynamics, const Order& order) {
-  const Eigen::MatrixXd w = oracle::dense_delassus(dynamics);
-  const Eigen::VectorXd q = oracle::dense_q(dynamics);
-  Impulses fast = Impulses::Constant(problem.row_count(), 0.01), slow = fast;
-  sweep.load(problem, fast);
-  for (int k = 0; k < 4; ++k) {
-    sweep.sweep();
-    slow_sweep(problem, w, q, order, slow);
-    sweep.store(problem, fast);
-    CHECK((fast - slow).norm() <= 1e-10 * slow.norm());
-    CHECK(sweep.error() == Approx(contact_error(problem, fast).natural_map_rms).margin(1e-14));
   }
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 // Problems of the kind that a time step gives, for the wide sweep: grains along a line, contacts
 // between near ones, contacts with what does not move on either side, one-row contacts, a driven
-// wall.
+// wall. And a wide sweep of one.
 
 #include <Eigen/Dense>
 
 #include "platform/random.hpp"
+#include "platform/worker_team.hpp"
 #include "problems/algebra/friction_problem.hpp"
-#include "solvers/gauss_seidel/search_step.hpp"
+#include "solvers/gauss_seidel/wide_sweep.hpp"
 
 namespace ballast::samples {
 
@@ -88,13 +89,27 @@ class GrainProblem {
   Random random_;
 };
 
-/// Plain sweeps, searches along what the last sweeps changed, and momentum.
-inline constexpr SearchStep all_search_steps[] = {{0.0, 0.0},      {0.0, 1.0},     {0.7, 1.0},
-                                                  {0.3, 1.0},      {0.0, 1.0},     {0.9, 1.0},
-                                                  {0.5, 0.0, 0.5}, {0.6, 0.2, 0.3}};
-
 inline FrictionProblem grain_problem(const GrainSettings& settings = {}) {
   return GrainProblem(settings).problem;
 }
+
+/// A wide sweep from zero impulses, in single precision or not.
+struct Wide {
+  SweepPlan plan;
+  WorkerTeam team;
+  WideSweep sweep{plan};
+  bool fits;
+
+  explicit Wide(const FrictionProblem& problem, bool single = false,
+                const GroupKernels& kernels = group_kernels(), int threads = 1) {
+    team.resize(threads);
+    sweep.use_team(&team);
+    plan.prepare(problem);
+    sweep.use_kernels(kernels);
+    fits = sweep.prepare(problem);
+    sweep.allow_single(single);
+    if (fits) sweep.load(problem, Impulses::Zero(problem.row_count()));
+  }
+};
 
 }  // namespace ballast::samples

@@ -1,10 +1,11 @@
 #include "solvers/gauss_seidel/sweep_variant.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/gauss_seidel/body_sweep.hpp"
-#include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
 #include "tests/support/delassus_form.hpp"
@@ -14,36 +15,30 @@ using namespace ballast;
 
 namespace {
 
-std::vector<FrictionProblem> problems() {
+std::vector<FrictionProblem> varied_problems() {
   return {make_known_solution({.contacts = 60}).problem, oracle::mixed_problem()};
 }
 
-/// The plain sweep's own order.
-std::vector<int> order_of(const BodySweep&, const FrictionProblem& problem) {
-  return plan_order(problem);
-}
-std::vector<int> order_of(const DelassusSweep&, const FrictionProblem& problem) {
-  return in_order(problem);
+/// In both forms, with the order of the plain sweep.
+template <typename Task>
+void for_forms(const FrictionProblem& problem, const Task& task) {
+  task(problem, plan_order(problem));
+  task(only_delassus(problem), in_order(problem));
 }
 
-/// Three sweeps by `variant` against three plain ones.
-template <typename Sweep>
-void check_same_as_plain(const FrictionProblem& problem, const SweepVariant& variant,
-                         double accuracy) {
-  Sweep plain, other;
-  Impulses start = Impulses::Constant(problem.row_count(), 0.1), fast = start, slow = start;
-  plain.prepare(problem);
-  other.prepare(problem);
-  plain.load(problem, start);
-  other.load(problem, start);
-  for (int k = 0; k < 3; ++k) {
-    plain.sweep();
-    other.sweep(variant, order_of(other, problem));
+/// One sweep over dense matrices, each contact's change relaxed and projected back onto its cone.
+void relaxed_slowly(const FrictionProblem& problem, const std::vector<int>& order,
+                    double relaxation, Impulses& r) {
+  const Eigen::MatrixXd w = oracle::dense_delassus(problem);
+  const Eigen::VectorXd q = oracle::dense_q(problem);
+  for (const int c : order) {
+    Impulses exact = r;
+    slow_sweep(problem, w, q, std::array{c}, exact);
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    const int rows = problem.contact_rows(c), begin = problem.row_begin[c];
+    x.head(rows) = ((1.0 - relaxation) * r + relaxation * exact).segment(begin, rows);
+    r.segment(begin, rows) = project_cone(x, problem.friction[c]).head(rows);
   }
-  plain.store(problem, fast);
-  other.store(problem, slow);
-  CHECK((fast - slow).norm() <= accuracy * fast.norm());
-  CHECK(plain.error() == Approx(other.error()).epsilon(1e-6).margin(1e-13));
 }
 
 }  // namespace
@@ -51,27 +46,57 @@ void check_same_as_plain(const FrictionProblem& problem, const SweepVariant& var
 TEST_CASE(
     "the slow loop with the plain settings is the plain sweep, and Newton finds what the exact "
     "solution is") {
-  for (const FrictionProblem& problem : problems()) {
-    FrictionProblem stored = problem;
-    add_delassus_form(stored);
-    for (const LocalRule rule : {LocalRule::exact, LocalRule::newton}) {
-      check_same_as_plain<BodySweep>(problem, {.rule = rule}, 1e-9);
-      check_same_as_plain<DelassusSweep>(stored, {.rule = rule}, 1e-9);
-    }
-  }
+  for (const FrictionProblem& given : varied_problems())
+    for (const LocalRule rule : {LocalRule::exact, LocalRule::newton})
+      for_forms(given, [&](const FrictionProblem& problem, const std::vector<int>& order) {
+        AnySweep plain, other;
+        Impulses start = Impulses::Constant(problem.row_count(), 0.1), fast = start, slow = start;
+        other.use_variants();
+        for (AnySweep* sweep : {&plain, &other}) {
+          sweep->prepare(problem);
+          (*sweep)->load(problem, start);
+        }
+        for (int k = 0; k < 3; ++k) {
+          plain->sweep();
+          other->sweep_by({.rule = rule}, order);
+        }
+        plain->store(problem, fast);
+        other->store(problem, slow);
+        CHECK((fast - slow).norm() <= 1e-9 * fast.norm());
+        CHECK(plain->error() == Approx(other->error()).epsilon(1e-6).margin(1e-13));
+      });
+}
+
+TEST_CASE("relaxation takes each contact's change further or less far, back onto its cone") {
+  const FrictionProblem given =
+      make_known_solution({.bodies = 20, .contacts = 30, .frictionless_fraction = 0.4}).problem;
+  for (const double relaxation : {0.5, 1.6})
+    for_forms(given, [&](const FrictionProblem& problem, const std::vector<int>& order) {
+      AnySweep sweep;
+      sweep.use_variants();
+      sweep.prepare(problem);
+      Impulses fast = Impulses::Constant(problem.row_count(), 0.05), slow = fast;
+      sweep->load(problem, fast);
+      for (int k = 0; k < 3; ++k) {
+        sweep->sweep_by({.relaxation = relaxation}, order);
+        relaxed_slowly(given, order, relaxation, slow);
+      }
+      sweep->store(problem, fast);
+      CHECK((fast - slow).norm() <= 1e-9 * slow.norm());
+    });
 }
 
 TEST_CASE("a solution is what no variant leaves") {
   const KnownSolution known = make_known_solution({.bodies = 20, .contacts = 15});
-  BodySweep sweep;
+  AnySweep sweep;
   sweep.prepare(known.problem);
   for (const SweepVariant variant :
        {SweepVariant{.rule = LocalRule::projection}, SweepVariant{.rule = LocalRule::newton},
         SweepVariant{.relaxation = 1.3}, SweepVariant{.relaxation = 0.5}}) {
-    sweep.load(known.problem, known.r);
-    sweep.sweep(variant, in_order(known.problem));
+    sweep->load(known.problem, known.r);
+    sweep->sweep_by(variant, in_order(known.problem));
     Impulses r = known.r;
-    sweep.store(known.problem, r);
+    sweep->store(known.problem, r);
     CHECK((r - known.r).norm() <= 1e-9 * known.r.norm());
   }
 }

@@ -1,4 +1,5 @@
-// Sweeps in single precision that are made good in double at every look.
+// Sweeps in single precision that are made good in double at every look; groups of open contacts
+// that are passed over between two looks.
 
 #include <cmath>
 
@@ -8,11 +9,10 @@
 #include "solvers/backends/nncg.hpp"
 #include "tests/catch.hpp"
 #include "tests/solvers/gauss_seidel/grain_problem.hpp"
-#include "tests/solvers/gauss_seidel/single_sweep.hpp"
 
 using namespace ballast;
 using samples::grain_problem;
-using samples::SingleSweep;
+using samples::Wide;
 
 namespace {
 
@@ -55,7 +55,9 @@ void check_far_guesses(const Loops& loops, double accuracy) {
       contacts.set(lane, 5.48044634, 0.563586771, -0.0149795767, 0.171148002,
                    {near(0.194376), near(0.0279109 + 1e-5), near(0.0125614)});
     }
-    loops.sweep({{&contacts.group, &contacts.impulses, nullptr, nullptr, 1}, {}}, &contacts.still);
+    double squares[2];
+    loops.sweep({{&contacts.group, &contacts.impulses, nullptr, nullptr, 1}, {}}, nullptr,
+                &contacts.still, squares);
     for (int lane = 0; lane < group_lanes; ++lane) {
       REQUIRE(std::isfinite(contacts.miss(lane)));
       REQUIRE(contacts.miss(lane) < accuracy);
@@ -68,22 +70,67 @@ double velocity_scale(const FrictionProblem& problem) {
   return contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
 }
 
+/// A row of bodies, the first of which runs at 1 m/s into the second, which rests against the third
+/// and so on; the last one has a gap before it. The first share their speed out until that gap has
+/// to close. Contacts are numbered from the row's end, so that each sweep takes the push one body
+/// further. Beside them other contacts that are solved by the first sweep: some closed, most open.
+struct RowOfBodies {
+  static constexpr int bodies = 9, closed = 249, open = 8000;
+  static constexpr int gap =
+      bodies - 2 + closed;  ///< the contact with the gap: groups before it are full
+  FrictionProblem problem;
+
+  RowOfBodies() {
+    problem.has_dynamics = true;
+    DynamicsForm& d = problem.dynamics;
+    for (int b = 0; b < bodies + closed + open; ++b) {
+      const Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(6, 6);
+      d.mass.insert(d.mass.end(), mass.data(), mass.data() + mass.size());
+      d.mass_begin.push_back(static_cast<int>(d.mass.size()));
+      d.dof_begin.push_back(d.dof_begin.back() + 6);
+    }
+    std::vector<double> bias;
+    const auto add = [&](int a, int b, double opening) {
+      d.body_a.push_back(a);
+      d.body_b.push_back(b);
+      for (const double sign : {-1.0, 1.0}) {
+        if ((sign < 0.0 ? a : b) < 0) continue;
+        Eigen::Matrix<double, 3, 6> rows = Eigen::Matrix<double, 3, 6>::Zero();
+        rows.leftCols<3>().setIdentity();
+        rows *= sign;
+        d.h.insert(d.h.end(), rows.data(), rows.data() + rows.size());
+      }
+      d.h_begin.push_back(static_cast<int>(d.h.size()));
+      problem.row_begin.push_back(problem.row_begin.back() + 3);
+      problem.friction.push_back(0.5);
+      bias.insert(bias.end(), {opening, 0.0, 0.0});
+    };
+    for (int b = bodies - 3; b >= 0; --b) add(b, b + 1, 0.0);
+    for (int k = 0; k < closed; ++k) add(-1, bodies + k, -1e-3);
+    add(bodies - 2, bodies - 1, 0.1);
+    for (int k = 0; k < open; ++k) add(-1, bodies + closed + k, 1.0);
+    d.bias = Eigen::VectorXd::Map(bias.data(), static_cast<Eigen::Index>(bias.size()));
+    d.v_free.setZero(d.dof_count());
+    d.v_free[0] = 1.0;
+  }
+};
+
 }  // namespace
 
 TEST_CASE("single: errors fall as in double, for mass ratios up to a million") {
   for (const double mass_ratio : {1.0, 1e3, 1e6}) {
     const FrictionProblem problem = grain_problem({.mass_ratio = mass_ratio, .seed = 6});
-    SingleSweep single(problem, true), exact(problem, false);
+    Wide single(problem, true), exact(problem, false);
     for (const int sweeps : {10, 20, 50, 100, 200}) {
       for (int k = 0; k < sweeps; ++k) {
-        single.wide.sweep();
-        exact.wide.sweep();
+        single.sweep.sweep();
+        exact.sweep.sweep();
       }
-      const double found = single.wide.error(), expected = exact.wide.error();
+      const double found = single.sweep.error(), expected = exact.sweep.error();
       INFO("mass ratio " << mass_ratio << ", sweeps " << sweeps);
       CHECK(found == Approx(expected).epsilon(0.02));
       Impulses r;
-      single.wide.store(problem, r);
+      single.sweep.store(problem, r);
       CHECK(contact_error(problem, r).natural_map_rms == Approx(found).epsilon(1e-9));
     }
   }
@@ -96,18 +143,19 @@ TEST_CASE("single: the same bits on every instruction set, with any number of th
   std::vector<double> expected_errors;
   for (const GroupKernels* kernels : all_group_kernels())
     for (const int threads : {1, 2, 3, 8}) {
-      SingleSweep single(problem, true, *kernels, threads);
+      Wide single(problem, true, *kernels, threads);
       REQUIRE(single.plan.interiors().size() >= 2);
-      single.wide.start_search();
+      single.sweep.start_search();
       std::vector<double> errors;
       for (int k = 0; k < 20; ++k) {
-        single.wide.sweep(SearchStep{k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0, k < 9 ? 0.0 : 0.4});
-        if (k % 5 == 4) errors.push_back(single.wide.error());
+        single.sweep.sweep_along(
+            SearchStep{k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0, k < 9 ? 0.0 : 0.4});
+        if (k % 5 == 4) errors.push_back(single.sweep.error());
       }
-      CHECK(single.wide.is_single());
-      errors.push_back(single.wide.error());
+      CHECK(single.sweep.is_single());
+      errors.push_back(single.sweep.error());
       Impulses r;
-      single.wide.store(problem, r);
+      single.sweep.store(problem, r);
       if (expected.size() == 0) {
         expected = r;
         expected_errors = errors;
@@ -129,41 +177,96 @@ TEST_CASE("single: a guess that overflows is not taken for a slip root") {
 TEST_CASE("single: leaves by itself where its rounding would show") {
   const FrictionProblem problem =
       grain_problem({.grains = 600, .contacts = 300, .reach = 300, .seed = 4});  // few are joined
-  SingleSweep single(problem, true);
-  single.wide.sweep();
-  CHECK(single.wide.is_single());
-  double error = single.wide.error();
+  Wide single(problem, true);
+  single.sweep.sweep();
+  CHECK(single.sweep.is_single());
+  double error = single.sweep.error();
   for (int look = 0; look < 40; ++look) {
-    if (single.wide.is_single()) CHECK(error > 1e-9 * velocity_scale(problem));
-    for (int k = 0; k < 20; ++k) single.wide.sweep();
-    error = single.wide.error();
+    if (single.sweep.is_single()) CHECK(error > 1e-9 * velocity_scale(problem));
+    for (int k = 0; k < 20; ++k) single.sweep.sweep();
+    error = single.sweep.error();
   }
-  CHECK_FALSE(single.wide.is_single());
+  CHECK_FALSE(single.sweep.is_single());
   CHECK(error < 1e-12 * velocity_scale(problem));
 }
 
 TEST_CASE("single: loaded impulses are stored as they were; the last sweep is in double") {
   const FrictionProblem problem = grain_problem({.seed = 2});
-  SingleSweep single(problem, true), exact(problem, false);
+  Wide single(problem, true), exact(problem, false);
   const Impulses start = Impulses::Constant(problem.row_count(), 1.0 / 3e5);
   Impulses r, expected;
-  for (SingleSweep* sweep : {&single, &exact}) sweep->wide.load(problem, start);
-  single.wide.store(problem, r);
-  exact.wide.store(problem, expected);
+  for (Wide* sweep : {&single, &exact}) sweep->sweep.load(problem, start);
+  single.sweep.store(problem, r);
+  exact.sweep.store(problem, expected);
   CHECK(r == expected);
-  CHECK_FALSE(single.wide.finish_in_double());  // no sweep yet
-  single.wide.load(problem, start);
-  for (int k = 0; k < 30; ++k) single.wide.sweep();
-  CHECK(single.wide.error() > 0.0);
-  CHECK(single.wide.finish_in_double());
-  CHECK_FALSE(single.wide.is_single());
-  single.wide.store(problem, r);
+  CHECK_FALSE(single.sweep.finish_in_double());  // no sweep yet
+  single.sweep.load(problem, start);
+  for (int k = 0; k < 30; ++k) single.sweep.sweep();
+  CHECK(single.sweep.error() > 0.0);
+  CHECK(single.sweep.finish_in_double());
+  CHECK_FALSE(single.sweep.is_single());
+  single.sweep.store(problem, r);
   const ContactError error = contact_error(problem, r);
   CHECK(error.cone_violation <= 1e-15 * r.norm());
-  CHECK(single.wide.error() == Approx(error.natural_map_rms).epsilon(1e-9));
-  single.wide.load(problem, start);
-  single.wide.sweep();
-  CHECK(single.wide.is_single());  // begins again
+  CHECK(single.sweep.error() == Approx(error.natural_map_rms).epsilon(1e-9));
+  single.sweep.load(problem, start);
+  single.sweep.sweep();
+  CHECK(single.sweep.is_single());  // begins again
+}
+
+TEST_CASE("single: open contacts that rest change no bit") {
+  FrictionProblem problem = grain_problem({.grains = 1200, .contacts = 5000, .seed = 9});
+  // A third of them have gaps.
+  Random random(9);
+  for (int c = 0; c < problem.contact_count(); ++c)
+    if (random.below(3) == 0)
+      problem.dynamics.bias[problem.row_begin[c]] = random.uniform(0.0, 9.0);
+  for (const int threads : {1, 2}) {
+    Wide rests(problem, true, group_kernels(), threads), all(problem, true);
+    all.sweep.allow_rests(false);
+    for (Wide* sweep : {&rests, &all}) sweep->sweep.start_search();
+    int resting = 0;
+    for (int k = 0; k < 120; ++k) {
+      const SearchStep step{k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0, k < 9 ? 0.0 : 0.4};
+      const double square = all.sweep.sweep_along(step);
+      REQUIRE(rests.sweep.sweep_along(step) == square);
+      if (k % 12 != 5) continue;
+      const double error = all.sweep.error();
+      REQUIRE(rests.sweep.error() == error);
+      resting = std::max(resting, rests.sweep.resting_groups());
+      CHECK(all.sweep.resting_groups() == 0);
+    }
+    CHECK(resting > 40);  // of some 400
+    Impulses r, expected;
+    rests.sweep.store(problem, r);
+    all.sweep.store(problem, expected);
+    CHECK(r == expected);
+  }
+}
+
+TEST_CASE("single: a contact that has to close while it rests is seen by the next look") {
+  const RowOfBodies row;
+  const int at_gap = row.problem.row_begin[RowOfBodies::gap];
+  Wide sweep(row.problem, true), all(row.problem, true);
+  all.sweep.allow_rests(false);
+  Impulses r;
+  const auto impulse = [&](Wide& of) {
+    of.sweep.error();
+    of.sweep.store(row.problem, r);
+    return r[at_gap];
+  };
+  for (Wide* of : {&sweep, &all}) {
+    of->sweep.sweep();
+    CHECK(impulse(*of) == 0.0);
+  }
+  CHECK(sweep.sweep.resting_groups() > RowOfBodies::open / group_lanes - 2);
+  for (int k = 0; k < 100; ++k)
+    for (Wide* of : {&sweep, &all}) of->sweep.sweep();
+  CHECK(impulse(all) > 0.01);
+  CHECK(impulse(sweep) == 0.0);  // it rested
+  for (int k = 0; k < 200; ++k) sweep.sweep.sweep();
+  CHECK(impulse(sweep) == Approx(0.125 - 0.1).epsilon(0.2));
+  CHECK(contact_error(row.problem, r).natural_map_rms < 1e-6);
 }
 
 TEST_CASE("single: backends that use it converge far below its rounding") {

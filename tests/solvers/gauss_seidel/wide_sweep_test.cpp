@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "platform/worker_team.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/gauss_seidel/scalar_sweep.hpp"
@@ -14,24 +13,14 @@
 
 using namespace ballast;
 using samples::grain_problem;
+using samples::Wide;
 
 namespace {
 
-struct Wide {
-  SweepPlan plan;
-  WorkerTeam team;
-  WideSweep sweep{plan};
-  bool fits;
-
-  explicit Wide(const FrictionProblem& problem, const GroupKernels& kernels = group_kernels(),
-                int threads = 1) {
-    team.resize(threads);
-    sweep.use_team(&team);
-    plan.prepare(problem);
-    sweep.use_kernels(kernels);
-    fits = sweep.prepare(problem);
-  }
-};
+/// Plain sweeps, searches along what the last sweeps changed, and momentum.
+constexpr SearchStep all_search_steps[] = {{0.0, 0.0},      {0.0, 1.0},     {0.7, 1.0},
+                                           {0.3, 1.0},      {0.0, 1.0},     {0.9, 1.0},
+                                           {0.5, 0.0, 0.5}, {0.6, 0.2, 0.3}};
 
 struct Scalar {
   SweepPlan plan;
@@ -95,7 +84,7 @@ TEST_CASE("wide: a sweep is the scalar one in the same order, to rounding") {
     scalar.sweep.load(problem, slow);
     for (int k = 1; k <= 30; ++k) {
       wide.sweep.sweep();
-      scalar.sweep.sweep(SweepVariant{}, order);
+      scalar.sweep.sweep_by({}, order);
       wide.sweep.store(problem, fast);
       scalar.sweep.store(problem, slow);
       REQUIRE(difference(fast, slow) <= (k == 1 ? 1e-15 : 1e-12));
@@ -138,7 +127,7 @@ TEST_CASE("wide: the same bits on every instruction set, with any number of thre
   double expected_error = 0.0, expected_square = 0.0;
   for (const GroupKernels* kernels : all_group_kernels())
     for (const int threads : {1, 2, 3, 8}) {
-      Wide wide(problem, *kernels, threads);
+      Wide wide(problem, false, *kernels, threads);
       REQUIRE(wide.fits);
       REQUIRE(wide.plan.interiors().size() >= 2);
       Impulses r = start_of(problem);
@@ -146,7 +135,7 @@ TEST_CASE("wide: the same bits on every instruction set, with any number of thre
       wide.sweep.start_search();
       double square = 0.0;
       for (const SearchStep step : {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.4, 0.5, 0.3}})
-        square += wide.sweep.sweep(step);
+        square += wide.sweep.sweep_along(step);
       for (int k = 0; k < 20; ++k) wide.sweep.sweep();
       wide.sweep.store(problem, r);
       const double error = wide.sweep.error();
@@ -172,8 +161,8 @@ TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step
   slow.sweep.impulse_weights(weights);
   slow.sweep.save(x);
   Eigen::VectorXd before = x, direction = Eigen::VectorXd::Zero(x.size());
-  for (const SearchStep step : samples::all_search_steps) {
-    const double square = fast.sweep.sweep(step);
+  for (const SearchStep step : all_search_steps) {
+    const double square = fast.sweep.sweep_along(step);
     // The twin: the formula on impulses and velocities as one vector.
     slow.sweep.save(x);
     const Eigen::VectorXd along = step.beta * direction + step.ahead * (x - before);

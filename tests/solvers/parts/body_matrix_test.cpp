@@ -152,16 +152,3 @@ TEST_CASE("with unit masses it is solved like a dense one", "[factors]") {
       CHECK((x - a.partialPivLu().solve(b)).norm() < 1e-9 * x.norm());
     }
 }
-
-TEST_CASE("a matrix that is not finite is not factored, and the next one is", "[factors]") {
-  UnitMassContacts contacts;
-  const FrictionProblem problem = make_known_solution({}).problem;
-  contacts.prepare(problem);
-  BodyMatrix matrix;
-  matrix.prepare(contacts);
-  std::vector<Eigen::Matrix3d> gains = mixed_gains(contacts.contact_count(), 1.0, 1);
-  gains[4](0, 0) = std::numeric_limits<double>::quiet_NaN();
-  CHECK_FALSE(matrix.factor(gains));
-  gains[4].setZero();
-  CHECK(matrix.factor(gains));
-}

@@ -14,12 +14,7 @@ namespace {
 std::vector<FrictionProblem> problems() {
   std::vector<FrictionProblem> all{oracle::mixed_problem(),
                                    make_known_solution({.contacts = 80}).problem};
-  for (int k = 0; k < 2; ++k) {
-    FrictionProblem stored = all[k];
-    add_delassus_form(stored);
-    stored.has_dynamics = false;
-    all.push_back(stored);
-  }
+  for (int k = 0; k < 2; ++k) all.push_back(only_delassus(all[k]));
   return all;
 }
 

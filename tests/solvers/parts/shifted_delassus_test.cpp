@@ -48,16 +48,13 @@ Eigen::VectorXd sample(int rows) {
 TEST_CASE("the shifted system is solved in both forms, singular W or not", "[factors]") {
   for (const FrictionProblem& dynamics :
        {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
-    FrictionProblem stored = dynamics;
-    add_delassus_form(stored);
-    stored.has_dynamics = false;
     const auto sigma = blocks(dynamics, 100.0);
     const Eigen::VectorXd b = sample(dynamics.row_count());
     const Eigen::VectorXd exact =
         shifted(dynamics, oracle::dense_delassus(dynamics), sigma).partialPivLu().solve(b);
-    for (const FrictionProblem* problem : {&std::as_const(dynamics), &std::as_const(stored)}) {
+    for (const FrictionProblem& problem : {dynamics, only_delassus(dynamics)}) {
       ContactOperator w;
-      w.prepare(*problem);
+      w.prepare(problem);
       ShiftedDelassus system;
       system.prepare(w);
       REQUIRE(system.factor(inverses(sigma), sigma));
@@ -73,9 +70,8 @@ TEST_CASE("the shifted system is solved in both forms, singular W or not", "[fac
 }
 
 TEST_CASE("an unsymmetric stored W is taken as it is", "[factors]") {
-  FrictionProblem problem = make_known_solution({.bodies = 20, .contacts = 15}).problem;
-  add_delassus_form(problem);
-  problem.has_dynamics = false;
+  FrictionProblem problem =
+      only_delassus(make_known_solution({.bodies = 20, .contacts = 15}).problem);
   Eigen::MatrixXd dense = problem.delassus.w;
   for (int i = 0; i < dense.rows(); ++i)
     for (int j = 0; j < i; ++j) dense(i, j) *= 1.05;

@@ -1,0 +1,41 @@
+#pragma once
+// The sweep that fits a problem. A stored W is swept along its rows; otherwise contacts push
+// bodies, bodies carry the motion to other contacts, and W is never formed: in groups of contacts
+// side by side, or contact after contact.
+
+#include "solvers/gauss_seidel/delassus_sweep.hpp"
+#include "solvers/gauss_seidel/scalar_sweep.hpp"
+#include "solvers/gauss_seidel/sweep_plan.hpp"
+#include "solvers/gauss_seidel/wide_sweep.hpp"
+
+namespace ballast {
+
+class AnySweep {
+ public:
+  /// From the next prepare() on, contacts can be swept by a variant: one by one.
+  void use_variants() { variants_ = true; }
+  /// Whose members share a sweep from now on; null: the caller alone. The same bits whatever their
+  /// number.
+  void use_team(WorkerTeam* team) {
+    scalar_.use_team(team);
+    wide_.use_team(team);
+  }
+
+  /// Chooses, and makes everything that does not depend on the impulses: records, masses, 1/rho. A
+  /// problem that has both forms is swept over its bodies.
+  void prepare(const FrictionProblem& problem);
+
+  ContactSweep& operator*() { return *chosen_; }
+  ContactSweep* operator->() { return chosen_; }
+  bool is_wide() const { return chosen_ == &wide_; }
+
+ private:
+  SweepPlan plan_;
+  ScalarSweep scalar_{plan_};
+  WideSweep wide_{plan_};
+  DelassusSweep stored_;
+  ContactSweep* chosen_ = &scalar_;
+  bool variants_ = false;
+};
+
+}  // namespace ballast

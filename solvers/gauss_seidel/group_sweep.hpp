@@ -1,0 +1,410 @@
+#pragma once
+// The sweeps over groups (group_kernels.hpp) for one instruction set: V, its lanes. Included by the
+// sources group_kernels_*.cpp alone.
+//
+// One vector's solution is a chain of divisions that leaves most of a processor idle. So the
+// vectors of a group are solved in step, and where registers are as wide as a group, a group of
+// each of two runs without a common body.
+
+#include <algorithm>
+#include <type_traits>
+
+#include "solvers/gauss_seidel/group_kernels.hpp"
+#include "solvers/gauss_seidel/lanes.hpp"
+
+namespace ballast {
+
+template <typename V>
+BALLAST_INLINE V dot(const typename V::Number (*row)[group_lanes], int lane, const V* w) {
+  return (V::load(row[0] + lane) * w[0] + V::load(row[1] + lane) * w[1]) +
+         V::load(row[2] + lane) * w[2];
+}
+
+/// Row `i` of the contacts' velocities from those of their bodies, bias included.
+template <typename V, typename Group>
+BALLAST_INLINE V velocity(const Group& k, int i, int lane, const V* a, const V* b) {
+  const V apart[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  return dot(k.line[i], lane, apart) +
+         (dot(k.turn[0][i], lane, a + 3) + dot(k.turn[1][i], lane, b + 3)) +
+         V::load(k.bias[i] + lane);
+}
+
+/// The bodies feel the impulses e.
+template <typename V, typename Group>
+BALLAST_INLINE void push(const Group& k, int lane, const V* e, V* a, V* b) {
+  constexpr int rows = Group::rows;
+  const auto sum = [ lane, e ](const auto& numbers, int j) __attribute__((always_inline)) {
+    V result = V::load(numbers[0][j] + lane) * e[0];
+    for (int i = 1; i < rows; ++i) result = result + V::load(numbers[i][j] + lane) * e[i];
+    return result;
+  };
+  const V mass_a = V::load(k.inverse_mass[0] + lane), mass_b = V::load(k.inverse_mass[1] + lane);
+  for (int j = 0; j < 3; ++j) {
+    const V along = sum(k.line, j);
+    a[j] = a[j] - mass_a * along;
+    b[j] = b[j] + mass_b * along;
+    a[3 + j] = a[3 + j] + sum(k.turn[0], j);
+    b[3 + j] = b[3 + j] + sum(k.turn[1], j);
+  }
+}
+
+/// A sum for each lane of a group, so that its order does not depend on the width of registers.
+template <typename V>
+struct LaneSums {
+  V part[group_lanes / V::width];
+
+  BALLAST_INLINE LaneSums() {
+    for (V& p : part) p = V::all(0.0);
+  }
+  BALLAST_INLINE void add(int lane, V value) {
+    part[lane / V::width] = part[lane / V::width] + value;
+  }
+  BALLAST_INLINE double total() const {
+    alignas(64) typename V::Number numbers[group_lanes];
+    for (int lane = 0; lane < group_lanes; lane += V::width)
+      part[lane / V::width].store(numbers + lane);
+    double sum = 0.0;
+    for (const auto number : numbers) sum += number;
+    return sum;
+  }
+};
+
+/// GroupLoops::push
+template <typename V, typename Group>
+void push_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses, int count,
+               BodyRow<typename V::Number>* bodies) {
+  using Number = typename V::Number;
+  for (int g = 0; g < count; ++g)
+    for (int lane = 0; lane < group_lanes; lane += V::width) {
+      const Group& k = groups[g];
+      V a[6], b[6], r[Group::rows];
+      for (int i = 0; i < Group::rows; ++i) r[i] = V::load(impulses[g].y[i] + lane);
+      gather_bodies(bodies, k.body[0] + lane, a);
+      gather_bodies(bodies, k.body[1] + lane, b);
+      push(k, lane, r, a, b);
+      scatter_bodies(bodies, k.body[0] + lane, a);
+      scatter_bodies(bodies, k.body[1] + lane, b);
+      if constexpr (requires { k.wall; }) {
+        Number& w = *reinterpret_cast<Number*>(at_offset(static_cast<void*>(bodies), k.wall_body));
+        for (int i = lane; i < lane + V::width; ++i) w += k.wall[i] * impulses[g].y[0][i];
+      }
+    }
+}
+
+/// A plain loop over the bodies' numbers: each compiler flag makes its own registers of it. V tells
+/// the instruction sets' functions apart.
+template <typename V, typename Number = typename V::Number>
+void move_bodies(int count, SearchStep step, BodyRow<Number>* __restrict bodies,
+                 BodyRow<Number>* __restrict befores, BodyRow<Number>* __restrict directions) {
+  Number *w = bodies->w, *before = befores->w, *direction = directions->w;
+  const Number beta = static_cast<Number>(step.beta), gain = static_cast<Number>(step.gain),
+               ahead = static_cast<Number>(step.ahead);
+  for (int i = 0; i < 8 * count; ++i) {
+    const Number change = w[i] - before[i], along = beta * direction[i] + ahead * change,
+                 moved = w[i] + along;
+    direction[i] = along + gain * change;
+    w[i] = moved;
+    before[i] = moved;
+  }
+}
+
+/// In: the impulses (y, t1, t2) that would stop the contacts. Out: the solutions.
+template <typename V>
+struct LawLanes {
+  V s2, c1, c2, mu, inverse_mu;
+  V y, t1, t2;
+  V miss;  ///< by how much the closed form missed the last slip root; 0: not known
+  typename V::Mask slips;
+};
+
+/// Open and sticking contacts are done; `slips` says which are left.
+template <typename V>
+BALLAST_INLINE void open_or_stick(LawLanes<V>& k) {
+  using Mask = typename V::Mask;
+  const V zero = V::all(0.0);
+  const V limit = k.mu * (k.y - k.c1 * k.t1 - k.c2 * k.t2);
+  const Mask open = at_most(k.y, zero);
+  const Mask stick =
+      static_cast<Mask>(at_most(zero, limit) & at_most(k.t1 * k.t1 + k.t2 * k.t2, limit * limit));
+  const Mask closed = static_cast<Mask>(~open);
+  k.y = keep(closed, k.y);
+  k.t1 = keep(closed, k.t1);
+  k.t2 = keep(closed, k.t2);
+  k.slips = static_cast<Mask>(~(open | stick));
+}
+
+/// The roots of the lanes that the fixed number of steps did not serve: one by one.
+template <typename V>
+[[gnu::noinline]] V roots_one_by_one(typename V::Mask lanes, const LawLanes<V>& k, V x) {
+  using Number = typename V::Number;
+  alignas(64) Number s2[V::width], c1[V::width], c2[V::width], mu[V::width], y[V::width],
+      t1[V::width], t2[V::width], root[V::width], chosen[V::width];
+  k.s2.store(s2);
+  k.c1.store(c1);
+  k.c2.store(c2);
+  k.mu.store(mu);
+  k.y.store(y);
+  k.t1.store(t1);
+  k.t2.store(t2);
+  x.store(root);
+  keep(lanes, V::all(1.0)).store(chosen);
+  for (int i = 0; i < V::width; ++i)
+    if (chosen[i] != 0)
+      root[i] = static_cast<Number>(slip_root(s2[i], c1[i], c2[i], mu[i], y[i], t1[i], t2[i]));
+  return V::load(root);
+}
+
+/// The slip branch for K vectors in step, so that one's divisions hide the other's. With x = 1 +
+/// lambda, x2 = x + s2 - 1, e = d / y: the root of mu N = R,
+///   N = x x2 - c1 e1 x2 - c2 e2 x,   R^2 = (e1 x2)^2 + (e2 x)^2   (see slide() in
+///   one_contact.hpp).
+///
+/// The guess is the root for s2 = 1 in closed form, and by how much that missed the last root: in
+/// nine of ten visits it is within 1e-3. Two Newton steps follow, without a branch and without a
+/// square root: with P = mu N near R, R - P ~ 2 P (R^2 - P^2) / (3 P^2 + R^2). What the second one
+/// moves tells how near the root is; its own error is the square of that. A guess beyond a pole may
+/// have left for infinity by then, where nothing is less than its own part.
+template <typename V, int K>
+BALLAST_INLINE void slide(LawLanes<V>* k) {
+  using Mask = typename V::Mask;
+  constexpr bool is_double = sizeof(typename V::Number) == 8;
+  const V one = V::all(1.0), zero = V::all(0.0), enough = V::all(is_double ? 3e-7 : 5e-4);
+  V d2[K], spread[K], square1[K], square2[K], coupling1[K], coupling2[K], coupling[K], closed[K],
+      x[K];
+  Mask good[K];
+  for (int v = 0; v < K; ++v) {
+    d2[v] = k[v].s2 * k[v].t2;
+    spread[v] = k[v].s2 - one;
+    const V over_y = one / k[v].y, e1 = k[v].t1 * over_y, e2 = d2[v] * over_y;
+    square1[v] = e1 * e1;
+    square2[v] = e2 * e2;
+    coupling1[v] = k[v].c1 * e1;
+    coupling2[v] = k[v].c2 * e2;
+    coupling[v] = coupling1[v] + coupling2[v];
+    const V square = square1[v] + square2[v];
+    closed[v] =
+        square_root(square) * k[v].inverse_mu + coupling[v] - spread[v] * square2[v] / square;
+    x[v] = closed[v] + k[v].miss;
+  }
+  for (int step = 0; step < 2; ++step)
+    for (int v = 0; v < K; ++v) {
+      const V x2 = x[v] + spread[v];
+      const V n = (x[v] - coupling1[v]) * x2 - coupling2[v] * x[v];
+      const V a1 = square1[v] * x2, a2 = square2[v] * x[v];
+      const V r_square = a1 * x2 + a2 * x[v];
+      const V slope = (x[v] + x2 - coupling[v]) * r_square - n * (a1 + a2);
+      const V pressed = k[v].mu * n, p_square = pressed * pressed;
+      const V move = (r_square - p_square) * (r_square * (n + n)) /
+                     ((p_square + p_square + p_square + r_square) * slope);
+      x[v] = x[v] + move;
+      if (step == 1)
+        good[v] = static_cast<Mask>(less(move, enough * x[v]) & less(zero - move, enough * x[v]) &
+                                    less(one, x[v]) & less(zero, pressed));
+    }
+  for (int v = 0; v < K; ++v) {
+    const Mask rest = static_cast<Mask>(k[v].slips & ~good[v]);
+    if (any(rest)) [[unlikely]] {
+      const LawLanes<V> copy = k[v];  // so that k[v] itself need not be in memory
+      x[v] = roots_one_by_one(rest, copy, x[v]);
+    }
+    // x = 0: nothing holds it
+    const V x2 = x[v] + spread[v], scale = one / (x[v] * x2);
+    const Mask some = static_cast<Mask>(k[v].slips & less(zero, x[v]));
+    k[v].t1 = select(k[v].slips, keep(some, k[v].t1 * x2 * scale), k[v].t1);
+    k[v].t2 = select(k[v].slips, keep(some, d2[v] * x[v] * scale), k[v].t2);
+    k[v].miss = select(some, x[v] - closed[v], keep(static_cast<Mask>(~k[v].slips), k[v].miss));
+  }
+}
+
+/// Impulses as the sweep finds them: moved along the search, if there is one.
+template <bool Search, typename V, typename Run>
+BALLAST_INLINE void load_impulses(const Run& run, int g, SearchStep step, int lane, V* r) {
+  constexpr int rows = std::extent_v<decltype(run.impulses->y)>;
+  for (int i = 0; i < rows; ++i) {
+    r[i] = V::load(run.impulses[g].y[i] + lane);
+    if constexpr (Search) {
+      auto& search = run.search[g];
+      const V change = V::load(search.change[i] + lane);
+      const V along =
+          V::all(step.beta) * V::load(search.direction[i] + lane) + V::all(step.ahead) * change;
+      r[i] = r[i] + along;
+      (along + V::all(step.gain) * change).store(search.direction[i] + lane);
+    }
+  }
+}
+
+/// A vector of a group with friction: velocities in, the candidates of the law out.
+template <typename V>
+struct FrictionVector {
+  using Run = GroupRun<FrictionGroup<typename V::Number>>;
+  V a[6], b[6], r[3];
+
+  template <bool Search>
+  BALLAST_INLINE LawLanes<V> load(const Run& run, int g, SearchStep step, int lane,
+                                  const void* bodies) {
+    const auto& k = run.groups[g];
+    load_impulses<Search>(run, g, step, lane, r);
+    gather_bodies(bodies, k.body[0] + lane, a);
+    gather_bodies(bodies, k.body[1] + lane, b);
+    LawLanes<V> law;
+    law.s2 = V::load(k.s2 + lane);
+    law.c1 = V::load(k.c1 + lane);
+    law.c2 = V::load(k.c2 + lane);
+    law.mu = V::load(k.mu + lane);
+    law.inverse_mu = V::load(k.inverse_mu + lane);
+    law.miss = V::load(run.impulses[g].miss + lane);
+    law.y = r[0] - velocity(k, 0, lane, a, b);
+    law.t1 = r[1] - velocity(k, 1, lane, a, b);
+    law.t2 = r[2] - velocity(k, 2, lane, a, b) * V::load(k.inverse_s2 + lane);
+    return law;
+  }
+
+  template <bool Search>
+  BALLAST_INLINE void store(const LawLanes<V>& law, const Run& run, int g, LaneSums<V>& sums,
+                            int lane, void* bodies) {
+    const V after[3] = {law.y, law.t1, law.t2};
+    auto& impulses = run.impulses[g];
+    law.miss.store(impulses.miss + lane);
+    V e[3];
+    for (int i = 0; i < 3; ++i) {
+      after[i].store(impulses.y[i] + lane);
+      e[i] = after[i] - r[i];
+      if constexpr (Search) e[i].store(run.search[g].change[i] + lane);
+    }
+    if constexpr (Search) sums.add(lane, e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+    // Open before and after: nothing moves.
+    const V zero = V::all(0.0);
+    if (!any(static_cast<typename V::Mask>(differs(e[0], zero) | differs(e[1], zero) |
+                                           differs(e[2], zero))))
+      return;
+    const auto& k = run.groups[g];
+    push(k, lane, e, a, b);
+    scatter_bodies(bodies, k.body[0] + lane, a);
+    scatter_bodies(bodies, k.body[1] + lane, b);
+  }
+};
+
+/// The i-th group of each of the first `Runs` runs, K vectors of each in step.
+template <typename V, int K, int Runs, bool Search, typename Run>
+BALLAST_INLINE void sweep_groups(const Run* runs, int i, SearchStep step, LaneSums<V>* sums,
+                                 void* bodies) {
+  int g[Runs];
+  for (int run = 0; run < Runs; ++run) g[run] = runs[run].group(i);
+#pragma GCC unroll 4
+  for (int lane = 0; lane < group_lanes; lane += K * V::width) {
+    FrictionVector<V> vectors[Runs * K];
+    LawLanes<V> law[Runs * K];
+    typename V::Mask slips{};
+    for (int v = 0; v < Runs * K; ++v) {
+      law[v] = vectors[v].template load<Search>(runs[v / K], g[v / K], step,
+                                                lane + v % K * V::width, bodies);
+      open_or_stick(law[v]);
+      slips = static_cast<typename V::Mask>(slips | law[v].slips);
+    }
+    if (any(slips)) slide<V, Runs * K>(law);
+    for (int v = 0; v < Runs * K; ++v)
+      vectors[v].template store<Search>(law[v], runs[v / K], g[v / K], sums[v / K],
+                                        lane + v % K * V::width, bodies);
+  }
+}
+
+template <typename V, int K, bool Search, typename Run>
+BALLAST_INLINE void sweep_friction(const Run* runs, SearchStep step, void* bodies,
+                                   double* squares) {
+  LaneSums<V> sums[2];
+  const int both = K * V::width == group_lanes ? std::min(runs[0].count, runs[1].count) : 0;
+  for (int i = 0; i < both; ++i) sweep_groups<V, K, 2, Search>(runs, i, step, sums, bodies);
+  for (int run = 0; run < 2; ++run) {
+    for (int i = both; i < runs[run].count; ++i)
+      sweep_groups<V, K, 1, Search>(runs + run, i, step, sums + run, bodies);
+    if constexpr (Search) squares[run] = sums[run].total();
+  }
+}
+
+template <typename V, int K, bool Search, typename Number>
+BALLAST_INLINE double sweep_run(const GroupRun<OneRowGroup<Number>>& run, SearchStep step,
+                                BodyRow<Number>* bodies) {
+  LaneSums<V> sums;
+  for (int i = 0; i < run.count; ++i)
+    for (int lane = 0; lane < group_lanes; lane += V::width) {
+      const int g = run.group(i);
+      const auto& k = run.groups[g];
+      V a[6], b[6], r;
+      load_impulses<Search>(run, g, step, lane, &r);
+      gather_bodies(bodies, k.body[0] + lane, a);
+      gather_bodies(bodies, k.body[1] + lane, b);
+      const V candidate = r - velocity(k, 0, lane, a, b);
+      const V y = keep(static_cast<typename V::Mask>(~at_most(candidate, V::all(0.0))), candidate);
+      const V e = y - r;
+      y.store(run.impulses[g].y[0] + lane);
+      if constexpr (Search) {
+        e.store(run.search[g].change[0] + lane);
+        sums.add(lane, e * e);
+      }
+      push(k, lane, &e, a, b);
+      scatter_bodies(bodies, k.body[0] + lane, a);
+      scatter_bodies(bodies, k.body[1] + lane, b);
+    }
+  return Search ? sums.total() : 0.0;
+}
+
+/// The grains' side in lanes. What the wall adds comes in the order of the lanes.
+template <typename V, int K, bool Search, typename Number>
+BALLAST_INLINE double sweep_run(const GroupRun<WallGroup<Number>>& run, SearchStep step,
+                                BodyRow<Number>* bodies) {
+  double sum = 0.0;
+  for (int n = 0; n < run.count; ++n) {
+    const int g = run.group(n);
+    const auto& k = run.groups[g];
+    Number& w = *reinterpret_cast<Number*>(at_offset(static_cast<void*>(bodies), k.wall_body));
+    for (int lane = 0; lane < group_lanes; lane += V::width) {
+      V a[6], b[6], r;
+      load_impulses<Search>(run, g, step, lane, &r);
+      gather_bodies(bodies, k.body[0] + lane, a);
+      gather_bodies(bodies, k.body[1] + lane, b);
+      alignas(64) Number without_wall[V::width], before[V::width], after[V::width],
+          change[V::width];
+      (r - velocity(k, 0, lane, a, b)).store(without_wall);
+      r.store(before);
+      for (int i = 0; i < V::width; ++i) {
+        const Number at = k.wall[lane + i], candidate = without_wall[i] - at * w;
+        after[i] = candidate <= 0 ? 0 : candidate;
+        change[i] = after[i] - before[i];
+        w += at * change[i];
+        if constexpr (Search) sum += change[i] * change[i];
+      }
+      const V e = V::load(change);
+      V::load(after).store(run.impulses[g].y[0] + lane);
+      if constexpr (Search) e.store(run.search[g].change[0] + lane);
+      push(k, lane, &e, a, b);
+      scatter_bodies(bodies, k.body[0] + lane, a);
+      scatter_bodies(bodies, k.body[1] + lane, b);
+    }
+  }
+  return sum;
+}
+
+/// Contacts with friction side by side; of the other kinds one run after the other.
+template <typename V, int K, bool Search, typename Group>
+BALLAST_INLINE void sweep_runs(const GroupRun<Group>* runs, SearchStep step,
+                               BodyRow<typename V::Number>* bodies, double* squares) {
+  if constexpr (Group::rows == 3)
+    return sweep_friction<V, K, Search>(runs, step, bodies, squares);
+  else
+    for (int run = 0; run < 2; ++run) {
+      const double square = sweep_run<V, K, Search>(runs[run], step, bodies);
+      if constexpr (Search) squares[run] = square;
+    }
+}
+
+/// GroupLoops::sweep
+template <typename V, int K, typename Group>
+void sweep_loop(const GroupRun<Group> (&runs)[2], const SearchStep* step,
+                BodyRow<typename V::Number>* bodies, double (&squares)[2]) {
+  if (step)
+    sweep_runs<V, K, true>(runs, *step, bodies, squares);
+  else
+    sweep_runs<V, K, false>(runs, {}, bodies, squares);
+}
+
+}  // namespace ballast

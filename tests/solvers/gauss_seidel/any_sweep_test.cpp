@@ -1,0 +1,122 @@
+#include "solvers/gauss_seidel/any_sweep.hpp"
+
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "tests/catch.hpp"
+#include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/solvers/gauss_seidel/grain_problem.hpp"
+#include "tests/support/delassus_form.hpp"
+#include "tests/support/slow_sweep.hpp"
+
+using namespace ballast;
+
+namespace {
+
+std::vector<FrictionProblem> problems() {
+  std::vector<FrictionProblem> all{oracle::mixed_problem()};
+  for (const KnownSolutionSettings& settings : {KnownSolutionSettings{.friction_max = 0.8},
+                                                {.frictionless_fraction = 0.5},
+                                                {.contacts = 100, .mass_ratio = 100.0}})
+    all.push_back(make_known_solution(settings).problem);
+  all.push_back(all[1]);
+  for (std::size_t k = 0; k < all[1].dynamics.mass.size(); ++k)
+    if (k % 36 % 7 != 0) all.back().dynamics.mass[k] = 0.0;  // diagonal masses
+  return all;
+}
+
+/// Ten sweeps in either form beside those of dense matrices. `dense`: in the dynamics form.
+void check_sweeps(const FrictionProblem& given, const FrictionProblem& dense) {
+  const Eigen::MatrixXd w = oracle::dense_delassus(dense);
+  const Eigen::VectorXd q = oracle::dense_q(dense);
+  const std::vector<int> order = given.has_dynamics ? plan_order(given) : in_order(given);
+  Impulses slow = Impulses::Constant(given.row_count(), 0.1), fast = slow;
+  AnySweep sweep;
+  sweep.prepare(given);
+  sweep->load(given, fast);
+  for (int k = 0; k < 10; ++k) {
+    slow_sweep(dense, w, q, order, slow);
+    sweep->sweep();
+    sweep->store(given, fast);
+    REQUIRE((fast - slow).norm() <= 1e-11 * (1.0 + slow.norm()));
+    const double judged = contact_error(dense, fast).natural_map_rms;
+    REQUIRE(sweep->error() == Approx(judged).epsilon(1e-6).margin(1e-13));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a sweep over bodies, and over W, is the textbook's") {
+  for (const FrictionProblem& problem : problems()) {
+    check_sweeps(problem, problem);
+    check_sweeps(only_delassus(problem), problem);
+  }
+}
+
+TEST_CASE("contacts and bodies of every kind: loaded and stored alike, but for what cannot move") {
+  const FrictionProblem mixed = oracle::mixed_problem();  // contact 4: nothing moves
+  for (const FrictionProblem& problem : {mixed, only_delassus(mixed)}) {
+    AnySweep sweep;
+    sweep.prepare(problem);
+    const Impulses r = Impulses::LinSpaced(problem.row_count(), 0.1, 0.9);
+    Impulses back = Impulses::Zero(problem.row_count()), expected = r;
+    expected.segment(problem.row_begin[4], 3).setZero();
+    sweep->load(problem, r);
+    sweep->store(problem, back);
+    CHECK((back - expected).norm() <= 1e-14 * r.norm());
+    CHECK(sweep->error() == Approx(contact_error(problem, expected).natural_map_rms));
+  }
+}
+
+TEST_CASE("a saved iterate swept again gives the same, and weights are those of W's diagonal") {
+  const FrictionProblem given =
+      make_known_solution({.bodies = 20, .contacts = 60, .frictionless_fraction = 0.2}).problem;
+  std::vector<Eigen::Matrix3d> blocks;
+  delassus_diagonal(given, blocks);
+  double normals = 0.0, largest = 0.0;
+  for (const Eigen::Matrix3d& block : blocks) {
+    normals += block(0, 0);
+    largest += 3.0 * largest_eigenvalue(block);
+  }
+  for (const FrictionProblem& problem : {given, only_delassus(given)}) {
+    AnySweep sweep;
+    sweep.prepare(problem);
+    sweep->load(problem, Impulses::Zero(problem.row_count()));
+    for (int k = 0; k < 3; ++k) sweep->sweep();
+    Eigen::VectorXd state, weights;
+    const Eigen::Index impulses = sweep->save(state);
+    Impulses first = Impulses::Zero(problem.row_count()), again = first;
+    sweep->sweep();
+    sweep->store(problem, first);
+    sweep->restore(state);
+    sweep->sweep();
+    sweep->store(problem, again);
+    CHECK((first - again).norm() <= 1e-12 * first.norm());  // slip roots are other first guesses
+
+    sweep->impulse_weights(weights);
+    REQUIRE(weights.size() == impulses);
+    if (!problem.has_dynamics) {
+      CHECK(weights.squaredNorm() == Approx(largest));
+      continue;
+    }
+    // Every contact's normal entry, in the plan's order.
+    double found = 0.0;
+    Eigen::Index at = 0;
+    for (const int c : plan_order(problem)) {
+      found += weights[at] * weights[at];
+      at += problem.contact_rows(c);
+    }
+    CHECK(found == Approx(normals));
+  }
+}
+
+TEST_CASE("grains are swept in groups, anything else and every variant contact by contact") {
+  AnySweep sweep;
+  sweep.prepare(samples::grain_problem());
+  CHECK(sweep.is_wide());
+  sweep.prepare(oracle::mixed_problem());
+  CHECK_FALSE(sweep.is_wide());
+  sweep.use_variants();
+  sweep.prepare(samples::grain_problem());
+  CHECK_FALSE(sweep.is_wide());
+}
