@@ -28,30 +28,36 @@ struct FixedHeader {
 };
 static_assert(sizeof(FixedHeader) == 40);
 
+template <class Object>
+std::string_view bytes_of(const Object& object) {
+  return {reinterpret_cast<const char*>(&object), sizeof object};
+}
+
+std::string_view bytes_of(std::span<const double> row) {
+  return {reinterpret_cast<const char*>(row.data()), row.size_bytes()};
+}
+
 /// How many rows are safe, at its fixed place after the header's fixed part: it alone is written
 /// again.
 struct SafeMark {
   std::uint64_t rows, checksum;
-  explicit SafeMark(std::uint64_t count = 0)
-      : rows(count), checksum(fnv1a({reinterpret_cast<const char*>(&rows), 8})) {}
+  explicit SafeMark(std::uint64_t count = 0) : rows(count), checksum(fnv1a(bytes_of(rows))) {}
 };
 
 std::uint64_t header_checksum(const FixedHeader& fixed, std::string_view text) {
-  return fnv1a(text, fnv1a({reinterpret_cast<const char*>(&fixed), sizeof fixed}));
+  return fnv1a(text, fnv1a(bytes_of(fixed)));
 }
 
 /// With the row's number, so that rows that changed places are found as well.
 std::uint64_t row_checksum(long number, std::span<const double> row) {
-  const std::uint64_t n = static_cast<std::uint64_t>(number);
-  return fnv1a({reinterpret_cast<const char*>(row.data()), row.size_bytes()},
-               fnv1a({reinterpret_cast<const char*>(&n), sizeof n}));
+  return fnv1a(bytes_of(row), fnv1a(bytes_of(static_cast<std::uint64_t>(number))));
 }
 
 size_t row_bytes(size_t row_size) { return row_size * sizeof(double) + sizeof(std::uint64_t); }
 
-row_log::File open_file(const std::filesystem::path& path, const char* mode, const char* action) {
+OpenedFile open_file(const std::filesystem::path& path, const char* mode, const char* action) {
   errno = 0;
-  row_log::File file(std::fopen(path.c_str(), mode));
+  OpenedFile file(std::fopen(path.c_str(), mode), std::fclose);
   if (!file) throw_file_error(path, action);
   return file;
 }
@@ -142,10 +148,9 @@ RowWriter::RowWriter(const std::filesystem::path& file, const RowLogHeader& head
   std::memcpy(fixed.magic, magic, sizeof magic);
   const std::uint64_t checksum = header_checksum(fixed, header.text);
   const SafeMark safe;
-  write(&fixed, sizeof fixed);
-  write(&safe, sizeof safe);
-  write(header.text.data(), header.text.size());
-  write(&checksum, sizeof checksum);
+  for (const std::string_view part :
+       {bytes_of(fixed), bytes_of(safe), std::string_view(header.text), bytes_of(checksum)})
+    write(part);
   flush();
   sync_folder(path_.parent_path());
 }
@@ -167,8 +172,8 @@ void RowWriter::append(std::span<const double> row) {
     throw Error(path_.string() + ": a row of " + std::to_string(row.size()) +
                 " numbers instead of " + std::to_string(row_size_));
   const std::uint64_t checksum = row_checksum(row_count_, row);
-  write(row.data(), row.size_bytes());
-  write(&checksum, sizeof checksum);
+  write(bytes_of(row));
+  write(bytes_of(checksum));
   ++row_count_;
 }
 
@@ -186,9 +191,10 @@ void RowWriter::mark_safe(long rows) {
   sync_to_disk(file_.get(), path_);
 }
 
-void RowWriter::write(const void* data, size_t bytes) {
+void RowWriter::write(std::string_view bytes) {
   errno = 0;
-  if (std::fwrite(data, 1, bytes, file_.get()) != bytes) throw_file_error(path_, "write");
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
+    throw_file_error(path_, "write");
 }
 
 }  // namespace ballast

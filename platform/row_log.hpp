@@ -16,6 +16,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ballast {
@@ -26,12 +27,7 @@ struct RowLogHeader {
   size_t row_size = 0;      ///< doubles per row
 };
 
-namespace row_log {
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-}  // namespace row_log
+using OpenedFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 /// Reads rows from the first. Every defect is a Error that names the file.
 class RowReader {
@@ -54,7 +50,7 @@ class RowReader {
   void read(void* data, size_t bytes);
 
   std::filesystem::path path_;
-  row_log::File file_;
+  OpenedFile file_;
   RowLogHeader header_;
   size_t header_bytes_ = 0;
   long row_count_ = 0, safe_count_ = 0, row_ = 0;  // row_count_: by the file's length
@@ -76,11 +72,11 @@ class RowWriter {
   long row_count() const { return row_count_; }
 
  private:
-  void write(const void* data, size_t bytes);
+  void write(std::string_view bytes);
   void mark_safe(long rows);
 
   std::filesystem::path path_;
-  row_log::File file_;
+  OpenedFile file_;
   size_t row_size_ = 0;
   long row_count_ = 0;
 };

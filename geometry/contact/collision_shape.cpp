@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "geometry/shape/point_sets.hpp"
@@ -13,6 +14,10 @@ constexpr int lanes = 8;            // one AVX-512 register, two AVX, four SSE2
 constexpr double far_away = 1e100;  // [m]; finite, so that sums of padding stay finite
 
 int rounded_up(int count) { return (count + lanes - 1) / lanes * lanes; }
+
+std::vector<std::uint16_t> in_two_bytes(const std::vector<int>& numbers) {
+  return {numbers.begin(), numbers.end()};
+}
 
 /// The nearest number of single precision that is not above.
 float rounded_down(double value) {
@@ -76,6 +81,9 @@ double AffineRows::value(int row, const Vec3& d) const {
 }
 
 CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
+  if (2 * polyhedron.edge_count() > UINT16_MAX)
+    throw InvalidPolyhedron("contact detection takes faces of 65535 corners together, not of " +
+                            std::to_string(2 * polyhedron.edge_count()));
   bounds_.circumradius = polyhedron.circumradius();
   vertices_ = AffineRows(polyhedron.vertex_count(), far_away);
   for (int v = 0; v < polyhedron.vertex_count(); ++v) vertices_.set(v, polyhedron.vertex(v), 0.0);
@@ -149,7 +157,7 @@ std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
     }
   }
   first_corner.push_back(static_cast<int>(corners.size()));
-  first_corner_.keep(first_corner);
+  first_corner_ = in_two_bytes(first_corner);
   measure_isolation();
   return corners;
 }
@@ -187,8 +195,8 @@ void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector
     edges.insert(edges.end(), {ends.tail, ends.head, ends.left, ends.right});
     drop_.push_back(rounded_down(drop_below(ends, polyhedron)));
   }
-  edges_.keep(edges);
-  corner_edge_.keep(corner_edge);
+  edges_ = in_two_bytes(edges);
+  corner_edge_ = in_two_bytes(corner_edge);
 }
 
 /// Edge::drop: the common normal with an edge u is n = p left_normal + q right_normal with p, q
@@ -216,8 +224,8 @@ void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron,
     all.erase(std::unique(begin, all.end()), all.end());
     begins.push_back(static_cast<int>(all.size()));
   }
-  vertex_begin_.keep(begins);
-  vertex_faces_.keep(all);
+  vertex_begin_ = in_two_bytes(begins);
+  vertex_faces_ = in_two_bytes(all);
 }
 
 /// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is

@@ -12,31 +12,6 @@
 
 namespace ballast {
 
-/// A list of numbers >= 0, of features of a shape, that takes two bytes each while all are small:
-/// ordinary grains have some dozen features, a mesh may have a hundred thousand.
-class ShortNumbers {
- public:
-  /// `numbers`: all of them; they do not change any more.
-  void keep(const std::vector<int>& numbers) {
-    bool is_short = true;
-    for (const int number : numbers) is_short = is_short && number <= UINT16_MAX;
-    short_.clear();
-    long_.clear();
-    if (is_short)
-      short_.assign(numbers.begin(), numbers.end());
-    else
-      long_ = numbers;
-    short_.shrink_to_fit();
-    long_.shrink_to_fit();
-  }
-  int operator[](int k) const { return long_.empty() ? short_[k] : long_[k]; }
-  int size() const { return static_cast<int>(short_.size() + long_.size()); }
-
- private:
-  std::vector<std::uint16_t> short_;
-  std::vector<int> long_;
-};
-
 /// Rows (x, y, z, w) stored column by column, padded to a multiple of 8 rows. A row stands for the
 /// affine function d -> (x, y, z).d + w.
 class AffineRows {
@@ -129,6 +104,8 @@ class CollisionShape {
     FaceView view() const { return {face, corners, sides}; }
   };
 
+  /// Throws InvalidPolyhedron where its faces have more than 65535 corners together, as they have
+  /// with 11,000 vertices.
   explicit CollisionShape(const Polyhedron& polyhedron);
 
   /// Rows (position, 0); padding is far above every height.
@@ -168,10 +145,11 @@ class CollisionShape {
   // Bounds for proofs, which hold as well when single precision has rounded them down.
   std::vector<float> isolation_;  // of each face
   std::vector<float> drop_;       // of each edge
-  ShortNumbers edges_;            // tail, head, left, right of each
-  ShortNumbers first_corner_;     // of each face, and the end
-  ShortNumbers corner_edge_;      // of all faces
-  ShortNumbers vertex_begin_, vertex_faces_;
+  // Numbers of features, in two bytes each.
+  std::vector<std::uint16_t> edges_;         // tail, head, left, right of each
+  std::vector<std::uint16_t> first_corner_;  // of each face, and the end
+  std::vector<std::uint16_t> corner_edge_;   // of all faces
+  std::vector<std::uint16_t> vertex_begin_, vertex_faces_;
   BodyBounds bounds_;
 };
 

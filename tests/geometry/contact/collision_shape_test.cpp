@@ -114,18 +114,9 @@ TEST_CASE("the ball lies inside also when the origin does not") {
   CHECK(shape.bounds().ball_centre.isApprox(Vec3(5, 0, 0)));
 }
 
-TEST_CASE("numbers come back whether two bytes hold them or not") {
-  for (const int largest : {0, 7, 65535, 65536, 1 << 30}) {
-    std::vector<int> given(100);
-    std::iota(given.begin(), given.end(), 0);
-    given[50] = largest;
-    ShortNumbers kept;
-    kept.keep({1 << 20});  // what was there before is forgotten
-    kept.keep(given);
-    REQUIRE(kept.size() == 100);
-    for (int k = 0; k < 100; ++k) CHECK(kept[k] == given[static_cast<size_t>(k)]);
-  }
-  ShortNumbers none;
-  none.keep({});
-  CHECK(none.size() == 0);
+TEST_CASE("a shape of more corners than two bytes count is refused") {
+  Random random(22);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 12000; ++i) points.push_back(random_direction(random));
+  CHECK_THROWS_WITH(CollisionShape(convex_hull(points)), Catch::Contains("65535 corners"));
 }
