@@ -38,40 +38,18 @@ py::array_t<typename Vector::value_type> owned(Vector values, std::vector<py::ss
   return py::array_t<typename Vector::value_type>(std::move(shape), kept->data(), owner);
 }
 
+template <class Vector>
+auto owned(Vector values) {
+  const auto size = static_cast<py::ssize_t>(values.size());
+  return owned(std::move(values), {size});
+}
+
 inline py::array in_threes(Eigen::VectorXd x) {
   const py::ssize_t contacts = x.size() / 3;
   return owned(std::move(x), {contacts, 3});
 }
 
-/// Data, indices and pointers of a compressed matrix, as SciPy takes them: memory of `owner`.
-template <class Matrix>
-py::tuple parts_of(const Matrix& matrix, const py::handle& owner) {
-  const auto entries = static_cast<py::ssize_t>(matrix.nonZeros());
-  const auto lines = static_cast<py::ssize_t>(matrix.outerSize()) + 1;
-  return py::make_tuple(Doubles({entries}, matrix.valuePtr(), owner),
-                        Ints({entries}, matrix.innerIndexPtr(), owner),
-                        Ints({lines}, matrix.outerIndexPtr(), owner));
-}
-/// The same of a matrix that the arrays take over.
-template <class Matrix>
-py::tuple owned_parts(Matrix matrix) {
-  matrix.makeCompressed();
-  auto* kept = new Matrix(std::move(matrix));
-  return parts_of(*kept,
-                  py::capsule(kept, [](void* memory) { delete static_cast<Matrix*>(memory); }));
-}
-
-/// The array is this memory, which lives as long as `owner`: nothing is copied. `stride` [bytes].
-inline py::array view(double* first, py::ssize_t rows, py::ssize_t columns, py::ssize_t stride,
-                      const py::handle& owner) {
-  return py::array(py::dtype::of<double>(), {rows, columns}, {stride, py::ssize_t{8}}, first,
-                   owner);
-}
-
 void add_problems(py::module_& module);
 void add_scenes(py::module_& module);
-void add_files(py::module_& module);
-
-Impulses impulses_of(const FrictionProblem& problem, const Doubles& r);
 
 }  // namespace ballast::python

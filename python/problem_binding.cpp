@@ -1,6 +1,10 @@
-// Problems, their solution and their judge for Python; what users see is ballast/__init__.py.
+// Problems, their solution and their judge for Python, and what runs and foreign programs leave in
+// files; what users see is ballast/__init__.py.
 
+#include "experiments/external/external_files.hpp"
+#include "experiments/step/step_record.hpp"
 #include "problems/algebra/contact_error.hpp"
+#include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"
 #include "python/binding.hpp"
 #include "solvers/seam/run_solver.hpp"
@@ -9,77 +13,83 @@
 namespace ballast::python {
 namespace {
 
-/// SciPy's compressed form: by rows, or by columns for what is its transpose.
-struct Compressed {
-  const Doubles& data;
-  const Ints& indices;
-  const Ints& pointers;
-};
-
-/// Triplets of `lines` rows (or columns) of `length`. Throws std::invalid_argument.
-std::vector<Eigen::Triplet<double>> triplets(const Compressed& m, int lines, int length,
-                                             bool by_rows, const std::string& name) {
+/// The matrix of SciPy's compressed form (data, indices, pointers): by rows, or by columns, as it
+/// is. Throws std::invalid_argument.
+template <class Matrix>
+Matrix matrix_of(const py::tuple& parts, int rows, int columns, const std::string& name) {
+  const auto data = parts[0].cast<Doubles>();
+  const auto indices = parts[1].cast<Ints>(), pointers = parts[2].cast<Ints>();
+  const int lines = Matrix::IsRowMajor ? rows : columns;
+  const int length = Matrix::IsRowMajor ? columns : rows;
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument(name + ": " + what);
   };
-  if (m.pointers.size() != lines + 1)
-    fail("has " + std::to_string(m.pointers.size() - 1) + " rows or columns, must have " +
+  if (pointers.size() != lines + 1)
+    fail("has " + std::to_string(pointers.size() - 1) + " rows or columns, must have " +
          std::to_string(lines));
-  const int* begin = m.pointers.data();
+  const int* begin = pointers.data();
   const int entries = begin[lines];
-  if (begin[0] != 0 || entries > m.data.size() || entries > m.indices.size())
+  if (begin[0] != 0 || entries > data.size() || entries > indices.size())
     fail("its pointers do not fit its entries");
   std::vector<Eigen::Triplet<double>> list;
   list.reserve(static_cast<size_t>(std::max(entries, 0)));
   for (int line = 0; line < lines; ++line) {
     if (begin[line + 1] < begin[line] || begin[line + 1] > entries) fail("its pointers decrease");
     for (int k = begin[line]; k < begin[line + 1]; ++k) {
-      const int index = m.indices.data()[k];
+      const int index = indices.data()[k];
       if (index < 0 || index >= length)
         fail("index " + std::to_string(index) + " is outside 0 to " + std::to_string(length - 1));
-      list.emplace_back(by_rows ? line : index, by_rows ? index : line, m.data.data()[k]);
+      list.emplace_back(Matrix::IsRowMajor ? line : index, Matrix::IsRowMajor ? index : line,
+                        data.data()[k]);
     }
   }
-  return list;
+  Matrix matrix(rows, columns);
+  matrix.setFromTriplets(list.begin(), list.end());
+  return matrix;
 }
 
 std::vector<double> frictions(const Doubles& mu) { return {mu.data(), mu.data() + mu.size()}; }
 
-FrictionProblem checked(FrictionProblem problem) {
+FrictionProblem from_delassus(const py::tuple& w, const Doubles& q, const Doubles& mu) {
+  const int rows = 3 * static_cast<int>(mu.size());
+  FrictionProblem problem = to_friction_problem(LocalProblem{
+      matrix_of<SparseRows>(w, rows, rows, "W"), vector_of(q, rows, "q"), frictions(mu)});
   problem.validate();
   return problem;
-}
-
-FrictionProblem from_delassus(const Doubles& data, const Ints& indices, const Ints& pointers,
-                              const Doubles& q, const Doubles& mu) {
-  const int rows = 3 * static_cast<int>(mu.size());
-  LocalProblem local;
-  local.q = vector_of(q, rows, "q");
-  local.mu = frictions(mu);
-  const auto entries = triplets({data, indices, pointers}, rows, rows, true, "W");
-  local.w.resize(rows, rows);
-  local.w.setFromTriplets(entries.begin(), entries.end());
-  return checked(to_friction_problem(std::move(local)));
 }
 
 FrictionProblem from_bodies(const py::tuple& m, const py::tuple& h, const Doubles& f,
                             const Doubles& w, const Doubles& mu) {
   const int unknowns = static_cast<int>(f.size()), rows = 3 * static_cast<int>(mu.size());
-  GlobalProblem global;
-  global.f = vector_of(f, unknowns, "f");
-  global.w = vector_of(w, rows, "w");
-  global.mu = frictions(mu);
-  const auto matrix = [](const py::tuple& parts, int height, int width, const char* name,
-                         Eigen::SparseMatrix<double>& sparse) {
-    const auto data = parts[0].cast<Doubles>();
-    const auto indices = parts[1].cast<Ints>(), pointers = parts[2].cast<Ints>();
-    const auto entries = triplets({data, indices, pointers}, width, height, false, name);
-    sparse.resize(height, width);
-    sparse.setFromTriplets(entries.begin(), entries.end());
-  };
-  matrix(m, unknowns, unknowns, "M", global.m);
-  matrix(h, unknowns, rows, "H", global.h);
-  return checked(to_friction_problem(global));
+  using Columns = Eigen::SparseMatrix<double>;
+  FrictionProblem problem = to_friction_problem(GlobalProblem{
+      matrix_of<Columns>(m, unknowns, unknowns, "M"), matrix_of<Columns>(h, unknowns, rows, "H"),
+      vector_of(f, unknowns, "f"), vector_of(w, rows, "w"), frictions(mu)});
+  problem.validate();
+  return problem;
+}
+
+Impulses impulses_of(const FrictionProblem& problem, const Doubles& r) {
+  return own_rows(problem, vector_of(r, 3 * problem.contact_count(), "r"));
+}
+
+/// Data, indices and pointers of a compressed matrix, as SciPy takes them: memory of `owner`.
+template <class Matrix>
+py::tuple parts_of(const Matrix& matrix, const py::handle& owner) {
+  const auto entries = static_cast<py::ssize_t>(matrix.nonZeros());
+  const auto lines = static_cast<py::ssize_t>(matrix.outerSize()) + 1;
+  return py::make_tuple(Doubles({entries}, matrix.valuePtr(), owner),
+                        Ints({entries}, matrix.innerIndexPtr(), owner),
+                        Ints({lines}, matrix.outerIndexPtr(), owner));
+}
+
+/// The same of a matrix that the arrays take over.
+template <class Matrix>
+py::tuple owned_parts(Matrix matrix) {
+  matrix.makeCompressed();
+  auto* kept = new Matrix(std::move(matrix));
+  return parts_of(*kept,
+                  py::capsule(kept, [](void* memory) { delete static_cast<Matrix*>(memory); }));
 }
 
 /// W by rows: the problem's own memory where W is stored with three rows per contact, else built.
@@ -96,9 +106,8 @@ py::tuple delassus(const py::object& self) {
 py::tuple bodies(const FrictionProblem& problem) {
   if (!problem.has_dynamics) throw std::invalid_argument("only W is known: there are no bodies");
   GlobalProblem global = to_global_problem(problem);
-  const py::ssize_t unknowns = global.f.size();
   return py::make_tuple(owned_parts(std::move(global.m)), owned_parts(std::move(global.h)),
-                        owned(std::move(global.f), {unknowns}));
+                        owned(std::move(global.f)));
 }
 
 py::dict measures(const ContactError& error) {
@@ -134,12 +143,7 @@ py::array body_velocities(const FrictionProblem& problem, const Doubles& r) {
   Eigen::VectorXd v;
   if (problem.has_dynamics)
     body_velocity(problem.dynamics, problem.row_begin, impulses_of(problem, r), v);
-  const py::ssize_t unknowns = v.size();
-  return owned(std::move(v), {unknowns});
-}
-
-double scale_of(const FrictionProblem& problem) {
-  return contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
+  return owned(std::move(v));
 }
 
 py::dict solve(const FrictionProblem& problem, const std::string& name, double tolerance,
@@ -156,7 +160,8 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   {
     // Other threads of Python go on.
     const py::gil_scoped_release released;
-    if (!is_absolute) tolerance *= scale_of(problem);
+    if (!is_absolute)
+      tolerance *= contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
     run =
         SolverRunner().run(*solver, problem, from, {tolerance, max_iterations, max_seconds, true});
     words = explained(problem, run, tolerance);
@@ -170,36 +175,66 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   d["own_residual"] = run.solved.own_residual;
   d["seconds"] = run.prepare_seconds + run.solve_seconds;
   d["error"] = measures(run.error);
-  Doubles history({static_cast<py::ssize_t>(run.solved.history.size()), py::ssize_t{3}});
-  for (size_t k = 0; k < run.solved.history.size(); ++k) {
-    const HistoryPoint& point = run.solved.history[k];
-    double* row = history.mutable_data(static_cast<py::ssize_t>(k), 0);
-    row[0] = point.iteration;
-    row[1] = point.seconds;
-    row[2] = point.error;
-  }
-  d["history"] = history;
+  std::vector<double> history;
+  for (const HistoryPoint& point : run.solved.history)
+    history.insert(history.end(), {double(point.iteration), point.seconds, point.error});
+  const auto points = static_cast<py::ssize_t>(run.solved.history.size());
+  d["history"] = owned(std::move(history), {points, 3});
   return d;
 }
 
-std::vector<std::string> solver_names() {
-  std::vector<std::string> names;
-  for (const SolverEntry& entry : solver_list())
-    if (entry.make) names.emplace_back(entry.name);
-  return names;
+py::dict captured(const std::filesystem::path& file) {
+  CapturedProblem c = read_captured(file);
+  const auto contacts = static_cast<py::ssize_t>(c.gap.size());
+  std::vector<int> bodies;
+  for (size_t k = 0; k < c.id_a.size(); ++k) bodies.insert(bodies.end(), {c.id_a[k], c.id_b[k]});
+  py::dict d;
+  d["start"] = in_threes(three_rows(c.problem, c.start));
+  d["solution"] = in_threes(three_rows(c.problem, c.solution));
+  d["gap"] = owned(std::move(c.gap));
+  d["frame"] = owned(std::move(c.frame), {contacts, 3, 3});
+  d["position"] = owned(std::move(c.position), {contacts, 3});
+  d["key"] = owned(std::move(c.key));
+  d["bodies"] = owned(std::move(bodies), {contacts, 2});
+  d["h"] = c.h;
+  d["g"] = c.g;
+  d["step"] = c.step;
+  d["time"] = c.time;
+  d["phase"] = c.phase;
+  d["wall_x"] = c.wall_x;
+  d["wall_v"] = c.wall_v;
+  d["load"] = c.load;
+  d["velocity_scale"] = c.velocity_scale();
+  d["problem"] = std::move(c.problem);
+  return d;
 }
 
-Eigen::VectorXd free_velocity(const FrictionProblem& problem) {
-  Eigen::VectorXd q;
-  free_contact_velocity(problem, q);
-  return q;
+/// A dataset of numbers of an HDF5 file, in its shape.
+py::array dataset(const std::filesystem::path& path, const std::string& name) {
+  const Hdf5Reader file(path);
+  std::vector<py::ssize_t> shape;
+  for (const auto length : file.shape(name)) shape.push_back(static_cast<py::ssize_t>(length));
+  return owned(file.read_doubles(name), shape);
+}
+
+void answer(const ExternalRequest& request, const std::filesystem::path& file, int status,
+            const std::optional<Doubles>& r, int iterations, double residual, double seconds,
+            const Doubles& history) {
+  ExternalAnswer answer;
+  answer.set_status(status);
+  if (r) answer.impulses = impulses_of(request.problem, *r);
+  answer.iterations = iterations;
+  answer.own_residual = residual;
+  answer.seconds = seconds;
+  if (history.size() % 3 != 0)
+    throw std::invalid_argument("history has " + std::to_string(history.size()) +
+                                " entries, must have three per point");
+  for (const double* point = history.data(); point != history.data() + history.size(); point += 3)
+    answer.history.push_back({static_cast<int>(point[0]), point[1], point[2]});
+  write_answer(file, request, answer);
 }
 
 }  // namespace
-
-Impulses impulses_of(const FrictionProblem& problem, const Doubles& r) {
-  return own_rows(problem, vector_of(r, 3 * problem.contact_count(), "r"));
-}
 
 void add_problems(py::module_& module) {
   py::class_<FrictionProblem>(module, "Problem")
@@ -215,15 +250,46 @@ void add_problems(py::module_& module) {
                                return Doubles(static_cast<py::ssize_t>(p.friction.size()),
                                               p.friction.data());
                              })
-      .def_property_readonly(
-          "q", [](const FrictionProblem& p) { return in_threes(three_rows(p, free_velocity(p))); })
+      .def_property_readonly("q",
+                             [](const FrictionProblem& p) {
+                               Eigen::VectorXd q;
+                               free_contact_velocity(p, q);
+                               return in_threes(three_rows(p, q));
+                             })
       .def("delassus", delassus)
       .def("bodies", bodies);
   module.def("solve", solve);
   module.def("judge", judge);
   module.def("velocities", velocities);
   module.def("body_velocities", body_velocities);
-  module.def("solvers", solver_names);
+  module.def("solvers", [] {
+    std::vector<std::string> names;
+    for (const SolverEntry& entry : solver_list())
+      if (entry.make) names.emplace_back(entry.name);
+    return names;
+  });
+  module.def("captured", captured);
+  module.def("dataset", dataset);
+  module.def("texts", [](const std::filesystem::path& path, const std::string& name) {
+    return Hdf5Reader(path).read_texts(name);
+  });
+  module.def("step_columns", [] {
+    std::vector<std::string> names;
+    for (const StepColumn& column : step_columns()) names.emplace_back(column.name);
+    return names;
+  });
+  py::class_<ExternalRequest>(module, "Request")
+      .def_static("read", [](const std::filesystem::path& file) { return read_request(file); })
+      .def_readonly("problem", &ExternalRequest::problem)
+      .def_readonly("tolerance", &ExternalRequest::tolerance)
+      .def_readonly("fclib_tolerance", &ExternalRequest::fclib_tolerance)
+      .def_readonly("max_iterations", &ExternalRequest::max_iterations)
+      .def_readonly("max_seconds", &ExternalRequest::max_seconds)
+      .def_property_readonly("start",
+                             [](const ExternalRequest& request) {
+                               return in_threes(three_rows(request.problem, request.start));
+                             })
+      .def("answer", answer);
 }
 
 }  // namespace ballast::python
@@ -239,5 +305,4 @@ PYBIND11_MODULE(_ballast, module) {
   py::register_exception<ballast::MissingSolver>(module, "MissingSolver", PyExc_ValueError);
   ballast::python::add_problems(module);
   ballast::python::add_scenes(module);
-  ballast::python::add_files(module);
 }

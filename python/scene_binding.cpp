@@ -51,20 +51,7 @@ class SteppedScene {
     return as_dict(record);
   }
 
-  py::array positions(const py::object& self) {
-    return view(run_.state.pose[0].position.data(), bodies(), 3, sizeof(Pose), self);
-  }
-  /// As x, y, z, w.
-  py::array rotations(const py::object& self) {
-    return view(run_.state.pose[0].rotation.coeffs().data(), bodies(), 4, sizeof(Pose), self);
-  }
-  py::array velocities(const py::object& self) {
-    return view(run_.state.velocity[0].data(), bodies(), 3, sizeof(Vec3), self);
-  }
-  py::array spins(const py::object& self) {
-    return view(run_.state.spin[0].data(), bodies(), 3, sizeof(Vec3), self);
-  }
-
+  MotionState& state() { return run_.state; }
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const RigidBody& body : run_.system.bodies) names.push_back(body.name);
@@ -85,28 +72,33 @@ class SteppedScene {
       if (body.name != name) continue;
       body.force = {.constant = f};
       // What a driven wall is pushed with, along its normal.
-      if (body.is_wall()) body.wall.load = constant_load(f.dot(body.wall.normal));
+      if (body.is_wall()) body.wall.load = {f.dot(body.wall.normal), f.dot(body.wall.normal)};
       return;
     }
     throw std::invalid_argument(name + ": no body or wall has this name");
   }
 
  private:
-  static HarmonicLoad constant_load(double newtons);
   static py::dict as_dict(const StepRecord& record) {
     py::dict d;
     for (const StepColumn& column : step_columns()) d[column.name] = record.*column.value;
     return d;
   }
-  py::ssize_t bodies() const { return static_cast<py::ssize_t>(run_.system.bodies.size()); }
 
   Scene scene_;
   PreparedRun run_;
   std::unique_ptr<TimeStepper> stepper_;
 };
 
-HarmonicLoad SteppedScene::constant_load(double newtons) {
-  return {.f_min = newtons, .f_max = newtons};
+/// A part of the bodies' state as an array: its memory, which lives as long as the scene. `stride`
+/// [bytes] from body to body.
+auto viewed(double* (*first)(MotionState&), py::ssize_t columns, std::size_t stride) {
+  return [=](const py::object& self) {
+    MotionState& state = self.cast<SteppedScene&>().state();
+    const auto bodies = static_cast<py::ssize_t>(state.pose.size());
+    return py::array(py::dtype::of<double>(), {bodies, columns},
+                     {static_cast<py::ssize_t>(stride), py::ssize_t{8}}, first(state), self);
+  };
 }
 
 }  // namespace
@@ -121,13 +113,16 @@ void add_scenes(py::module_& module) {
              return self.cast<SteppedScene&>().step(count, callback, self);
            })
       .def_property_readonly(
-          "positions", [](const py::object& s) { return s.cast<SteppedScene&>().positions(s); })
+          "positions",
+          viewed([](MotionState& s) { return s.pose[0].position.data(); }, 3, sizeof(Pose)))
+      .def_property_readonly(  // as x, y, z, w
+          "rotations", viewed([](MotionState& s) { return s.pose[0].rotation.coeffs().data(); }, 4,
+                              sizeof(Pose)))
       .def_property_readonly(
-          "rotations", [](const py::object& s) { return s.cast<SteppedScene&>().rotations(s); })
+          "velocities",
+          viewed([](MotionState& s) { return s.velocity[0].data(); }, 3, sizeof(Vec3)))
       .def_property_readonly(
-          "velocities", [](const py::object& s) { return s.cast<SteppedScene&>().velocities(s); })
-      .def_property_readonly("spins",
-                             [](const py::object& s) { return s.cast<SteppedScene&>().spins(s); })
+          "spins", viewed([](MotionState& s) { return s.spin[0].data(); }, 3, sizeof(Vec3)))
       .def_property_readonly("names", &SteppedScene::names)
       .def_property_readonly("time", &SteppedScene::time)
       .def_property_readonly("h", &SteppedScene::h)

@@ -42,6 +42,7 @@ if [ $# = 0 ]; then
   set -- "${@%_fuzz.cpp}"
 fi
 echo "== fuzzing $# targets, $seconds s each"
+[ ! -d /dev/shm ] || export TMPDIR=/dev/shm  # inputs lie in memory
 export -f run_one
 export seconds
 export limits_text="${limits[*]}"

@@ -7,7 +7,7 @@
 #include "experiments/bench/measurement.hpp"
 #include "experiments/compare/comparison.hpp"
 #include "experiments/page/plot.hpp"
-#include "problems/algebra/answer_distance.hpp"
+#include "problems/algebra/contact_error.hpp"
 
 namespace ballast {
 

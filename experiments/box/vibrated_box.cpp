@@ -5,7 +5,7 @@
 
 #include "geometry/shape/pose.hpp"
 #include "platform/text.hpp"
-#include "problems/scene/scene_key.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {

@@ -9,7 +9,6 @@
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
-#include "problems/files/siconos_text.hpp"
 
 namespace ballast {
 namespace {
@@ -18,39 +17,17 @@ namespace fs = std::filesystem;
 
 struct ConvertOptions {
   std::vector<std::string> problems;
-  std::string to;  // empty: what --output's suffix says
+  std::string to = "local";
   fs::path output;
 };
 
-constexpr const char* text_suffix = ".dat";
-
 struct Format {
   const char* name;
-  const char* extension;
-  void (*write)(const fs::path& file, const FrictionProblem& problem);
+  StoredForms forms;
 };
-
-void write_global(const fs::path& file, const FrictionProblem& problem) {
-  if (!problem.has_dynamics)
-    throw Error("only W is known: there are no bodies for the global form");
-  write_problem(file, problem);
-}
-
-const Format formats[] = {
-    {"local", ".hdf5",
-     [](const fs::path& file, const FrictionProblem& problem) {
-       write_fclib(file, condensed(problem));
-     }},
-    {"global", ".hdf5", write_global},
-    {"both", ".hdf5",
-     [](const fs::path& file, const FrictionProblem& problem) {
-       write_problem_forms(file, problem);
-     }},
-    {"siconos", text_suffix,
-     [](const fs::path& file, const FrictionProblem& problem) {
-       write_siconos_text(file, condensed(problem));
-     }},
-};
+const Format formats[] = {{"local", StoredForms::delassus},
+                          {"global", StoredForms::as_known},
+                          {"both", StoredForms::both}};
 
 /// Throws std::invalid_argument.
 const Format& format_of(const std::string& name) {
@@ -68,40 +45,39 @@ void convert_one(const FoundProblem& found, const Format& format, const fs::path
   if (fs::equivalent(target, found.file, error))
     throw Error(target.string() + ": would be written over what is read");
   const FrictionProblem problem = read_problem(found.file);
+  if (format.forms == StoredForms::as_known && !problem.has_dynamics)
+    throw Error("only W is known: there are no bodies for the global form");
   if (target.has_parent_path()) create_folder(target.parent_path());
-  format.write(target, problem);
+  write_problem(target, problem, format.forms);
   std::cout << printed("%-40s %7d contacts  ", found.name.c_str(), problem.contact_count())
             << target.string() << std::endl;
 }
 
 /// Whether --output is the file of one problem, and not a folder. Throws UsageError: several
-/// problems, or a suffix that is not --to's.
-bool names_a_file(const ConvertOptions& options, const Format& format, size_t problems) {
+/// problems, or a suffix that is not HDF5's.
+bool names_a_file(const ConvertOptions& options, size_t problems) {
   if (!is_problem_file(options.output) || is_folder(options.output)) return false;
   const std::string named = "--output " + options.output.string();
   if (problems != 1)
     throw UsageError(named + ": one file for " + std::to_string(problems) +
                      " problems, expected a folder");
-  const bool is_text = options.output.extension() == text_suffix;
-  if (is_text != (format.extension == std::string(text_suffix)))
-    throw UsageError(named + ": --to " + options.to + " writes " + format.extension);
+  if (options.output.extension() == ".dat")
+    throw UsageError(named + ": only .hdf5 and .h5 are written");
   return true;
 }
 
 ExitCode convert(const ConvertOptions& options) {
-  const bool is_text = options.output.extension() == text_suffix && !is_folder(options.output);
-  const std::string by_suffix = is_text ? "siconos" : "local";
-  const Format& format = format_of(options.to.empty() ? by_suffix : options.to);
+  const Format& format = format_of(options.to);
   std::vector<FoundProblem> problems;
   for (const std::string& word : options.problems)
     for (FoundProblem& found : find_problems(word)) problems.push_back(std::move(found));
-  const bool is_file = names_a_file(options, format, problems.size());
+  const bool is_file = names_a_file(options, problems.size());
   size_t failed = 0;
   std::string reasons;
   std::map<fs::path, fs::path> written;  // what is in it
   for (const FoundProblem& found : problems) {
     fs::path target = is_file ? options.output : options.output / found.name;
-    if (!is_file) target.replace_extension(format.extension);
+    if (!is_file) target.replace_extension(".hdf5");
     try {
       const auto [before, is_new] = written.try_emplace(target, found.file);
       if (!is_new) throw Error(target.string() + ": holds " + before->second.string() + " already");
@@ -125,19 +101,14 @@ ExitCode convert(const ConvertOptions& options) {
 
 Command convert_command() {
   const auto options = std::make_shared<ConvertOptions>();
-  return {
-      "convert",
-      "Stored problems from one format into another, whole collections at once",
-      {{"problems", &options->problems, "Files, folders, patterns: .hdf5, .h5, .dat", required},
-       {"--to FORMAT", &options->to,
-        "local (FCLIB: W, q), global (FCLIB: M, H), both, siconos (text: W, q); by itself "
-        "siconos for an output of suffix .dat, local else",
-        parsed([](const std::string& name) {
-          if (!name.empty()) format_of(name);
-        })},
-       {"--output PATH", &options->output,
-        "Folder for the converted ones; of one problem also its file: .hdf5, .h5, .dat", required}},
-      [options] { return convert(*options); }};
+  return {"convert",
+          "Stored problems from one format into another, whole collections at once",
+          {{"problems", &options->problems, "Files, folders, patterns: .hdf5, .h5, .dat", required},
+           {"--to FORMAT", &options->to, "local (FCLIB: W, q), global (FCLIB: M, H) or both",
+            parsed([](const std::string& name) { format_of(name); })},
+           {"--output PATH", &options->output,
+            "Folder for the converted ones; of one problem also its file: .hdf5, .h5", required}},
+          [options] { return convert(*options); }};
 }
 
 }  // namespace ballast

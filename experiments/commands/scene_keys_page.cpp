@@ -14,61 +14,70 @@ std::string unit_words(std::string unit) {
 }
 
 /// A value as TOML has it, or words that say what stands for it.
-template <class Spec>
-page::Text default_of(const SceneKey<Spec>& key) {
+page::Text default_of(const SceneKey& key) {
   if (key.default_words) return key.default_words;
   if (key.presence == Presence::required) return "required";
-  Spec defaults;
-  const std::string value = kept_text(key.value.in(defaults));
+  const std::string value = kept_text(key.place);
   if (value == "\"\"") return "empty";
   return value.empty() ? page::Text() : page::Text(value, page::code);
 }
 
-template <class Spec>
-std::string expected_of(const SceneKey<Spec>& key) {
-  Spec defaults;
-  return expected_text(key.value.in(defaults), key.value.rule);
-}
-
-template <class Spec>
-void add_keys(const std::string& prefix, const SceneKeys<Spec>& keys, page::Table& table) {
-  for (const SceneKey<Spec>& key : keys)
-    table.rows.push_back({page::Text(prefix + key.name, page::code),
-                          unit_words(key.value.rule.unit), default_of(key), expected_of(key),
-                          page::marked(key.meaning)});
-}
-
-/// The keys of one `[section]` of a scene, or of several, one after the other.
-template <class... Keys>
-page::Table table_of(const std::pair<const char*, Keys>&... parts) {
+/// The keys of one `[section]` of a scene, or of several, one after the other: of what has the
+/// defaults.
+page::Table table_of(const std::vector<std::pair<std::string, SceneKeys>>& sections) {
   page::Table table{.head = {"key", "unit", "default", "expected", "meaning"}};
-  (add_keys(parts.first, parts.second, table), ...);
+  for (const auto& [prefix, keys] : sections)
+    for (const SceneKey& key : keys)
+      table.rows.push_back({page::Text(prefix + key.name, page::code), unit_words(key.rule.unit),
+                            default_of(key), expected_text(key.place, key.rule),
+                            page::marked(key.meaning)});
   return table;
 }
 
 }  // namespace
 
 std::string scene_keys_markdown() {
-  using std::pair;
   page::Section both{"both", "Both kinds"}, grains{"grains", "Grains in a box"},
       bodies{"bodies", "Bodies and walls"};
-  both.add(table_of(pair("scene.", head_keys), pair("gravity.", gravity_keys),
-                    pair("contact.", contact_keys), pair("solver.", solver_keys),
-                    pair("sleep.", sleep_keys), pair("correction.", correction_keys),
-                    pair("detection.", detection_keys), pair("record.", record_keys)));
+  Scene scene;
+  GravityText gravity;
+  both.add(table_of({{"scene.", head_keys(scene)},
+                     {"gravity.", gravity_keys(gravity)},
+                     {"contact.", contact_keys(scene)},
+                     {"solver.", solver_keys(scene.solver)},
+                     {"sleep.", sleep_keys(scene.sleep)},
+                     {"correction.", correction_keys(scene.correction)},
+                     {"detection.", detection_keys(scene.detection)},
+                     {"record.", record_keys(scene.record)}}));
   for (const page::Text& line : parts_of(page::words("keys.grains"), "\n")) grains.add(line);
-  grains.add(table_of(pair("grains.", grains_keys), pair("grains.distribution.", distribution_keys),
-                      pair("grains.shape.", grain_shape_keys), pair("box.", box_keys),
-                      pair("deposit.", deposit_keys), pair("drive.", drive_keys),
-                      pair("control_volume.", control_volume_keys)));
+  GrainsSpec crowd;
+  GrainsText text_of_grains;
+  SizeClass size_class;
+  grains.add(table_of({{"grains.", grains_keys(crowd, text_of_grains)},
+                       {"grains.distribution.", distribution_keys(size_class)},
+                       {"grains.shape.", grain_shape_keys(crowd.shape)},
+                       {"box.", box_keys(scene.box)},
+                       {"deposit.", deposit_keys(scene.deposit)},
+                       {"drive.", drive_keys(scene.drive)},
+                       {"control_volume.", control_volume_keys(scene.control_volume)}}));
+  WallSpec wall;
+  std::string motion = "fixed";
   bodies.add(page::words("keys.walls"));
-  bodies.add(table_of(pair("", wall_keys), pair("", prescribed_wall_keys),
-                      pair("", driven_wall_keys), pair("load.", load_keys)));
+  bodies.add(table_of({{"", wall_keys(wall, motion)},
+                       {"", prescribed_wall_keys(wall)},
+                       {"", driven_wall_keys(wall)},
+                       {"load.", load_keys(wall.load)}}));
+  BodySpec body;
+  ShapeText shape;
+  OrientationText orientation;
   bodies.add(page::words("keys.bodies"));
-  bodies.add(table_of(pair("", body_keys), pair("", shape_keys("box")),
-                      pair("", shape_keys("sphere")), pair("", shape_keys("grain")),
-                      pair("", shape_keys("mesh")), pair("orientation.", orientation_keys),
-                      pair("force.", force_keys)));
+  bodies.add(table_of({{"", body_keys(body, shape)},
+                       {"", shape_keys("box", shape)},
+                       {"", shape_keys("sphere", shape)},
+                       {"", shape_keys("grain", shape)},
+                       {"", shape_keys("mesh", shape)},
+                       {"orientation.", orientation_keys(orientation)},
+                       {"force.", force_keys(body.force)}}));
   std::string text = markdown_of(both) + markdown_of(grains) + markdown_of(bodies);
   text.pop_back();  // the empty line after the last table
   return text;

@@ -15,7 +15,6 @@
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
-#include "problems/files/solution_file.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 

@@ -147,22 +147,13 @@ void add_stress_case(const std::string& name, const std::string& family,
       {name, family, [make] { return load_case(make().problem, stress_gravity_step); }});
 }
 
-/// The family of a stress problem, by its number among the known answers.
-std::string stress_family(int item) {
-  const std::map<int, std::string> names = {
-      {8, "stacks"},     {10, "Painleve rods"}, {14, "tables"},      {15, "sliding blocks"},
-      {17, "odd input"}, {18, "jammed chains"}, {20, "manufactured"}};
-  const auto found = names.find(item);
-  return "stress " + (found == names.end() ? std::to_string(item) : found->second);
-}
-
 /// Every small problem that is valid; broken ones are for tests.
 void add_all_stress_cases(std::vector<CompareCase>& cases) {
   for (const StressProblem& stress : stress_problems()) {
     if (!stress.refused.empty()) continue;
     // the manufactured ones have no gravity
-    const double scale = stress.item == 20 ? 0.0 : stress_gravity_step;
-    cases.push_back({"stress-" + stress.name, stress_family(stress.item),
+    const double scale = stress.family == "manufactured" ? 0.0 : stress_gravity_step;
+    cases.push_back({"stress-" + stress.name, "stress " + stress.family,
                      [problem = stress.problem, scale] { return load_case(problem, scale); }});
   }
 }

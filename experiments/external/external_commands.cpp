@@ -16,7 +16,7 @@ namespace {
 
 /// Commands of a list start in the folder of the list.
 std::vector<ExternalCommand> read_list(const fs::path& file) {
-  const toml::table content = load_toml(file, {});
+  const toml::table content = load_toml(file);
   toml::table resolved;
   TomlTable list(file.string(), content, resolved);
   std::vector<ExternalCommand> commands;

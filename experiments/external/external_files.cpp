@@ -104,14 +104,8 @@ void write_request(const std::filesystem::path& path, const ExternalRequest& req
     add_number(file, asked + "max_seconds", request.max_seconds);
     file.add(asked + "start", as_vector(three_rows(request.problem, request.start)));
   };
-  if (forms == AskedForms::delassus) {
-    request.problem.validate();
-    write_fclib(path, condensed(request.problem), add);
-  } else if (forms == AskedForms::bodies && request.problem.has_dynamics) {
-    write_problem(path, request.problem, add);
-  } else {
-    write_problem_forms(path, request.problem, add);
-  }
+  const StoredForms stored[] = {StoredForms::both, StoredForms::as_known, StoredForms::delassus};
+  write_problem(path, request.problem, stored[static_cast<int>(forms)], add);
 }
 
 ExternalRequest read_request(const std::filesystem::path& path) {

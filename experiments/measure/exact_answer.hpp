@@ -1,5 +1,5 @@
 #pragma once
-// A solution to measure distances from (problems/algebra/answer_distance): found once, kept in a
+// A solution to measure distances from (problems/algebra/contact_error): found once, kept in a
 // file, and judged like any other answer.
 
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "problems/algebra/answer_distance.hpp"
+#include "problems/algebra/contact_error.hpp"
 
 namespace ballast {
 

@@ -6,7 +6,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
-#include "problems/scene/toml_text.hpp"
+#include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;

@@ -7,7 +7,6 @@
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
-#include "problems/scene/toml_text.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -201,7 +200,7 @@ void expand(const Grid& grid, std::vector<PlannedRun>& runs) {
 }  // namespace
 
 Plan read_plan(const fs::path& file) {
-  const toml::table raw = load_toml(file, {});
+  const toml::table raw = load_toml(file);
   toml::table resolved;
   TomlTable root(file.string(), raw, resolved);
   Plan plan;

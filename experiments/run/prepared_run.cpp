@@ -10,7 +10,6 @@
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
-#include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
 namespace {
@@ -88,8 +87,7 @@ MechanicalSystem recorded_system(const std::filesystem::path& path, MotionState&
   const std::filesystem::path record = path / "record.h5";
   if (!folder.has_run() || !is_there(record)) return system_of_run(path, state);
   MechanicalSystem system = read_record_system(record);
-  const toml::table scene = load_toml(folder.scene(), {});
-  system.friction = scene["contact"]["friction"].value_or(0.0);
+  system.friction = scene_friction(folder.scene());
   if (is_there(folder.checkpoint())) state = read_checkpoint(folder.checkpoint()).state;
   return system;
 }

@@ -9,7 +9,7 @@
 #include "experiments/view/problem_bodies.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
-#include "problems/algebra/errors_by_contact.hpp"
+#include "problems/algebra/contact_error.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstring>
 
-#include "problems/algebra/contact_rows.hpp"
+#include "platform/for_each_cpu.hpp"
 #include "problems/algebra/delassus.hpp"
-#include "problems/algebra/judge_block.hpp"
 
 namespace ballast {
 namespace {
@@ -41,12 +40,91 @@ double momentum_residual(const DynamicsForm& dynamics, const Eigen::VectorXd& v,
   return worst;
 }
 
-}  // namespace
+/// The three rows of a column of H side by side; the fourth place holds anything.
+using Rows = double __attribute__((vector_size(32)));
 
-double largest_eigenvalue(const Eigen::Matrix3d& block) {
-  return largest_eigenvalue(block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1),
-                            block(2, 2));
+/// What one contact adds up, column by column of its two blocks.
+struct RowSums {
+  Rows q, u;
+  Rows squares = {};  // nn, tt, ss
+  Rows mixed = {};    // tn, st, sn
+};
+
+/// Three rows on two rigid bodies whose mass is diagonal. The last contact's rows end with H, and a
+/// column of four would not.
+bool is_usual(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int c) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  const auto is_grain = [&](int body) {
+    return body < 0 || (roots[body].diagonal && roots[body].dofs == MassRoot::max_dofs);
+  };
+  return problem.contact_rows(c) == 3 && is_grain(dynamics.body_a[c]) &&
+         is_grain(dynamics.body_b[c]) && dynamics.h_begin[c + 1] < dynamics.h_begin.back();
 }
+
+/// In every row the operations of one contact's functions in their order. Always inline: a vector
+/// wider than the processor's is then no argument of a call.
+[[gnu::always_inline]] inline void add_side(const double* block, const double* v_free,
+                                            const double* v, const double* inverse, RowSums& sums) {
+#pragma GCC unroll 6
+  for (int k = 0; k < MassRoot::max_dofs; ++k) {
+    Rows column;
+    std::memcpy(&column, block + 3 * k, sizeof column);
+    sums.q += column * v_free[k];
+    sums.u += column * v[k];
+    // G = H L^-T, and W_cc = G G^T: each row with itself, and with the row after it.
+    const Rows g = column * inverse[k];
+    sums.squares += g * g;
+    sums.mixed += g * __builtin_shufflevector(g, g, 1, 2, 0, 3);
+  }
+}
+
+BALLAST_FOR_EACH_CPU void look_at_usual(const FrictionProblem& problem, const MassRoot* roots,
+                                        const double* v, int c, double* q, double* u,
+                                        JudgeBlock& to, int k) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  const double* bias = dynamics.bias.data() + problem.row_begin[c];
+  RowSums sums;
+  sums.q = sums.u = Rows{bias[0], bias[1], bias[2], 0.0};
+  const double* block = dynamics.h.data() + dynamics.h_begin[c];
+  for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+    if (body < 0) continue;
+    const int first = dynamics.dof_begin[body];
+    add_side(block, dynamics.v_free.data() + first, v + first, roots[body].inverse, sums);
+    block += 3 * MassRoot::max_dofs;
+  }
+  for (int i = 0; i < 3; ++i) {
+    q[i] = sums.q[i];
+    u[i] = sums.u[i];
+  }
+  to.nn[k] = sums.squares[0];
+  to.tt[k] = sums.squares[1];
+  to.ss[k] = sums.squares[2];
+  to.tn[k] = sums.mixed[0];
+  to.st[k] = sums.mixed[1];
+  to.sn[k] = sums.mixed[2];
+}
+
+/// Of contacts begin <= c < end: their rows of q = bias + H v_free and u = bias + H v [m/s], which
+/// have their sizes, and W_cc in the first places of the block, in one pass over the rows H.
+/// `roots`: of the masses. The same bits as by body_to_contact_velocity() and delassus_block().
+void look_at_rows(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
+                  const Eigen::VectorXd& v, int begin, int end, Eigen::VectorXd& q,
+                  Eigen::VectorXd& u, JudgeBlock& block) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  for (int c = begin; c < end; ++c) {
+    const int first = problem.row_begin[c];
+    if (is_usual(problem, roots, c)) {
+      look_at_usual(problem, roots.data(), v.data(), c, q.data() + first, u.data() + first, block,
+                    c - begin);
+      continue;
+    }
+    body_to_contact_velocity(dynamics, problem.row_begin, dynamics.v_free, c, c + 1, q);
+    body_to_contact_velocity(dynamics, problem.row_begin, v, c, c + 1, u);
+    block.take(c - begin, delassus_block(problem, roots, c));
+  }
+}
+
+}  // namespace
 
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r) {
@@ -197,6 +275,98 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
 
 ContactError contact_error(const FrictionProblem& problem, const Impulses& r) {
   return ContactJudge().judge(problem, r);
+}
+
+std::vector<double> errors_by_contact(const FrictionProblem& problem, const Impulses& r) {
+  Eigen::VectorXd u;
+  contact_velocity(problem, r, u);
+  std::vector<Eigen::Matrix3d> diagonal;
+  delassus_diagonal(problem, diagonal);
+  std::vector<double> errors;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const double lambda_max = largest_eigenvalue(diagonal[c]);
+    const double error = lambda_max > 0.0
+                             ? ContactJudge::scaled_natural_map(rows_of_contact(problem, r, c),
+                                                                rows_of_contact(problem, u, c),
+                                                                problem.friction[c], lambda_max)
+                             : 0.0;
+    errors.push_back(std::isfinite(error) ? error : std::numeric_limits<double>::infinity());
+  }
+  return errors;
+}
+
+namespace {
+
+double part_of(double difference, double whole) {
+  if (difference == 0.0) return 0.0;
+  return std::abs(difference / whole);
+}
+
+/// What bodies and the wall say: dynamics form only.
+void compare_bodies(const FrictionProblem& problem, const Impulses& answer,
+                    const Impulses& solution, AnswerDistance& distance) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  Eigen::VectorXd velocity, exact, impulse, exact_impulse;
+  body_velocity(dynamics, problem.row_begin, answer, velocity);
+  body_velocity(dynamics, problem.row_begin, solution, exact);
+  contact_to_body_impulse(dynamics, problem.row_begin, answer, impulse);
+  contact_to_body_impulse(dynamics, problem.row_begin, solution, exact_impulse);
+  // dv . M dv = dv . H^T dr
+  const double energy = (velocity - exact).dot(impulse - exact_impulse);
+  double mass = 0.0;
+  for (int b = 0; b < dynamics.body_count(); ++b) mass += dynamics.mass[dynamics.mass_begin[b]];
+  distance.velocity = mass > 0.0 ? std::sqrt(std::max(0.0, energy) / mass) : 0.0;
+  const int wall = driven_wall(problem);
+  if (wall < 0) return;
+  const int unknown = dynamics.dof_begin[wall];
+  distance.wall_force = part_of(impulse[unknown] - exact_impulse[unknown], exact_impulse[unknown]);
+}
+
+/// What r - rho u says, rho = 1 / `lambda_max` of W_cc: open where its normal part is not positive,
+/// stick inside Coulomb's cone. The two do not meet where one of r and u is zero to rounding.
+ContactStatus contact_status(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu,
+                             double lambda_max) {
+  const Eigen::Vector3d z = lambda_max * r - u;
+  if (!(z[0] > 0.0)) return ContactStatus::open;
+  return tangential_norm(z) <= mu * z[0] ? ContactStatus::stick : ContactStatus::slip;
+}
+
+}  // namespace
+
+int driven_wall(const FrictionProblem& problem) {
+  if (!problem.has_dynamics) return -1;
+  for (int b = 0; b < problem.dynamics.body_count(); ++b)
+    if (problem.dynamics.body_dofs(b) == 1) return b;
+  return -1;
+}
+
+AnswerDistance answer_distance(const FrictionProblem& problem, const Impulses& answer,
+                               const Impulses& solution, double velocity_scale) {
+  if (solution.size() == 0 && problem.row_count() > 0) return {};
+  Eigen::VectorXd u, exact, q;
+  contact_velocity(problem, answer, u);
+  contact_velocity(problem, solution, exact);
+  free_contact_velocity(problem, q);
+  AnswerDistance distance;
+  const int contacts = problem.contact_count();
+  distance.contact_velocity = (u - exact).norm() / std::sqrt(std::max(1, contacts));
+  distance.body_impulse =
+      std::sqrt(part_of((answer - solution).dot(u - exact), solution.dot(exact - q)));
+  if (problem.has_dynamics) compare_bodies(problem, answer, solution, distance);
+  distance.statuses = 0;
+  std::vector<Eigen::Matrix3d> blocks;
+  delassus_diagonal(problem, blocks);
+  for (int c = 0; c < contacts; ++c) {
+    const double lambda_max = largest_eigenvalue(blocks[static_cast<size_t>(c)]);
+    const auto status = [&](const Impulses& r, const Eigen::VectorXd& at) {
+      return contact_status(rows_of_contact(problem, r, c), rows_of_contact(problem, at, c),
+                            problem.friction[c], lambda_max);
+    };
+    if (status(answer, u) != status(solution, exact)) ++distance.statuses;
+  }
+  distance.velocity /= velocity_scale;
+  distance.contact_velocity /= velocity_scale;
+  return distance;
 }
 
 }  // namespace ballast

@@ -1,9 +1,6 @@
 #include "problems/algebra/delassus.hpp"
 
-#include <algorithm>
 #include <string>
-
-#include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
 namespace {
@@ -42,71 +39,43 @@ struct Gram {
   }
 };
 
-/// One body of one contact.
-struct Side {
-  int contact;
-  int body;
-  SideRows g;
-};
-
-/// Sides of contact c are 2c and 2c + 1; a side that does not move has body -1.
-std::vector<Side> all_sides(const FrictionProblem& problem, const std::vector<MassRoot>& roots) {
+/// W = H M^-1 H^T = G G^T with G = H L^-T: the block of two contacts is the sum of G_c G_d^T over
+/// the bodies that both of them touch.
+SparseRows assemble(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
-  std::vector<Side> sides(2 * problem.contact_count());
+  std::vector<MassRoot> roots;
+  factor_masses(dynamics, roots);
+  struct Side {
+    int contact;
+    SideRows g;
+  };
+  std::vector<std::vector<Side>> sides_of_body(dynamics.body_count());
   for (int c = 0; c < problem.contact_count(); ++c) {
+    const int rows = problem.contact_rows(c);
     const double* block = dynamics.h.data() + dynamics.h_begin[c];
-    for (int s = 0; s < 2; ++s) {
-      Side& side = sides[2 * c + s];
-      side = {c, s == 0 ? dynamics.body_a[c] : dynamics.body_b[c], SideRows::Zero()};
-      if (side.body < 0) continue;
-      side.g = mass_scaled_rows(block, problem.contact_rows(c), roots[side.body]);
-      block += problem.contact_rows(c) * roots[side.body].dofs;
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+      if (body < 0) continue;
+      sides_of_body[body].push_back({c, mass_scaled_rows(block, rows, roots[body])});
+      block += rows * roots[body].dofs;
     }
   }
-  return sides;
-}
-
-SparseRows assemble(const FrictionProblem& problem) {
-  // W = H M^-1 H^T = G G^T with G = H L^-T: the block of two contacts is the sum of G_c G_d^T over
-  // the bodies that both of them touch.
-  std::vector<MassRoot> roots;
-  factor_masses(problem.dynamics, roots);
-  const std::vector<Side> sides = all_sides(problem, roots);
-  std::vector<std::vector<int>> sides_of_body(problem.dynamics.body_count());
-  for (int s = 0; s < static_cast<int>(sides.size()); ++s)
-    if (sides[s].body >= 0) sides_of_body[sides[s].body].push_back(s);
-
   // Contacts that share two bodies give the same entry twice; setFromTriplets adds them.
   std::vector<Eigen::Triplet<double>> entries;
-  for (const Side& side : sides) {
-    if (side.body < 0) continue;
-    for (const int other_side : sides_of_body[side.body]) {
-      const Side& other = sides[other_side];
-      const Eigen::Matrix3d block = side.g * other.g.transpose();
-      for (int i = 0; i < problem.contact_rows(side.contact); ++i)
-        for (int j = 0; j < problem.contact_rows(other.contact); ++j)
-          entries.emplace_back(problem.row_begin[side.contact] + i,
-                               problem.row_begin[other.contact] + j, block(i, j));
-    }
-  }
+  for (const std::vector<Side>& sides : sides_of_body)
+    for (const Side& side : sides)
+      for (const Side& other : sides) {
+        const Eigen::Matrix3d block = side.g * other.g.transpose();
+        for (int i = 0; i < problem.contact_rows(side.contact); ++i)
+          for (int j = 0; j < problem.contact_rows(other.contact); ++j)
+            entries.emplace_back(problem.row_begin[side.contact] + i,
+                                 problem.row_begin[other.contact] + j, block(i, j));
+      }
   SparseRows w(problem.row_count(), problem.row_count());
   w.setFromTriplets(entries.begin(), entries.end());
   return w;
 }
 
 }  // namespace
-
-/// W_cc as it is stored, not symmetrised; zero where the contact has no row or W no entry.
-Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
-  Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-  const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-  for (int i = 0; i < rows; ++i)
-    for (SparseRows::InnerIterator entry(problem.delassus.w, first + i); entry; ++entry) {
-      const int j = static_cast<int>(entry.col()) - first;
-      if (j >= 0 && j < rows) block(i, j) = entry.value();
-    }
-  return block;
-}
 
 void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
   roots.resize(dynamics.body_count());

@@ -11,9 +11,6 @@ namespace ballast {
 /// Factors every mass block. Throws InvalidProblem for one that is not positive definite.
 void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots);
 
-/// The diagonal block of contact c in the stored W, as it is; entries beyond its rows are zero.
-Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c);
-
 /// Diagonal blocks W_cc of every contact, as 3 x 3 (a one-row contact uses only entry 0,0; the rest
 /// is zero). Of a stored W the symmetric part: rho and local solves need no more, and a solution
 /// does not depend on either.

@@ -1,7 +1,13 @@
 #include "problems/algebra/friction_problem.hpp"
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <sstream>
 #include <string>
 
+#include "platform/for_each_cpu.hpp"
 #include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
@@ -73,6 +79,24 @@ void require_rows(const char* name, Eigen::Index size, int rows) {
 }
 
 }  // namespace
+
+int DynamicsForm::add_body(const Eigen::MatrixXd& block) {
+  dof_begin.push_back(dof_begin.back() + static_cast<int>(block.rows()));
+  mass.insert(mass.end(), block.data(), block.data() + block.size());
+  mass_begin.push_back(static_cast<int>(mass.size()));
+  return body_count() - 1;
+}
+
+void FrictionProblem::add_contact(int a, int b, double mu, const Eigen::MatrixXd& h_a,
+                                  const Eigen::MatrixXd& h_b) {
+  for (const Eigen::MatrixXd* block : {&h_a, &h_b})
+    dynamics.h.insert(dynamics.h.end(), block->data(), block->data() + block->size());
+  dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
+  dynamics.body_a.push_back(a);
+  dynamics.body_b.push_back(b);
+  row_begin.push_back(row_begin.back() + static_cast<int>(h_b.rows()));
+  friction.push_back(mu);
+}
 
 void DynamicsForm::clear() {
   dof_begin.assign(1, 0);
@@ -199,6 +223,251 @@ SparseRows sparse_h(const FrictionProblem& problem) {
   SparseRows h(problem.row_count(), dynamics.dof_count());
   h.setFromTriplets(entries.begin(), entries.end());
   return h;
+}
+
+Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
+  Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+  const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+  for (int i = 0; i < rows; ++i)
+    for (SparseRows::InnerIterator entry(problem.delassus.w, first + i); entry; ++entry) {
+      const int j = static_cast<int>(entry.col()) - first;
+      if (j >= 0 && j < rows) block(i, j) = entry.value();
+    }
+  return block;
+}
+
+Eigen::Vector3d rows_of_contact(const FrictionProblem& problem, const Eigen::VectorXd& all, int c) {
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  x.head(problem.contact_rows(c)) = all.segment(problem.row_begin[c], problem.contact_rows(c));
+  return x;
+}
+
+// validate(): fast loops look for any bad entry; only when there is one is it looked for again, to
+// name it.
+namespace {
+
+/// Asymmetry |x_ij - x_ji| of a block, relative to its diagonal. Masses: rounding of rotated
+/// inertias. Stored Delassus operators: implicit gyroscopic terms make some of them truly
+/// unsymmetric (FCLIB's RockPile by 2 %, others by 16 %), and the law is asked of W as it is; only
+/// a block whose antisymmetric part outweighs its diagonal is taken for something else.
+constexpr double mass_asymmetry = 1e-10;
+constexpr double delassus_asymmetry = 2.0;
+/// Below zero by this much, relative, a minor of a stored block is taken for rounding: some files
+/// hold six digits.
+constexpr double semidefinite_rounding = 1e-5;
+
+template <typename... Parts>
+[[noreturn]] void fail(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(17);
+  (text << ... << parts);
+  throw InvalidProblem(text.str());
+}
+
+void require_size(const char* array, std::size_t size, int expected, const char* because) {
+  if (size != static_cast<std::size_t>(expected))
+    fail(array, " has ", size, " entries; ", because, " needs ", expected);
+}
+
+/// `place...`: the array and where in it.
+template <typename... Place>
+void require_number(double x, const Place&... place) {
+  if (!std::isfinite(x)) fail(place..., " = ", x, " is not finite");
+  if (std::abs(x) > largest_entry)
+    fail(place..., " = ", x, " is beyond ", largest_entry, ", where squares and products overflow");
+}
+
+/// Numbers >= 0 are ordered as their bits are, infinity and NaN after all others. Integer work, so
+/// that the compiler vectorises the reduction.
+BALLAST_FOR_EACH_CPU bool is_any_too_large(const double* x, long size) {
+  constexpr std::uint64_t magnitude = 0x7fffffffffffffffull;
+  constexpr std::uint64_t largest = std::bit_cast<std::uint64_t>(largest_entry);
+  std::uint64_t bad = 0;
+  // As integers, `largest` minus anything larger, infinite or NaN is negative: its top bit is set.
+  for (long i = 0; i < size; ++i)
+    bad |= (largest - (std::bit_cast<std::uint64_t>(x[i]) & magnitude)) >> 63;
+  return bad != 0;
+}
+
+template <typename Numbers>
+void require_numbers(const char* array, const Numbers& x, int size, const char* because) {
+  require_size(array, static_cast<std::size_t>(x.size()), size, because);
+  if (!is_any_too_large(x.data(), size)) return;
+  for (int i = 0; i < size; ++i) require_number(x[i], array, "[", i, "]");
+}
+
+void require_begin(const char* array, const std::vector<int>& begin, int count, const char* of) {
+  require_size(array, begin.size(), count + 1, of);
+  if (begin[0] != 0) fail(array, "[0] = ", begin[0], ", must be 0");
+}
+
+// Sizes first: what follows may then index freely.
+void validate_contacts(const FrictionProblem& problem) {
+  const int contacts = problem.contact_count();
+  require_begin("row_begin", problem.row_begin, contacts, "one friction coefficient per contact");
+  require_numbers("friction", problem.friction, contacts, "");
+  for (int c = 0; c < contacts; ++c) {
+    const int rows = problem.contact_rows(c);
+    if (rows != 1 && rows != 3)
+      fail("row_begin[", c + 1, "] = ", problem.row_begin[c + 1], " gives contact ", c, " ", rows,
+           " rows; a contact has 1 or 3");
+    const double mu = problem.friction[c];
+    if (mu < 0.0) fail("friction[", c, "] = ", mu, " is negative");
+    if (mu > largest_friction)
+      fail("friction[", c, "] = ", mu, " is above ", largest_friction,
+           ", which already holds as a bond does: use that");
+    if (rows == 1 && mu != 0.0) fail("friction[", c, "] = ", mu, ": a one-row contact has none");
+  }
+}
+
+// Positive definite and, up to rounding, symmetric.
+void validate_mass_block(const DynamicsForm& dynamics, int b) {
+  const int dofs = dynamics.body_dofs(b), first = dynamics.mass_begin[b];
+  const double* block = dynamics.mass.data() + first;
+  // A Cholesky factor exists exactly where the block is positive definite.
+  MassRoot root;
+  if (!root.factor(block, dofs))
+    fail("dynamics.mass[", first, "] = ", block[0], ": the block of body ", b,
+         " is not positive definite");
+  for (int j = 0; j < dofs; ++j) {
+    const double own = block[j * dofs + j];
+    if (own < smallest_scale)
+      fail("dynamics.mass[", first + j * dofs + j, "] = ", own, " is below ", smallest_scale,
+           ", where its inverse overflows");
+    for (int i = 0; i < j; ++i) {
+      const double upper = block[j * dofs + i], lower = block[i * dofs + j];
+      if (std::abs(lower - upper) > mass_asymmetry * std::sqrt(own * block[i * dofs + i]))
+        fail("dynamics.mass[", first + j * dofs + i, "] = ", upper, ": the block of body ", b,
+             " is not symmetric");
+    }
+  }
+}
+
+void validate_masses(const DynamicsForm& dynamics) {
+  if (dynamics.dof_begin.empty()) fail("dynamics.dof_begin is empty; no bodies means {0}");
+  const int bodies = dynamics.body_count();
+  require_begin("dynamics.dof_begin", dynamics.dof_begin, bodies, "dynamics.dof_begin");
+  require_begin("dynamics.mass_begin", dynamics.mass_begin, bodies, "one mass block per body");
+  for (int b = 0; b < bodies; ++b) {
+    const int dofs = dynamics.body_dofs(b);
+    if (dofs < 1 || dofs > MassRoot::max_dofs)
+      fail("dynamics.dof_begin[", b + 1, "] = ", dynamics.dof_begin[b + 1], " gives body ", b, " ",
+           dofs, " unknowns; a body has 1 to ", MassRoot::max_dofs);
+    if (dynamics.mass_begin[b + 1] - dynamics.mass_begin[b] != dofs * dofs)
+      fail("dynamics.mass_begin[", b + 1, "] = ", dynamics.mass_begin[b + 1],
+           ": the block of body ", b, " must have ", dofs * dofs, " entries");
+  }
+  require_numbers("dynamics.mass", dynamics.mass, dynamics.mass_begin.back(), "mass_begin");
+  for (int b = 0; b < bodies; ++b) validate_mass_block(dynamics, b);
+}
+
+void validate_dynamics(const FrictionProblem& problem) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  const int contacts = problem.contact_count(), bodies = dynamics.body_count();
+  require_numbers("dynamics.v_free", dynamics.v_free, dynamics.dof_count(),
+                  "one entry per unknown");
+  require_size("dynamics.body_a", dynamics.body_a.size(), contacts, "one entry per contact");
+  require_size("dynamics.body_b", dynamics.body_b.size(), contacts, "one entry per contact");
+  require_begin("dynamics.h_begin", dynamics.h_begin, contacts, "one block per contact");
+  for (int c = 0; c < contacts; ++c) {
+    const int a = dynamics.body_a[c], b = dynamics.body_b[c];
+    if (a < -1 || a >= bodies)
+      fail("dynamics.body_a[", c, "] = ", a, " is not one of the ", bodies, " bodies, nor -1");
+    if (b < -1 || b >= bodies)
+      fail("dynamics.body_b[", c, "] = ", b, " is not one of the ", bodies, " bodies, nor -1");
+    if (a == b && a != -1)
+      fail("dynamics.body_b[", c, "] = ", b, ": body_a and body_b are the same body");
+    const int entries = problem.contact_rows(c) * (dynamics.body_dofs(a) + dynamics.body_dofs(b));
+    if (dynamics.h_begin[c + 1] - dynamics.h_begin[c] != entries)
+      fail("dynamics.h_begin[", c + 1, "] = ", dynamics.h_begin[c + 1], ": the blocks of contact ",
+           c, " must have ", entries, " entries");
+  }
+  require_numbers("dynamics.h", dynamics.h, dynamics.h_begin.back(), "h_begin");
+  require_numbers("dynamics.bias", dynamics.bias, problem.row_count(), "one entry per contact row");
+}
+
+// Positive semidefinite up to rounding: all minors of the symmetric part.
+void validate_diagonal_block(const FrictionProblem& problem, int c) {
+  const Eigen::Matrix3d d = stored_diagonal_block(problem, c), even = 0.5 * (d + d.transpose());
+  const int first = problem.row_begin[c];
+  const auto fail_at = [&](int i, int j, const auto&... what) {
+    fail("delassus.w(", first + i, ", ", first + j, ") = ", d(i, j), what...);
+  };
+  for (int i = 0; i < 3; ++i)
+    if (d(i, i) < 0.0) fail_at(i, i, " is negative");
+  const double largest = d.diagonal().maxCoeff();
+  if (largest > 0.0 && largest < smallest_scale)
+    fail_at(0, 0, ": the block of contact ", c, " is not zero and below ", smallest_scale,
+            ", where its inverse overflows");
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < i; ++j) {
+      const double product = d(i, i) * d(j, j);
+      if (std::abs(d(i, j) - d(j, i)) > delassus_asymmetry * std::sqrt(product))
+        fail_at(i, j, ": the block of contact ", c,
+                " is further from symmetric than its diagonal is large");
+      // A semidefinite block has no negative 2 x 2 minor: w_ij^2 <= w_ii w_jj.
+      if (even(i, j) * even(i, j) > product * (1.0 + semidefinite_rounding))
+        fail_at(i, j, ": the block of contact ", c, " is not positive semidefinite");
+    }
+  const double determinant = even.determinant();
+  if (determinant < -semidefinite_rounding * d(0, 0) * d(1, 1) * d(2, 2))
+    fail_at(0, 0, ": the block of contact ", c, " is not positive semidefinite (determinant ",
+            determinant, ")");
+}
+
+void validate_delassus(const FrictionProblem& problem) {
+  const SparseRows& w = problem.delassus.w;
+  const int rows = problem.row_count();
+  require_numbers("delassus.q", problem.delassus.q, rows, "one entry per contact row");
+  require_size("delassus.w rows", static_cast<std::size_t>(w.rows()), rows, "the contacts");
+  require_size("delassus.w columns", static_cast<std::size_t>(w.cols()), rows, "the contacts");
+  for (int row = 0; row < rows; ++row) {
+    // Columns ascend, without which products and look-ups would go wrong silently.
+    int previous = -1;
+    for (SparseRows::InnerIterator entry(w, row); entry; ++entry) {
+      const int column = static_cast<int>(entry.col());
+      if (column <= previous || column >= rows)
+        fail("delassus.w row ", row, " has column ", column, " after ", previous,
+             "; columns ascend below ", rows);
+      require_number(entry.value(), "delassus.w(", row, ", ", column, ")");
+      previous = column;
+    }
+  }
+  for (int c = 0; c < problem.contact_count(); ++c) validate_diagonal_block(problem, c);
+}
+
+/// `valid`: masses that are known; may be null.
+void validate_all(const FrictionProblem& problem, KnownMasses* valid) {
+  validate_contacts(problem);
+  if (problem.has_dynamics) {
+    if (!valid || !valid->are_of(problem.dynamics)) {
+      validate_masses(problem.dynamics);
+      if (valid) valid->keep(problem.dynamics);
+    }
+    validate_dynamics(problem);
+  }
+  if (problem.has_delassus) validate_delassus(problem);
+  if (!problem.has_dynamics && !problem.has_delassus && problem.contact_count() > 0)
+    fail("has_dynamics = 0, has_delassus = 0: the problem of ", problem.contact_count(),
+         " contacts has neither form");
+}
+
+}  // namespace
+
+void FrictionProblem::validate() const { validate_all(*this, nullptr); }
+
+void validate(const FrictionProblem& problem, KnownMasses& valid) { validate_all(problem, &valid); }
+
+bool KnownMasses::are_of(const DynamicsForm& dynamics) const {
+  return dof_begin_ == dynamics.dof_begin && mass_begin_ == dynamics.mass_begin &&
+         mass_.size() == dynamics.mass.size() &&
+         std::memcmp(mass_.data(), dynamics.mass.data(), mass_.size() * sizeof(double)) == 0;
+}
+
+void KnownMasses::keep(const DynamicsForm& dynamics) {
+  dof_begin_ = dynamics.dof_begin;
+  mass_begin_ = dynamics.mass_begin;
+  mass_ = dynamics.mass;
 }
 
 }  // namespace ballast

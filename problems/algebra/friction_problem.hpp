@@ -62,6 +62,10 @@ struct DynamicsForm {
   int dof_count() const { return dof_begin.back(); }
   int body_dofs(int body) const { return body < 0 ? 0 : dof_begin[body + 1] - dof_begin[body]; }
 
+  /// Appends a body with this mass block, 1 x 1 to 6 x 6; returns its number. Whoever builds a
+  /// problem sizes v_free himself.
+  int add_body(const Eigen::MatrixXd& block);
+
   /// No bodies, no contacts. v_free and bias keep their storage: whoever refills the problem
   /// resizes them, and nothing is allocated while the sizes stay.
   void clear();
@@ -94,12 +98,37 @@ struct FrictionProblem {
 
   void clear();  ///< no contacts, neither form; storage is kept (see DynamicsForm::clear)
 
+  /// Appends a contact of b against a to the dynamics form: rows x unknowns of each body, `h_a`
+  /// empty where a is -1. The rows are those of h_b. Whoever builds a problem sizes bias himself.
+  void add_contact(int a, int b, double mu, const Eigen::MatrixXd& h_a, const Eigen::MatrixXd& h_b);
+
   /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range,
   /// an entry that is not finite or beyond largest_entry, mu < 0 or beyond largest_friction, a mass
   /// block that is not symmetric positive definite, a Delassus diagonal block whose symmetric part
   /// is not positive semidefinite or smaller than the rest. O(entries).
   void validate() const;
 };
+
+/// A copy of the bodies' masses and unknowns, to tell whether they are the same, bit by bit: in a
+/// run every step brings the same.
+class KnownMasses {
+ public:
+  bool are_of(const DynamicsForm& dynamics) const;
+  void keep(const DynamicsForm& dynamics);
+
+ private:
+  std::vector<int> dof_begin_, mass_begin_;
+  std::vector<double> mass_;
+};
+
+/// FrictionProblem::validate() that looks at masses only if they are not `valid` already, and keeps
+/// them there.
+void validate(const FrictionProblem& problem, KnownMasses& valid);
+
+/// The diagonal block of contact c in the stored W, as it is; entries beyond its rows are zero.
+Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c);
+/// The rows of contact c as three: those that it has not are zero.
+Eigen::Vector3d rows_of_contact(const FrictionProblem& problem, const Eigen::VectorXd& all, int c);
 
 /// q = H v_free + bias (dynamics) or the stored q. `q` is resized.
 void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q);

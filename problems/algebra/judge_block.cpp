@@ -95,8 +95,8 @@ void measure(JudgeBlock& block) {
   find_measures(block);
 }
 
-double largest_eigenvalue(double nn, double tn, double sn, double tt, double st, double ss) {
-  return eigenvalue(nn, tn, sn, tt, st, ss);
+double largest_eigenvalue(const Eigen::Matrix3d& w) {
+  return eigenvalue(w(0, 0), w(1, 0), w(2, 0), w(1, 1), w(2, 1), w(2, 2));
 }
 
 }  // namespace ballast

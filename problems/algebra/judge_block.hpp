@@ -43,7 +43,8 @@ struct JudgeBlock {
 /// contact (friction_cone.hpp) in their order: the same bits.
 void measure(JudgeBlock& block);
 
-/// Largest eigenvalue of a symmetric block by its lower triangle, in closed form.
+/// Largest eigenvalue of a symmetric block by its lower triangle, in closed form: 1/rho of the
+/// scaled natural map.
 ///
 /// Smith 1961: with B = (W - mean I) / spread, spread^2 = |W - mean I|^2 / 6, the eigenvalues of B
 /// are 2 cos(...), the largest 1 + 2 s w where s^2 = (1 + det B / 2) / 2 and w in [1/2, 1/sqrt(3)]
@@ -51,6 +52,6 @@ void measure(JudgeBlock& block);
 /// from a cubic fit (error 6e-5) two Newton steps reach rounding, without an arc cosine. Where the
 /// two largest eigenvalues coincide (s = 0) the determinant's own rounding leaves 1e-8, relative:
 /// enough for a scale.
-double largest_eigenvalue(double nn, double tn, double sn, double tt, double st, double ss);
+double largest_eigenvalue(const Eigen::Matrix3d& w);
 
 }  // namespace ballast

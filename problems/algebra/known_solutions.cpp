@@ -1,10 +1,8 @@
 #include "problems/algebra/known_solutions.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "platform/random.hpp"
-#include "problems/algebra/contact_frame.hpp"
 
 namespace ballast {
 namespace {
@@ -35,31 +33,12 @@ void add_body(double mass, ProblemRandom& random, DynamicsForm& dynamics) {
   block.topLeftCorner<3, 3>().diagonal().setConstant(mass);
   const Eigen::Matrix3d turned = mass * axes.transpose() * inertia.asDiagonal() * axes;
   block.bottomRightCorner<3, 3>() = 0.5 * (turned + turned.transpose());
-  dynamics.dof_begin.push_back(dynamics.dof_begin.back() + 6);
-  dynamics.mass_begin.push_back(dynamics.mass_begin.back() + 36);
-  dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + 36);
+  dynamics.add_body(block);
 }
 
-/// Rows of the relative velocity of b against a at a point half a size away from each centre.
-void add_contact(int a, int b, int rows, ProblemRandom& random, FrictionProblem& problem) {
-  DynamicsForm& dynamics = problem.dynamics;
-  const Eigen::Matrix3d frame = random_frame(random);
-  const std::array<int, 2> bodies{a, b};
-  for (int s = 0; s < 2; ++s) {
-    if (bodies[s] < 0) continue;
-    const Eigen::Vector3d arm = 0.5 * random_direction(random);  // from the centre to the point
-    // A point of the body moves with v + omega x arm = v - arm x
-    // omega, here in the contact's frame.
-    Eigen::Matrix<double, 3, 6> side;
-    side << frame, -frame * cross_matrix(arm);
-    if (s == 0) side = -side;
-    for (int k = 0; k < 6; ++k)
-      for (int i = 0; i < rows; ++i) dynamics.h.push_back(side(i, k));
-  }
-  dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
-  dynamics.body_a.push_back(a);
-  dynamics.body_b.push_back(b);
-  problem.row_begin.push_back(problem.row_begin.back() + rows);
+/// Rows of the velocity of a body at a point half a size away from its centre.
+Eigen::MatrixXd random_side(const Eigen::Matrix3d& frame, int rows, ProblemRandom& random) {
+  return rigid_rows(frame, 0.5 * random_direction(random)).topRows(rows);
 }
 
 /// (r, u) of one contact that obeys Coulomb's law to rounding: leaves, slips or sticks.
@@ -109,9 +88,15 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
     const bool frictionless = random.uniform() < settings.frictionless_fraction;
     const int b = random.below(settings.bodies);
     const int a = random.below(settings.bodies + 1) - 1;  // -1: against the ground
-    add_contact(a == b ? -1 : a, b, frictionless ? 1 : 3, random, problem);
-    problem.friction.push_back(
-        frictionless ? 0.0 : random.uniform(settings.friction_min, settings.friction_max));
+    // Against itself no body touches: that is the ground, too.
+    const Eigen::Matrix3d frame = random_frame(random);
+    const int rows = frictionless ? 1 : 3;
+    Eigen::MatrixXd h_a;
+    if (a >= 0 && a != b) h_a = -random_side(frame, rows, random);
+    const Eigen::MatrixXd h_b = random_side(frame, rows, random);
+    const double mu =
+        frictionless ? 0.0 : random.uniform(settings.friction_min, settings.friction_max);
+    problem.add_contact(a == b ? -1 : a, b, mu, h_a, h_b);
   }
 
   known.r.setZero(problem.row_count());
@@ -142,7 +127,10 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
     known.r = r;
     known.u = u;
   }
-  change_units(problem, settings.mass_unit, settings.velocity_unit);
+  // Angular unknowns are taken as velocities at a distance of one length unit, so that H stays.
+  for (double& entry : dynamics.mass) entry *= settings.mass_unit;
+  dynamics.v_free *= settings.velocity_unit;
+  dynamics.bias *= settings.velocity_unit;
   known.r *= settings.mass_unit * settings.velocity_unit;
   known.u *= settings.velocity_unit;
   return known;
@@ -151,32 +139,20 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
 void repeat_contacts(FrictionProblem& problem, int copies) {
   const FrictionProblem once = problem;
   const DynamicsForm& from = once.dynamics;
-  DynamicsForm& to = problem.dynamics;
-  problem.row_begin = {0};
-  problem.friction.clear();
-  to.body_a.clear();
-  to.body_b.clear();
-  to.h_begin = {0};
-  to.h.clear();
-  to.bias.resize(static_cast<Eigen::Index>(once.row_count()) * copies);
+  problem.row_begin = problem.dynamics.h_begin = {0};
+  for (auto* list : {&problem.friction, &problem.dynamics.h}) list->clear();
+  for (auto* list : {&problem.dynamics.body_a, &problem.dynamics.body_b}) list->clear();
+  problem.dynamics.bias.resize(static_cast<Eigen::Index>(once.row_count()) * copies);
   for (int c = 0; c < once.contact_count(); ++c)
     for (int copy = 0; copy < copies; ++copy) {
-      const int rows = once.contact_rows(c);
-      to.bias.segment(problem.row_begin.back(), rows) = from.bias.segment(once.row_begin[c], rows);
-      problem.row_begin.push_back(problem.row_begin.back() + rows);
-      problem.friction.push_back(once.friction[c]);
-      to.body_a.push_back(from.body_a[c]);
-      to.body_b.push_back(from.body_b[c]);
-      to.h.insert(to.h.end(), from.h.begin() + from.h_begin[c],
-                  from.h.begin() + from.h_begin[c + 1]);
-      to.h_begin.push_back(static_cast<int>(to.h.size()));
+      const int rows = once.contact_rows(c), a = from.body_a[c], b = from.body_b[c];
+      const double* block = from.h.data() + from.h_begin[c];
+      using Block = Eigen::Map<const Eigen::MatrixXd>;
+      problem.dynamics.bias.segment(problem.row_count(), rows) =
+          from.bias.segment(once.row_begin[c], rows);
+      problem.add_contact(a, b, once.friction[c], Block(block, rows, from.body_dofs(a)),
+                          Block(block + rows * from.body_dofs(a), rows, from.body_dofs(b)));
     }
-}
-
-void change_units(FrictionProblem& problem, double mass, double velocity) {
-  for (double& entry : problem.dynamics.mass) entry *= mass;
-  problem.dynamics.v_free *= velocity;
-  problem.dynamics.bias *= velocity;
 }
 
 }  // namespace ballast

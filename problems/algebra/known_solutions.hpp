@@ -37,9 +37,28 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings);
 /// change; impulses are no longer unique.
 void repeat_contacts(FrictionProblem& problem, int copies);
 
-/// The same motion in other units (dynamics form only): M times `mass`, v_free and bias times
-/// `velocity`. Angular unknowns are taken as velocities at a distance of one length unit, so that H
-/// stays.
-void change_units(FrictionProblem& problem, double mass, double velocity);
+/// The matrix of x cross: cross_matrix(x) y = x.cross(y).
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& x) {
+  Eigen::Matrix3d cross;
+  cross << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
+  return cross;
+}
+
+/// Rows n, t1, t2 of a right-handed frame: n a unit vector, t1 across n and `other`, which must not
+/// be parallel to n.
+inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n, const Eigen::Vector3d& other) {
+  const Eigen::Vector3d t1 = n.cross(other).normalized();
+  Eigen::Matrix3d frame;
+  frame << n.transpose(), t1.transpose(), n.cross(t1).transpose();
+  return frame;
+}
+
+/// Rows n, t1, t2 of `frame` of the velocity v + omega x arm at a point of a rigid body, as its
+/// block of H.
+inline Eigen::MatrixXd rigid_rows(const Eigen::Matrix3d& frame, const Eigen::Vector3d& arm) {
+  Eigen::MatrixXd rows(3, 6);
+  rows << frame, -frame * cross_matrix(arm);
+  return rows;
+}
 
 }  // namespace ballast

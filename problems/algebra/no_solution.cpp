@@ -11,38 +11,30 @@
 namespace ballast {
 namespace {
 
-/// W, q and the scale of impulses of one problem, for many weights.
-class Prover {
- public:
-  explicit Prover(const FrictionProblem& problem)
-      : problem_(problem), w_(delassus_matrix(problem)) {
-    free_contact_velocity(problem, q_);
-    std::vector<Eigen::Matrix3d> diagonal;
-    delassus_diagonal(problem, diagonal);
-    for (int c = 0; c < problem.contact_count(); ++c) {
-      const double lambda = largest_eigenvalue(diagonal[c]);
-      if (!(lambda > 0.0)) continue;
-      const double size = q_.segment(problem.row_begin[c], problem.contact_rows(c)).norm();
-      impulse_scale_ = std::max(impulse_scale_, size / lambda);
-    }
-  }
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// W, q and the scale of impulses of one problem, for many weights.
+struct Prover {
+  const FrictionProblem& problem;
+  SparseRows w;
+  Eigen::VectorXd q;
+  double impulse_scale = 0.0;  ///< largest |q_c| / lambda_max(W_cc)
+
+  int normal(int c) const { return problem.row_begin[c]; }
+
+  /// `weights` of the contacts, >= 0.
   NoSolution proof(const Eigen::VectorXd& weights) const {
     NoSolution proof;
     const double sum = weights.sum();
     if (!(sum > 0.0) || !std::isfinite(sum)) return proof;
-    // For weights y >= 0 of sum one, y.u_N = q.y + r.(W^T y) whatever r is, and a solution has
-    // y.u_N >= 0. So it needs |r| >= -q.y / |W^T y|, and there is none where W^T y = 0.
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(problem_.row_count());
-    for (int c = 0; c < problem_.contact_count(); ++c) y[normal(c)] = weights[c] / sum;
-    proof.approach = -q_.dot(y);
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(problem.row_count());
+    for (int c = 0; c < problem.contact_count(); ++c) y[normal(c)] = weights[c] / sum;
+    proof.approach = -q.dot(y);
     // Sums that cancel to rounding prove nothing.
-    if (!(proof.approach > 1e-10 * q_.cwiseAbs().dot(y))) return {};
-    const double slope = (w_.transpose() * y).norm();
-    const double infinity = std::numeric_limits<double>::infinity();
+    if (!(proof.approach > 1e-10 * q.cwiseAbs().dot(y))) return {};
+    const double slope = (w.transpose() * y).norm();
     proof.least_impulse = slope > 0.0 ? proof.approach / slope : infinity;
-    // In units of the impulses |q_c| / lambda_c that would stop single contacts.
-    proof.least_growth = impulse_scale_ > 0.0 ? proof.least_impulse / impulse_scale_ : infinity;
+    proof.least_growth = impulse_scale > 0.0 ? proof.least_impulse / impulse_scale : infinity;
     const double largest = weights.maxCoeff(&proof.first_contact);
     proof.contacts = static_cast<int>((weights.array() > 1e-3 * largest).count());
     return proof;
@@ -50,38 +42,36 @@ class Prover {
 
   /// One Gauss-Seidel sweep of the frictionless problem: normal impulses alone.
   void sweep(Eigen::VectorXd& r) const {
-    for (int c = 0; c < problem_.contact_count(); ++c) {
-      double u = q_[normal(c)], own = 0.0;
-      for (SparseRows::InnerIterator entry(w_, normal(c)); entry; ++entry) {
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      double u = q[normal(c)], own = 0.0;
+      for (SparseRows::InnerIterator entry(w, normal(c)); entry; ++entry) {
         u += entry.value() * r[entry.col()];
         if (entry.col() == normal(c)) own = entry.value();
       }
       if (own > 0.0) r[normal(c)] = std::max(0.0, r[normal(c)] - u / own);
     }
   }
-
-  int normal(int c) const { return problem_.row_begin[c]; }
-
- private:
-  const FrictionProblem& problem_;
-  SparseRows w_;
-  Eigen::VectorXd q_;
-  double impulse_scale_ = 0.0;
 };
 
 }  // namespace
 
 NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps) {
   const int contacts = problem.contact_count();
-  const Prover prover(problem);
+  Prover prover{problem, delassus_matrix(problem), {}};
+  free_contact_velocity(problem, prover.q);
+  std::vector<Eigen::Matrix3d> diagonal;
+  delassus_diagonal(problem, diagonal);
+  for (int c = 0; c < contacts; ++c)
+    if (const double lambda = largest_eigenvalue(diagonal[c]); lambda > 0.0)
+      prover.impulse_scale =
+          std::max(prover.impulse_scale,
+                   prover.q.segment(problem.row_begin[c], problem.contact_rows(c)).norm() / lambda);
   NoSolution best;
   const auto consider = [&](const Eigen::VectorXd& y) {
     const NoSolution proof = prover.proof(y);
     if (proof.least_growth > best.least_growth) best = proof;
   };
   // Single contacts that no normal impulse moves.
-  std::vector<Eigen::Matrix3d> diagonal;
-  delassus_diagonal(problem, diagonal);
   for (int c = 0; c < contacts && !best.proved(); ++c)
     if (!(diagonal[c](0, 0) > 0.0)) consider(Eigen::VectorXd::Unit(contacts, c));
   // The impulses' own direction.

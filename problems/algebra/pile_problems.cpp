@@ -1,14 +1,13 @@
 #include "problems/algebra/pile_problems.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "platform/random.hpp"
-#include "problems/algebra/contact_frame.hpp"
 #include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
 
 namespace ballast {
 namespace {
@@ -44,8 +43,14 @@ class Pile {
     find_pairs();
     add_contacts();
     for (double& entry : problem_.dynamics.mass) entry *= settings_.mass_unit;
-    if (settings_.is_stored) store();
-    return std::move(problem_);
+    if (!settings_.is_stored) return std::move(problem_);
+    FrictionProblem stored;
+    stored.row_begin = problem_.row_begin;
+    stored.friction = problem_.friction;
+    stored.has_delassus = true;
+    stored.delassus.w = delassus_matrix(problem_);
+    free_contact_velocity(problem_, stored.delassus.q);
+    return stored;
   }
 
  private:
@@ -72,21 +77,12 @@ class Pile {
       const int row = b / side % side, layer = b / (side * side);
       const Vector3d lattice(b % side, row, layer);
       centre_.push_back(lattice + in_cube(random_, 0.2));
-      add_body(random_.log_uniform(1.0, settings_.mass_ratio));
+      // Of about unit size: inertia about a tenth of mass times square size.
+      const double mass = random_.log_uniform(1.0, settings_.mass_ratio);
+      Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(6, mass);
+      for (int i = 3; i < 6; ++i) diagonal[i] = mass * random_.uniform(0.05, 0.15);
+      problem_.dynamics.add_body(diagonal.asDiagonal());
     }
-  }
-
-  /// Of about unit size: inertia about a tenth of mass times square size.
-  void add_body(double mass) {
-    DynamicsForm& dynamics = problem_.dynamics;
-    Eigen::Matrix<double, 6, 6> block = Eigen::Matrix<double, 6, 6>::Zero();
-    for (int i = 0; i < 3; ++i) {
-      block(i, i) = mass;
-      block(i + 3, i + 3) = mass * random_.uniform(0.05, 0.15);
-    }
-    dynamics.dof_begin.push_back(dynamics.dof_begin.back() + 6);
-    dynamics.mass_begin.push_back(dynamics.mass_begin.back() + 36);
-    dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + 36);
   }
 
   /// All fall, move towards the middle of the ground, and are stirred.
@@ -130,10 +126,9 @@ class Pile {
     const int pairs = static_cast<int>(pairs_.size());
     for (int k = 0; k < pairs; ++k) {
       const int points = settings_.contacts / pairs + (k < settings_.contacts % pairs ? 1 : 0);
-      const Pair& pair = pairs_[static_cast<size_t>(k)];
-      const Vector3d b = centre_[static_cast<size_t>(pair.b)];
-      const Vector3d a =
-          pair.a < 0 ? Vector3d(b[0], b[1], b[2] - 1.0) : centre_[static_cast<size_t>(pair.a)];
+      const Pair& pair = pairs_[k];
+      const Vector3d b = centre_[pair.b];
+      const Vector3d a = pair.a < 0 ? Vector3d(b[0], b[1], b[2] - 1.0) : centre_[pair.a];
       // Faces of polyhedra are not square to the line of centres.
       const Vector3d normal = ((b - a).normalized() + in_cube(random_, 0.2)).normalized();
       const bool is_closed = random_.uniform() < settings_.active;
@@ -148,37 +143,20 @@ class Pile {
   /// A point of the pair's common face, which goes through `middle`.
   void add_contact(const Pair& pair, const Matrix3d& frame, const Vector3d& middle, double mu,
                    bool is_closed) {
-    DynamicsForm& dynamics = problem_.dynamics;
+    const DynamicsForm& dynamics = problem_.dynamics;
     const Vector3d point = middle + random_.uniform(-0.4, 0.4) * frame.row(1).transpose() +
                            random_.uniform(-0.4, 0.4) * frame.row(2).transpose();
     Vector3d free = Vector3d::Zero();  // the contact's velocity without impulses
-    // Rows n, t1, t2 of v + omega x arm at the point, those of body a with a minus.
-    const std::array<int, 2> bodies{pair.a, pair.b};
-    for (int s = 0; s < 2; ++s) {
-      if (bodies[s] < 0) continue;
-      const Vector3d arm = point - centre_[static_cast<size_t>(bodies[s])];
-      Eigen::Matrix<double, 3, 6> side;
-      side << frame, -frame * cross_matrix(arm);
-      if (s == 0) side = -side;
-      dynamics.h.insert(dynamics.h.end(), side.data(), side.data() + 18);
-      free += side * dynamics.v_free.segment<6>(6 * static_cast<Eigen::Index>(bodies[s]));
-    }
-    dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
-    dynamics.body_a.push_back(pair.a);
-    dynamics.body_b.push_back(pair.b);
-    problem_.row_begin.push_back(problem_.row_begin.back() + 3);
-    problem_.friction.push_back(mu);
+    const auto side = [&](int body, double sign) {
+      const Eigen::MatrixXd rows = sign * rigid_rows(frame, point - centre_[body]);
+      free += rows * dynamics.v_free.segment<6>(6 * static_cast<Eigen::Index>(body));
+      return rows;
+    };
+    const Eigen::MatrixXd h_a = pair.a < 0 ? Eigen::MatrixXd() : side(pair.a, -1.0);
+    problem_.add_contact(pair.a, pair.b, mu, h_a, side(pair.b, 1.0));
     // An open gap, which is wider than what the step closes. Never below zero: rest stays allowed.
     const double gap = is_closed ? 0.0 : 2.0 * std::abs(free[0]) + gravity_step;
     bias_.insert(bias_.end(), {gap, 0.0, 0.0});
-  }
-
-  void store() {
-    problem_.delassus.w = delassus_matrix(problem_);
-    free_contact_velocity(problem_, problem_.delassus.q);
-    problem_.has_delassus = true;
-    problem_.has_dynamics = false;
-    problem_.dynamics = {};
   }
 
   PileSettings settings_;
@@ -189,26 +167,9 @@ class Pile {
   std::vector<double> bias_;
 };
 
-void require(bool is_right, const char* what) {
-  if (!is_right) throw InvalidProblem(std::string("pile: ") + what);
-}
-
 }  // namespace
 
-FrictionProblem make_pile(const PileSettings& settings) {
-  require(settings.contacts >= 1, "contacts: expected a number >= 1");
-  require(settings.redundancy >= 0.0 && settings.redundancy < 1.0,
-          "redundancy: expected a number from 0 to below 1");
-  require(settings.mass_ratio >= 1.0, "mass_ratio: expected a number >= 1");
-  require(settings.friction_min >= 0.0 && settings.friction_max >= settings.friction_min,
-          "friction: expected 0 <= friction_min <= friction_max");
-  require(settings.active >= 0.0 && settings.active <= 1.0,
-          "active: expected a number from 0 to 1");
-  require(settings.slenderness > 0.0, "slenderness: expected a number > 0");
-  require(settings.shear >= 0.0, "shear: expected a number >= 0");
-  require(settings.mass_unit > 0.0, "mass_unit: expected a number > 0");
-  return Pile(settings).make();
-}
+FrictionProblem make_pile(const PileSettings& settings) { return Pile(settings).make(); }
 
 PileSettings random_pile(std::uint64_t seed, int most_contacts) {
   ProblemRandom random(seed);

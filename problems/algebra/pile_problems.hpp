@@ -14,6 +14,7 @@
 
 namespace ballast {
 
+/// What the ranges are is for who reads settings from a user to check.
 struct PileSettings {
   int contacts = 100;       ///< points, each with three rows
   double redundancy = 0.3;  ///< 1 - rank(W)/rows, in [0, 1): reached by the number of bodies, about
@@ -27,7 +28,6 @@ struct PileSettings {
   std::uint64_t seed = 1;
 };
 
-/// Throws InvalidProblem for settings out of range.
 FrictionProblem make_pile(const PileSettings& settings);
 
 /// A member of the family, all settings drawn from `seed`: 2 to `most_contacts` contacts

@@ -8,7 +8,6 @@
 
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/files/fclib_file.hpp"
-#include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
 

@@ -8,11 +8,10 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "platform/text.hpp"
-#include "problems/files/problem_file_error.hpp"
 
 namespace ballast {
 namespace {
@@ -22,19 +21,15 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 /// The file's words, one after the other, with the line for error messages.
 class Words {
  public:
-  explicit Words(const std::filesystem::path& file) : name_(file.string()) {
-    try {
-      text_ = read_whole_file(file);
-    } catch (const Error& error) {
-      throw ProblemFileError(error.what());
-    }
-  }
+  explicit Words(const std::filesystem::path& file)
+      : name_(file.string()),
+        text_(with_problem_file_errors([&] { return read_whole_file(file); })) {}
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw ProblemFileError(name_ + ": " + what);
+    throw ProblemFileError(name_ + ": line " + std::to_string(line_) + ": " + what);
   }
-  [[noreturn]] void fail_here(const std::string& what) const {
-    fail("line " + std::to_string(line_) + ": " + what);
+  void require(bool condition, const std::string& what) const {
+    if (!condition) fail(what);
   }
 
   /// `of` names what is read, in messages.
@@ -43,7 +38,7 @@ class Words {
       line_ += text_[at_++] == '\n';
     const std::size_t begin = at_;
     while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
-    if (begin == at_) fail_here(std::string("the file ends within ") + of);
+    if (begin == at_) fail(std::string("the file ends within ") + of);
     return std::string_view(text_).substr(begin, at_ - begin);
   }
 
@@ -67,13 +62,12 @@ class Words {
   int integer(const char* of) { return number<int>(next(of), of); }
   double real(const char* of) {
     const double value = number<double>(next(of), of);
-    if (!std::isfinite(value))
-      fail_here(std::string(of) + " = " + std::to_string(value) + " is not finite");
+    if (!std::isfinite(value)) fail(of + (" = " + std::to_string(value)) + " is not finite");
     return value;
   }
   int count(const char* of) {
     const int value = integer(of);
-    if (value < 0) fail_here(std::string(of) + " = " + std::to_string(value) + " is negative");
+    if (value < 0) fail(of + (" = " + std::to_string(value)) + " is negative");
     return value;
   }
   /// A count of things of which the rest of the file has at least one number each: a wrong one is
@@ -81,21 +75,29 @@ class Words {
   int backed_count(const char* of) {
     const int value = count(of);
     if (value > std::numeric_limits<int>::max() / 3)
-      fail_here(std::string(of) + " = " + std::to_string(value) + " is too large");
+      fail(of + (" = " + std::to_string(value)) + " is too large");
     require_room(static_cast<std::size_t>(value), of);
     return value;
   }
   /// So many numbers could stand in the rest of the file: none is shorter than a digit.
   void require_room(std::size_t numbers, const char* of) const {
-    if (numbers > text_.size() - at_) fail_here(std::string("the file ends within ") + of);
+    if (numbers > text_.size() - at_) fail(std::string("the file ends within ") + of);
+  }
+  template <typename Number>
+  std::vector<Number> list(std::size_t size, const char* of) {
+    require_room(size, of);
+    std::vector<Number> values(size);
+    for (Number& value : values)
+      if constexpr (std::is_same_v<Number, int>)
+        value = count(of);
+      else
+        value = real(of);
+    return values;
   }
   /// Reads words until the one that is wanted.
   void skip_to(std::string_view word, const char* of) {
     while (next(of) != word) {
     }
-  }
-  void require(bool condition, const std::string& what) const {
-    if (!condition) fail_here(what);
   }
 
  private:
@@ -103,7 +105,7 @@ class Words {
   Number number(std::string_view word, const char* of) const {
     if (!word.empty() && word[0] == '+') word.remove_prefix(1);
     const std::optional<Number> value = parsed<Number>(word);
-    if (!value) fail_here(std::string(of) + ": '" + std::string(word) + "' is not a number");
+    if (!value) fail(std::string(of) + ": '" + std::string(word) + "' is not a number");
     return *value;
   }
 
@@ -135,16 +137,9 @@ void read_dense(Words& words, TextMatrix& matrix) {
       matrix.add(words, row, column, words.real("a dense matrix"));
 }
 
-std::vector<int> read_counts(Words& words, int size, const char* of) {
-  words.require_room(size, of);
-  std::vector<int> values(size);
-  for (int& value : values) value = words.count(of);
-  return values;
-}
-
 /// Where each of `blocks` block rows (or columns) ends: they ascend to `size`, and none is empty.
 std::vector<int> read_ends(Words& words, int blocks, int size, const char* of) {
-  const std::vector<int> end = read_counts(words, blocks, of);
+  const std::vector<int> end = words.list<int>(blocks, of);
   const bool ascend = std::adjacent_find(end.begin(), end.end(), std::greater_equal()) == end.end();
   words.require(blocks > 0 && ascend && end.front() > 0 && end.back() == size,
                 std::string("the ") + of + " do not ascend to " + std::to_string(size));
@@ -161,8 +156,8 @@ void read_blocks(Words& words, TextMatrix& matrix) {
       read_ends(words, block_columns, matrix.columns, "ends of block columns");
   const int pointers = words.count("the number of row pointers"),
             indices = words.count("the number of block columns");
-  const std::vector<int> begin = read_counts(words, pointers, "row pointers");
-  const std::vector<int> column_of = read_counts(words, indices, "block columns");
+  const std::vector<int> begin = words.list<int>(pointers, "row pointers");
+  const std::vector<int> column_of = words.list<int>(indices, "block columns");
   words.require(indices >= blocks, "there are fewer block columns than blocks");
   const auto first = [](const std::vector<int>& end, int k) { return k == 0 ? 0 : end[k - 1]; };
   for (int row = 0; row + 1 < pointers; ++row)
@@ -179,6 +174,7 @@ void read_blocks(Words& words, TextMatrix& matrix) {
 /// CSparse's printed form; six digits only. `words` stands after the storage number.
 void read_sparse(Words& words, TextMatrix& matrix) {
   enum Origin { triplet = 1, columns = 2, rows = 3 };
+  constexpr const char* of = "a sparse matrix";
   const int origin = words.integer("the origin of a sparse matrix");
   words.require(origin >= triplet && origin <= rows,
                 "sparse origin " + std::to_string(origin) + " is not supported");
@@ -188,31 +184,26 @@ void read_sparse(Words& words, TextMatrix& matrix) {
   //         0 0 : 1.5                               col 0 : locations 0 to 1
   //         3 0 : 2.5                                 0 : 1.5
   words.skip_line();
-  words.skip_to(origin == triplet ? "triplet:" : "nzmax:", "a sparse matrix");
-  if (origin == triplet) {
-    words.skip_to("nnz:", "a sparse matrix");
-    const int entries = words.count("the number of entries");
-    words.skip_line();
-    for (int k = 0; k < entries; ++k) {
-      const int i = words.integer("a row"), j = words.integer("a column");
-      words.skip_to(":", "a sparse matrix");
-      matrix.add(words, i, j, words.real("a sparse matrix"));
-    }
-    return;
-  }
+  words.skip_to(origin == triplet ? "nnz:" : "nzmax:", of);
+  const int lines = origin == triplet   ? words.count("the number of entries")
+                    : origin == columns ? matrix.columns
+                                        : matrix.rows;
   words.skip_line();
-  const int lines = origin == columns ? matrix.columns : matrix.rows;
   for (int line = 0; line < lines; ++line) {
-    words.skip_to("locations", "a sparse matrix");
-    const int first = words.integer("a location");
-    words.skip_to("to", "a sparse matrix");
-    const int last = words.integer("a location");
+    int first = 0, last = 0, i = line;
+    if (origin == triplet) {
+      i = words.integer("a row");
+    } else {
+      words.skip_to("locations", of);
+      first = words.integer("a location");
+      words.skip_to("to", of);
+      last = words.integer("a location");
+    }
     for (int k = first; k <= last; ++k) {
-      const int index = words.integer("an index");
-      words.skip_to(":", "a sparse matrix");
-      const double value = words.real("a sparse matrix");
-      origin == columns ? matrix.add(words, index, line, value)
-                        : matrix.add(words, line, index, value);
+      const int j = words.integer("an index");
+      words.skip_to(":", of);
+      const double value = words.real(of);
+      origin == columns ? matrix.add(words, j, i, value) : matrix.add(words, i, j, value);
     }
   }
 }
@@ -225,25 +216,9 @@ TextMatrix read_matrix(Words& words) {
   // Every row and column has an entry in a vector that follows.
   matrix.rows = words.backed_count("rows");
   matrix.columns = words.backed_count("columns");
-  switch (storage) {
-    case 0:
-      read_dense(words, matrix);
-      break;
-    case 1:
-      read_blocks(words, matrix);
-      break;
-    case 2:
-      read_sparse(words, matrix);
-      break;
-  }
+  constexpr void (*read[])(Words&, TextMatrix&) = {read_dense, read_blocks, read_sparse};
+  read[storage](words, matrix);
   return matrix;
-}
-
-std::vector<double> read_reals(Words& words, std::size_t size, const char* of) {
-  words.require_room(size, of);
-  std::vector<double> values(size);
-  for (double& value : values) value = words.real(of);
-  return values;
 }
 
 template <typename Sparse>
@@ -269,8 +244,8 @@ std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesyste
   if (!h_follows) {
     LocalProblem local;
     assign(local.w, first);
-    local.q = as_eigen(read_reals(words, first.rows, "q"));
-    local.mu = read_reals(words, contacts, "mu");
+    local.q = as_eigen(words.list<double>(first.rows, "q"));
+    local.mu = words.list<double>(contacts, "mu");
     return local;
   }
   const TextMatrix h = read_matrix(words);
@@ -281,9 +256,9 @@ std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesyste
   GlobalProblem global;
   assign(global.m, first);
   assign(global.h, h);
-  global.f = as_eigen(read_reals(words, first.rows, "q"));
-  global.w = as_eigen(read_reals(words, h.columns, "b"));
-  global.mu = read_reals(words, contacts, "mu");
+  global.f = as_eigen(words.list<double>(first.rows, "q"));
+  global.w = as_eigen(words.list<double>(h.columns, "b"));
+  global.mu = words.list<double>(contacts, "mu");
   return global;
 }
 

@@ -14,8 +14,4 @@ namespace ballast {
 /// by blocks, or sparse. Throws ProblemFileError with the line.
 std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesystem::path& file);
 
-/// The local form with W by blocks: 17 digits, so that it reads back to the same bits. Written
-/// whole or not at all. Throws ProblemFileError.
-void write_siconos_text(const std::filesystem::path& file, const LocalProblem& local);
-
 }  // namespace ballast

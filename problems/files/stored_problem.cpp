@@ -14,117 +14,47 @@ namespace {
 
 using SparseColumns = Eigen::SparseMatrix<double>;
 
-/// Three rows per contact.
-void set_contacts(FrictionProblem& problem, const std::vector<double>& mu) {
-  problem.friction = mu;
-  problem.row_begin.resize(mu.size() + 1);
-  for (std::size_t c = 0; c <= mu.size(); ++c) problem.row_begin[c] = 3 * static_cast<int>(c);
-}
-
-/// The bodies of every contact when `size` consecutive unknowns make a body; none when M or H
-/// forbid it. The size is known to the compiler: a division by it is made for every entry of H.
+/// Bodies of `size` consecutive unknowns each, and one of what is left behind the last. False: M or
+/// H forbid it. The size is known to the compiler: a division by it is made for every entry of H.
 template <int size>
-class Grouping {
- public:
-  explicit Grouping(const GlobalProblem& global) {
-    fits_ = global.m.rows() % size <= 1 && mass_is_block_diagonal(global.m) &&
-            find_bodies_of_contacts(global);
-  }
-  bool fits() const { return fits_; }
-  const std::vector<int>& body_a() const { return body_a_; }
-  const std::vector<int>& body_b() const { return body_b_; }
-
- private:
-  bool mass_is_block_diagonal(const SparseColumns& m) const {
-    for (int column = 0; column < m.outerSize(); ++column)
-      for (SparseColumns::InnerIterator entry(m, column); entry; ++entry)
-        if (entry.value() != 0.0 && entry.row() / size != column / size) return false;
-    return true;
-  }
-
-  bool find_bodies_of_contacts(const GlobalProblem& global) {
-    const size_t contacts = global.mu.size();
-    body_a_.assign(contacts, -1);
-    body_b_.assign(contacts, -1);
-    // Column 3 c + k of H is row k of contact c; the unknowns in it say which bodies it touches.
-    for (int column = 0; column < global.h.outerSize(); ++column) {
-      int &a = body_a_[column / 3], &b = body_b_[column / 3];
-      for (SparseColumns::InnerIterator entry(global.h, column); entry; ++entry) {
-        const int body = static_cast<int>(entry.row()) / size;
-        if (entry.value() == 0.0 || body == a || body == b) continue;
-        if (b == -1)
-          b = body;
-        else if (a == -1)
-          a = body;
-        else
-          return false;
-      }
-    }
-    return true;
-  }
-
-  bool fits_;
-  std::vector<int> body_a_, body_b_;
-};
-
-template <int size>
-void fill_bodies(const GlobalProblem& global, DynamicsForm& dynamics) {
+bool group(const GlobalProblem& global, Division& division) {
   const int unknowns = static_cast<int>(global.m.rows());
-  // f = M v_free is an impulse: v_free block by block, with the masses' own factors.
-  dynamics.v_free = global.f;
-  for (int first = 0; first < unknowns; first += size) {
-    const int count = std::min(size, unknowns - first);
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(count, count);
-    for (int column = 0; column < count; ++column)
-      for (SparseColumns::InnerIterator entry(global.m, first + column); entry; ++entry)
-        if (entry.row() / size == first / size) block(entry.row() - first, column) = entry.value();
-    dynamics.dof_begin.push_back(first + count);
-    dynamics.mass.insert(dynamics.mass.end(), block.data(), block.data() + block.size());
-    dynamics.mass_begin.push_back(static_cast<int>(dynamics.mass.size()));
-    MassRoot root;
-    if (!root.factor(block.data(), count))
-      throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) + ") = " +
-                           std::to_string(block(0, 0)) + ": the block is not positive definite");
-    root.solve_lower(dynamics.v_free.data() + first);
-    root.solve_upper(dynamics.v_free.data() + first);
-  }
-}
-
-template <int size>
-void fill_contacts(const GlobalProblem& global, const Grouping<size>& grouping,
-                   DynamicsForm& dynamics) {
-  dynamics.body_a = grouping.body_a();
-  dynamics.body_b = grouping.body_b();
+  if (unknowns % size > 1) return false;
+  for (int column = 0; column < unknowns; ++column)
+    for (SparseColumns::InnerIterator entry(global.m, column); entry; ++entry)
+      if (entry.value() != 0.0 && entry.row() / size != column / size) return false;
+  division = {};
+  for (int first = 0; first < unknowns; first += size)
+    division.dof_begin.push_back(std::min(first + size, unknowns));
   const size_t contacts = global.mu.size();
-  dynamics.h.reserve(2 * 3 * size * contacts);
-  for (size_t c = 0; c < contacts; ++c) {
-    // Three columns of H are one contact; transposed, their rows of a body are its block.
-    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-      if (body < 0) continue;
-      const size_t begin = dynamics.h.size();
-      dynamics.h.resize(begin + 3 * static_cast<size_t>(dynamics.body_dofs(body)));
-      for (int i = 0; i < 3; ++i)
-        for (SparseColumns::InnerIterator entry(global.h, 3 * static_cast<int>(c) + i); entry;
-             ++entry)
-          if (entry.row() / size == body)
-            dynamics.h[begin + 3 * static_cast<size_t>(entry.row() - body * size) + i] =
-                entry.value();
+  division.rows.assign(contacts, 3);
+  division.body_a.assign(contacts, -1);
+  division.body_b.assign(contacts, -1);
+  // Column 3 c + k of H is row k of contact c; the unknowns in it say which bodies it touches.
+  for (int column = 0; column < global.h.outerSize(); ++column) {
+    int &a = division.body_a[column / 3], &b = division.body_b[column / 3];
+    for (SparseColumns::InnerIterator entry(global.h, column); entry; ++entry) {
+      const int body = static_cast<int>(entry.row()) / size;
+      if (entry.value() == 0.0 || body == a || body == b) continue;
+      if (b == -1)
+        b = body;
+      else if (a == -1)
+        a = body;
+      else
+        return false;
     }
-    dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
   }
-  dynamics.bias = global.w;
+  return true;
 }
 
-/// The dynamics form with bodies of `size` unknowns, into `problem`; false: M or H forbid it.
-template <int size>
-bool group_into_bodies(const GlobalProblem& global, FrictionProblem& problem) {
-  const Grouping<size> grouping(global);
-  if (!grouping.fits()) return false;
-  set_contacts(problem, global.mu);
-  problem.has_dynamics = true;
-  fill_bodies<size>(global, problem.dynamics);
-  fill_contacts(global, grouping, problem.dynamics);
-  return true;
+/// Writes what columns first ... of a sparse matrix have in rows row_begin <= row < row_end to a
+/// dense block, by its own strides.
+void copy_block(const SparseColumns& from, int first, int columns, int row_begin, int row_end,
+                double* to, int row_stride, int column_stride) {
+  for (int k = 0; k < columns; ++k)
+    for (SparseColumns::InnerIterator entry(from, first + k); entry; ++entry)
+      if (entry.row() >= row_begin && entry.row() < row_end)
+        to[(entry.row() - row_begin) * row_stride + k * column_stride] = entry.value();
 }
 
 /// W = H^T M^-1 H and q = H^T M^-1 f + w. By LU: stored iteration matrices need not be quite
@@ -140,17 +70,12 @@ FrictionProblem condense(const GlobalProblem& global) {
   return to_friction_problem(std::move(local));
 }
 
-/// Row of a three-row file in which our row `row` of contact c is.
-int file_row(const FrictionProblem& problem, int c, int row) {
-  return 3 * c + row - problem.row_begin[c];
-}
-
-/// Our row of every row of the file; -1 for the tangents that a one-row contact does not have.
+/// Where each of our rows is among three per contact.
 std::vector<int> file_rows(const FrictionProblem& problem) {
   std::vector<int> rows(problem.row_count());
   for (int c = 0; c < problem.contact_count(); ++c)
     for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
-      rows[row] = file_row(problem, c, row);
+      rows[row] = 3 * c + row - problem.row_begin[c];
   return rows;
 }
 
@@ -185,7 +110,8 @@ SparseColumns transposed_h(const FrictionProblem& problem) {
 
 FrictionProblem to_friction_problem(LocalProblem local) {
   FrictionProblem problem;
-  set_contacts(problem, local.mu);
+  problem.friction = std::move(local.mu);
+  for (int c = 0; c < problem.contact_count(); ++c) problem.row_begin.push_back(3 * (c + 1));
   problem.has_delassus = true;
   problem.delassus.w.swap(local.w);
   problem.delassus.w.makeCompressed();
@@ -193,12 +119,61 @@ FrictionProblem to_friction_problem(LocalProblem local) {
   return problem;
 }
 
+FrictionProblem divided(const GlobalProblem& global, const Division& division) {
+  FrictionProblem problem;
+  problem.friction = global.mu;
+  problem.has_dynamics = true;
+  DynamicsForm& dynamics = problem.dynamics;
+  dynamics.dof_begin = division.dof_begin;
+  dynamics.body_a = division.body_a;
+  dynamics.body_b = division.body_b;
+  // M is block diagonal: a body's mass is its diagonal block.
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    const int first = dynamics.dof_begin[b], dofs = dynamics.body_dofs(b);
+    const int begin = dynamics.mass_begin.back();
+    dynamics.mass.resize(begin + dofs * dofs);
+    copy_block(global.m, first, dofs, first, first + dofs, dynamics.mass.data() + begin, 1, dofs);
+    dynamics.mass_begin.push_back(begin + dofs * dofs);
+  }
+  // FCLIB has u = H^T v + w: a contact is three columns of H, and the transposes of what stands
+  // there in the rows of either body are the blocks of ours.
+  std::vector<double> bias;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int rows = division.rows[c];
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+      if (body < 0) continue;
+      const int first = dynamics.dof_begin[body], dofs = dynamics.body_dofs(body);
+      dynamics.h.resize(dynamics.h.size() + rows * dofs);
+      copy_block(global.h, 3 * c, rows, first, first + dofs,
+                 dynamics.h.data() + dynamics.h.size() - rows * dofs, rows, 1);
+    }
+    dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
+    problem.row_begin.push_back(problem.row_begin.back() + rows);
+    for (int row = 0; row < rows; ++row) bias.push_back(global.w[3 * c + row]);
+  }
+  dynamics.bias = as_eigen(bias);
+  return problem;
+}
+
 FrictionProblem to_friction_problem(const GlobalProblem& global) {
   // The first grouping that M and H allow: rigid bodies, or points; where none does, W is formed.
-  FrictionProblem problem;
-  if (group_into_bodies<6>(global, problem) || group_into_bodies<3>(global, problem))
-    return problem;
-  return condense(global);
+  Division division;
+  if (!group<6>(global, division) && !group<3>(global, division)) return condense(global);
+  FrictionProblem problem = divided(global, division);
+  // f = M v_free is an impulse: v_free block by block, with the masses' own factors.
+  DynamicsForm& dynamics = problem.dynamics;
+  dynamics.v_free = global.f;
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    const int first = dynamics.dof_begin[b];
+    const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
+    MassRoot root;
+    if (!root.factor(block, dynamics.body_dofs(b)))
+      throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) + ") = " +
+                           std::to_string(block[0]) + ": the block is not positive definite");
+    root.solve_lower(dynamics.v_free.data() + first);
+    root.solve_upper(dynamics.v_free.data() + first);
+  }
+  return problem;
 }
 
 Eigen::VectorXd three_rows(const FrictionProblem& problem, const Eigen::VectorXd& x) {
@@ -215,22 +190,6 @@ Eigen::VectorXd own_rows(const FrictionProblem& problem, const Eigen::VectorXd& 
   return x;
 }
 
-LocalProblem to_local_problem(const FrictionProblem& problem) {
-  if (problem.row_count() == 3 * problem.contact_count())
-    return {problem.delassus.w, problem.delassus.q, problem.friction};
-  const std::vector<int> rows = file_rows(problem);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int row = 0; row < problem.row_count(); ++row)
-    for (SparseRows::InnerIterator entry(problem.delassus.w, row); entry; ++entry)
-      entries.emplace_back(rows[row], rows[entry.col()], entry.value());
-  LocalProblem local;
-  local.w.resize(3 * problem.contact_count(), 3 * problem.contact_count());
-  local.w.setFromTriplets(entries.begin(), entries.end());
-  local.q = three_rows(problem, problem.delassus.q);
-  local.mu = problem.friction;
-  return local;
-}
-
 GlobalProblem to_global_problem(const FrictionProblem& problem) {
   GlobalProblem global;
   global.h = transposed_h(problem);
@@ -242,18 +201,19 @@ GlobalProblem to_global_problem(const FrictionProblem& problem) {
 }
 
 LocalProblem condensed(const FrictionProblem& problem) {
-  if (problem.row_count() == 3 * problem.contact_count()) {
-    LocalProblem local{delassus_matrix(problem), {}, problem.friction};
-    free_contact_velocity(problem, local.q);
-    return local;
-  }
-  FrictionProblem stored;
-  stored.row_begin = problem.row_begin;
-  stored.friction = problem.friction;
-  stored.has_delassus = true;
-  stored.delassus.w = delassus_matrix(problem);
-  free_contact_velocity(problem, stored.delassus.q);
-  return to_local_problem(stored);
+  LocalProblem local{delassus_matrix(problem), {}, problem.friction};
+  free_contact_velocity(problem, local.q);
+  const int wide = 3 * problem.contact_count();
+  if (problem.row_count() == wide) return local;
+  const std::vector<int> rows = file_rows(problem);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < problem.row_count(); ++row)
+    for (SparseRows::InnerIterator entry(local.w, row); entry; ++entry)
+      entries.emplace_back(rows[row], rows[entry.col()], entry.value());
+  local.w.resize(wide, wide);
+  local.w.setFromTriplets(entries.begin(), entries.end());
+  local.q = three_rows(problem, local.q);
+  return local;
 }
 
 }  // namespace ballast

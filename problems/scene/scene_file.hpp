@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "problems/scene/scene.hpp"
-#include "problems/scene/scene_file_error.hpp"
 
 namespace ballast {
 
@@ -20,7 +19,7 @@ Scene read_scene(const std::filesystem::path& file, std::span<const std::string>
 struct ResolvedScene {
   Scene scene;
   std::string text;  ///< merged and validated TOML (file plus overrides): sorted keys, 17 digits
-  std::string key;   ///< scene_key(): of the text, and of the mesh files' content
+  std::string key;   ///< of all that a run computes from: the text, and the mesh files' content
 };
 ResolvedScene resolve_scene(const std::filesystem::path& file,
                             std::span<const std::string> overrides = {});
@@ -28,6 +27,12 @@ ResolvedScene resolve_scene(const std::filesystem::path& file,
 /// Its text alone.
 std::string resolved_scene_text(const std::filesystem::path& file,
                                 std::span<const std::string> overrides = {});
+
+/// contact.friction of a scene whose mesh files may be gone.
+double scene_friction(const std::filesystem::path& file);
+
+/// Of a polyhedron's vertices and faces, to the last bit.
+std::string mesh_key(const Polyhedron& mesh);
 
 /// A scene given by name ("vibrated_box") or path; names are looked up in the scene folder of the
 /// installation (see scene_folder()). Throws SceneFileError that lists what there is.

@@ -56,7 +56,14 @@ std::string kept_text(ValuePlace place);
 /// Parses a file and applies overrides "dotted.key=value" (elements of arrays of tables by index:
 /// body.0.mass=2). A value is TOML; a bare word is taken as a string, so that a shell needs no
 /// quotes within quotes. Throws SceneFileError.
-toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides);
+toml::table load_toml(const std::filesystem::path& file,
+                      std::span<const std::string> overrides = {});
+
+/// A whole document written in one way only: sorted keys, shortest digits that read back to the
+/// same double. Same table, same text.
+std::string toml_text(const toml::table& table);
+/// One value on one line; longer than `limit` characters it is cut and ends with "...".
+std::string toml_value_text(const toml::node& node, size_t limit = std::string::npos);
 
 class TomlTable {
  public:

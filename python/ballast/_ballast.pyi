@@ -13,8 +13,7 @@ Compressed = Tuple[np.ndarray, np.ndarray, np.ndarray]
 
 class Problem:
     @staticmethod
-    def from_delassus(data: np.ndarray, indices: np.ndarray, pointers: np.ndarray,
-                      q: np.ndarray, mu: np.ndarray) -> "Problem": ...
+    def from_delassus(W: Compressed, q: np.ndarray, mu: np.ndarray) -> "Problem": ...
     @staticmethod
     def from_bodies(M: Compressed, H: Compressed, f: np.ndarray, w: np.ndarray,
                     mu: np.ndarray) -> "Problem": ...

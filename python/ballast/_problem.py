@@ -38,7 +38,7 @@ class Problem:
         W = sparse.csr_matrix(W)
         W.sum_duplicates()
         _require_shape(W, 3 * len(mu), 3 * len(mu), "W")
-        return cls(_ballast.Problem.from_delassus(W.data, W.indices, W.indptr, q, mu))
+        return cls(_ballast.Problem.from_delassus((W.data, W.indices, W.indptr), q, mu))
 
     @classmethod
     def from_bodies(cls, M: Any, H: Any, mu: np.ndarray, v_free: Optional[np.ndarray] = None,

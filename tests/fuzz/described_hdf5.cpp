@@ -51,28 +51,32 @@ hid_t space_of(std::string_view text) {
   return H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
 }
 
-void write_numbers(hid_t dataset, std::string_view words, hsize_t count) {
-  std::vector<double> values(count);
-  for (double& value : values) value = number_of<double>(next_word(words, " "));
-  H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
-}
+constexpr std::size_t letters_width = 8;
 
-void write_texts(hid_t dataset, hid_t type, std::string_view words, hsize_t count) {
+/// The values in the words, as `type` has them: numbers, texts of any length, or eight letters
+/// each.
+void write_values(hid_t dataset, hid_t type, std::string_view type_name, std::string_view words,
+                  std::size_t count) {
   std::vector<std::string> texts(count);
   for (std::string& text : texts) text = next_word(words, " ");
+  const void* values = nullptr;
   std::vector<const char*> pointers;
-  for (const std::string& text : texts) pointers.push_back(text.c_str());
-  H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data());
-}
-
-void write_letters(hid_t dataset, hid_t type, std::string_view words, hsize_t count) {
-  constexpr std::size_t width = 8;
+  std::vector<double> numbers;
   std::string letters;
-  for (hsize_t k = 0; k < count; ++k) {
-    letters += next_word(words, " ").substr(0, width);
-    letters.resize((k + 1) * width);
+  for (std::string& text : texts) {
+    numbers.push_back(number_of<double>(text));
+    pointers.push_back(text.c_str());
+    letters += text.substr(0, letters_width);
+    letters.resize((&text - texts.data() + 1) * letters_width);
   }
-  H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, letters.data());
+  if (type_name == "text")
+    values = pointers.data();
+  else if (type_name == "letters")
+    values = letters.data();
+  else
+    values = numbers.data();
+  const hid_t memory = values == numbers.data() ? H5T_NATIVE_DOUBLE : type;
+  H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
 }
 
 void add_dataset(hid_t file, hid_t links, const std::string& path, std::string_view line) {
@@ -80,20 +84,13 @@ void add_dataset(hid_t file, hid_t links, const std::string& path, std::string_v
   const hid_t space = space_of(next_word(line, " "));
   const bool is_text = type_name == "text", is_letters = type_name == "letters";
   const hid_t type = is_text || is_letters ? H5Tcopy(H5T_C_S1) : type_of(type_name);
-  if (is_text || is_letters) H5Tset_size(type, is_text ? H5T_VARIABLE : 8);
+  if (is_text || is_letters) H5Tset_size(type, is_text ? H5T_VARIABLE : letters_width);
   const hid_t dataset = type < 0 || space < 0 ? -1
                                               : H5Dcreate2(file, path.c_str(), type, space, links,
                                                            H5P_DEFAULT, H5P_DEFAULT);
   const hssize_t count = space < 0 ? 0 : H5Sget_simple_extent_npoints(space);
-  if (dataset >= 0 && count > 0 && static_cast<hsize_t>(count) <= most_written) {
-    const auto entries = static_cast<hsize_t>(count);
-    if (is_text)
-      write_texts(dataset, type, line, entries);
-    else if (is_letters)
-      write_letters(dataset, type, line, entries);
-    else
-      write_numbers(dataset, line, entries);
-  }
+  if (dataset >= 0 && count > 0 && static_cast<hsize_t>(count) <= most_written)
+    write_values(dataset, type, type_name, line, static_cast<std::size_t>(count));
   if (dataset >= 0) H5Dclose(dataset);
   if (space >= 0) H5Sclose(space);
   if (is_text || is_letters) H5Tclose(type);

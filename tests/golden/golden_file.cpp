@@ -1,8 +1,8 @@
-#include "tests/golden/golden_file.hpp"
+#include "tests/golden/golden_values.hpp"
 
+#include <algorithm>
 #include <sstream>
 
-#include "platform/error.hpp"
 #include "platform/text.hpp"
 
 namespace ballast::golden {
@@ -18,19 +18,14 @@ std::vector<std::string> words_of(const std::string& line) {
 }
 
 /// "[run: through libm] step time load" to a table without rows.
-Table table_of(const std::string& line, const std::string& place) {
+Table table_of(const std::string& line) {
   const size_t end = line.find(']');
-  if (end == std::string::npos) throw Error(place + ": no ']' ends the table's name");
-  Table table;
-  table.name = line.substr(1, end - 1);
-  if (table.name.ends_with(libm_mark)) {
-    table.through = Through::libm;
-    table.name.resize(table.name.size() - libm_mark.size());
-  }
-  table.columns = words_of(line.substr(end + 1));
-  if (table.columns.empty()) throw Error(place + ": no word for the rows");
-  table.row_word = table.columns.front();
-  table.columns.erase(table.columns.begin());
+  std::vector<std::string> words = words_of(line.substr(end + 1));
+  Table table{
+      line.substr(1, end - 1), Through::arithmetic, words.at(0), {words.begin() + 1, words.end()}};
+  if (!table.name.ends_with(libm_mark)) return table;
+  table.through = Through::libm;
+  table.name.resize(table.name.size() - libm_mark.size());
   return table;
 }
 
@@ -48,6 +43,8 @@ std::optional<std::string> difference(const Table& expected, const Table& found)
     const std::string row = expected.row_word + " " + label;
     if (found.rows[k].first != label)
       return named(expected, row + " expected, " + found.rows[k].first + " found");
+    if (cells.size() != found.rows[k].second.size())
+      return named(expected, row + " has another number of cells");
     for (size_t c = 0; c < cells.size(); ++c)
       if (cells[c] != found.rows[k].second[c])
         return named(expected, row + ", " + expected.columns[c] + ": " + cells[c] + " expected, " +
@@ -57,12 +54,6 @@ std::optional<std::string> difference(const Table& expected, const Table& found)
     return named(expected, std::to_string(expected.rows.size()) + " rows expected, " +
                                std::to_string(found.rows.size()) + " found");
   return std::nullopt;
-}
-
-const Table* find(const File& file, const std::string& name) {
-  for (const Table& table : file.tables)
-    if (table.name == name) return &table;
-  return nullptr;
 }
 
 }  // namespace
@@ -90,31 +81,26 @@ std::string text_of(const File& file) {
 File parsed(const std::string& text) {
   File file;
   std::istringstream lines(text);
-  int number = 0;
   for (std::string line; std::getline(lines, line);) {
-    const std::string place = "golden values, line " + std::to_string(++number);
     const std::vector<std::string> words = words_of(line);
     if (words.empty() || words[0] == "#") continue;
-    if (words[0] == "generation" && words.size() == 2 && file.generation == 0) {
-      file.generation = std::atoi(words[1].c_str());
-    } else if (line[0] == '[') {
-      file.tables.push_back(table_of(line, place));
-    } else {
-      if (file.tables.empty()) throw Error(place + ": a row before the first table");
-      Table& table = file.tables.back();
-      if (words.size() != table.columns.size() + 1)
-        throw Error(place + ": " + std::to_string(words.size()) + " words, expected " +
-                    std::to_string(table.columns.size() + 1));
-      table.rows.push_back({words[0], {words.begin() + 1, words.end()}});
-    }
+    if (words[0] == "generation")
+      file.generation = std::atoi(words.at(1).c_str());
+    else if (line[0] == '[')
+      file.tables.push_back(table_of(line));
+    else
+      file.tables.at(file.tables.size() - 1)
+          .rows.push_back({words[0], {words.begin() + 1, words.end()}});
   }
-  if (file.generation < 1) throw Error("golden values: no line 'generation <number>'");
   return file;
 }
 
 bool same_libm(const File& expected, const File& found) {
-  const Table *a = find(expected, libm_table), *b = find(found, libm_table);
-  return a && b && !difference(*a, *b);
+  const auto libm = [](const File& file) {
+    return std::ranges::find(file.tables, libm_table, &Table::name);
+  };
+  return libm(expected) != expected.tables.end() && libm(found) != found.tables.end() &&
+         !difference(*libm(expected), *libm(found));
 }
 
 std::optional<std::string> first_difference(const File& expected, const File& found) {

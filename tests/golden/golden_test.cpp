@@ -2,10 +2,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 
 #include "experiments/record/bits_generation.hpp"
-#include "platform/error.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
 #include "tests/golden/golden_values.hpp"
@@ -77,22 +77,23 @@ TEST_CASE("golden: a text reads back, and the first difference has a name") {
   CHECK(text_of(parsed(text_of(file))) == text_of(file));
   CHECK_FALSE(first_difference(file, parsed(text_of(file))));
 
-  File other = file;
-  other.tables[1].rows[1].second[1] = "d0";
-  CHECK(first_difference(file, other) == "table steps, step 2, energy: dd expected, d0 found");
-  other.tables[1].rows.pop_back();
-  CHECK(first_difference(file, other) == "table steps, 2 rows expected, 1 found");
-  other = file;
-  other.tables[1].rows[0].first = "0";
-  CHECK(first_difference(file, other) == "table steps, step 1 expected, 0 found");
-  other = file;
-  other.tables[1].columns[0] = "force";
-  CHECK(first_difference(file, other) == "table steps, has other columns now");
-  other = file;
-  other.tables.pop_back();
-  CHECK(first_difference(file, other) == "3 tables expected, 2 found");
-  other.generation = 2;
-  CHECK(first_difference(file, other) == "generation 1 expected, 2 found");
+  const auto said = [&](const std::function<void(File&)>& change) {
+    File other = file;
+    change(other);
+    return first_difference(file, other).value_or("");
+  };
+  CHECK(said([](File& f) { f.tables[1].rows[1].second[1] = "d0"; }) ==
+        "table steps, step 2, energy: dd expected, d0 found");
+  CHECK(said([](File& f) { f.tables[1].rows.pop_back(); }) ==
+        "table steps, 2 rows expected, 1 found");
+  CHECK(said([](File& f) { f.tables[1].rows[0].first = "0"; }) ==
+        "table steps, step 1 expected, 0 found");
+  CHECK(said([](File& f) { f.tables[1].rows[0].second.pop_back(); }) ==
+        "table steps, step 1 has another number of cells");
+  CHECK(said([](File& f) { f.tables[1].columns[0] = "force"; }) ==
+        "table steps, has other columns now");
+  CHECK(said([](File& f) { f.tables.pop_back(); }) == "3 tables expected, 2 found");
+  CHECK(said([](File& f) { f.generation = 2; }) == "generation 1 expected, 2 found");
 }
 
 TEST_CASE("golden: another libm excuses what goes through it, and nothing else") {
@@ -114,15 +115,6 @@ TEST_CASE("golden: digests see every bit and the sign of zero") {
   CHECK(digest(a) != digest(c));
   CHECK(digest(a, 4) == digest(a).substr(12));
   CHECK(exact(0.1) == "0x1.999999999999ap-4");
-}
-
-TEST_CASE("golden: damaged values are an error that names the line") {
-  using Catch::Contains;
-  CHECK_THROWS_WITH(parsed("generation 1\n1 aa\n"), Contains("line 2: a row before"));
-  CHECK_THROWS_WITH(parsed("generation 1\n[steps step load\n"), Contains("line 2: no ']'"));
-  CHECK_THROWS_WITH(parsed("generation 1\n[steps] step load\n1\n"),
-                    Contains("line 3: 1 words, expected 2"));
-  CHECK_THROWS_WITH(parsed("[steps] step load\n"), Contains("no line 'generation"));
 }
 
 /// Makes the file anew.

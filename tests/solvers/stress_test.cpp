@@ -78,7 +78,7 @@ TEST_CASE("stress: every backend, every problem") {
     if (!entry.make) continue;
     DYNAMIC_SECTION(entry.name) {
       for (const StressProblem& stress : problems) {
-        CAPTURE(stress.item, stress.name);
+        CAPTURE(stress.name);
         if (!stress.refused.empty()) {
           CHECK_THROWS_WITH(solve_stressed(entry, stress.problem, short_budget),
                             Catch::Contains(stress.refused));

@@ -9,11 +9,7 @@ namespace ballast {
 /// alone. `bias` [m/s]: its velocity, one entry without friction, three with friction 0.5.
 inline void add_fixed_contact(FrictionProblem& problem, const Eigen::VectorXd& bias) {
   const Eigen::Index rows = bias.size();
-  problem.row_begin.push_back(problem.row_begin.back() + static_cast<int>(rows));
-  problem.friction.push_back(rows == 1 ? 0.0 : 0.5);
-  problem.dynamics.body_a.push_back(-1);
-  problem.dynamics.body_b.push_back(-1);
-  problem.dynamics.h_begin.push_back(problem.dynamics.h_begin.back());
+  problem.add_contact(-1, -1, rows == 1 ? 0.0 : 0.5, {}, Eigen::MatrixXd(rows, 0));
   problem.dynamics.bias.conservativeResize(problem.row_count());
   problem.dynamics.bias.tail(rows) = bias;
 }

@@ -9,15 +9,9 @@ namespace ballast {
 inline FrictionProblem pressed_wall() {
   FrictionProblem problem;
   problem.has_dynamics = true;
-  problem.row_begin = {0, 1};
-  problem.friction = {0.0};
-  problem.dynamics.dof_begin = {0, 1};
-  problem.dynamics.mass_begin = {0, 1};
-  problem.dynamics.mass = {2.0};
-  problem.dynamics.body_a = {-1};
-  problem.dynamics.body_b = {0};
-  problem.dynamics.h_begin = {0, 1};
-  problem.dynamics.h = {1.0};
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+  const int wall = problem.dynamics.add_body(2.0 * one);
+  problem.add_contact(-1, wall, 0.0, {}, one);
   problem.dynamics.v_free = Eigen::VectorXd::Constant(1, -1.0);
   problem.dynamics.bias = Eigen::VectorXd::Zero(1);
   return problem;

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("a collection goes from format to format and stays the same problem") {
   const ProblemFolder c;
-  for (const std::string to : {"local", "global", "both", "siconos"}) {
+  for (const std::string to : {"local", "global", "both"}) {
     const auto target = c.out / to;
     const ProgramResult result =
         ballast_program({"convert", c.in.string(), "--to", to, "--output", target.string()});
@@ -28,10 +28,10 @@ TEST_CASE("a collection goes from format to format and stays the same problem") 
   }
 }
 
-TEST_CASE("one problem becomes one file, in the format of its suffix") {
+TEST_CASE("one problem becomes one file") {
   const ProblemFolder c;
   const std::string problem = (c.in / "a.hdf5").string();
-  for (const std::string name : {"b.dat", "b.hdf5", "b.h5"}) {
+  for (const std::string name : {"b.hdf5", "b.h5"}) {
     const fs::path target = c.out / "new" / name;
     const ProgramResult result = ballast_program({"convert", problem, "--output", target.string()});
     INFO(result.errors);
@@ -42,8 +42,8 @@ TEST_CASE("one problem becomes one file, in the format of its suffix") {
   const std::string file = (c.out / "c.hdf5").string();
   CHECK(ballast_program({"convert", problem, "--to", "global", "--output", file}).status == 0);
   CHECK(read_problem(file).has_dynamics);
-  check_failure(ballast_program({"convert", problem, "--to", "siconos", "--output", file}),
-                ExitCode::usage, {"c.hdf5: --to siconos writes .dat"});
+  check_failure(ballast_program({"convert", problem, "--output", (c.out / "c.dat").string()}),
+                ExitCode::usage, {"c.dat: only .hdf5 and .h5 are written"});
   check_failure(ballast_program({"convert", c.in.string(), "--output", file}), ExitCode::usage,
                 {"c.hdf5: one file for 2 problems, expected a folder"});
   // a folder may have such a name
@@ -56,20 +56,19 @@ TEST_CASE("one problem becomes one file, in the format of its suffix") {
 TEST_CASE("what cannot be converted is said, and the others are") {
   const ProblemFolder c;
   c.folder.write("in/broken.dat", "3 x");
-  check_failure(
-      ballast_program({"convert", c.in.string(), "--to", "siconos", "--output", c.out.string()}),
-      ExitCode::failure, {"1 of 3 problems are not converted", "broken.dat: line 1"});
+  check_failure(ballast_program({"convert", c.in.string(), "--output", c.out.string()}),
+                ExitCode::failure, {"1 of 3 problems are not converted", "broken.dat: line 1"});
   CHECK(find_problems(c.out.string()).size() == 2);
-  const fs::path local = c.out / "a.dat";
+  const fs::path local = c.out / "a.hdf5";
   check_failure(ballast_program({"convert", local.string(), "--to", "global", "--output",
                                  (c.out / "global").string()}),
-                ExitCode::failure, {"a.dat: only W is known"});
+                ExitCode::failure, {"a.hdf5: only W is known"});
   check_failure(ballast_program({"convert", c.in.string(), "--output", c.in.string()}),
                 ExitCode::failure, {"written over what is read"});
   // Two problems of one name would be one file.
-  check_failure(ballast_program({"convert", (c.in / "a.hdf5").string(), (c.out / "a.dat").string(),
+  check_failure(ballast_program({"convert", (c.in / "a.hdf5").string(), (c.out / "a.hdf5").string(),
                                  "--output", (c.out / "both").string()}),
                 ExitCode::failure, {"1 of 2 problems", "a.hdf5: holds"});
   check_failure(ballast_program({"convert", c.in.string(), "--to", "json", "--output", "x"}),
-                ExitCode::usage, {"--to", "expected one of local, global, both, siconos"});
+                ExitCode::usage, {"--to", "expected one of local, global, both"});
 }

@@ -1,7 +1,7 @@
 #include <stdexcept>
 
 #include "experiments/external/external_program.hpp"
-#include "problems/scene/scene_file_error.hpp"
+#include "problems/scene/scene.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 

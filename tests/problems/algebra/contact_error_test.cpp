@@ -5,9 +5,11 @@
 #include "platform/random.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/pile_problems.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
 #include "tests/support/delassus_form.hpp"
+#include "tests/support/pressed_wall.hpp"
 
 using namespace ballast;
 
@@ -66,42 +68,47 @@ ContactError dense_error(const FrictionProblem& p, const Impulses& r) {
   return e;
 }
 
+/// Every measure, and to what part of itself two ways of computing it agree.
+const std::pair<double ContactError::*, double> measures[] = {
+    {&ContactError::natural_map_rms, 1e-7},
+    {&ContactError::natural_map_max, 1e-7},
+    {&ContactError::fclib, 1e-10},
+    {&ContactError::cone_violation, 1e-10},
+    {&ContactError::min_normal_velocity, 1e-10},
+    {&ContactError::complementarity, 1e-10},
+    {&ContactError::approach_rms, 1e-9},
+    {&ContactError::cone_rms, 1e-7},
+    {&ContactError::complementarity_rms, 1e-7},
+    {&ContactError::immovable_approach, 1e-12},
+    {&ContactError::growth, 1e-7},
+    {&ContactError::power, 1e-9},
+    {&ContactError::velocity_scale, 1e-12}};
+
 void check_same(const ContactError& a, const ContactError& b) {
-  CHECK(a.natural_map_rms == Approx(b.natural_map_rms).epsilon(1e-7));
-  CHECK(a.natural_map_max == Approx(b.natural_map_max).epsilon(1e-7));
+  for (const auto& [measure, epsilon] : measures)
+    CHECK(a.*measure == Approx(b.*measure).epsilon(epsilon));
   CHECK(a.worst_contact == b.worst_contact);
-  CHECK(a.fclib == Approx(b.fclib).epsilon(1e-10));
-  CHECK(a.cone_violation == Approx(b.cone_violation).epsilon(1e-10));
-  CHECK(a.min_normal_velocity == Approx(b.min_normal_velocity).epsilon(1e-10));
-  CHECK(a.complementarity == Approx(b.complementarity).epsilon(1e-10));
-  CHECK(a.approach_rms == Approx(b.approach_rms).epsilon(1e-9));
-  CHECK(a.cone_rms == Approx(b.cone_rms).epsilon(1e-7));
-  CHECK(a.complementarity_rms == Approx(b.complementarity_rms).epsilon(1e-7));
-  CHECK(a.immovable_approach == Approx(b.immovable_approach).epsilon(1e-12));
-  CHECK(a.growth == Approx(b.growth).epsilon(1e-7));
-  CHECK(a.power == Approx(b.power).epsilon(1e-9));
-  CHECK(a.velocity_scale == Approx(b.velocity_scale).epsilon(1e-12));
+}
+
+Impulses random_impulses(int rows, std::uint64_t seed, double size = 1.0) {
+  Random random(seed);
+  Impulses r(rows);
+  for (double& x : r) x = size * random.uniform(-1, 1);
+  return r;
 }
 
 }  // namespace
 
 TEST_CASE("the judge agrees with dense matrices") {
-  KnownSolutionSettings settings;
-  const FrictionProblem problems[] = {oracle::mixed_problem(),
-                                      make_known_solution(settings).problem};
-  Random random(31);
+  const FrictionProblem problems[] = {oracle::mixed_problem(), make_known_solution({}).problem};
   for (const FrictionProblem& problem : problems) {
-    Impulses r(problem.row_count());
-    for (double& x : r) x = random.uniform(-1, 1);
+    const Impulses r = random_impulses(problem.row_count(), 31);
     const ContactError error = contact_error(problem, r);
     check_same(error, dense_error(problem, r));
     CHECK(error.finite);
     CHECK(error.momentum_residual < 1e-13 * r.norm());
 
-    FrictionProblem stored = problem;
-    add_delassus_form(stored);
-    stored.has_dynamics = false;
-    ContactError from_w = contact_error(stored, r);
+    ContactError from_w = contact_error(only_delassus(problem), r);
     CHECK(from_w.momentum_residual == 0.0);
     CHECK(from_w.power ==
           Approx(error.power + r.dot(problem.dynamics.bias)));  // W and q know of no bias
@@ -112,22 +119,16 @@ TEST_CASE("the judge agrees with dense matrices") {
 
 TEST_CASE("one judge serves problems of different sizes") {
   ContactJudge judge;
-  KnownSolutionSettings settings;
   for (const int contacts : {40, 3, 80}) {
-    settings.contacts = contacts;
-    const FrictionProblem problem = make_known_solution(settings).problem;
+    const FrictionProblem problem = make_known_solution({.contacts = contacts}).problem;
     const Impulses r = Impulses::Constant(problem.row_count(), 0.5);
     check_same(judge.judge(problem, r), contact_error(problem, r));
   }
 }
 
 TEST_CASE("a team judges with the bits of one thread") {
-  KnownSolutionSettings settings;
-  settings.contacts = 700;
-  const FrictionProblem problem = make_known_solution(settings).problem;
-  Random random(32);
-  Impulses r(problem.row_count());
-  for (double& x : r) x = random.uniform(-1, 1);
+  const FrictionProblem problem = make_known_solution({.contacts = 700}).problem;
+  const Impulses r = random_impulses(problem.row_count(), 32);
   const ContactError alone = contact_error(problem, r);
   for (const int threads : {1, 2, 5}) {
     WorkerTeam team;
@@ -135,18 +136,8 @@ TEST_CASE("a team judges with the bits of one thread") {
     ContactJudge judge;
     judge.use_team(&team);
     const ContactError error = judge.judge(problem, r);
-    CHECK(error.natural_map_rms == alone.natural_map_rms);
-    CHECK(error.natural_map_max == alone.natural_map_max);
+    for (const auto& [measure, epsilon] : measures) CHECK(error.*measure == alone.*measure);
     CHECK(error.worst_contact == alone.worst_contact);
-    CHECK(error.fclib == alone.fclib);
-    CHECK(error.cone_violation == alone.cone_violation);
-    CHECK(error.min_normal_velocity == alone.min_normal_velocity);
-    CHECK(error.complementarity == alone.complementarity);
-    CHECK(error.approach_rms == alone.approach_rms);
-    CHECK(error.cone_rms == alone.cone_rms);
-    CHECK(error.complementarity_rms == alone.complementarity_rms);
-    CHECK(error.growth == alone.growth);
-    CHECK(error.power == alone.power);
     CHECK(error.momentum_residual == alone.momentum_residual);
   }
   check_same(alone, dense_error(problem, r));  // several shares
@@ -172,11 +163,10 @@ TEST_CASE("the judge leaves the bodies' velocities, with contacts and without") 
   Eigen::VectorXd p;
   contact_to_body_impulse(problem.dynamics, problem.row_begin, r, p);
   CHECK(judge.body_impulse() == p);
-  problem.row_begin.assign(1, 0);
+  problem.row_begin = problem.dynamics.h_begin = {0};
   problem.friction.clear();
   problem.dynamics.body_a.clear();
   problem.dynamics.body_b.clear();
-  problem.dynamics.h_begin.assign(1, 0);
   problem.dynamics.h.clear();
   problem.dynamics.bias.resize(0);
   problem.validate();
@@ -245,4 +235,99 @@ TEST_CASE("the largest eigenvalue agrees with an iterative solver") {
   CHECK(largest_eigenvalue(Eigen::Matrix3d::Zero()) == 0.0);
   CHECK(largest_eigenvalue(Eigen::Vector3d(3, 0, 0).asDiagonal().toDenseMatrix()) == 3.0);
   CHECK(largest_eigenvalue(Eigen::Vector3d(1, 5, 5).asDiagonal().toDenseMatrix()) == 5.0);
+}
+
+/// Grains with diagonal masses, as a time step has them, are looked at in one pass over their rows;
+/// other contacts one by one, as errors_by_contact() looks at all.
+TEST_CASE("the judge's measures are those of the contacts one by one, bit for bit") {
+  for (const FrictionProblem& problem :
+       {make_pile({.contacts = 300, .mass_ratio = 50.0}), oracle::mixed_problem(),
+        make_known_solution({.seed = 3}).problem}) {
+    const Impulses r = random_impulses(problem.row_count(), 41, 1e-2);
+    const ContactError whole = contact_error(problem, r);
+    const std::vector<double> each = errors_by_contact(problem, r);
+    REQUIRE(each.size() == problem.friction.size());
+    CHECK(*std::max_element(each.begin(), each.end()) == whole.natural_map_max);
+    CHECK(each[whole.worst_contact] == whole.natural_map_max);
+    double square = 0.0;
+    int counted = 0;
+    for (const double error : each) {
+      square += error * error;
+      counted += error > 0.0;
+    }
+    CHECK(std::sqrt(square / counted) == Approx(whole.natural_map_rms).epsilon(1e-14));
+    Eigen::VectorXd q, u;
+    free_contact_velocity(problem, q);
+    contact_velocity(problem, r, u);
+    CHECK(whole.velocity_scale == q.norm() / std::sqrt(static_cast<double>(q.size())));
+    CHECK(whole.power == r.dot(u) - r.dot(problem.dynamics.bias));
+  }
+  Impulses bad = Impulses::Zero(3);
+  bad[0] = std::nan("");
+  CHECK(errors_by_contact(only_delassus(make_pile({.contacts = 1})), bad)[0] ==
+        std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("The distance of a wall's answer is what one computes by hand") {
+  const FrictionProblem p = pressed_wall();
+  CHECK(driven_wall(p) == 0);
+  const Impulses solution = Impulses::Constant(1, 2.0), half = Impulses::Constant(1, 1.0);
+  const AnswerDistance d = answer_distance(p, half, solution);
+  CHECK(d.velocity == Approx(0.5));
+  CHECK(d.contact_velocity == Approx(0.5));
+  CHECK(d.body_impulse == Approx(0.5));
+  CHECK(d.wall_force == Approx(0.5));
+  CHECK(d.statuses == 0);
+  CHECK(answer_distance(p, half, solution, 10.0).velocity == Approx(0.05));
+  CHECK(answer_distance(p, half, solution, 10.0).body_impulse == Approx(0.5));
+  CHECK(answer_distance(p, solution, solution).wall_force == 0.0);
+}
+
+TEST_CASE("Distances are those of dense matrices, with bodies and with W alone") {
+  const KnownSolution known = make_known_solution({.mass_ratio = 100.0, .seed = 4});
+  const FrictionProblem& p = known.problem;
+  const Impulses r = known.r + random_impulses(p.row_count(), 9, 0.1);
+  const Eigen::MatrixXd w = oracle::dense_delassus(p), m = oracle::dense_mass(p),
+                        h = oracle::dense_h(p);
+  const Eigen::VectorXd dr = r - known.r, dv = m.llt().solve(h.transpose() * dr);
+  double mass = 0.0;
+  for (int b = 0; b < p.dynamics.body_count(); ++b)
+    mass += m(p.dynamics.dof_begin[b], p.dynamics.dof_begin[b]);
+  const AnswerDistance d = answer_distance(p, r, known.r);
+  CHECK(d.velocity == Approx(std::sqrt(dv.dot(m * dv) / mass)));
+  CHECK(d.contact_velocity == Approx((w * dr).norm() / std::sqrt(p.contact_count())));
+  CHECK(d.body_impulse == Approx(std::sqrt(dr.dot(w * dr) / known.r.dot(w * known.r))));
+  CHECK(std::isnan(d.wall_force));
+  CHECK(d.statuses > 0);
+  const AnswerDistance stored = answer_distance(only_delassus(p), r, known.r);
+  CHECK(std::isnan(stored.velocity));
+  CHECK(stored.body_impulse == Approx(d.body_impulse));
+  CHECK(stored.contact_velocity == Approx(d.contact_velocity));
+  CHECK(stored.statuses == d.statuses);
+}
+
+TEST_CASE("Impulses that no body feels are no distance") {
+  KnownSolution known = make_known_solution({.frictionless_fraction = 0.0, .seed = 5});
+  FrictionProblem p = known.problem;
+  repeat_contacts(p, 2);
+  Impulses even(p.row_count()), uneven(p.row_count());
+  for (int c = 0; c < known.problem.contact_count(); ++c) {
+    const Eigen::Vector3d r = known.r.segment<3>(3 * c);
+    even.segment<3>(6 * c) = even.segment<3>(6 * c + 3) = 0.5 * r;
+    uneven.segment<3>(6 * c) = 0.6 * r;
+    uneven.segment<3>(6 * c + 3) = 0.4 * r;
+  }
+  REQUIRE((even - uneven).norm() > 0.01);
+  const AnswerDistance d = answer_distance(p, uneven, even);
+  CHECK(d.velocity < 1e-13);
+  CHECK(d.body_impulse < 1e-7);  // the root of a difference of rounded squares
+  CHECK(d.statuses == 0);
+}
+
+TEST_CASE("Without a solution there is no distance") {
+  const AnswerDistance d = answer_distance(pressed_wall(), Impulses::Zero(1), {});
+  CHECK(std::isnan(d.velocity));
+  CHECK(d.statuses == -1);
+  CHECK_THROWS_AS(answer_distance(pressed_wall(), Impulses::Zero(2), Impulses::Zero(1)),
+                  InvalidProblem);
 }

@@ -55,21 +55,15 @@ inline FrictionProblem mixed_problem() {
   for (const int dofs : {6, 3, 1}) {
     Eigen::MatrixXd a(dofs, dofs);
     for (double& x : a.reshaped()) x = number();
-    const Eigen::MatrixXd block = a * a.transpose() + 2.0 * Eigen::MatrixXd::Identity(dofs, dofs);
-    d.mass.insert(d.mass.end(), block.data(), block.data() + block.size());
-    d.dof_begin.push_back(d.dof_begin.back() + dofs);
-    d.mass_begin.push_back(static_cast<int>(d.mass.size()));
+    d.add_body(a * a.transpose() + 2.0 * Eigen::MatrixXd::Identity(dofs, dofs));
   }
   const int a[] = {0, -1, 1, 2, -1, 0, -1}, b[] = {1, 0, 2, -1, -1, 2, 1},
             rows[] = {3, 3, 1, 3, 3, 3, 1};
   for (int c = 0; c < 7; ++c) {
-    d.body_a.push_back(a[c]);
-    d.body_b.push_back(b[c]);
-    const int entries = rows[c] * (d.body_dofs(a[c]) + d.body_dofs(b[c]));
-    for (int k = 0; k < entries; ++k) d.h.push_back(2.0 * number());
-    d.h_begin.push_back(static_cast<int>(d.h.size()));
-    p.row_begin.push_back(p.row_begin.back() + rows[c]);
-    p.friction.push_back(rows[c] == 3 ? 0.1 * (c + 1) : 0.0);
+    Eigen::MatrixXd of_a(rows[c], d.body_dofs(a[c])), of_b(rows[c], d.body_dofs(b[c]));
+    for (Eigen::MatrixXd* block : {&of_a, &of_b})
+      for (double& x : block->reshaped()) x = 2.0 * number();
+    p.add_contact(a[c], b[c], rows[c] == 3 ? 0.1 * (c + 1) : 0.0, of_a, of_b);
   }
   d.v_free.resize(d.dof_count());
   for (double& x : d.v_free) x = number();

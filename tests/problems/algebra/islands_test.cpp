@@ -14,11 +14,7 @@ using namespace ballast;
 namespace {
 
 FrictionProblem random_problem(int bodies, int contacts, std::uint64_t seed) {
-  KnownSolutionSettings settings;
-  settings.bodies = bodies;
-  settings.contacts = contacts;
-  settings.seed = seed;
-  return make_known_solution(settings).problem;
+  return make_known_solution({.bodies = bodies, .contacts = contacts, .seed = seed}).problem;
 }
 
 /// The slow obvious way: every body takes the smaller label of its neighbours until nothing

@@ -64,9 +64,7 @@ TEST_CASE("what weights prove is what dense matrices say") {
 
 TEST_CASE("problems with a solution are never proved to have none") {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
-    KnownSolutionSettings settings;
-    settings.seed = seed;
-    const KnownSolution known = make_known_solution(settings);
+    const KnownSolution known = make_known_solution({.seed = seed});
     const NoSolution proof = look_for_no_solution(known.problem, known.r);
     CHECK_FALSE(proof.proved());
     CHECK(proof.least_impulse <= known.r.norm());

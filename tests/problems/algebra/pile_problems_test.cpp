@@ -26,15 +26,13 @@ double rank_deficiency(const FrictionProblem& problem) {
 
 TEST_CASE("A pile has the size, redundancy, masses, friction and open share that are asked for") {
   for (const double redundancy : {0.0, 0.4, 0.8}) {
-    PileSettings settings;
-    settings.contacts = 120;
-    settings.redundancy = redundancy;
-    settings.mass_ratio = 1e3;
-    settings.friction_min = 0.2;
-    settings.friction_max = 0.7;
-    settings.active = 0.5;
-    settings.mass_unit = 10.0;
-    const FrictionProblem problem = make_pile(settings);
+    const FrictionProblem problem = make_pile({.contacts = 120,
+                                               .redundancy = redundancy,
+                                               .mass_ratio = 1e3,
+                                               .friction_min = 0.2,
+                                               .friction_max = 0.7,
+                                               .active = 0.5,
+                                               .mass_unit = 10.0});
     CHECK_NOTHROW(problem.validate());
     CHECK(problem.contact_count() == 120);
     CHECK(problem.row_count() == 360);
@@ -95,32 +93,11 @@ TEST_CASE("Members of the family differ, and stay within what it promises") {
   int stored = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const PileSettings settings = random_pile(seed, 300);
-    CHECK(settings.contacts >= 2);
-    CHECK(settings.contacts <= 300);
-    CHECK(settings.redundancy < 0.8);
-    CHECK(settings.mass_ratio <= 1e4);
-    CHECK(settings.friction_max <= 1.0);
+    CHECK((settings.contacts >= 2 && settings.contacts <= 300));
+    CHECK(
+        (settings.redundancy < 0.8 && settings.mass_ratio <= 1e4 && settings.friction_max <= 1.0));
     stored += settings.is_stored;
     CHECK_NOTHROW(make_pile(settings).validate());
   }
-  CHECK(stored > 20);
-  CHECK(stored < 40);
-}
-
-TEST_CASE("Settings out of range are refused by name") {
-  const auto refused = [](auto change) {
-    PileSettings settings;
-    change(settings);
-    try {
-      make_pile(settings);
-    } catch (const InvalidProblem& error) {
-      return std::string(error.what());
-    }
-    return std::string("taken");
-  };
-  CHECK_THAT(refused([](PileSettings& s) { s.contacts = 0; }), Catch::Contains("contacts"));
-  CHECK_THAT(refused([](PileSettings& s) { s.redundancy = 1.0; }), Catch::Contains("redundancy"));
-  CHECK_THAT(refused([](PileSettings& s) { s.mass_ratio = 0.5; }), Catch::Contains("mass_ratio"));
-  CHECK_THAT(refused([](PileSettings& s) { s.friction_min = 2.0; }), Catch::Contains("friction"));
-  CHECK_THAT(refused([](PileSettings& s) { s.active = 1.5; }), Catch::Contains("active"));
+  CHECK((stored > 20 && stored < 40));
 }

@@ -35,7 +35,6 @@ TEST_CASE("stress problems: names are unique, sizes small, and the broken ones a
   for (const StressProblem& stress : stress_problems()) {
     CAPTURE(stress.name);
     CHECK(names.insert(stress.name).second);
-    CHECK(stress.item >= 8);
     CHECK(stress.problem.contact_count() <= 60);
     if (stress.refused.empty()) {
       CHECK_NOTHROW(stress.problem.validate());

@@ -25,7 +25,7 @@ TEST_CASE("each broken local file is refused with one line that says where") {
       {"/fclib_local/W/p: no such dataset",
        [](const fs::path& f) { remove(f, "/fclib_local/W/p"); }},
       {"/fclib_local/W/m: no such dataset", [](const fs::path& f) { remove(f, "/fclib_local/W"); }},
-      {"/fclib_local/vectors/q: no such dataset",
+      {"/fclib_local/vectors/mu: no such dataset",
        [](const fs::path& f) { remove(f, "/fclib_local/vectors"); }},
       {"/fclib_local/spacedim = 2: only 3 is supported",
        [](const fs::path& f) { replace(f, "/fclib_local/spacedim", std::vector<int>{2}); }},
@@ -41,11 +41,11 @@ TEST_CASE("each broken local file is refused with one line that says where") {
        [](const fs::path& f) {
          replace(f, "/fclib_local/vectors/mu", std::vector<double>{0, -1, 0, 0, 0, 0});
        }},
-      {"/fclib_local/W has 17 contact rows",
+      {"/fclib_local/W is 17 x 18, must be 18 x 18",
        [](const fs::path& f) { replace(f, "/fclib_local/W/m", std::vector<int>{17}); }},
       {"/fclib_local/W is 18 x 15, must be 18 x 18",
        [](const fs::path& f) { replace(f, "/fclib_local/W/n", std::vector<int>{15}); }},
-      {"/fclib_local/W: -3 x 18",
+      {"/fclib_local/W is -3 x 18, must be 18 x 18",
        [](const fs::path& f) { replace(f, "/fclib_local/W/m", std::vector<int>{-3}); }},
       {"/fclib_local/W/nz = -5",
        [](const fs::path& f) { replace(f, "/fclib_local/W/nz", std::vector<int>{-5}); }},
@@ -133,40 +133,60 @@ TEST_CASE("the entries of a row may stand in any order") {
 TEST_CASE("each broken global file is refused") {
   const Folder folder;
   const fs::path file = folder / "global.hdf5";
-  const auto broken = [&](const char* path, auto values) {
+  const auto broken = [&](const std::string& name, auto change) {
     write_problem(file, small().problem);
-    replace(file, path, values);
+    const std::string path = "/fclib_global/" + name;
+    std::vector<double> values = Hdf5Reader(file).read_doubles(path);
+    change(values);
+    replace(file, path.c_str(), values);
     return complaint(file);
   };
-  CHECK(broken("/fclib_global/H/m", std::vector<int>{23})
-            .rfind("/fclib_global/H is 23 x 18, must be 24 x 18", 0) == 0);
-  CHECK(broken("/fclib_global/H/n", std::vector<int>{17})
-            .rfind("/fclib_global/H has 17 contact rows", 0) == 0);
-  CHECK(broken("/fclib_global/M/n", std::vector<int>{23}).rfind("/fclib_global/M is 24 x 23", 0) ==
-        0);
-  CHECK(broken("/fclib_global/vectors/f", std::vector<double>(23))
-            .rfind("/fclib_global/vectors/f has 23", 0) == 0);
-  CHECK(broken("/fclib_global/vectors/w", std::vector<double>(3))
-            .rfind("/fclib_global/vectors/w has 3", 0) == 0);
-  write_problem(file, small().problem);
-  std::vector<double> x = Hdf5Reader(file).read_doubles("/fclib_global/M/x");
-  x[0] = -1.0;
-  CHECK(broken("/fclib_global/M/x", x).rfind("M(0, 0) = -1", 0) == 0);
-  // One entry of each that is no number, and a friction that is none.
-  const double not_a_number = std::nan("");
-  for (const char* matrix : {"/fclib_global/M", "/fclib_global/H"}) {
-    write_problem(file, small().problem);
-    std::vector<double> entries = Hdf5Reader(file).read_doubles(std::string(matrix) + "/x");
-    entries[2] = not_a_number;
-    CHECK(broken((std::string(matrix) + "/x").c_str(), entries)
-              .rfind(std::string(matrix) + "/x[2] = nan is not finite", 0) == 0);
-  }
-  for (const char* vector : {"/fclib_global/vectors/f", "/fclib_global/vectors/w"})
-    CHECK(broken(vector,
-                 std::vector<double>(std::string(vector).back() == 'f' ? 24 : 18, not_a_number))
-              .rfind(std::string(vector) + "[0] = nan is not finite", 0) == 0);
-  std::vector<double> mu(6, 0.5);
-  mu[1] = -0.5;
-  CHECK(broken("/fclib_global/vectors/mu", mu).find("friction[1] = -0.5 is negative") !=
-        std::string::npos);
+  const auto set = [](size_t k, double value) {
+    return [=](std::vector<double>& values) { values[k] = value; };
+  };
+  const auto pop = [](std::vector<double>& values) { values.pop_back(); };
+  const std::pair<std::string, std::string> wrongs[] = {
+      {broken("H/m", set(0, 23)), "/fclib_global/H is 23 x 18, must be 24 x 18"},
+      {broken("H/n", set(0, 17)), "/fclib_global/H is 24 x 17, must be 24 x 18"},
+      {broken("M/n", set(0, 23)), "/fclib_global/M is 24 x 23, must be 24 x 24"},
+      {broken("vectors/f", pop), "/fclib_global/M is 24 x 24, must be 23 x 23"},
+      {broken("vectors/w", pop), "/fclib_global/vectors/w has 17 entries, must have 18"},
+      {broken("M/x", set(0, -1.0)), "M(0, 0) = -1"},
+      {broken("M/x", set(2, not_a_number)), "/fclib_global/M/x[2] = nan is not finite"},
+      {broken("H/x", set(2, not_a_number)), "/fclib_global/H/x[2] = nan is not finite"},
+      {broken("vectors/f", set(0, not_a_number)), "/fclib_global/vectors/f[0] = nan is not finite"},
+      {broken("vectors/w", set(0, not_a_number)), "/fclib_global/vectors/w[0] = nan is not finite"},
+      {broken("vectors/mu", set(1, -0.5)), "friction[1] = -0.5 is negative"}};
+  for (const auto& [text, says] : wrongs) CHECK_THAT(text, Catch::StartsWith(says));
+}
+
+TEST_CASE("an answer comes back with its bits, and its file holds what FCLIB reads") {
+  const Folder folder;
+  const fs::path file = folder / "answer.hdf5";
+  const KnownSolution known = make_known_solution({.contacts = 20, .frictionless_fraction = 0.3});
+  REQUIRE(known.problem.row_count() < 60);
+  write_solution(file, known.problem, {known.r, {{"iterations", 7.0}}, {{"solver", "pgs"}}});
+  CHECK(read_solution(file, known.problem) == known.r);
+  const Hdf5Reader stored(file);
+  CHECK(stored.shape("/solution/u")[0] == 60);
+  CHECK(stored.shape("/solution/v")[0] ==
+        static_cast<unsigned long long>(known.problem.dynamics.dof_count()));
+  CHECK(stored.read_doubles("/ballast_answer/iterations")[0] == 7.0);
+  CHECK(stored.read_text("/ballast_answer/solver") == "pgs");
+}
+
+TEST_CASE("another problem's answer and a broken one are refused") {
+  const Folder folder;
+  const fs::path file = folder / "answer.hdf5";
+  KnownSolution known = make_known_solution({.contacts = 20});
+  write_solution(file, known.problem, {known.r, {}, {}});
+  CHECK_THROWS_WITH(read_solution(file, make_known_solution({.contacts = 21}).problem),
+                    Catch::Contains("/solution/r has 60 entries, must have 63"));
+  Hdf5Writer writer(file, Hdf5Storage::plain);
+  writer.add_group("/solution");
+  writer.add("/solution/r", std::vector<double>(60, std::nan("")));
+  writer.commit();
+  CHECK_THROWS_WITH(read_solution(file, known.problem),
+                    Catch::Contains("/solution/r[0] = nan is not finite"));
+  CHECK_THROWS_AS(read_solution(folder.write("x.hdf5", "text"), known.problem), ProblemFileError);
 }

@@ -2,7 +2,6 @@
 // What the tests of stored problems share: a folder, a small problem, files damaged on purpose.
 
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,32 +11,27 @@
 #include "problems/files/problem_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace ballast {
 
 namespace fs = std::filesystem;
 
 /// A folder of its own that goes with the test.
-struct Folder {
-  fs::path path =
-      fs::temp_directory_path() / ("ballast_problem_file_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  fs::path operator/(const std::string& name) const { return path / name; }
+struct Folder : TemporaryFolder {
+  fs::path operator/(const std::string& name) const { return path() / name; }
 };
 
 inline KnownSolution small(double frictionless = 0.0) {
-  KnownSolutionSettings settings;
-  settings.bodies = 4;
-  settings.contacts = 6;
-  settings.frictionless_fraction = frictionless;
-  settings.friction_min = 0.1;
-  return make_known_solution(settings);
+  return make_known_solution(
+      {.bodies = 4, .contacts = 6, .friction_min = 0.1, .frictionless_fraction = frictionless});
 }
 
-inline std::string complaint(const fs::path& file) {
+/// What reading the file complains of, behind its name, in one line.
+template <typename Read>
+std::string complaint(const fs::path& file, const Read& read) {
   try {
-    read_problem(file);
+    read(file);
   } catch (const ProblemFileError& error) {
     const std::string text = error.what();
     CHECK(text.rfind(file.string() + ": ", 0) == 0);
@@ -46,6 +40,7 @@ inline std::string complaint(const fs::path& file) {
   }
   return "";
 }
+inline std::string complaint(const fs::path& file) { return complaint(file, read_problem); }
 
 inline void write_text(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;

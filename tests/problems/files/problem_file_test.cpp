@@ -1,7 +1,6 @@
 // Stored problems: what is written is read back, and what cannot be written harms nothing.
 
 #include "problems/algebra/contact_error.hpp"
-#include "problems/files/fclib_file.hpp"
 #include "tests/problems/files/problem_file_support.hpp"
 
 using namespace ballast;
@@ -56,28 +55,6 @@ TEST_CASE("one-row contacts become frictionless ones of three rows") {
   }
 }
 
-TEST_CASE("a global file whose unknowns are no bodies is condensed to W") {
-  const Folder folder;
-  GlobalProblem chain;  // nine masses in a row, coupled: no group of six or three of them is alone
-  chain.m.resize(9, 9);
-  chain.h.resize(9, 6);
-  for (int i = 0; i < 9; ++i) {
-    chain.m.insert(i, i) = 2.0 + 0.1 * i;
-    if (i > 0) chain.m.insert(i, i - 1) = chain.m.insert(i - 1, i) = -0.5;
-  }
-  for (int k = 0; k < 6; ++k) chain.h.insert((2 * k) % 9, k) = 1.0 + k;
-  chain.f = Eigen::VectorXd::LinSpaced(9, -1.0, 1.0);
-  chain.w = Eigen::VectorXd::LinSpaced(6, 0.5, 1.0);
-  chain.mu = {0.3, 0.7};
-  write_fclib(folder / "chain.hdf5", chain);
-  const FrictionProblem problem = read_problem(folder / "chain.hdf5");
-  REQUIRE(problem.has_delassus);
-  CHECK_FALSE(problem.has_dynamics);
-  const Eigen::MatrixXd m = chain.m, h = chain.h, inverse = m.inverse();
-  CHECK((Eigen::MatrixXd(problem.delassus.w) - h.transpose() * inverse * h).norm() < 1e-13);
-  CHECK((problem.delassus.q - (h.transpose() * inverse * chain.f + chain.w)).norm() < 1e-13);
-}
-
 TEST_CASE("triplets have the column in p and the row in i; longer arrays than nz are allowed") {
   const Folder folder;
   const fs::path file = folder / "triplets.hdf5";
@@ -105,8 +82,7 @@ TEST_CASE("triplets have the column in p and the row in i; longer arrays than nz
 
 TEST_CASE("a file that cannot be written leaves the old one, and no litter") {
   const Folder folder;
-  CHECK_THROWS_AS(write_problem(folder.path / "absent" / "p.hdf5", small().problem),
-                  ProblemFileError);
+  CHECK_THROWS_AS(write_problem(folder / "absent" / "p.hdf5", small().problem), ProblemFileError);
   FrictionProblem broken = small().problem;
   write_problem(folder / "p.hdf5", broken);
   broken.friction[0] = -1.0;
@@ -118,5 +94,23 @@ TEST_CASE("a file that cannot be written leaves the old one, and no litter") {
 TEST_CASE("an unknown extension is refused") {
   const Folder folder;
   write_text(folder / "p.txt", "3");
-  CHECK(complaint(folder / "p.txt").rfind("unknown kind of file '.txt'", 0) == 0);
+  CHECK(complaint(folder / "p.txt").rfind("is no problem file (.hdf5, .h5, .dat)", 0) == 0);
+}
+
+TEST_CASE("A word names a file, a folder or a pattern") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "in" / "deep");
+  for (const char* name : {"in/b.dat", "in/a.hdf5", "in/deep/c.h5", "in/notes.txt"})
+    folder.write(name, "");
+  const std::string top = folder.path().string();
+  const auto all = find_problems(top + "/in");
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].name == "a.hdf5");
+  CHECK(all[2].name == "deep/c.h5");
+  CHECK(all[2].file == folder.path() / "in/deep/c.h5");
+  CHECK(find_problems(top + "/in/*.dat")[0].name == "b.dat");
+  CHECK(find_problems(top + "/missing.dat").size() == 1);
+  CHECK_THROWS_AS(find_problems(top + "/in/notes.txt"), Error);
+  CHECK_THROWS_AS(find_problems(top + "/in/*.csv"), Error);
+  CHECK_THROWS_AS(find_problems("no_problem"), Error);
 }

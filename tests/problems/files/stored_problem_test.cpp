@@ -13,12 +13,11 @@ using namespace ballast;
 namespace {
 
 FrictionProblem sample(double frictionless) {
-  KnownSolutionSettings settings;
-  settings.bodies = 5;
-  settings.contacts = 9;
-  settings.frictionless_fraction = frictionless;
-  settings.friction_min = 0.1;
-  return make_known_solution(settings).problem;
+  return make_known_solution({.bodies = 5,
+                              .contacts = 9,
+                              .friction_min = 0.1,
+                              .frictionless_fraction = frictionless})
+      .problem;
 }
 
 /// Unit masses, and contacts that touch the unknowns given.
@@ -72,7 +71,7 @@ TEST_CASE("one-row contacts get tangents without effect") {
   REQUIRE(problem.row_count() < 3 * problem.contact_count());
   const GlobalProblem global = to_global_problem(problem);
   add_delassus_form(problem);
-  const LocalProblem local = to_local_problem(problem);
+  const LocalProblem local = condensed(problem);
   REQUIRE(local.q.size() == 3 * problem.contact_count());
   for (int c = 0; c < problem.contact_count(); ++c) {
     if (problem.contact_rows(c) == 3) continue;

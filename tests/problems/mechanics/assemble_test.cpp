@@ -54,6 +54,15 @@ struct Fixture {
                           Vec3(random.normal(), random.normal(), random.normal()), 0.0});
   }
 
+  /// The problem of a step of 1 ms whose free velocities are the state's.
+  FrictionProblem assembled(ProblemAssembler& assembler) const {
+    Eigen::VectorXd v;
+    assembler.pack(state, v);
+    FrictionProblem problem;
+    assembler.assemble({state, contacts, v, 1e-3, 0.0}, problem);
+    return problem;
+  }
+
   Vec3 material_velocity(int b, const Vec3& point) const {
     const Vec3 spin_W = state.pose[b].rotation * state.spin[b];
     return state.velocity[b] + spin_W.cross(point - state.pose[b].position);
@@ -65,10 +74,7 @@ struct Fixture {
 TEST_CASE("H v is the relative velocity in the contact frame") {
   const Fixture f;
   ProblemAssembler assembler(f.system);
-  Eigen::VectorXd v;
-  assembler.pack(f.state, v);
-  FrictionProblem problem;
-  assembler.assemble({f.state, f.contacts, v, 1e-3, 0.0}, problem);
+  const FrictionProblem problem = f.assembled(assembler);
   problem.validate();
   REQUIRE(problem.contact_count() == 5);
   REQUIRE(problem.dynamics.dof_count() == 6 + 6 + 2 + 1);
@@ -104,10 +110,7 @@ TEST_CASE("an open gap becomes a bias, an overlap none") {
   f.contacts[0].gap = 2e-4;
   f.contacts[1].gap = -2e-4;
   ProblemAssembler assembler(f.system);
-  Eigen::VectorXd v;
-  assembler.pack(f.state, v);
-  FrictionProblem problem;
-  assembler.assemble({f.state, f.contacts, v, 1e-3, 0.0}, problem);
+  const FrictionProblem problem = f.assembled(assembler);
   CHECK(problem.dynamics.bias[problem.row_begin[0]] == Approx(0.2));
   CHECK(problem.dynamics.bias[problem.row_begin[1]] == 0.0);
 }
@@ -117,14 +120,12 @@ TEST_CASE("restitution leaves open points out and turns the approach round") {
   f.system.restitution = 0.5;
   f.contacts[0].gap = 2e-4;
   ProblemAssembler assembler(f.system);
-  Eigen::VectorXd v, u;
-  assembler.pack(f.state, v);
-  FrictionProblem problem;
-  assembler.assemble({f.state, f.contacts, v, 1e-3, 0.0}, problem);
+  FrictionProblem problem = f.assembled(assembler);
   REQUIRE(problem.contact_count() == 4);
   CHECK(assembler.detected()[0] == 1);
   Eigen::VectorXd bias = problem.dynamics.bias;
   problem.dynamics.bias.setZero();
+  Eigen::VectorXd u;
   free_contact_velocity(problem, u);  // H v before the step
   for (int c = 0; c < 4; ++c)
     CHECK(bias[problem.row_begin[c]] ==
@@ -134,10 +135,7 @@ TEST_CASE("restitution leaves open points out and turns the approach round") {
 TEST_CASE("world impulses and rows are inverse to each other in the frame") {
   const Fixture f;
   ProblemAssembler assembler(f.system);
-  Eigen::VectorXd v;
-  assembler.pack(f.state, v);
-  FrictionProblem problem;
-  assembler.assemble({f.state, f.contacts, v, 1e-3, 0.0}, problem);
+  const FrictionProblem problem = f.assembled(assembler);
   Impulses r = Impulses::LinSpaced(problem.row_count(), 1.0, 2.0), again;
   std::vector<Vec3> world;
   assembler.to_world(r, f.contacts, world);

@@ -81,7 +81,9 @@ TEST_CASE("the norms of a local change are those of a dense twin, in both forms 
 TEST_CASE("at a solution nothing changes, and in twice as heavy and fast units all is the same") {
   check_equal(norms_at(known.problem, known.r), {}, 1e-9);
   FrictionProblem other = known.problem;
-  change_units(other, 4.0, 8.0);
+  for (double& entry : other.dynamics.mass) entry *= 4.0;
+  other.dynamics.v_free *= 8.0;
+  other.dynamics.bias *= 8.0;
   const Impulses r = 1.3 * known.r;
   check_equal(norms_at(other, 32.0 * r), norms_at(known.problem, r), 0.0);
   check_equal(norms_at(known.problem, 0.0 * r), slow_norms(known.problem, 0.0 * r), 0.0);
