@@ -6,22 +6,17 @@
 
 #include "platform/text.hpp"
 #include "solvers/backends/admm.hpp"
-#include "solvers/backends/anderson_pgs.hpp"
 #include "solvers/backends/apgd.hpp"
 #include "solvers/backends/auto.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/backends/interior_point.hpp"
 #include "solvers/backends/ipopt.hpp"
-#include "solvers/backends/jacobi.hpp"
-#include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/backends/newton.hpp"
 #include "solvers/backends/newton_burst.hpp"
 #include "solvers/backends/nlopt.hpp"
-#include "solvers/backends/nncg.hpp"
 #include "solvers/backends/pyramid_lemke.hpp"
 #include "solvers/backends/sap.hpp"
 #include "solvers/backends/siconos.hpp"
-#include "solvers/backends/spg.hpp"
 #include "solvers/parts/sparse_factor.hpp"
 
 namespace ballast {
@@ -33,57 +28,45 @@ constexpr Library nlopt{"libnlopt-dev", has_nlopt};
 constexpr Library siconos{"libsiconos-numerics-dev", has_siconos};
 
 /// Every backend, as if all libraries were there: name, description, law, maker, library, limit.
+/// The description ends with what only this row answers.
 constexpr SolverEntry rows[] = {
-    {"auto", "ours, recommended: sweeps where they are enough, proximal Newton where not",
+    {"auto", "ours, recommended: sweeps where they are enough, Newton where not",
      ContactLaw::coulomb, [] { return make_auto(); }, suitesparse},
-    {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999)", ContactLaw::coulomb,
-     [] { return make_gauss_seidel(); }},
-    {"pgs_projection", "pgs, each contact by one projection (De Saxce, Feng 1998)",
-     ContactLaw::coulomb,
-     [] { return make_gauss_seidel({.variant = {.rule = LocalRule::projection}}); }},
-    {"pgs_newton", "pgs, each contact by Newton on Alart-Curnier's function (1991)",
-     ContactLaw::coulomb,
-     [] { return make_gauss_seidel({.variant = {.rule = LocalRule::newton}}); }},
-    {"psor", "pgs over-relaxed by 1.3", ContactLaw::coulomb,
-     [] { return make_gauss_seidel({.variant = {.relaxation = 1.3}}); }},
-    {"pgs_symmetric", "pgs, contacts forward and backward by turns", ContactLaw::coulomb,
-     [] { return make_gauss_seidel({.variant = {.order = SweepOrder::symmetric}}); }},
-    {"pgs_random", "pgs, contacts in another seeded order every sweep", ContactLaw::coulomb,
-     [] { return make_gauss_seidel({.variant = {.order = SweepOrder::random}}); }},
-    {"nncg", "pgs accelerated by nonlinear conjugate gradients (Silcowitz-Hansen 2010)",
+    {"pgs", "projected Gauss-Seidel, each contact solved exactly (Jean 1999): the field's default",
+     ContactLaw::coulomb, [] { return make_gauss_seidel(); }},
+    {"pgs_projection",
+     "pgs, each contact by one projection (De Saxce, Feng 1998): the cheapest local solver",
+     ContactLaw::coulomb, [] { return make_gauss_seidel({.rule = LocalRule::projection}); }},
+    {"pgs_newton",
+     "pgs, each contact by Newton on Alart-Curnier's function (1991): LMGC90's local solver",
+     ContactLaw::coulomb, [] { return make_gauss_seidel({.rule = LocalRule::newton}); }},
+    {"psor", "pgs over-relaxed by 1.3: what a relaxation is worth", ContactLaw::coulomb,
+     [] { return make_gauss_seidel({.relaxation = 1.3}); }},
+    {"nncg",
+     "pgs with nonlinear conjugate gradients (Silcowitz-Hansen 2010): the published acceleration",
      ContactLaw::coulomb, [] { return make_nncg(); }},
-    {"nesterov_pgs", "pgs with Nesterov's momentum, restarted (O'Donoghue, Candes 2015)",
+    {"nesterov_pgs",
+     "pgs with Nesterov's momentum, restarted (O'Donoghue, Candes 2015): our fastest sweeps",
      ContactLaw::coulomb, [] { return make_nesterov_pgs(); }},
-    {"jacobi", "damped block Jacobi, each contact solved exactly: the parallel baseline",
-     ContactLaw::coulomb, [] { return make_jacobi(); }},
-    {"anderson_pgs", "pgs with safeguarded Anderson acceleration (Walker, Ni 2011)",
-     ContactLaw::coulomb, [] { return make_anderson_pgs(); }},
-    {"apgd", "accelerated projected gradient with s-update (Mazhar 2015)", ContactLaw::coulomb,
-     [] { return make_apgd(); }},
-    {"spg", "spectral projected gradient with s-update (Birgin, Martinez, Raydan 2000)",
-     ContactLaw::coulomb, [] { return make_spg(); }},
+    {"apgd", "accelerated projected gradient with s-update (Mazhar 2015): all contacts at once",
+     ContactLaw::coulomb, [] { return make_apgd(); }},
     {"admm",
-     "alternating directions on one sparse factorisation, with s-update (Acary, Bremond, Huber "
-     "2018)",
+     "alternating directions with s-update (Acary, Bremond, Huber 2018): one sparse factorisation",
      ContactLaw::coulomb, [] { return make_admm(); }, suitesparse},
     {"interior_point",
-     "primal-dual for second-order cones, Nesterov-Todd scaling, with s-update (Acary et al. "
-     "2023)",
+     "primal-dual, second-order cones, with s-update (Acary et al. 2023): insensitive to masses",
      ContactLaw::coulomb, [] { return make_interior_point(); }, suitesparse},
-    {"sap", "unconstrained convex problem in velocities (Castro 2022), proximal steps",
+    {"sap", "unconstrained convex problem in velocities (Castro 2022): Drake's law, the relaxation",
      ContactLaw::convex_relaxation, [] { return make_sap(); }, suitesparse},
     {"newton_ac",
-     "semismooth Newton on Alart and Curnier's function, sparse LU (Alart, Curnier 1991)",
-     ContactLaw::coulomb, [] { return make_newton({.equation = ContactEquation::alart_curnier}); },
-     suitesparse},
-    {"newton_nm", "semismooth Newton on the natural map, sparse LU", ContactLaw::coulomb,
-     [] { return make_newton({.equation = ContactEquation::natural_map}); }, suitesparse},
+     "semismooth Newton on Alart and Curnier's function (1991): Newton alone, fast or lost",
+     ContactLaw::coulomb, [] { return make_newton(ContactEquation::alart_curnier); }, suitesparse},
     {"newton_fb",
-     "semismooth Newton on Fischer and Burmeister's function, sparse LU (Fukushima, Luo, Tseng "
-     "2002)",
-     ContactLaw::coulomb,
-     [] { return make_newton({.equation = ContactEquation::fischer_burmeister}); }, suitesparse},
-    {"prox_newton", "proximal-point steps, each by semismooth Newton (Acary, Bremond, Huber 2018)",
+     "semismooth Newton on Fischer-Burmeister (Fukushima, Luo, Tseng 2002): another function",
+     ContactLaw::coulomb, [] { return make_newton(ContactEquation::fischer_burmeister); },
+     suitesparse},
+    {"prox_newton",
+     "proximal steps, each by Newton (Acary, Bremond, Huber 2018): regular whatever W's rank",
      ContactLaw::coulomb,
      [] {
        return make_proximal_newton(
@@ -91,22 +74,19 @@ constexpr SolverEntry rows[] = {
      },
      suitesparse},
     {"newton_burst",
-     "ours: regularised active-set Newton between bursts of sweeps, then proximal steps, own LU",
+     "ours: active-set Newton between bursts of sweeps, own LU: tight errors of large packings",
      ContactLaw::coulomb, [] { return make_newton_burst(); }, suitesparse},
     {"ipopt",
-     "convex cone program with s-update by Ipopt's interior point (Waechter, Biegler 2006)",
+     "cone program with s-update by Ipopt (Waechter, Biegler 2006): a general interior point",
      ContactLaw::coulomb, [] { return make_ipopt(); }, ipopt},
-    {"ipopt_mpcc",
-     "program with complementarity constraints, relaxed towards zero (Scholtes 2001), by Ipopt",
-     ContactLaw::coulomb, [] { return make_ipopt_mpcc(); }, ipopt},
-    {"nlopt_slsqp", "convex cone program with s-update by NLopt's SLSQP (Kraft 1994)",
+    {"nlopt_slsqp",
+     "cone program with s-update by NLopt's SLSQP (Kraft 1994): a general quadratic program",
      ContactLaw::coulomb, [] { return make_nlopt(NloptMethod::slsqp); }, nlopt, nlopt_slsqp_limit},
-    {"nlopt_mma", "convex cone program with s-update by NLopt's MMA (Svanberg 2002)",
+    {"nlopt_mma",
+     "cone program with s-update by NLopt's MMA (Svanberg 2002): a general first-order method",
      ContactLaw::coulomb, [] { return make_nlopt(NloptMethod::mma); }, nlopt, nlopt_mma_limit},
-    {"nlopt_ccsaq", "convex cone program with s-update by NLopt's CCSAQ (Svanberg 2002)",
-     ContactLaw::coulomb, [] { return make_nlopt(NloptMethod::ccsaq); }, nlopt, nlopt_ccsaq_limit},
     {"pyramid_lemke",
-     "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996)",
+     "friction on an 8-sided pyramid by Lemke's pivoting (Stewart, Trinkle 1996): the third law",
      ContactLaw::pyramid,
      [] { return make_pyramid_lemke(); },
      {},
@@ -134,9 +114,9 @@ const std::vector<SolverEntry>& entries() {
   return list;
 }
 
-std::string all_names() {
-  std::string names;
-  for (const SolverEntry& entry : entries()) add_to_list(names, entry.name);
+std::vector<std::string> all_names() {
+  std::vector<std::string> names;
+  for (const SolverEntry& entry : entries()) names.emplace_back(entry.name);
   return names;
 }
 
@@ -147,8 +127,7 @@ std::span<const SolverEntry> solver_list() { return entries(); }
 const SolverEntry& find_solver(std::string_view name) {
   for (const SolverEntry& entry : entries())
     if (name == entry.name) return entry;
-  std::vector<std::string> names;
-  for (const SolverEntry& entry : entries()) names.emplace_back(entry.name);
+  const std::vector<std::string> names = all_names();
   throw UnknownSolver("no solver is called '" + std::string(name) + "'" +
                       did_you_mean(name, names) + "; there are: " + joined(names));
 }
@@ -158,7 +137,7 @@ std::unique_ptr<Solver> make_solver(std::string_view name) {
   if (!entry.make)
     throw MissingSolver("solver '" + std::string(name) +
                         "' was built without its library; install " + entry.needs.package +
-                        " and build again. There are: " + all_names());
+                        " and build again. There are: " + joined(all_names()));
   return entry.make();
 }
 

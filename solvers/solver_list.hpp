@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "solvers/seam/size_limit.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {

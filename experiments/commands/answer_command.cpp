@@ -9,7 +9,6 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/external/external_files.hpp"
 #include "platform/text.hpp"
-#include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 

@@ -2,8 +2,6 @@
 
 #include <optional>
 
-#include "solvers/seam/fclib_stop.hpp"
-
 namespace ballast {
 
 DrivenSolve drive_solver(Solver& solver, const FrictionProblem& problem, const Impulses& start,

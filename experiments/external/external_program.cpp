@@ -15,7 +15,6 @@
 #include "platform/error.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
-#include "solvers/seam/fclib_stop.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;

@@ -40,10 +40,7 @@ std::string name_of(const RunSettings& s, int base_iterations) {
 double estimate(const RunSettings& s, long steps, int grains) {
   constexpr double fixed = 3e-3, iteration = 0.08e-3;  // [s]
   // nesterov_pgs is given as many as a jam takes, and uses a tenth of them.
-  const double factor = s.solver == "nncg"           ? 1.0
-                        : s.solver == "anderson_pgs" ? 1.3
-                        : s.solver == "nesterov_pgs" ? 0.1
-                                                     : 0.8;
+  const double factor = s.solver == "nncg" ? 1.0 : s.solver == "nesterov_pgs" ? 0.1 : 0.8;
   return static_cast<double>(steps) * grains / 1200.0 * (fixed + factor * iteration * s.iterations);
 }
 

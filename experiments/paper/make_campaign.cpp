@@ -105,7 +105,7 @@ void add_looseness(CampaignBuilder& build) {
 void add_backends(CampaignBuilder& build) {
   build.point(Varied::backend, 0, "nncg", base_run(), 1, varied_window);
   double number = 0;
-  for (const char* solver : {"pgs", "psor", "anderson_pgs", "jacobi"}) {
+  for (const char* solver : {"pgs", "psor"}) {
     RunSettings s;
     s.solver = solver;
     build.point(Varied::backend, ++number, solver, s, 1, varied_window);

@@ -132,7 +132,7 @@ class Problems(unittest.TestCase):
     def test_other_threads_run_while_it_solves(self):
         M, H, mu, v = chain(3000)
         problem = ballast.Problem.from_bodies(M, H, mu, v_free=v)
-        worker = threading.Thread(target=lambda: ballast.solve(problem, "jacobi", tolerance=0.0,
+        worker = threading.Thread(target=lambda: ballast.solve(problem, "apgd", tolerance=0.0,
                                                                max_seconds=1.0,
                                                                max_iterations=10**9))
         worker.start()

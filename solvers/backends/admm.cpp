@@ -20,14 +20,12 @@ namespace {
 // At a fixed point y = -(u + s n). Only r, which lies in the cones, is judged or returned.
 class Admm final : public Solver {
  public:
-  explicit Admm(const AdmmSettings& settings) : settings_(settings) {}
-
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
     system_.prepare(w_);
     free_contact_velocity(problem, q_);
     for (Eigen::VectorXd* x : {&u_, &x_, &y_, &right_}) x->resize(problem.row_count());
-    factored_ = set_penalty(settings_.penalty);
+    factored_ = set_penalty(first_penalty);
   }
 
   void use_team(WorkerTeam* team) override { system_.use_team(team); }
@@ -39,8 +37,8 @@ class Admm final : public Solver {
     shift_.reset(w_);
     shift_.follow(w_, u_);
     for (int c = 0; c < w_.contact_count(); ++c) w_.put(y_, c, -shift_.shifted(w_, u_, c));
-    if (penalty_ != settings_.penalty) factored_ = set_penalty(settings_.penalty);
-    next_look_ = look_after_ = settings_.adapt_every;
+    if (penalty_ != first_penalty) factored_ = set_penalty(first_penalty);
+    next_look_ = look_after_ = adapt_every;
     while (iteration.next()) {
       if (!factored_) {
         iteration.evaluated(std::numeric_limits<double>::quiet_NaN(), r);
@@ -48,7 +46,7 @@ class Admm final : public Solver {
       }
       alternate(r);
       w_.velocity(r, u_);
-      if (iteration.count() % settings_.shift_every == 0) follow();
+      follow();
       if (iteration.count() >= next_look_) adapt(iteration.count());
       if (iteration.error_due()) iteration.evaluated(w_.error(r, u_), r);
     }
@@ -86,7 +84,7 @@ class Admm final : public Solver {
       const double sigma = sigma_[c](0, 0), lambda_max = 1.0 / w_.rho()[c];
       const Eigen::Vector3d before = w_.at(r, c), x = w_.at(x_, c), y = w_.at(y_, c);
       // a > 1 goes beyond x (over-relaxation).
-      const Eigen::Vector3d relaxed = before + settings_.relaxation * (x - before);
+      const Eigen::Vector3d relaxed = before + relaxation * (x - before);
       const Eigen::Vector3d after = project_cone(relaxed + sigma * y, w_.friction(c));
       w_.put(r, c, after);
       w_.put(y_, c, y + (relaxed - after) / sigma);
@@ -121,11 +119,17 @@ class Admm final : public Solver {
     // split_ and moved_ are squares: the root of the ratio of their norms is half the
     // way to balance, in logarithms.
     const double factor = std::clamp(std::pow(split_ / moved_, 0.25), 0.01, 100.0);
-    if (factor > settings_.adapt_from || factor < 1.0 / settings_.adapt_from)
+    if (factor > adapt_from || factor < 1.0 / adapt_from)
       factored_ = set_penalty(std::clamp(penalty_ * factor, 1e-6, 1e6));
   }
 
-  AdmmSettings settings_;
+  static constexpr double relaxation = 1.6;
+  static constexpr double first_penalty = 0.1;  ///< in units of lambda_max(W_cc)
+  /// Iterations between looks at the penalty; each look later by a fifth, so that it settles.
+  static constexpr int adapt_every = 20;
+  /// A penalty is changed by no less than this factor: it costs a factorisation.
+  static constexpr double adapt_from = 3.0;
+
   ContactOperator w_;
   ShiftedDelassus system_;
   SlipShift shift_;
@@ -138,8 +142,6 @@ class Admm final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_admm(const AdmmSettings& settings) {
-  return std::make_unique<Admm>(settings);
-}
+std::unique_ptr<Solver> make_admm() { return std::make_unique<Admm>(); }
 
 }  // namespace ballast

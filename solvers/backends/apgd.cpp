@@ -16,8 +16,6 @@ namespace {
 //   r+ = P_K(y - t rho (u_y + s n)),   y+ = r+ + beta (r+ - r),   u_y+ = u+ + beta (u+ - u)
 class Apgd final : public Solver {
  public:
-  explicit Apgd(const ApgdSettings& settings) : settings_(settings) {}
-
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
     first_step_ = gradient_step(w_);
@@ -39,7 +37,7 @@ class Apgd final : public Solver {
         step_ *= 0.6;
       } else {
         accept(r);
-        if (iteration.count() % settings_.shift_every == 0) shift_.follow(w_, u_);
+        if (iteration.count() % shift_every == 0) shift_.follow(w_, u_);
         step_ *= 1.02;
       }
       if (iteration.error_due()) iteration.evaluated(w_.error(r, u_), r);
@@ -90,7 +88,8 @@ class Apgd final : public Solver {
     uy_ = u_ + beta * uy_;
   }
 
-  ApgdSettings settings_;
+  static constexpr int shift_every = 5;  ///< iterations between s-updates
+
   ContactOperator w_;
   SlipShift shift_;
   Eigen::VectorXd u_, y_, uy_, next_, next_u_, moved_;
@@ -99,8 +98,6 @@ class Apgd final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_apgd(const ApgdSettings& settings) {
-  return std::make_unique<Apgd>(settings);
-}
+std::unique_ptr<Solver> make_apgd() { return std::make_unique<Apgd>(); }
 
 }  // namespace ballast

@@ -11,10 +11,6 @@
 
 namespace ballast {
 
-struct ApgdSettings {
-  int shift_every = 5;  ///< iterations between s-updates
-};
-
-std::unique_ptr<Solver> make_apgd(const ApgdSettings& settings = {});
+std::unique_ptr<Solver> make_apgd();
 
 }  // namespace ballast

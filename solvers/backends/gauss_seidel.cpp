@@ -1,16 +1,19 @@
 #include "solvers/backends/gauss_seidel.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
-#include "solvers/gauss_seidel/any_sweep.hpp"
+#include "solvers/gauss_seidel/sweep_search.hpp"
 
 namespace ballast {
 namespace {
 
 class GaussSeidel final : public Solver {
  public:
-  explicit GaussSeidel(const GaussSeidelSettings& settings)
-      : schedule_{settings.first_check, settings.check_growth}, variant_(settings.variant) {
+  explicit GaussSeidel(const SweepVariant& variant) : variant_(variant) {
     if (!variant_.plain()) sweep_.use_variants();
   }
 
@@ -18,7 +21,8 @@ class GaussSeidel final : public Solver {
   void use_team(WorkerTeam* team) override { sweep_.use_team(team); }
 
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
-    Iteration iteration(budget, schedule_);
+    // The cost of looking at the error stays below about 15 %.
+    Iteration iteration(budget, {4, 1.25});
     order_.begin(variant_, variant_.plain() ? 0 : problem.contact_count());
     allow_single(*sweep_, budget);
     const auto load = [&] { sweep_->load(problem, r); };
@@ -37,16 +41,168 @@ class GaussSeidel final : public Solver {
   }
 
  private:
-  CheckSchedule schedule_;
   SweepVariant variant_;
   ContactOrder order_;
   AnySweep sweep_;
 };
 
+// With r^_k the iterate that sweep k left, and d_k what it changed:
+//   r := r^_k + beta (r^_k - r^_k-1),  beta = j / (j + 2) in the j-th sweep of a search
+//   r^_k+1 := sweep(r)
+// Where a solve converges by a factor q a sweep, the best beta is about q^2: so beta is never more
+// than the mean factor of |d|^2 over the last sweeps. The law is not a minimisation, and momentum
+// may circle: a search in which |d|^2 grows ends, and after some searches that came to nothing
+// plain sweeps follow for a while.
+class Momentum {
+ public:
+  void forget() { swept_ = 0; }
+
+  /// `square`: |d|^2 of the last sweep; of none before the first.
+  SearchStep next(double square) {
+    ++total_;
+    if (++swept_ == 1) return {};
+    if (swept_ == 2 || resting_ > 0) {
+      resting_ = std::max(0, resting_ - 1);
+      begin_search(square);
+      return {};
+    }
+    squares_[++age_ % window] = square;
+    least_ = std::min(least_, square);
+    if (square > rise * least_) {
+      vain_ = age_ < short_search ? vain_ + 1 : 0;
+      if (vain_ == most_vain) {
+        vain_ = 0;
+        resting_ = rest;
+      }
+      begin_search(square);
+      return {};
+    }
+    const double beta = std::min(age_ / (age_ + 2.0), mean_factor(square));
+    return {.beta = beta, .gain = 0.0, .ahead = beta};
+  }
+
+  /// Where a quarter more sweeps gained less than a tenth, momentum goes round without end: plain
+  /// sweeps follow, the more the more often that was so.
+  void see(double error) {
+    best_ = std::min(best_, error);
+    if (resting_ > 0 || total_ < std::max(first_mark, 5 * mark_ / 4)) return;
+    if (best_ > 0.9 * best_at_mark_) resting_ = ++losses_ * total_ / 4;
+    mark_ = total_;
+    best_at_mark_ = best_;
+  }
+  /// A search ends by what its sweeps change, in next().
+  static constexpr bool begins_anew() { return false; }
+
+ private:
+  void begin_search(double square) {
+    age_ = 0;
+    squares_[0] = least_ = square;
+  }
+  /// Over the last 1, 2, 4 or 8 sweeps: their roots are square roots, which are the same on every
+  /// machine.
+  double mean_factor(double square) const {
+    int sweeps = 1;
+    while (2 * sweeps <= std::min(age_, window - 1)) sweeps *= 2;
+    double factor = square / squares_[(age_ - sweeps) % window];
+    for (int root = sweeps; root > 1; root /= 2) factor = std::sqrt(factor);
+    return factor;
+  }
+
+  static constexpr double rise = 1.3;     ///< of |d|^2, over the least one of its search
+  static constexpr int window = 9;        ///< squares for a mean factor
+  static constexpr int short_search = 6;  ///< sweeps
+  static constexpr int most_vain = 3;     ///< short searches one after the other
+  static constexpr int rest = 32;         ///< plain sweeps after them
+  static constexpr int first_mark = 256;  ///< sweeps before momentum is judged by the error
+
+  int swept_ = 0;                          ///< sweeps from the current start
+  int age_ = 0;                            ///< sweeps since the search began
+  double squares_[window]{};               ///< |d|^2, by age
+  double least_ = 0.0;                     ///< of the search
+  int total_ = 0, mark_ = 0, losses_ = 0;  ///< sweeps; at the last judgement; those it lost
+  double best_ = std::numeric_limits<double>::max(), best_at_mark_ = best_;  ///< errors [m/s]
+  int vain_ = 0, resting_ = 0;  ///< short searches until now, plain sweeps still to come
+};
+
+// One iteration, with r^ the iterate that the last sweep left and r the one it began from:
+//   d = r^ - r (minus the gradient),  beta = |d|^2 / |d before|^2
+//   beta > 1: the search restarts, p = 0, r := r^
+//   else      r := r^ + beta p,  p := beta p + d
+//   r^ := sweep(r)
+// The law is not a minimisation, and now and then the search circles: when the error has grown from
+// one look to the next, plain sweeps follow until the one after.
+class FletcherReeves {
+ public:
+  void forget() { begins_ = true; }
+
+  /// The first sweep of a search is plain.
+  SearchStep next(double square) {
+    if (begins_) last_ = 0.0;
+    const bool is_first = begins_ || !accelerates_;
+    begins_ = false;
+    if (is_first) return {};
+    double beta = last_ > 0.0 ? square / last_ : 0.0;
+    if (beta > 1.0) beta = 0.0;
+    last_ = square;
+    return {.beta = beta, .gain = 1.0};
+  }
+
+  void see(double error) {
+    accelerates_ = !accelerates_ || error < last_error_;
+    last_error_ = error;
+  }
+  bool begins_anew() const { return !accelerates_; }
+
+ private:
+  bool begins_ = true, accelerates_ = true;
+  double last_ = 0.0;  ///< |d|^2 of the sweep before the last
+  double last_error_ = std::numeric_limits<double>::max();
+};
+
+/// How many more sweeps a solve will take. Their error falls about like a power of their number,
+/// whose exponent is small in jams.
+class SweepPace {
+ public:
+  /// Takes the error after so many sweeps; how many more until `aim`, by the later half of them.
+  double left(int sweeps, double error, double aim) {
+    looks_.push_back({sweeps, error});
+    size_t k = looks_.size() - 1;
+    while (k > 0 && 2 * looks_[k].sweeps > sweeps) --k;
+    const Look& before = looks_[k];
+    if (!(before.sweeps > 0 && before.error > error)) return 1e300;
+    const double exponent = std::log(before.error / error) / std::log(1.0 * sweeps / before.sweeps);
+    return sweeps * (std::pow(error / aim, 1.0 / exponent) - 1.0);
+  }
+
+ private:
+  struct Look {
+    int sweeps;
+    double error;
+  };
+  std::vector<Look> looks_;
+};
+
 }  // namespace
 
-std::unique_ptr<Solver> make_gauss_seidel(const GaussSeidelSettings& settings) {
-  return std::make_unique<GaussSeidel>(settings);
+std::unique_ptr<Solver> make_gauss_seidel(const SweepVariant& variant) {
+  return std::make_unique<GaussSeidel>(variant);
+}
+
+std::unique_ptr<Solver> make_nesterov_pgs(const NesterovSettings& settings) {
+  return std::make_unique<SweepSearch<Momentum>>(settings.returns_best);
+}
+
+std::unique_ptr<Solver> make_nncg() {
+  return std::make_unique<SweepSearch<FletcherReeves>>(/*returns_best=*/false);
+}
+
+std::function<bool(int, double)> slow_sweeps(int least, double most, const Budget& budget) {
+  return [=, pace = SweepPace(), refusals = 0, &budget](int sweeps, double error) mutable {
+    const double left = pace.left(sweeps, error, budget.aim());
+    // One look may have met the error on its way up.
+    refusals = left > most ? refusals + 1 : 0;
+    return sweeps >= least && refusals > 1;
+  };
 }
 
 }  // namespace ballast

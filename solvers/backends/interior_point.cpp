@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "solvers/backends/newton.hpp"
+#include "solvers/parts/cone_step.hpp"
 #include "solvers/seam/iteration.hpp"
-#include "solvers/seam/relay.hpp"
 
 namespace ballast {
 namespace {
@@ -15,8 +15,7 @@ namespace {
 // own r lies inside the cones.
 class InteriorPoint final : public Solver {
  public:
-  explicit InteriorPoint(const InteriorPointSettings& settings)
-      : settings_(settings), cone_step_(settings.step) {}
+  explicit InteriorPoint(double polish_from) : polish_from_(polish_from) {}
 
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
@@ -33,21 +32,22 @@ class InteriorPoint final : public Solver {
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    Relay relay(budget, std::move(start));
+    Course course(budget, std::move(start));
     bool rest = false;  // proximal Newton goes the rest of the way
-    relay.run([&](Impulses r, Budget left) {
-      left.tolerance = std::max(budget.tolerance, settings_.polish_from * velocity_scale());
+    course.run([&](Impulses r, Budget left) {
+      left.tolerance = std::max(budget.tolerance, polish_from_ * velocity_scale());
       Solved solved = approach(std::move(r), left);
-      const bool near =
-          solved.reason == StopReason::reached_tolerance && solved.own_residual > budget.aim();
-      rest = near || solved.reason == StopReason::stalled;
+      // Near enough for the other, which is not yet what was asked.
+      if (solved.reason == StopReason::reached_tolerance && solved.own_residual > budget.aim())
+        solved.reason = StopReason::stalled;
+      rest = solved.reason == StopReason::stalled;
       return solved;
     });
-    if (!rest) return relay.finish();
+    if (!rest) return course.finish();
     if (!is_polisher_ready_) polisher_->prepare(problem);
     is_polisher_ready_ = true;
-    relay.run(*polisher_, problem, budget.max_iterations);
-    return relay.finish();
+    course.run(*polisher_, problem, budget.max_iterations);
+    return course.finish();
   }
 
  private:
@@ -62,7 +62,7 @@ class InteriorPoint final : public Solver {
     before_ = point_;
     rounded_u_ = u_;
     int steps = 0, stalled_steps = 0;  // with this s; without the best error halved
-    while (stalled_steps < settings_.patience && iteration.next()) {
+    while (stalled_steps < patience && iteration.next()) {
       const bool stepped = step();
       if (stepped) {
         w_.velocity(point_.r, u_);
@@ -82,8 +82,8 @@ class InteriorPoint final : public Solver {
       }
       // The same s again, until the convex problem is solved well beyond what s has still to move.
       const double still = shift_.distance(w_, rounded_u_);
-      if (stepped && ++steps < settings_.most_steps &&
-          shift_.convex_error(w_, r, rounded_u_) > settings_.inner_part * still)
+      if (stepped && ++steps < most_steps &&
+          shift_.convex_error(w_, r, rounded_u_) > inner_part * still)
         continue;
       shift_.improve(w_, rounded_u_);
       go_back();
@@ -156,7 +156,11 @@ class InteriorPoint final : public Solver {
     w_.project(r);
   }
 
-  InteriorPointSettings settings_;
+  /// s is renewed when the convex problem is solved to this part of what s has to move.
+  static constexpr double inner_part = 0.1;
+  static constexpr int most_steps = 25;  ///< with one s
+  static constexpr int patience = 40;    ///< steps without the best error halved
+  const double polish_from_;
   ContactOperator w_;
   ConeStep cone_step_;
   SlipShift shift_;
@@ -169,8 +173,8 @@ class InteriorPoint final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_interior_point(const InteriorPointSettings& settings) {
-  return std::make_unique<InteriorPoint>(settings);
+std::unique_ptr<Solver> make_interior_point(double polish_from) {
+  return std::make_unique<InteriorPoint>(polish_from);
 }
 
 }  // namespace ballast

@@ -9,21 +9,11 @@
 
 #include <memory>
 
-#include "solvers/parts/cone_step.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
 
-struct InteriorPointSettings {
-  ConeStepSettings step{};
-  double inner_part =
-      0.1;  ///< s is renewed when the convex problem is solved to this part of what s has to move
-  int most_steps = 25;  ///< with one s
-  int patience = 40;    ///< steps without the best error halved
-  double polish_from =
-      1e-4;  ///< proximal Newton takes over below this error, in units of the rms of q
-};
-
-std::unique_ptr<Solver> make_interior_point(const InteriorPointSettings& settings = {});
+/// Proximal Newton takes over below the error `polish_from`, in units of the rms of q.
+std::unique_ptr<Solver> make_interior_point(double polish_from = 1e-4);
 
 }  // namespace ballast

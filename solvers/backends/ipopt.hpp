@@ -6,7 +6,7 @@
 
 namespace ballast {
 
-/// This build has the library. Where it has not, the functions below return null.
+/// This build has the library. Where it has not, make_ipopt returns null.
 bool has_ipopt();
 
 /// The convex cone program with the s-update around it; polar coordinates (cone_program.hpp), exact
@@ -14,9 +14,5 @@ bool has_ipopt();
 /// instead on 5 problems: mu r_N - |r_T|, mu^2 r_N^2 - |r_T|^2 and mu^2 r_N - |r_T|^2 / r_N: 50
 /// iterations to 500 and no answer, where this takes 30.)
 std::unique_ptr<Solver> make_ipopt();
-
-/// Coulomb's law itself as a mathematical program with complementarity constraints, relaxed
-/// (Scholtes 2001) by a parameter that goes to zero round by round.
-std::unique_ptr<Solver> make_ipopt_mpcc();
 
 }  // namespace ballast

@@ -1,4 +1,4 @@
-// Compiled in place of ipopt_*.cpp where Ipopt is not used.
+// Compiled in place of ipopt.cpp where Ipopt is not used.
 
 #include "solvers/backends/ipopt.hpp"
 
@@ -6,6 +6,5 @@ namespace ballast {
 
 bool has_ipopt() { return false; }
 std::unique_ptr<Solver> make_ipopt() { return nullptr; }
-std::unique_ptr<Solver> make_ipopt_mpcc() { return nullptr; }
 
 }  // namespace ballast

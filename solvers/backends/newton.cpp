@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/backends/nesterov_pgs.hpp"
 #include "solvers/parts/newton_step.hpp"
 #include "solvers/seam/iteration.hpp"
 
@@ -26,15 +25,14 @@ struct Best {
 
 class Newton final : public Solver {
  public:
-  explicit Newton(const NewtonSettings& settings) : settings_(settings) {}
+  explicit Newton(ContactEquation equation) : equation_(equation) {}
 
   void prepare(const FrictionProblem& problem) override { step_.prepare(problem); }
   void use_team(WorkerTeam* team) override { step_.use_team(team); }
-  double operations() const override { return step_.operations(); }
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    step_.begin(settings_.equation, settings_.rho_factor, std::move(r));
+    step_.begin(equation_, 1.0, std::move(r));
     step_.set_proximal(smallest_weight);
     Best best{step_.impulses(), step_.error()};
     iteration.evaluated(best.error, best.r);
@@ -43,7 +41,7 @@ class Newton final : public Solver {
     while (iteration.next()) {
       const double before = step_.residual();
       // where no shorter step descends, the whole one may leave the kink
-      failures = step_.newton(failures % 2 ? 0 : settings_.line_search) ? 0 : failures + 1;
+      failures = step_.newton(failures % 2 ? 0 : most_halvings) ? 0 : failures + 1;
       step_.centre();
       best.offer(step_.impulses(), step_.error());
       iteration.evaluated(best.error, best.r);
@@ -67,7 +65,8 @@ class Newton final : public Solver {
   /// Where W is singular, 1 / weight times the rounding of u, about 1e-16 |q|, comes into r: a step
   /// without descent is taken for that and the weight grows.
   static constexpr double smallest_weight = 1e-7, largest_weight = 1e-3;
-  NewtonSettings settings_;
+  static constexpr int most_halvings = 12;  ///< of a step
+  ContactEquation equation_;
   NewtonStep step_;
 };
 
@@ -76,7 +75,7 @@ class ProximalNewton final : public Solver {
   explicit ProximalNewton(const ProximalNewtonSettings& settings)
       : settings_(settings),
         start_(settings.accelerated ? make_nesterov_pgs({.returns_best = false})
-                                    : make_gauss_seidel({})) {}
+                                    : make_gauss_seidel()) {}
 
   void prepare(const FrictionProblem& problem) override {
     start_->prepare(problem);
@@ -87,11 +86,9 @@ class ProximalNewton final : public Solver {
     step_.use_team(team);
   }
 
-  double operations() const override { return step_.operations(); }
-
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    step_.begin(settings_.equation, settings_.rho_factors[0], std::move(r));
+    step_.begin(ContactEquation::alart_curnier, settings_.rho_factors[0], std::move(r));
     Best best{step_.impulses(), step_.error()};
     // The start is swept first, a warm one too: Newton converges from near by only, and of a warm
     // start hundreds of contacts have another status by now.
@@ -103,8 +100,7 @@ class ProximalNewton final : public Solver {
     iteration.evaluated(best.error, best.r);
     double weight = settings_.first_weight, halved = best.error;
     int failures = 0, halved_at = 0;
-    while (failures < 30 &&
-           iteration.count() - halved_at <= settings_.patience * budget.max_iterations) {
+    while (failures < 30 && iteration.count() - halved_at <= patience * budget.max_iterations) {
       const int steps = proximal_step(iteration, weight, best);
       if (steps < 0) break;  // the budget ended
       // Patience counts from the last time that the best error was halved.
@@ -113,9 +109,9 @@ class ProximalNewton final : public Solver {
         halved_at = iteration.count();
       }
       // An easy step lowers alpha; a failed one raises it and tries another rho.
-      if (steps > 0 && steps <= settings_.inner_steps) {
+      if (steps > 0 && steps <= inner_steps) {
         failures = 0;
-        if (steps <= settings_.inner_steps / 2) weight = std::max(1e-9, weight * 0.3);
+        if (steps <= inner_steps / 2) weight = std::max(1e-9, weight * 0.3);
       } else {
         ++failures;
         weight = std::min(1e3, weight * 4.0);
@@ -152,18 +148,23 @@ class ProximalNewton final : public Solver {
     const double begin = step_.residual();
     step_.set_proximal(weight);
     const Impulses centre = step_.impulses();
-    for (int k = 1; k <= settings_.inner_steps; ++k) {
+    for (int k = 1; k <= inner_steps; ++k) {
       if (!iteration.next()) return -1;
       const bool descended = step_.newton(8);
       best.offer(step_.impulses(), step_.error());
       iteration.evaluated(best.error, best.r);
-      if (step_.residual() <= settings_.inner_reduction * begin) return k;
+      if (step_.residual() <= inner_reduction * begin) return k;
       if (!descended) break;
     }
     step_.restart(centre);
-    return settings_.inner_steps + 1;
+    return inner_steps + 1;
   }
 
+  /// Of the residual, that an inner Newton must reach.
+  static constexpr double inner_reduction = 0.5;
+  static constexpr int inner_steps = 12;  ///< after which a proximal step has failed
+  /// Part of the budget's iterations without halving the error, after which it gives up.
+  static constexpr double patience = 0.375;
   ProximalNewtonSettings settings_;
   std::unique_ptr<Solver> start_;
   NewtonStep step_;
@@ -171,8 +172,8 @@ class ProximalNewton final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_newton(const NewtonSettings& settings) {
-  return std::make_unique<Newton>(settings);
+std::unique_ptr<Solver> make_newton(ContactEquation equation) {
+  return std::make_unique<Newton>(equation);
 }
 
 std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& settings) {

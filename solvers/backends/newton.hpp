@@ -9,29 +9,18 @@
 
 namespace ballast {
 
-struct NewtonSettings {
-  ContactEquation equation = ContactEquation::alart_curnier;
-  double rho_factor = 1.0;  ///< rho = rho_factor / lambda_max(W_cc)
-  int line_search = 12;     ///< halvings of a step at most
-};
-
 /// Newton steps with a line search on the equation's residual (Alart, Curnier 1991; Acary, Bremond,
 /// Huber 2018). One iteration is one factorisation. Fails where W is rank deficient and contacts
 /// stick, as the method does.
-std::unique_ptr<Solver> make_newton(const NewtonSettings& settings);
+std::unique_ptr<Solver> make_newton(ContactEquation equation);
 
 struct ProximalNewtonSettings {
-  ContactEquation equation = ContactEquation::alart_curnier;
   int start_sweeps = 200;      ///< before the first step
   bool accelerated = false;    ///< sweeps have nesterov_pgs' momentum
   int mending_sweeps = 50;     ///< after a proximal step that failed
   double first_weight = 1e-3;  ///< alpha rho of the first proximal step
   /// rho lambda_max(W_cc): the first, and which one follows after a failed step.
   std::array<double, 3> rho_factors{10.0, 100.0, 1.0};
-  double inner_reduction = 0.5;  ///< of the residual that an inner Newton must reach
-  int inner_steps = 12;          ///< Newton steps, after which a proximal step has failed
-  double patience = 0.375;  ///< part of the budget's iterations without halving the error, after
-                            ///< which it gives up (stalled)
 };
 
 /// r_{k+1} solves the law with u + alpha (r - r_k): regular whatever W's rank, and the same

@@ -4,43 +4,21 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
 
-#include "solvers/backends/nesterov_pgs.hpp"
+#include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/backends/newton.hpp"
-#include "solvers/backends/step_work.hpp"
 #include "solvers/parts/regular_newton.hpp"
-#include "solvers/seam/course.hpp"
+#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
-constexpr double smallest_epsilon = 1e-8, largest_epsilon = 0.1;
+/// The compliance, as a part of lambda_max(W_cc).
+constexpr double first_epsilon = 3e-4, smallest_epsilon = 1e-8, largest_epsilon = 0.1;
+/// Below this part of the error at zero impulse there are no more bursts.
+constexpr double endgame_from = 1e-4;
 
 double raised(double epsilon, double factor) { return std::min(largest_epsilon, factor * epsilon); }
-
-/// How many more sweeps a solve will take. Their error falls about like a power of their number,
-/// whose exponent is small in jams.
-class SweepPace {
- public:
-  /// Takes the error after so many sweeps; how many more until `aim`, by the later half of them.
-  double left(int sweeps, double error, double aim) {
-    looks_.push_back({sweeps, error});
-    size_t k = looks_.size() - 1;
-    while (k > 0 && 2 * looks_[k].sweeps > sweeps) --k;
-    const Look& before = looks_[k];
-    if (!(before.sweeps > 0 && before.error > error)) return 1e300;
-    const double exponent = std::log(before.error / error) / std::log(1.0 * sweeps / before.sweeps);
-    return sweeps * (std::pow(error / aim, 1.0 / exponent) - 1.0);
-  }
-
- private:
-  struct Look {
-    int sweeps;
-    double error;
-  };
-  std::vector<Look> looks_;
-};
 
 class NewtonBurst final : public Solver {
  public:
@@ -61,8 +39,6 @@ class NewtonBurst final : public Solver {
     if (settings_.start_sweeps == 0) make_ready();
   }
 
-  double operations() const override { return is_ready_ ? newton_.operations() : 0.0; }
-
   void use_team(WorkerTeam* team) override {
     sweeps_->use_team(team);
     newton_.use_team(team);
@@ -71,21 +47,14 @@ class NewtonBurst final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;
-    if (settings_.start_sweeps == 0) {
-      NewtonIterate at = newton_.iterate(start);
-      const double error = newton_.settle(at);
-      newton_.contacts().to_impulses(at.r, start);
-      Course course(budget, std::move(start), error);
-      return by_newton(course);
-    }
-    SweepPace pace;
-    int refusals = 0;
-    Course course(budget, *sweeps_, problem, std::move(start), [&](int sweeps, double error) {
-      const double left = pace.left(sweeps, error, budget.aim());
-      // One look may have met the error on its way up.
-      refusals = left > settings_.promised_sweeps ? refusals + 1 : 0;
-      return sweeps >= settings_.start_sweeps && refusals > 1;
-    });
+    Course course(budget, std::move(start));
+    if (settings_.start_sweeps > 0)
+      course.run([&](Impulses first, Budget whole) {
+        whole.gives_up = slow_sweeps(settings_.start_sweeps, settings_.promised_sweeps, budget);
+        return sweeps_->solve(problem, std::move(first), whole);
+      });
+    else
+      offer_start(course);
     return by_newton(course);
   }
 
@@ -96,7 +65,7 @@ class NewtonBurst final : public Solver {
     make_ready();
     // The error without any impulse says how large the problem's velocities are.
     NewtonIterate at = newton_.iterate(Impulses::Zero(problem_->row_count()));
-    const double scale = newton_.settle(at), end = endgame_ * scale;
+    const double scale = newton_.settle(at), end = endgame_from * scale;
     at = newton_.iterate(course.best());
     double error = newton_.settle(at);
     descend(course, at, error, end);
@@ -104,8 +73,14 @@ class NewtonBurst final : public Solver {
     endgame(course, at, error);
     if (course.over()) return course.finish();
     walk_->prepare(*problem_);
-    course.factor_by(*walk_, *problem_, settings_.most_steps);
+    course.run(*walk_, *problem_, settings_.most_steps);
     return course.finish();
+  }
+
+  /// The start itself, without impulses that move nothing.
+  void offer_start(Course& course) {
+    NewtonIterate at = newton_.iterate(course.best());
+    offer(course, at, newton_.settle(at));
   }
 
   /// How a proximal step's Newton method ended.
@@ -119,15 +94,6 @@ class NewtonBurst final : public Solver {
     if (is_ready_) return;
     newton_.prepare(*problem_);
     is_ready_ = true;
-    burst_ = settings_.burst;
-    endgame_ = settings_.endgame;
-    if (!settings_.is_balanced) return;
-    StepWork work;
-    work.count(*problem_);
-    work.learn(newton_.operations());
-    const double sweeps = work.burst_step() / work.sweep();  // that cost as much as a step
-    burst_ = std::min(burst_, static_cast<int>(std::ceil(sweeps)));
-    endgame_ = std::max(endgame_, std::min(0.1, 200.0 / (sweeps * sweeps * sweeps)));
   }
 
   void offer(Course& course, const NewtonIterate& at, double error) {
@@ -154,13 +120,13 @@ class NewtonBurst final : public Solver {
   /// where light contacts changed their status; what counts is where the sweeps after it end. Ends
   /// below the error `end`, or where three rounds in a row gained nothing.
   void descend(Course& course, NewtonIterate& at, double& error, double end) {
-    double epsilon = settings_.epsilon;
+    double epsilon = first_epsilon;
     int slow = 0, undone = 0;
     while (!course.over() && error > end && slow < 3 && undone < 2) {
       const NewtonIterate before = at;
       newton_.set_centre(at.r, epsilon);
       newton_.linearise(at);
-      course.factored();
+      course.spend(1);
       if (!newton_.step(change_)) {
         epsilon = raised(epsilon, 4.0);
         ++slow;
@@ -171,7 +137,7 @@ class NewtonBurst final : public Solver {
       offer(course, at, after);
       if (course.over()) return;
       NewtonIterate swept = at;
-      const double swept_error = burst(course, swept, burst_);
+      const double swept_error = burst(course, swept, settings_.burst);
       const bool is_undone = after < swept_error && after < error;
       if (!(after < swept_error)) {
         after = swept_error;
@@ -185,7 +151,7 @@ class NewtonBurst final : public Solver {
       undone = is_undone ? undone + 1 : 0;
       if (after > 2.0 * error && !course.over()) {
         at = before;
-        after = burst(course, at, burst_);
+        after = burst(course, at, settings_.burst);
       }
       error = after;
     }
@@ -195,7 +161,7 @@ class NewtonBurst final : public Solver {
   /// Ends where steps fail one after the other, gain little for long, or have taken their part.
   void endgame(Course& course, NewtonIterate& at, double& error) {
     constexpr int most_failures = 4, most_slow_steps = 15;
-    double epsilon = settings_.epsilon, halved = error;
+    double epsilon = first_epsilon, halved = error;
     int failures = 0, slow = 0, steps = 0;
     while (!course.over() && failures < most_failures && slow < most_slow_steps &&
            steps < settings_.descent_steps) {
@@ -243,7 +209,7 @@ class NewtonBurst final : public Solver {
       if (k >= settings_.inner_steps || stalled > most_stalled || (k > 1 && changed > many) ||
           course.over())
         return {false, k};
-      course.factored();
+      course.spend(1);
       if (!newton_.step(change_)) return {false, k};
       // The first step is taken whole: it always raises the residual. Later ones are shortened.
       residual = advance(at, residual, k == 0 ? 1 : 4);
@@ -273,8 +239,6 @@ class NewtonBurst final : public Solver {
   RegularNewton newton_;
   std::unique_ptr<Solver> walk_;  ///< proximal-point steps that may go through worse places
   bool is_ready_ = false;         ///< newton_ is prepared for problem_
-  int burst_ = 0;                 ///< sweeps after a step
-  double endgame_ = 0.0;          ///< as in the settings
   const FrictionProblem* problem_ = nullptr;
   NewtonIterate change_, trial_, best_trial_;
   Impulses impulses_;

@@ -20,13 +20,6 @@ struct NewtonBurstSettings {
   /// time about twenty Newton steps of some thousand contacts.
   int promised_sweeps = 6000;
   int burst = 200;  ///< sweeps after a Newton step, at most
-  /// No more of them than cost what the step does; and the fewer those are, the earlier the end
-  /// begins, whose proximal steps take several Newton steps each.
-  bool is_balanced = false;
-  /// The compliance to begin with, as a part of lambda_max(W_cc).
-  double epsilon = 3e-4;
-  /// Below this part of the error at zero impulse there are no more bursts.
-  double endgame = 1e-4;
   /// The end begins with proximal steps that lower the error: at most so many Newton steps, none
   /// where that is 0. They are the faster where nothing jams, and lost where something does.
   int descent_steps = 60;

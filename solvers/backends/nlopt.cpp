@@ -153,23 +153,13 @@ const NloptRecipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, nlopt_slsqp_limit, 400,
                         "a dense quadratic program per step"};
 const NloptRecipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000,
                       "NLopt's dense Jacobian; one curvature for all cones"};
-const NloptRecipe ccsaq{"nlopt_ccsaq", NLOPT_LD_CCSAQ, nlopt_ccsaq_limit, 3000,
-                        "NLopt's dense Jacobian; one curvature for all cones"};
 
 }  // namespace
 
 bool has_nlopt() { return true; }
 
 std::unique_ptr<Solver> make_nlopt(NloptMethod method) {
-  switch (method) {
-    case NloptMethod::slsqp:
-      return std::make_unique<Nlopt>(slsqp);
-    case NloptMethod::mma:
-      return std::make_unique<Nlopt>(mma);
-    case NloptMethod::ccsaq:
-      return std::make_unique<Nlopt>(ccsaq);
-  }
-  return nullptr;
+  return std::make_unique<Nlopt>(method == NloptMethod::slsqp ? slsqp : mma);
 }
 
 }  // namespace ballast

@@ -8,7 +8,7 @@
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/parts/lemke.hpp"
 #include "solvers/seam/iteration.hpp"
-#include "solvers/seam/moving_contacts.hpp"
+#include "solvers/seam/rounds.hpp"
 
 namespace ballast {
 namespace {

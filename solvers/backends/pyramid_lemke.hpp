@@ -4,16 +4,15 @@
 // dynamics with inelastic collisions and Coulomb friction", eq. (15); Anitescu, Potra 1997 (where
 // it is shown to be solvable).
 
-#include "solvers/seam/size_limit.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
 
 struct PyramidLemkeSettings {
-  int sides =
-      8;  ///< directions of friction per contact, even, >= 4; their hull is inside the circle
-  int largest = 1000;  ///< unknowns of the complementarity problem: sides + 2 per contact with
-                       ///< friction, 1 without
+  /// Directions of friction per contact, even, >= 4; their hull is inside the circle.
+  int sides = 8;
+  /// Unknowns of the complementarity problem: sides + 2 per contact with friction, 1 without.
+  static constexpr int largest = 1000;
 
   constexpr int unknowns_per_contact() const { return sides + 2; }  ///< with friction
   constexpr SizeLimit limit() const {

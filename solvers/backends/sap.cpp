@@ -56,7 +56,7 @@ class Sap final : public Solver {
       // Far from the end a proximal step need not be exact.
       const double enough = settings_.proximal ? 1e-2 * proximal_energy() : 0.0;
       const bool solved = decrement <= std::max(enough, least_energy_);
-      if (!solved && ++newtons < settings_.most_newtons) continue;
+      if (!solved && ++newtons < most_newtons) continue;
       // What is left is the relaxation: Coulomb's law is not reached by going on.
       done =
           !settings_.proximal || no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.aim();
@@ -195,6 +195,7 @@ class Sap final : public Solver {
     return sum;
   }
 
+  static constexpr int most_newtons = 50;  ///< for one problem
   SapSettings settings_;
   ContactOperator w_;
   ShiftedDelassus system_;

@@ -22,7 +22,6 @@ namespace ballast {
 struct SapSettings {
   double regularisation = 1e-3;  ///< Drake's sigma
   bool proximal = true;          ///< false: one problem, regularised for good
-  int most_newtons = 50;         ///< for one problem
 };
 
 std::unique_ptr<Solver> make_sap(const SapSettings& settings = {});

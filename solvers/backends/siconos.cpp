@@ -16,7 +16,6 @@
 #include "platform/child_process.hpp"
 #include "platform/clock.hpp"
 #include "platform/pack.hpp"
-#include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/rounds.hpp"
 
 extern "C" void numerics_set_verbose(int);  // in no header that C++ can read

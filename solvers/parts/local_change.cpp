@@ -6,7 +6,6 @@
 
 #include "platform/clock.hpp"
 #include "solvers/parts/one_contact.hpp"
-#include "solvers/seam/relay.hpp"
 
 namespace ballast {
 
@@ -66,7 +65,7 @@ class ChangeStopped final : public Solver {
     whole.impulses = std::move(start);
     for (;;) {
       const double begun = watch.seconds() - whole.startup_seconds;
-      Budget burst = rest_of(budget, whole.iterations, begun);
+      Budget burst = budget.after(whole.iterations, begun);
       burst.tolerance = 0.0;
       burst.max_iterations = std::min(burst.max_iterations, rule_.every);
       const int asked = burst.max_iterations;

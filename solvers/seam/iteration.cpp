@@ -5,9 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "platform/clock.hpp"
-#include "solvers/seam/fclib_stop.hpp"
-
 namespace ballast {
 
 Iteration::Iteration(const Budget& budget, const CheckSchedule& schedule, int patience)
@@ -55,7 +52,7 @@ void Iteration::evaluated(double error, const Impulses& r) {
   else if (out_of_time_ || now >= budget_.max_seconds)
     reason_ = StopReason::time_limit;
   else if (count_ - unchanged_since_ >= patience_ ||
-           (budget_.leave && (*budget_.leave)(count_, error, r)))
+           (budget_.gives_up && budget_.gives_up(count_, error)))
     reason_ = StopReason::stalled;
   else
     stopped_ = false;
@@ -66,6 +63,90 @@ Solved Iteration::finish(Impulses impulses) {
   solved.impulses = std::move(impulses);
   solved.reason = reason_;
   solved.iterations = count_;
+  solved.own_residual = error_;
+  solved.startup_seconds = startup_;
+  solved.history = std::move(history_);
+  return solved;
+}
+
+void Course::run(const Part& part) {
+  const int before = iterations_;
+  const double began = seconds();
+  Budget left = rest();
+  left.keep_history = true;  // its last point is the error that the part came to
+  // The part works on a copy: the best iterate may have to stay.
+  Solved done = part(best_, left);
+  if (error_ == unknown && !done.history.empty()) error_ = done.history.front().error;
+  for (const HistoryPoint& point : done.history)
+    remember(before + point.iteration, began + point.seconds, point.error);
+  iterations_ += done.iterations;
+  startup_ += done.startup_seconds;
+  const double error = done.history.empty() ? error_ : done.history.back().error;
+  const bool is_enough = done.reason == StopReason::reached_tolerance;
+  if (!is_enough && !(error < error_)) return;
+  is_enough_ = is_enough_ || is_enough;
+  error_ = error;
+  best_ = std::move(done.impulses);
+}
+
+void Course::run(Solver& solver, const FrictionProblem& problem, int most_iterations) {
+  run([&](Impulses start, Budget left) {
+    left.max_iterations = std::min(most_iterations, left.max_iterations);
+    return solver.solve(problem, std::move(start), left);
+  });
+}
+
+void Course::offer(const Impulses& r, double error) {
+  // The other measure may be reached where the error is not the smallest.
+  const bool is_enough = budget_.fclib && !is_enough_ && budget_.fclib->reached(r, error);
+  if (is_enough || ((error < error_ || error_ == unknown) && !is_enough_)) {
+    error_ = error;
+    best_ = r;
+  }
+  is_enough_ = is_enough_ || is_enough;
+  remember(iterations_, seconds(), error_);
+}
+
+/// One point per count of iterations, the last one that was true of it; the errors are of the best.
+void Course::remember(int iterations, double seconds, double error) {
+  if (!budget_.keep_history) return;
+  if (!history_.empty()) {
+    error = std::min(error, history_.back().error);
+    if (history_.back().iteration == iterations) history_.pop_back();
+  }
+  history_.push_back({iterations, seconds, error});
+}
+
+bool Course::reached() const {
+  return is_enough_ || error_ <= budget_.tolerance * (1.0 - Iteration::margin);
+}
+
+bool Course::over() const {
+  return reached() || !std::isfinite(error_) || iterations_ >= budget_.max_iterations ||
+         seconds() >= budget_.max_seconds;
+}
+
+Budget Course::rest() const {
+  Budget rest = budget_.after(iterations_, seconds());
+  rest.gives_up = {};
+  return rest;
+}
+
+Solved Course::finish() {
+  if (history_.empty() || history_.back().iteration != iterations_)
+    remember(iterations_, seconds(), error_);
+  Solved solved;
+  solved.reason = StopReason::stalled;
+  if (!std::isfinite(error_))
+    solved.reason = StopReason::numerical_failure;
+  else if (reached())
+    solved.reason = StopReason::reached_tolerance;
+  else if (iterations_ >= budget_.max_iterations)
+    solved.reason = StopReason::iteration_limit;
+  else if (seconds() >= budget_.max_seconds)
+    solved.reason = StopReason::time_limit;
+  solved.impulses = std::move(best_);
+  solved.iterations = iterations_;
   solved.own_residual = error_;
   solved.startup_seconds = startup_;
   solved.history = std::move(history_);

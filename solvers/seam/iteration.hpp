@@ -1,11 +1,11 @@
 #pragma once
-// The bookkeeping that every iterative backend shares: budget, clock, when to look at the error,
-// why to stop, history.
+// The bookkeeping that backends share: budget, clock, when to look at the error, why to stop,
+// history.
 
+#include <utility>
 #include <vector>
 
 #include "platform/clock.hpp"
-
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
@@ -69,6 +69,60 @@ class Iteration {
   double error_;
   int unchanged_since_ = 0;
   double startup_ = 0.0;
+  std::vector<HistoryPoint> history_;
+};
+
+/// The course of one solve whose method wanders, or is several solvers, one after the other: it may
+/// leave its best iterate for a worse one and come back, and returns the best.
+///
+/// Use: run() a solver from the best iterate, or spend() iterations and offer() every iterate that
+/// was judged, until over(); then finish().
+class Course {
+ public:
+  /// A solver's part: from `start`, with `left` to spend. What it returns has a history, whose
+  /// first point is the error at `start`. `reached_tolerance` says that the course is over.
+  using Part = std::function<Solved(Impulses start, Budget left)>;
+
+  /// The clock starts here. `start` is the best so far.
+  Course(const Budget& budget, Impulses start)
+      : budget_(budget), error_(unknown), best_(std::move(start)) {}
+
+  /// One part, from the best iterate. Its end is kept if it is better, or has reached what was
+  /// asked.
+  void run(const Part& part);
+  /// `solver`, prepared for `problem`, for at most so many iterations.
+  void run(Solver& solver, const FrictionProblem& problem, int most_iterations);
+
+  void spend(int iterations) { iterations_ += iterations; }
+  /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best, or
+  /// where it satisfies the other measure that the budget asks for.
+  void offer(const Impulses& r, double error);
+
+  const Impulses& best() const { return best_; }
+  double error() const { return error_; }  ///< of the best [m/s]; 1e300 before it is known
+  int iterations() const { return iterations_; }
+  /// The best is small enough to stop, or nothing is left of the budget.
+  bool over() const;
+  /// What is left, without Budget::gives_up, which counts from the beginning.
+  Budget rest() const;
+
+  /// The best iterate with counts and the history of the best error; `stalled` where neither the
+  /// tolerance nor a limit was reached.
+  Solved finish();
+
+ private:
+  static constexpr double unknown = 1e300;
+
+  bool reached() const;
+  double seconds() const { return watch_.seconds() - startup_; }
+  void remember(int iterations, double seconds, double error);
+
+  Budget budget_;
+  Stopwatch watch_;
+  int iterations_ = 0;
+  double error_, startup_ = 0.0;
+  bool is_enough_ = false;  ///< the best satisfies what the budget asks for
+  Impulses best_;
   std::vector<HistoryPoint> history_;
 };
 

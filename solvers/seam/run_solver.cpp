@@ -7,8 +7,6 @@
 
 #include "platform/clock.hpp"
 #include "problems/algebra/no_solution.hpp"
-#include "solvers/seam/fclib_stop.hpp"
-#include "solvers/seam/relay.hpp"
 
 namespace ballast {
 namespace {
@@ -92,13 +90,20 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
   return text.str();
 }
 
-/// Does the timed work, then judges what it left in run.solved, whatever that is.
-template <typename Work>
-SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& budget, Work&& work) {
+/// One call of the solver within what is left, and what came of it by what was asked: judged from
+/// the impulses alone, outside the stopwatch, whatever they are.
+SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
+                                const Budget& left, const Budget& asked, bool prepares) {
   SolverRun run;
   const double begin = processor_seconds();
   try {
-    work(run);
+    Stopwatch watch;
+    if (prepares) solver.prepare(problem);
+    run.prepare_seconds = prepares ? watch.seconds() : 0.0;
+    watch.restart();
+    run.solved = solver.solve(problem, std::move(start), left);
+    run.startup_seconds = run.solved.startup_seconds;
+    run.solve_seconds = watch.seconds() - run.startup_seconds;
   } catch (const UnsupportedProblem&) {
     throw;
   } catch (const LostProcess&) {
@@ -114,22 +119,23 @@ SolverRun SolverRunner::guarded(const FrictionProblem& problem, const Budget& bu
     run.solved.impulses.setZero(problem.row_count());
     run.solved.reason = StopReason::numerical_failure;
   }
-  // Outside the stopwatch, from the impulses alone.
   run.error = judge_.judge(problem, run.solved.impulses);
-  if (budget.fclib)
-    run.verdict = fclib_verdict_of(run.solved.reason, run.error, budget.fclib->tolerance());
-  else
-    run.verdict = verdict_of(run.solved.reason, run.error, budget.tolerance);
+  run.verdict = asked.fclib
+                    ? fclib_verdict_of(run.solved.reason, run.error, asked.fclib->tolerance())
+                    : verdict_of(run.solved.reason, run.error, asked.tolerance);
   return run;
 }
 
-/// Rounds to smaller natural maps while the solver keeps its word and the other parts of the law
-/// are missed. Gives up where the impulses leave every scale: no solver helps then.
-SolverRun SolverRunner::until_within(Solver& solver, const FrictionProblem& problem,
-                                     const Budget& budget, SolverRun run) {
+SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start,
+                            const Budget& budget) {
+  validate(problem, masses_);
+  validate_start(problem, start);
+  SolverRun run = attempt(solver, problem, std::move(start), budget, budget, true);
+  if (budget.fclib) return run;  // its measure alone decides
+  // Rounds to smaller natural maps while the solver keeps its word and the other parts of the law
+  // are missed. Given up where the impulses leave every scale: no solver helps then.
   constexpr int most_rounds = 6;
   constexpr double aim = 0.5, largest_fall = 1e-3;  // of the bound; of the natural map in a round
-  if (budget.fclib) return run;                     // its measure alone decides
   double target = budget.tolerance;
   for (int round = 0; round < most_rounds && run.verdict == Verdict::denied; ++round) {
     const ContactError& error = run.error;
@@ -138,15 +144,10 @@ SolverRun SolverRunner::until_within(Solver& solver, const FrictionProblem& prob
     const double worst = std::max({error.approach_rms, error.cone_rms, error.complementarity_rms});
     const double ratio = ContactError::bound_factor * budget.tolerance / worst;
     target = std::min(target, error.natural_map_rms) * std::max(aim * ratio, largest_fall);
-    Budget left = rest_of(budget, run.solved.iterations, run.solve_seconds);
+    Budget left = budget.after(run.solved.iterations, run.solve_seconds);
     if (left.max_iterations < 1 || !(left.max_seconds > 0.0) || !(target > 0.0)) break;
     left.tolerance = target;
-    SolverRun next = guarded(problem, budget, [&](SolverRun& again) {
-      const Stopwatch watch;
-      again.solved = solver.solve(problem, run.solved.impulses, left);
-      again.startup_seconds = again.solved.startup_seconds;
-      again.solve_seconds = watch.seconds() - again.startup_seconds;
-    });
+    SolverRun next = attempt(solver, problem, run.solved.impulses, left, budget, false);
     // The tolerance that was asked for decides. Booked as one solve.
     if (next.error.within(budget.tolerance)) {
       next.solved.reason = StopReason::reached_tolerance;
@@ -157,29 +158,13 @@ SolverRun SolverRunner::until_within(Solver& solver, const FrictionProblem& prob
                                     run.solve_seconds + point.seconds, point.error});
     next.solved.history = std::move(run.solved.history);
     next.solved.iterations += run.solved.iterations;
-    next.solve_seconds += run.solve_seconds;
     next.prepare_seconds = run.prepare_seconds;
+    next.solve_seconds += run.solve_seconds;
     next.startup_seconds += run.startup_seconds;
     next.processor_seconds += run.processor_seconds;
     run = std::move(next);
   }
   return run;
-}
-
-SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start,
-                            const Budget& budget) {
-  validate(problem, masses_);
-  validate_start(problem, start);
-  SolverRun first = guarded(problem, budget, [&](SolverRun& run) {
-    Stopwatch watch;
-    solver.prepare(problem);
-    run.prepare_seconds = watch.seconds();
-    watch.restart();
-    run.solved = solver.solve(problem, std::move(start), budget);
-    run.startup_seconds = run.solved.startup_seconds;
-    run.solve_seconds = watch.seconds() - run.startup_seconds;
-  });
-  return until_within(solver, problem, budget, std::move(first));
 }
 
 }  // namespace ballast

@@ -58,10 +58,8 @@ class SolverRunner {
                 const Budget& budget);
 
  private:
-  template <typename Work>
-  SolverRun guarded(const FrictionProblem& problem, const Budget& budget, Work&& work);
-  SolverRun until_within(Solver& solver, const FrictionProblem& problem, const Budget& budget,
-                         SolverRun run);
+  SolverRun attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
+                    const Budget& left, const Budget& asked, bool prepares);
 
   ContactJudge judge_;
   KnownMasses masses_;  // that were validated

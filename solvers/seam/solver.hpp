@@ -2,11 +2,13 @@
 // The seam between problems and algorithms.
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "problems/algebra/friction_problem.hpp"
+#include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
 
@@ -42,11 +44,46 @@ const char* name_of(StopReason reason);
 const char* name_of(Verdict verdict);
 const char* name_of(ContactLaw law);
 
-class FclibStop;
 class WorkerTeam;
 
-/// Told the iterations of a solve, the error [m/s] and the impulses that have it: is it enough?
-using LeaveRule = std::function<bool(int iterations, double error, const Impulses& r)>;
+/// Siconos' measure of an answer (ContactError::fclib) as a reason to stop, for whoever evaluates
+/// errors:
+///
+///   |r - P_K(r - (u + mu |u_T| n))| over all contacts / max(|q|, |r|, |u|)  <=  tolerance
+///
+/// How it stands to the natural map changes while impulses grow, so no tolerance on the one can
+/// stand for a tolerance on the other.
+class FclibStop {
+ public:
+  /// `problem` outlives it. Throws InvalidProblem for a mass block that is not positive definite.
+  FclibStop(const FrictionProblem& problem, double tolerance);
+
+  double tolerance() const { return tolerance_; }
+  /// The measure of `r`, from u = W r + q recomputed: one product with W.
+  double measure(const Impulses& r);
+  /// The measure is below its tolerance. `natural_map` of the same impulses [m/s] says whether a
+  /// look is worth its product: not while it is neither half of what it was at the last look nor
+  /// near the aim. The first looks are always taken.
+  bool reached(const Impulses& r, double natural_map);
+  /// Where the natural map should stand when the measure is reached [m/s], from the last look;
+  /// infinite before the first.
+  double aim() const { return aim_; }
+
+  /// reached() asks for a hair less than the tolerance, because the judge sums in another order.
+  static constexpr double margin = 1e-3;
+
+ private:
+  static constexpr int first_looks = 4;
+  static constexpr double near_aim = 3.0;
+
+  const FrictionProblem* problem_;
+  double tolerance_, aim_ = std::numeric_limits<double>::infinity();
+  double looked_at_ = std::numeric_limits<double>::infinity();
+  int looks_ = 0;
+  std::vector<MassRoot> roots_;
+  Eigen::VectorXd q_, u_, v_;
+  double q_norm_ = 0.0;
+};
 
 /// When to stop. The error meant is the judge's scaled natural map, rms over contacts, in m/s
 /// (contact_error.hpp).
@@ -54,21 +91,20 @@ struct Budget {
   double tolerance = 1e-8;     ///< [m/s]; 0: run until another limit
   int max_iterations = 10000;  ///< sweeps, Newton steps, ... : the backend's outer unit of work
   double max_seconds = 1e30;   ///< wall clock
-  bool keep_history =
-      false;  ///< record (iteration, seconds, error) at every evaluation of the error
-  /// Not null: solvers stop on this measure as well (fclib_stop.hpp), wherever they evaluate the
-  /// error. One object serves one solve.
+  /// Record (iteration, seconds, error) at every evaluation of the error.
+  bool keep_history = false;
+  /// Not null: solvers stop on this measure as well, wherever they evaluate the error. One object
+  /// serves one solve.
   FclibStop* fclib = nullptr;
-  /// Not null: asked wherever the error is evaluated; true ends the solve as stalled. For who has
-  /// something better to do with the rest of the budget.
-  const LeaveRule* leave = nullptr;
-  /// Not null: a solver whose iterations are sweeps and factorisations by turns adds one here for
-  /// each factorisation. For who counts work.
-  int* factorisations = nullptr;
+  /// Not empty: told the iterations and the error [m/s] wherever it is evaluated; true ends the
+  /// solve as stalled. For who has something better to do with the rest of the budget.
+  std::function<bool(int iterations, double error)> gives_up = {};
 
   /// The natural map to plan for [m/s]: the tolerance, or where `fclib` expects its own to be
   /// reached.
   double aim() const;
+  /// What is left after so many iterations and seconds; never less than nothing.
+  Budget after(int iterations, double seconds) const;
 };
 
 struct HistoryPoint {
@@ -111,10 +147,6 @@ class Solver {
   /// Allocation, ordering, symbolic and numeric factorisation: timed apart from solve(). Throws
   /// UnsupportedProblem.
   virtual void prepare(const FrictionProblem& problem) = 0;
-  /// What one of its factorisations costs: multiplications and additions in dense blocks. Known
-  /// once it is prepared; with a stored W, where that hangs on which contacts are pressed, of the
-  /// last one. 0: it has none, or does not know.
-  virtual double operations() const { return 0.0; }
   /// Whose members prepare() and solve() may use from now on; null: the caller alone. The same bits
   /// whatever their number; a backend that has no use for more than one ignores it.
   virtual void use_team(WorkerTeam* /*team*/) {}
@@ -123,6 +155,20 @@ class Solver {
   /// prepare().
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
 };
+
+/// What a backend that keeps dense matrices promises: it takes every problem with at most so many
+/// contacts, and so many with friction among them. Beyond that it may decline (UnsupportedProblem).
+/// Zeros: it takes problems of any size.
+struct SizeLimit {
+  int contacts = 0;
+  int with_friction = 0;  ///< contacts with mu > 0
+
+  bool none() const { return contacts == 0; }
+  bool admits(const FrictionProblem& problem) const;
+};
+
+/// Contacts with mu > 0.
+int contacts_with_friction(const FrictionProblem& problem);
 
 /// Makes one backend, with the settings that its row in the list stands for.
 using SolverMaker = std::unique_ptr<Solver> (*)();

@@ -76,8 +76,8 @@ bool is_through_libm(const SolverEntry& entry) {
 
 /// SuiteSparse orders the bodies, which is a matter of whole numbers; the factors are our own.
 bool factors_over_bodies(const SolverEntry& entry) {
-  constexpr std::array names = {"admm",      "interior_point", "newton_ac",   "newton_burst",
-                                "newton_fb", "newton_nm",      "prox_newton", "sap"};
+  constexpr std::array names = {"admm",      "interior_point", "newton_ac", "newton_burst",
+                                "newton_fb", "prox_newton",    "sap"};
   return entry.make && std::ranges::count(names, std::string(entry.name)) > 0;
 }
 

@@ -7,7 +7,7 @@ using namespace ballast;
 
 namespace {
 
-constexpr Budget brief{.tolerance = 1e-8, .max_iterations = 500, .max_seconds = 1.0};
+const Budget brief{.tolerance = 1e-8, .max_iterations = 500, .max_seconds = 1.0};
 
 /// A stored W whose diagonal blocks are off symmetry by `part` of their diagonal, as implicit
 /// gyroscopic terms make them, and q such that some contacts slide, some stick and some open.

@@ -75,7 +75,7 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
   const auto compared = [&](const char* name, const char* iterations) {
     const fs::path output = folder.path() / name;
     const ProgramResult result = ballast_program(
-        {"compare", "pile:contacts=12,seed=123", "--solvers", "pgs,jacobi", "--tolerances",
+        {"compare", "pile:contacts=12,seed=123", "--solvers", "pgs,apgd", "--tolerances",
          iterations, "--memory", "0", "--no-report", "--output", output.string()});
     INFO(result.errors);
     REQUIRE(result.status == 0);

@@ -18,7 +18,7 @@ TEST_CASE("captured cases are seen in 3D with the backends that gave an answer, 
   fs::copy_file(file, place.path() / "alone.hdf5");
 
   CompareOptions options;
-  options.solvers = parse_solvers("pgs,jacobi,nncg");
+  options.solvers = parse_solvers("pgs,apgd,nncg");
   options.tolerances = {1e-3};
   options.max_seconds = 5.0;
   options.limits.memory_MB = 0.0;  // sanitizers reserve terabytes
@@ -33,7 +33,7 @@ TEST_CASE("captured cases are seen in 3D with the backends that gave an answer, 
   auto rows =
       run_comparison(cases, options, [](const auto&, bool, size_t, size_t) { return true; });
   for (CompareRow& row : rows)
-    if (row.solver == "jacobi") row.verdict = Verdict::crashed;
+    if (row.solver == "apgd") row.verdict = Verdict::crashed;
 
   const auto goes_on = [] { return true; };
   CHECK(write_case_views(rows, options, goes_on) == cases.size() - 1);
@@ -42,7 +42,7 @@ TEST_CASE("captured cases are seen in 3D with the backends that gave an answer, 
   const std::string text = read_whole_file(page);
   CHECK_THAT(text, Catch::Contains(R"("backend":"pgs")") &&
                        Catch::Contains(R"("backend":"nncg")") &&
-                       !Catch::Contains(R"("backend":"jacobi")"));
+                       !Catch::Contains(R"("backend":"apgd")"));
   // what is there stays; who is stopped writes nothing
   write_whole_file(page, "kept");
   write_case_views(rows, options, goes_on);

@@ -77,8 +77,7 @@ TEST_CASE("The natural map needs one round, in units of the velocity scale") {
 
 /// Methods whose error falls by little from one look to the next.
 bool is_slow(const std::string& name) {
-  for (const char* slow :
-       {"pgs", "psor", "pgs_symmetric", "nncg", "jacobi", "anderson_pgs", "apgd"})
+  for (const char* slow : {"pgs", "psor", "nncg", "apgd"})
     if (name == slow) return true;
   return false;
 }

@@ -14,7 +14,7 @@ using namespace ballast;
 namespace {
 
 constexpr double e = 0.8;
-constexpr Budget exact{.tolerance = 1e-11, .max_iterations = 200000};
+const Budget exact{.tolerance = 1e-11, .max_iterations = 200000};
 
 /// One cluster of two bodies that strikes the ground, with friction: dynamics form, and what each
 /// contact rebounds with.

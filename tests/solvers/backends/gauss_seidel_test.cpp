@@ -1,8 +1,16 @@
 #include "solvers/backends/gauss_seidel.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/pile_problems.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 
@@ -25,14 +33,130 @@ TEST_CASE("a NaN that slipped past validation is a numerical failure, not an ans
   CHECK(solved.reason == StopReason::numerical_failure);
 }
 
-TEST_CASE("the settings decide when the error is looked at") {
-  const KnownSolution known = make_known_solution({});
-  const Budget budget{.tolerance = 0.0, .max_iterations = 20, .keep_history = true};
-  const auto solver = make_gauss_seidel({.first_check = 5, .check_growth = 2.0});
-  solver->prepare(known.problem);
-  const Solved solved =
-      solver->solve(known.problem, Impulses::Zero(known.problem.row_count()), budget);
-  std::vector<int> looked;
-  for (const HistoryPoint& point : solved.history) looked.push_back(point.iteration);
-  CHECK(looked == std::vector<int>{0, 5, 10, 20});
+namespace {
+
+FrictionProblem slender_pile(int contacts) {
+  return make_pile({.contacts = contacts, .active = 1.0, .slenderness = 20.0, .seed = 3});
+}
+
+/// So many iterations of the backend, from no impulses: the last iterate, better or not.
+Impulses after(const FrictionProblem& problem, int iterations) {
+  const auto solver = make_nesterov_pgs({.returns_best = false});
+  solver->prepare(problem);
+  Budget budget;
+  budget.tolerance = 0.0;
+  budget.max_iterations = iterations;
+  return solver->solve(problem, Impulses::Zero(problem.row_count()), budget).impulses;
+}
+
+/// The same by the book: whole iterates and all squares kept, each sweep from x + beta (x - x
+/// before).
+Impulses by_the_book(const FrictionProblem& problem, int iterations, int& restarts, int& limited) {
+  AnySweep sweep;
+  sweep.prepare(problem);
+  sweep->load(problem, Impulses::Zero(problem.row_count()));
+  Eigen::VectorXd x, before, from;
+  const Eigen::Index count = sweep->save(x);  // impulses
+  before = from = x;
+  std::vector<double> squares;  // of the search
+  for (int k = 0, vain = 0, rest = 0; k < iterations; ++k) {
+    sweep->restore(from);
+    sweep->sweep();
+    before = x;
+    sweep->save(x);
+    squares.push_back((x - from).head(count).squaredNorm());
+    const double now = squares.back(), least = *std::min_element(squares.begin(), squares.end());
+    const int j = static_cast<int>(squares.size()) - 1;
+    const bool circles = rest == 0 && now > 1.3 * least;
+    if (circles) {
+      vain = j < 6 ? vain + 1 : 0;
+      rest = vain == 3 ? 33 : 0;
+      if (rest > 0) vain = 0;
+      ++restarts;
+    }
+    if (rest > 0) --rest;
+    if (circles || rest > 0 || j == 0) {
+      squares = {now};
+      from = x;
+      continue;
+    }
+    const int sweeps = j >= 8 ? 8 : j >= 4 ? 4 : j >= 2 ? 2 : 1;
+    const double factor = std::pow(now / squares[j - sweeps], 1.0 / sweeps);
+    limited += factor < j / (j + 2.0);
+    from = x + std::min(j / (j + 2.0), factor) * (x - before);
+  }
+  sweep->restore(x);
+  Impulses r = Impulses::Zero(problem.row_count());
+  sweep->store(problem, r);
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("nesterov_pgs: its iterates are those of the formula, over bodies and over W") {
+  const FrictionProblem problem = make_known_solution({.bodies = 40, .contacts = 120}).problem;
+  int restarts = 0, limited = 0;
+  for (const int iterations : {1, 2, 3, 7, 25, 120}) {
+    const Impulses expected = by_the_book(problem, iterations, restarts, limited);
+    CHECK((after(problem, iterations) - expected).norm() <= 1e-11 * expected.norm());
+  }
+  CHECK(restarts > 0);  // both rules have come into it
+  CHECK(limited > 0);
+
+  const FrictionProblem stored = only_delassus(problem);
+  for (const int iterations : {1, 2, 3, 7, 25, 120}) {
+    const Impulses expected = by_the_book(stored, iterations, restarts, limited);
+    CHECK((after(stored, iterations) - expected).norm() <= 1e-11 * expected.norm());
+  }
+}
+
+TEST_CASE("nesterov_pgs: a chain of bodies takes less than half of the sweeps without momentum") {
+  const FrictionProblem problem = slender_pile(1500);
+  const auto iterations = [&](Solver& solver) {
+    solver.prepare(problem);
+    Budget budget;
+    budget.tolerance = 1e-6;
+    const Solved solved = solver.solve(problem, Impulses::Zero(problem.row_count()), budget);
+    CHECK(solved.reason == StopReason::reached_tolerance);
+    CHECK(contact_error(problem, solved.impulses).natural_map_rms <= 1e-6);
+    return solved.iterations;
+  };
+  CHECK(2 * iterations(*make_nesterov_pgs()) < iterations(*make_gauss_seidel()));
+}
+
+TEST_CASE("nesterov_pgs: where momentum goes round without end, plain sweeps come through") {
+  // Without rests 20,000 sweeps were not enough; plain ones need 12,900.
+  const FrictionProblem problem = make_pile(random_pile(59, 300));
+  const auto solver = make_nesterov_pgs();
+  solver->prepare(problem);
+  const double scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
+  Budget budget;
+  budget.tolerance = 1e-5 * scale;
+  budget.max_iterations = 20000;
+  const Solved solved = solver->solve(problem, Impulses::Zero(problem.row_count()), budget);
+  CHECK(solved.reason == StopReason::reached_tolerance);
+  CHECK(contact_error(problem, solved.impulses).natural_map_rms <= budget.tolerance);
+}
+
+TEST_CASE(
+    "nesterov_pgs: where the last iterate is a worse one, the best that was seen comes back") {
+  const FrictionProblem pile = make_pile(random_pile(59, 300)), stored = only_delassus(pile);
+  for (const FrictionProblem* problem : {&pile, &stored}) {
+    const auto solver = make_nesterov_pgs();
+    solver->prepare(*problem);
+    for (int iterations = 20; iterations < 400; iterations += 7) {
+      Budget budget;
+      budget.tolerance = 0.0;
+      budget.max_iterations = iterations;
+      budget.keep_history = true;
+      const Solved solved = solver->solve(*problem, Impulses::Zero(problem->row_count()), budget);
+      double least = solved.history.front().error;
+      for (const HistoryPoint& point : solved.history) least = std::min(least, point.error);
+      CAPTURE(problem == &pile, iterations);
+      CHECK(solved.own_residual <= 1.05 * least);  // one plain sweep follows the best
+      CHECK(solved.history.back().error == solved.own_residual);
+      CHECK(contact_error(*problem, solved.impulses).natural_map_rms ==
+            Approx(solved.own_residual).epsilon(1e-6));
+    }
+  }
 }

@@ -7,13 +7,6 @@
 
 using namespace ballast;
 
-namespace {
-
-/// Without the last stretch by Newton.
-InteriorPointSettings alone() { return {.polish_from = 0.0}; }
-
-}  // namespace
-
 TEST_CASE(
     "the interior point alone solves frictionless problems in few factorisations, in both forms",
     "[factors]") {
@@ -24,8 +17,8 @@ TEST_CASE(
     for (const bool stored : {false, true}) {
       if (stored) add_delassus_form(problem);
       problem.has_dynamics = !stored;
-      const SolverRun run =
-          SolverRunner().run(*make_interior_point(alone()), problem, {}, {.tolerance = 1e-9});
+      const SolverRun run = SolverRunner().run(*make_interior_point(/*polish_from=*/0.0), problem,
+                                               {}, {.tolerance = 1e-9});
       CAPTURE(seed, stored, name_of(run.solved.reason), run.error.natural_map_rms);
       CHECK(run.is_solved());
       CHECK(run.solved.iterations < 40);
@@ -37,7 +30,7 @@ TEST_CASE("the interior point alone comes near Coulomb's law, and with Newton al
           "[factors]") {
   const FrictionProblem problem = make_known_solution({.bodies = 30, .contacts = 60}).problem;
   const double scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
-  const SolverRun near = SolverRunner().run(*make_interior_point(alone()), problem, {},
+  const SolverRun near = SolverRunner().run(*make_interior_point(/*polish_from=*/0.0), problem, {},
                                             {.tolerance = 1e-4 * scale, .max_iterations = 300});
   CHECK(near.is_solved());
   const Budget whole{.tolerance = 1e-10, .max_iterations = 300, .keep_history = true};

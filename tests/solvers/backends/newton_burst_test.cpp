@@ -2,8 +2,7 @@
 #include "platform/worker_team.hpp"
 
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/backends/nesterov_pgs.hpp"
-#include "solvers/backends/step_work.hpp"
+#include "solvers/backends/gauss_seidel.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
@@ -43,24 +42,6 @@ TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[fact
       *solver, deficient(1), {}, {.tolerance = 1e-10, .max_iterations = 500, .max_seconds = 20.0});
   CAPTURE(run.solved.iterations, run.error.natural_map_rms);
   CHECK(run.is_solved());
-}
-
-TEST_CASE("bursts that are as long as a step costs are not longer", "[factors]") {
-  const FrictionProblem problem = deficient(1);
-  const auto solver = make_newton_burst({.start_sweeps = 0, .is_balanced = true});
-  int factorisations = 0;
-  const SolverRun run = SolverRunner().run(
-      *solver, problem, {},
-      {.tolerance = 1e-10, .max_iterations = 5000, .factorisations = &factorisations});
-  CHECK(run.is_solved());
-  StepWork work;
-  work.count(problem);
-  work.learn(solver->operations());
-  const int sweeps = run.solved.iterations - factorisations;
-  CAPTURE(sweeps, factorisations, work.burst_step() / work.sweep());
-  CHECK(sweeps > 0);
-  // A step that lost much is taken back, and swept from where it began.
-  CHECK(sweeps * work.sweep() < 2.0 * factorisations * work.burst_step());
 }
 
 TEST_CASE("where sweeps are enough it is nesterov_pgs, bit for bit", "[factors]") {
@@ -109,19 +90,17 @@ TEST_CASE("steps that must lower the error come first, and the walk where they a
 }
 
 TEST_CASE("steps that lower the error end after their part", "[factors]") {
-  // A tolerance of 0 is never met; without the walk only they factorise once the rounds are over.
-  const auto factorisations_of = [](int descent_steps) {
+  // A tolerance of 0 is never met; the rounds before are the same, and there is no walk after them.
+  const auto iterations_of = [](int descent_steps) {
     const auto solver = make_newton_burst({.start_sweeps = 20,
                                            .promised_sweeps = 10,
                                            .descent_steps = descent_steps,
                                            .most_steps = 0});
-    int count = 0;
-    SolverRunner().run(*solver, deficient(2), {},
-                       {.tolerance = 0.0, .max_iterations = 100000, .factorisations = &count});
-    return count;
+    return SolverRunner()
+        .run(*solver, deficient(2), {}, {.tolerance = 0.0, .max_iterations = 100000})
+        .solved.iterations;
   };
-  const int rounds = factorisations_of(0), some = factorisations_of(7),
-            most = factorisations_of(60);
+  const int rounds = iterations_of(0), some = iterations_of(7), most = iterations_of(60);
   CAPTURE(rounds, some, most);
   CHECK(some > rounds);
   CHECK(some <= rounds + 7 + NewtonBurstSettings{}.inner_steps);  // the last one is not cut short

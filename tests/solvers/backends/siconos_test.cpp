@@ -9,7 +9,6 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/pile_problems.hpp"
 #include "problems/algebra/stress_problems.hpp"
-#include "solvers/seam/fclib_stop.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 

@@ -11,7 +11,6 @@
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/backends/nncg.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -185,7 +184,7 @@ TEST_CASE("the same bits whatever the number of threads") {
   for (const bool accelerated : {false, true}) {
     Impulses first;
     for (const int threads : {1, 2, 3, 7}) {
-      const auto solver = accelerated ? make_nncg() : make_gauss_seidel({});
+      const auto solver = accelerated ? make_nncg() : make_gauss_seidel();
       WorkerTeam team;
       team.resize(threads);
       solver->use_team(&team);

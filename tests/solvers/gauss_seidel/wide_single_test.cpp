@@ -6,7 +6,6 @@
 #include "platform/random.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/backends/nncg.hpp"
 #include "tests/catch.hpp"
 #include "tests/solvers/gauss_seidel/grain_problem.hpp"
 

@@ -1,9 +1,5 @@
 #include "solvers/parts/anderson.hpp"
 
-#include "problems/algebra/known_solutions.hpp"
-#include "solvers/backends/anderson_pgs.hpp"
-#include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -42,16 +38,4 @@ TEST_CASE("entries that are not compared are combined all the same") {
     CHECK(x[1] == Approx(3.0 * x[0] + 1.0));
   }
   CHECK(x[0] == Approx(2.0));
-}
-
-TEST_CASE("mixing makes Gauss-Seidel take fewer sweeps on a problem where it crawls") {
-  const FrictionProblem problem =
-      make_known_solution({.bodies = 30, .contacts = 60, .mass_ratio = 30.0}).problem;
-  const Budget budget{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 20.0};
-  SolverRunner runner;
-  const SolverRun plain = runner.run(*make_gauss_seidel(), problem, {}, budget);
-  const SolverRun mixed = runner.run(*make_anderson_pgs(), problem, {}, budget);
-  CHECK(plain.is_solved());
-  CHECK(mixed.is_solved());
-  CHECK(2 * mixed.solved.iterations < plain.solved.iterations);
 }

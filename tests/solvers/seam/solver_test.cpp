@@ -1,16 +1,100 @@
 #include "solvers/seam/solver.hpp"
 
+#include "platform/random.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 
-TEST_CASE("every reason and every law has a name of its own, as records keep it") {
+TEST_CASE("reasons, verdicts and laws have the names that records keep") {
   CHECK(std::string(name_of(StopReason::reached_tolerance)) == "reached_tolerance");
-  CHECK(std::string(name_of(StopReason::iteration_limit)) == "iteration_limit");
-  CHECK(std::string(name_of(StopReason::time_limit)) == "time_limit");
-  CHECK(std::string(name_of(StopReason::stalled)) == "stalled");
   CHECK(std::string(name_of(StopReason::numerical_failure)) == "numerical_failure");
+  CHECK(std::string(name_of(Verdict::solved)) == "solved");
+  CHECK(std::string(name_of(Verdict::unreadable)) == "unreadable");
   CHECK(std::string(name_of(ContactLaw::coulomb)) == "coulomb");
-  CHECK(std::string(name_of(ContactLaw::convex_relaxation)) == "convex_relaxation");
   CHECK(std::string(name_of(ContactLaw::pyramid)) == "pyramid");
+}
+
+TEST_CASE("what is left of a budget is never less than nothing, and the rest of it stays") {
+  const Budget whole{
+      .tolerance = 1e-3, .max_iterations = 10, .max_seconds = 2.0, .keep_history = true};
+  const Budget rest = whole.after(4, 0.5);
+  CHECK(rest.max_iterations == 6);
+  CHECK(rest.max_seconds == 1.5);
+  CHECK(rest.tolerance == 1e-3);
+  CHECK(rest.keep_history);
+  CHECK(whole.after(11, 3.0).max_iterations == 0);
+  CHECK(whole.after(11, 3.0).max_seconds == 0.0);
+}
+
+TEST_CASE("a limit of size admits both counts up to itself, and no limit everything") {
+  const auto with = [](std::vector<double> friction) {
+    FrictionProblem problem;
+    problem.friction = std::move(friction);
+    return problem;
+  };
+  const SizeLimit limit{.contacts = 3, .with_friction = 1};
+  CHECK_FALSE(limit.none());
+  CHECK(limit.admits(with({})));
+  CHECK(limit.admits(with({0.0, 0.5, 0.0})));
+  CHECK_FALSE(limit.admits(with({0.0, 0.0, 0.0, 0.0})));
+  CHECK_FALSE(limit.admits(with({0.5, 1e-9})));
+  CHECK(SizeLimit{}.none());
+  CHECK(SizeLimit{}.admits(with(std::vector<double>(5000, 0.5))));
+}
+
+// Siconos' measure as a reason to stop: the judge's number, looked at when it may matter.
+
+TEST_CASE("the measure is the judge's, for both forms and for one-row contacts") {
+  KnownSolutionSettings settings;
+  settings.frictionless_fraction = 0.3;
+  settings.mass_ratio = 1e3;
+  FrictionProblem problem = make_known_solution(settings).problem;
+  for (const bool is_stored : {false, true}) {
+    if (is_stored) {
+      add_delassus_form(problem);
+      problem.has_dynamics = false;
+    }
+    FclibStop stop(problem, 1e-4);
+    for (std::uint64_t seed = 1; seed < 6; ++seed) {
+      ProblemRandom random(seed);
+      Impulses r(problem.row_count());
+      for (double& x : r) x = random.uniform(-1.0, 2.0);
+      CHECK(stop.measure(r) == Approx(contact_error(problem, r).fclib).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("it is reached where the judge says so, and aims at the natural map of that place") {
+  const KnownSolution known = make_known_solution({});
+  FclibStop stop(known.problem, 1e-4);
+  CHECK(stop.aim() > 1e300);
+  const Impulses near = known.r * (1.0 + 1e-7), far = known.r * 1.5;
+  const ContactError at_far = contact_error(known.problem, far);
+  CHECK_FALSE(stop.reached(far, at_far.natural_map_rms));
+  CHECK(stop.aim() == Approx(at_far.natural_map_rms * 1e-4 / at_far.fclib));
+  CHECK(stop.reached(near, contact_error(known.problem, near).natural_map_rms));
+  CHECK_FALSE(stop.reached(near, std::numeric_limits<double>::quiet_NaN()));
+}
+
+TEST_CASE("after the first looks it looks again only where the natural map has halved or is near") {
+  const KnownSolution known = make_known_solution({});
+  FclibStop stop(known.problem, 1e-4);
+  const Impulses far = known.r * 1.5;
+  const double error = contact_error(known.problem, far).natural_map_rms;
+  for (int k = 0; k < 4; ++k) CHECK_FALSE(stop.reached(far, error));
+  // the solution itself, called no better than before, is not looked at
+  CHECK_FALSE(stop.reached(known.r, 0.9 * error));
+  CHECK(stop.reached(known.r, 0.4 * error));
+}
+
+TEST_CASE("a budget without it aims at its tolerance") {
+  const KnownSolution known = make_known_solution({});
+  FclibStop stop(known.problem, 1e-4);
+  Budget budget{.tolerance = 3e-5};
+  CHECK(budget.aim() == 3e-5);
+  budget.fclib = &stop;
+  CHECK(budget.aim() > 1e300);
 }

@@ -1,0 +1,277 @@
+#include "solvers/backends/ipopt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <IpIpoptApplication.hpp>
+#include <IpSolveStatistics.hpp>
+#include <IpTNLP.hpp>
+
+#include "platform/child_process.hpp"
+#include "platform/clock.hpp"
+#include "platform/pack.hpp"
+#include "solvers/parts/cone_program.hpp"
+
+namespace ballast {
+namespace {
+
+using Eigen::VectorXd;
+using Ipopt::Index;
+using Ipopt::Number;
+
+/// Derivatives as a list (row, column, value); entries of the same place are added. Ipopt asks for
+/// the places once: every call lists the same ones in the same order.
+struct Entries {
+  std::vector<Index> row, column;
+  std::vector<Number> value;
+  void clear() { row.clear(), column.clear(), value.clear(); }
+  void add(int i, int j, double x) { row.push_back(i), column.push_back(j), value.push_back(x); }
+};
+
+/// min 1/2 x.W x + q.x in polar coordinates y (n, d1, d2): n >= 0 and 1 - |d|^2 >= 0 for each
+/// contact with friction.
+class ConeNlp final : public Ipopt::TNLP {
+ public:
+  ConeNlp(const ConeProgram& cones, const VectorXd& q, const VectorXd& start)
+      : cones_(cones), q_(q), start_(start), answer_(start) {
+    for (int k = 0; k < cones.contact_count(); ++k) {
+      if (cones.has_friction(k)) with_friction_.push_back(k);
+      for (int row = cones.row_begin[k]; row < cones.row_begin[k + 1]; ++row) contact_.push_back(k);
+    }
+  }
+
+  const VectorXd& answer() const { return answer_; }
+
+  bool get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries,
+                    IndexStyleEnum& style) override {
+    n = cones_.row_count();
+    m = constraints();
+    jacobian(start_);
+    hessian(start_, 1.0, VectorXd::Ones(m));
+    jacobian_entries = static_cast<Index>(jacobian_.value.size());
+    hessian_entries = static_cast<Index>(hessian_.value.size());
+    style = C_STYLE;
+    return true;
+  }
+  bool get_bounds_info(Index n, Number* x_low, Number* x_high, Index m, Number* g_low,
+                       Number* g_high) override {
+    constexpr double unbounded = 1e20;
+    std::fill(x_low, x_low + n, -unbounded);
+    std::fill(x_high, x_high + n, unbounded);
+    for (int k = 0; k < cones_.contact_count(); ++k) x_low[cones_.row_begin[k]] = 0.0;
+    std::fill(g_low, g_low + m, 0.0);
+    std::fill(g_high, g_high + m, unbounded);
+    return true;
+  }
+  bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index, bool,
+                          Number*) override {
+    std::copy(start_.begin(), start_.end(), x);
+    return true;
+  }
+  bool eval_f(Index n, const Number* y, bool, Number& value) override {
+    const VectorXd x = cones_.from_polar(take(y, n));
+    value = 0.5 * x.dot(cones_.w * x) + q_.dot(x);
+    return std::isfinite(value);
+  }
+  bool eval_grad_f(Index n, const Number* y, bool, Number* gradient) override {
+    return give(cones_.polar_gradient(take(y, n), velocity(take(y, n))), gradient);
+  }
+  bool eval_g(Index n, const Number* y, bool, Index m, Number* g) override {
+    VectorXd values(m);
+    for (int i = 0; i < m; ++i)
+      values[i] = 1.0 - take(y, n).segment<2>(first_row(i) + 1).squaredNorm();
+    return give(values, g);
+  }
+  bool eval_jac_g(Index n, const Number* y, bool, Index, Index, Index* rows, Index* columns,
+                  Number* values) override {
+    if (values) jacobian(take(y, n));
+    return give(jacobian_, rows, columns, values);
+  }
+  bool eval_h(Index n, const Number* y, bool, Number factor, Index m, const Number* multipliers,
+              bool, Index, Index* rows, Index* columns, Number* values) override {
+    if (values) hessian(take(y, n), factor, take(multipliers, m));
+    return give(hessian_, rows, columns, values);
+  }
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* y, const Number*,
+                         const Number*, Index, const Number*, const Number*, Number,
+                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+    answer_ = take(y, n);
+  }
+
+ private:
+  /// x_row depends on at most two entries of y.
+  struct Slopes {
+    int count, entry[2];
+    double slope[2];
+  };
+
+  int constraints() const { return static_cast<int>(with_friction_.size()); }
+  int first_row(int i) const { return cones_.row_begin[with_friction_[i]]; }
+  VectorXd velocity(const VectorXd& y) const { return cones_.w * cones_.from_polar(y) + q_; }
+
+  Slopes slopes(const VectorXd& y, int row) const {
+    // x_N is n itself; an entry of x_T is mu n d and depends on n and its own d.
+    const int k = contact_[row], normal = cones_.row_begin[k];
+    if (row == normal) return {1, {row, 0}, {1.0, 0.0}};
+    return {2, {normal, row}, {cones_.friction[k] * y[row], cones_.friction[k] * y[normal]}};
+  }
+  /// value * x_i x_j, second derivatives of products of first ones: lower triangle.
+  void add_product(const VectorXd& y, int i, int j, double value) {
+    const Slopes a = slopes(y, i), b = slopes(y, j);
+    for (int p = 0; p < a.count; ++p)
+      for (int q = 0; q < b.count; ++q)
+        if (a.entry[p] >= b.entry[q])
+          hessian_.add(a.entry[p], b.entry[q], value * a.slope[p] * b.slope[q]);
+  }
+
+  void jacobian(const VectorXd& y) {
+    jacobian_.clear();
+    for (int i = 0; i < constraints(); ++i)
+      for (int j = 1; j <= 2; ++j) jacobian_.add(i, first_row(i) + j, -2.0 * y[first_row(i) + j]);
+  }
+
+  /// Lower triangle of factor * f'' + sum multiplier_i g_i''.
+  void hessian(const VectorXd& y, double factor, const VectorXd& multipliers) {
+    hessian_.clear();
+    // With x = x(y) and u = W x + q the second derivatives are J^T W J + sum_i u_i x_i''. Of x_T =
+    // mu n d only the mixed ones, mu, are not zero. Each 1 - |d|^2 adds -2 times its multiplier.
+    for (int row = 0; row < cones_.row_count(); ++row)
+      for (SparseRows::InnerIterator entry(cones_.w, row); entry; ++entry)
+        add_product(y, row, static_cast<int>(entry.col()), factor * entry.value());
+    const VectorXd u = velocity(y);
+    for (int i = 0; i < constraints(); ++i)
+      for (int j = 1; j <= 2; ++j) {
+        const int row = first_row(i) + j;
+        hessian_.add(row, first_row(i), factor * cones_.friction[with_friction_[i]] * u[row]);
+        hessian_.add(row, row, -2.0 * multipliers[i]);
+      }
+  }
+
+  static VectorXd take(const Number* x, Index size) { return Eigen::Map<const VectorXd>(x, size); }
+  /// Ipopt shortens its step when it is told that a value is none.
+  static bool give(const VectorXd& x, Number* out) {
+    std::copy(x.begin(), x.end(), out);
+    return x.allFinite();
+  }
+  /// Ipopt asks twice: first for the pattern (no values), then for values.
+  static bool give(const Entries& entries, Index* rows, Index* columns, Number* values) {
+    if (values) {
+      std::copy(entries.value.begin(), entries.value.end(), values);
+      return std::all_of(values, values + entries.value.size(),
+                         [](double x) { return std::isfinite(x); });
+    }
+    std::copy(entries.row.begin(), entries.row.end(), rows);
+    std::copy(entries.column.begin(), entries.column.end(), columns);
+    return true;
+  }
+
+  const ConeProgram& cones_;
+  const VectorXd& q_;
+  VectorXd start_, answer_;
+  Entries jacobian_, hessian_;
+  std::vector<int> with_friction_;  ///< contact of each constraint
+  std::vector<int> contact_;        ///< of each row
+};
+
+struct IpoptSettings {
+  double tolerance;
+  int max_iterations;
+  double max_seconds;
+};
+
+void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings) {
+  options.SetIntegerValue("print_level", 0);
+  options.SetStringValue("sb", "yes");
+  options.SetStringValue("linear_solver", "mumps");
+  options.SetStringValue("nlp_scaling_method", "none");  // the program is scaled already
+  options.SetNumericValue("bound_relax_factor", 0.0);    // the cone is the cone
+  // No "acceptable" level: a round ends where the program is solved, or at a limit.
+  options.SetNumericValue("tol", settings.tolerance);
+  options.SetNumericValue("constr_viol_tol", 1e-10);
+  options.SetNumericValue("compl_inf_tol", settings.tolerance);
+  options.SetIntegerValue("acceptable_iter", 0);
+  options.SetIntegerValue("max_iter", settings.max_iterations);
+  // In time to hand out what there is; the parent kills at the limit itself.
+  if (settings.max_seconds < 1e6)
+    options.SetNumericValue("max_cpu_time", std::max(1e-3, 0.9 * settings.max_seconds));
+}
+
+struct IpoptAnswer {
+  VectorXd y;  ///< empty: the child gave no answer
+  int iterations = 1;
+  double seconds = 0.0;  ///< of Ipopt itself, in its process
+
+  template <typename Carrier>
+  void carry(Carrier& c) {
+    c.list(y);
+    c.number(iterations);
+    c.number(seconds);
+  }
+};
+
+/// The bytes of an IpoptAnswer; none where Ipopt did not start. Nothing is destroyed: the answer is
+/// sent after this function, and Ipopt's destructors may crash.
+std::string run_here(const ConeProgram& cones, const VectorXd& q, const VectorXd& start,
+                     const IpoptSettings& settings) {
+  ConeNlp* nlp = new ConeNlp(cones, q, start);
+  auto* held = new Ipopt::SmartPtr<Ipopt::TNLP>(nlp);
+  auto* application =
+      new Ipopt::SmartPtr<Ipopt::IpoptApplication>(new Ipopt::IpoptApplication(false));
+  set_options(*(*application)->Options(), settings);
+  if ((*application)->Initialize("") != Ipopt::Solve_Succeeded) return {};
+  const Stopwatch watch;
+  (*application)->OptimizeTNLP(*held);
+  IpoptAnswer answer{nlp->answer(), 1, watch.seconds()};
+  const Ipopt::SmartPtr<Ipopt::SolveStatistics> statistics = (*application)->Statistics();
+  if (IsValid(statistics)) answer.iterations = static_cast<int>(statistics->IterationCount());
+  Packer packer;
+  answer.carry(packer);
+  return packer.bytes();
+}
+
+class IpoptCone final : public Solver {
+ public:
+  void prepare(const FrictionProblem& problem) override { cones_.take(problem); }
+
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    constexpr int patience = 12;
+    return cones_.solve(problem, std::move(start), budget, patience,
+                        [this](const ConeRequest& request, RoundAnswer& answer) {
+                          const IpoptAnswer ipopt = run(request);
+                          if (ipopt.y.size() > 0) answer.x = cones_.from_polar(ipopt.y);
+                          answer.iterations = ipopt.iterations;
+                          answer.seconds = ipopt.seconds;
+                        });
+  }
+
+ private:
+  IpoptAnswer run(const ConeRequest& request) const {
+    const VectorXd u = cones_.w * request.start + request.q;
+    const VectorXd inside = cones_.to_polar(request.start, u, 0.1, 0.9);
+    const IpoptSettings settings{std::clamp(1e-2 * request.accuracy, 1e-13, 1e-6),
+                                 std::min(500, request.left.max_iterations),
+                                 request.left.max_seconds};
+    const auto work = [&] { return run_here(cones_, request.q, inside, settings); };
+    // A process that is a comparison's child already needs no other.
+    const std::string bytes =
+        is_expendable_process() ? work() : run_in_child(settings.max_seconds, work).answer;
+    IpoptAnswer answer;
+    if (bytes.empty()) return answer;
+    Unpacker unpacker(bytes, "ipopt: a child's answer");
+    answer.carry(unpacker);
+    unpacker.finish();
+    return answer;
+  }
+
+  ConeProgram cones_;
+};
+
+}  // namespace
+
+bool has_ipopt() { return true; }
+
+std::unique_ptr<Solver> make_ipopt() { return std::make_unique<IpoptCone>(); }
+
+}  // namespace ballast
