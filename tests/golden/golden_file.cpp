@@ -60,7 +60,7 @@ std::optional<std::string> difference(const Table& expected, const Table& found)
 
 std::string text_of(const File& file) {
   std::string text =
-      "# Golden values of Ballast: docs/house/golden.md says what they are and how they are made "
+      "# Golden values of Ballast: docs/house/checks.md says what they are and how they are made "
       "anew.\ngeneration " +
       std::to_string(file.generation) + "\n";
   for (const Table& table : file.tables) {

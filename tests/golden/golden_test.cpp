@@ -43,7 +43,7 @@ TEST_CASE("golden: deposit, detection, assembly, sweeps, correction, backends: t
   // A build without SuiteSparse has none of them.
   if (!find_solver("prox_newton").make)
     std::erase_if(expected.tables, [](const Table& t) { return t.name == factoring_table; });
-  INFO("meant? docs/house/golden.md says how to make them anew");
+  INFO("meant? docs/house/checks.md says how to make them anew");
   const auto different = first_difference(expected, found);
   if (different) FAIL_CHECK(*different);
   if (!same_libm(expected, found))
