@@ -35,7 +35,6 @@ StepSettings stage_settings(const Scene& scene, BoxStage stage) {
   staged.solver.tolerance = scene.deposit.tolerance;
   staged.solver.max_iterations = scene.deposit.max_iterations;
   staged.solver.threads = threads;
-  staged.sleep = SleepSpec{};  // a packing's key says nothing of it
   return step_settings(staged);
 }
 

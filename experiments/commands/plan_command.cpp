@@ -89,9 +89,7 @@ Command plan_command() {
            {"--max-seconds S", &running.max_seconds,
             "Wall clock after which everything writes a checkpoint and the program exits with 3",
             above(0)}},
-          [options] { return run_planned(*options); },
-          {},
-          "sweep"};  // its name of before
+          [options] { return run_planned(*options); }};
 }
 
 }  // namespace ballast

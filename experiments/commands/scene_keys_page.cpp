@@ -45,7 +45,6 @@ std::string scene_keys_markdown() {
                      {"gravity.", gravity_keys(gravity)},
                      {"contact.", contact_keys(scene)},
                      {"solver.", solver_keys(scene.solver)},
-                     {"sleep.", sleep_keys(scene.sleep)},
                      {"correction.", correction_keys(scene.correction)},
                      {"detection.", detection_keys(scene.detection)},
                      {"record.", record_keys(scene.record)}}));

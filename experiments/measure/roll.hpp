@@ -12,7 +12,7 @@
 
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
-#include "experiments/record/pose_frame.hpp"
+#include "experiments/record/record_file.hpp"
 
 namespace ballast {
 

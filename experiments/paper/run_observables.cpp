@@ -6,7 +6,6 @@
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/measure/run_summary.hpp"
 #include "experiments/record/record_file.hpp"
-#include "experiments/record/record_system.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 

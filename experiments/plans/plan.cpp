@@ -9,6 +9,7 @@
 #include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -61,6 +62,228 @@ fs::path folder_of(const fs::path& results, const PlannedRun& run) {
 bool is_finished(const fs::path& results, const PlannedRun& run) {
   const std::string key = run_key(run);
   return RunFolder(results / "runs" / key).is_finished(key);
+}
+
+// A plan's file: runs one by one, and grids, which are all combinations of lists of values. See
+// docs/manual/plans.md.
+
+namespace {
+
+constexpr size_t any_length = std::string::npos;
+// What a plan may grow to: every run is resolved when the plan is read.
+constexpr size_t most_runs = 10'000;
+constexpr size_t most_text = 32 << 20;  // bytes of all names and overrides
+
+/// What plan, run and grid may say of the scene; the inner one adds to the outer one.
+struct Base {
+  std::string scene;
+  std::vector<std::string> set;
+};
+
+/// A scene's file is looked for where the plan is; a name stays one.
+std::string scene_from(const fs::path& plan_file, const std::string& text) {
+  const fs::path path(text);
+  const bool is_name = !path.has_parent_path() && path.extension() != ".toml";
+  return is_name ? text : (plan_file.parent_path() / path).lexically_normal().string();
+}
+
+Base read_base(TomlTable& table, const fs::path& file, Base base) {
+  const std::string scene = table.text("scene", "");
+  if (!scene.empty()) base.scene = scene_from(file, scene);
+  for (std::string& text : table.texts("set")) base.set.push_back(std::move(text));
+  return base;
+}
+
+/// One key with its values; each as the text of an override.
+struct Axis {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+std::vector<std::string> value_texts(const toml::node& node) {
+  std::vector<std::string> texts;
+  if (const toml::array* array = node.as_array())
+    for (const toml::node& value : *array) texts.push_back(toml_value_text(value, any_length));
+  else
+    texts.push_back(toml_value_text(node, any_length));
+  return texts;
+}
+
+/// "drive.frequency" = [...] and drive.frequency = [...] mean the same.
+void collect_axes(const toml::table& table, const std::string& prefix, std::vector<Axis>& axes) {
+  for (const auto& [key, node] : table) {
+    const std::string name = prefix + std::string(key.str());
+    if (const toml::table* inner = node.as_table())
+      collect_axes(*inner, name + '.', axes);
+    else
+      axes.push_back({name, value_texts(node)});
+  }
+}
+
+/// The axes of a sub-table that need not be there.
+std::vector<Axis> read_axes(const toml::table& table, const char* key) {
+  std::vector<Axis> axes;
+  if (const toml::node* node = table.get(key))
+    if (const toml::table* inner = node->as_table()) collect_axes(*inner, "", axes);
+  return axes;
+}
+
+/// 1 and 1.0 are the same value.
+bool same_value(const std::string& a, const std::string& b) {
+  const auto x = parsed_number(a), y = parsed_number(b);
+  return x && y ? *x == *y : a == b;
+}
+
+bool contains(const std::vector<std::string>& values, const std::string& value) {
+  return std::any_of(values.begin(), values.end(),
+                     [&](const std::string& v) { return same_value(v, value); });
+}
+
+/// Overrides for those members of a grid whose values are among these.
+struct Where {
+  std::vector<Axis> when;
+  std::vector<std::string> set;
+};
+
+struct Grid {
+  std::string name;
+  Base base;
+  std::vector<Axis> axes;
+  std::vector<Where> where;
+};
+
+Where read_where(TomlTable& table, const toml::table& raw, const std::vector<Axis>& axes) {
+  Where where{read_axes(raw, "when"), table.texts("set")};
+  table.section("when");  // known; its keys are those of the axes, not a table's of ours
+  if (where.when.empty())
+    table.fail("when", "no condition, expected when = { \"a varied key\" = its values }");
+  // A condition that no member can meet is a slip of the pen.
+  for (const Axis& condition : where.when) {
+    const auto axis = std::find_if(axes.begin(), axes.end(),
+                                   [&](const Axis& a) { return a.key == condition.key; });
+    if (axis == axes.end()) table.fail("when", condition.key + " is not varied here");
+    for (const std::string& value : condition.values)
+      if (!contains(axis->values, value)) table.fail("when", condition.key + " never is " + value);
+  }
+  table.finish();
+  return where;
+}
+
+/// A grid's axes, and for which members something else is set besides.
+Grid read_grid(TomlTable& table, const toml::table& raw, const fs::path& file, const Base& base) {
+  Grid grid;
+  grid.name = table.text("name");
+  grid.base = read_base(table, file, base);
+  table.section("vary");
+  grid.axes = read_axes(raw, "vary");
+  if (grid.axes.empty())
+    table.fail("vary", "nothing varied, expected vary.\"dotted.key\" = [values]");
+  size_t count = 1;
+  for (const Axis& axis : grid.axes) {
+    if (axis.values.empty()) table.fail("vary", axis.key + " has no values");
+    count *= axis.values.size();
+    if (count > most_runs) table.fail("vary", "more than " + std::to_string(most_runs) + " runs");
+  }
+  std::vector<TomlTable> conditions = table.sections("where");
+  for (size_t k = 0; k < conditions.size(); ++k)
+    grid.where.push_back(read_where(conditions[k], *raw["where"][k].as_table(), grid.axes));
+  table.finish();
+  return grid;
+}
+
+/// A value as part of a run's name.
+std::string name_part(const std::string& value) {
+  std::string name;
+  for (const char c : value)
+    if (c != '"')
+      name += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' ? c : '_';
+  return name;
+}
+
+/// The run at chosen[a] of each axis a. What `where` sets comes last: it overrides the rest.
+PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
+  PlannedRun run{grid.name, grid.base.scene, grid.base.set};
+  const auto value_of = [&](const std::string& key) {
+    size_t a = 0;
+    while (grid.axes[a].key != key) ++a;
+    return grid.axes[a].values[chosen[a]];
+  };
+  // The name says the values, the overrides set them.
+  for (const Axis& axis : grid.axes) {
+    run.name += '-' + axis.key + '=' + name_part(value_of(axis.key));
+    run.overrides.push_back(axis.key + '=' + value_of(axis.key));
+  }
+  for (const Where& where : grid.where) {
+    const bool holds = std::all_of(
+        where.when.begin(), where.when.end(),
+        [&](const Axis& condition) { return contains(condition.values, value_of(condition.key)); });
+    if (holds) run.overrides.insert(run.overrides.end(), where.set.begin(), where.set.end());
+  }
+  return run;
+}
+
+size_t text_size(const PlannedRun& run) {
+  size_t size = run.name.size() + run.scene.size();
+  for (const std::string& text : run.overrides) size += text.size();
+  return size;
+}
+
+/// Each run is small enough and they are not too many, before any of them is looked at closer.
+void check_size(const Plan& plan, const fs::path& file) {
+  size_t text = 0;
+  for (const PlannedRun& run : plan.runs) text += text_size(run);
+  const bool is_much = text > most_text;
+  if (!is_much && plan.runs.size() <= most_runs) return;
+  throw SceneFileError(file.string() + ": more than " +
+                       (is_much ? std::to_string(most_text >> 20) + " MB of names and overrides"
+                                : std::to_string(most_runs) + " runs") +
+                       ": expected several smaller plans");
+}
+
+/// All members, the last key changing fastest; they end at the first that is too much.
+void expand(const Grid& grid, std::vector<PlannedRun>& runs) {
+  std::vector<size_t> chosen(grid.axes.size(), 0);
+  size_t text = 0;
+  // counts like an odometer
+  while (runs.size() <= most_runs && text <= most_text) {
+    runs.push_back(member(grid, chosen));
+    text += text_size(runs.back());
+    size_t a = chosen.size();
+    while (a > 0 && ++chosen[a - 1] == grid.axes[a - 1].values.size()) chosen[--a] = 0;
+    if (a == 0) return;
+  }
+}
+
+}  // namespace
+
+Plan read_plan(const fs::path& file) {
+  const toml::table raw = load_toml(file);
+  toml::table resolved;
+  TomlTable root(file.string(), raw, resolved);
+  Plan plan;
+  plan.name = root.text("name", file.stem().string());
+  const Base base = read_base(root, file, {});
+  std::vector<TomlTable> runs = root.sections("run");
+  std::vector<TomlTable> grids = root.sections("grid");
+  root.finish();
+  // Single runs as they stand, then the members of each grid.
+  for (TomlTable& table : runs) {
+    const std::string name = table.text("name");
+    Base own = read_base(table, file, base);
+    if (own.scene.empty()) table.text("scene");  // says that it is missing
+    table.finish();
+    plan.runs.push_back({name, std::move(own.scene), std::move(own.set)});
+  }
+  for (size_t k = 0; k < grids.size(); ++k) {
+    const Grid grid = read_grid(grids[k], *raw["grid"][k].as_table(), file, base);
+    if (grid.base.scene.empty()) grids[k].text("scene");
+    expand(grid, plan.runs);
+  }
+  if (plan.runs.empty())
+    throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[grid]]");
+  check_size(plan, file);
+  validate(plan, file.string());
+  return plan;
 }
 
 }  // namespace ballast

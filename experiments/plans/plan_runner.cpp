@@ -1,25 +1,154 @@
 #include "experiments/plans/plan_runner.hpp"
 
-#include <fnmatch.h>
-#include <unistd.h>
-
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <set>
 
-#include "experiments/plans/plan_progress.hpp"
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include "experiments/box/packing_cache.hpp"
 #include "experiments/plans/results_index.hpp"
-#include "experiments/plans/tasks.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
-#include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
+
+// How far a plan is, over all its runs.
+
+PlanProgress::PlanProgress(StatusLine::Style style, const std::vector<Task>& tasks)
+    : line_(style, std::cerr), tasks_(tasks) {
+  for (const Task& task : tasks) all_work_ += task.work;
+  work_before_ = work_done();
+}
+
+double PlanProgress::work_done() const {
+  // A run that goes on counts by its steps; a deposit counts when it is through.
+  double done = 0.0;
+  for (const Task& task : tasks_) {
+    if (task.state == TaskState::finished)
+      done += task.work;
+    else if (task.is_run() && task.steps > 0)
+      done += task.work * std::min(1.0, static_cast<double>(steps_in_log(task.folder)) /
+                                            static_cast<double>(task.steps));
+  }
+  return done;
+}
+
+std::string PlanProgress::text(double now) const {
+  size_t runs = 0, finished = 0, failed = 0, running = 0, deposits = 0;
+  for (const Task& task : tasks_) {
+    runs += task.is_run();
+    finished += task.is_run() && task.state == TaskState::finished;
+    failed += task.is_run() && task.state == TaskState::failed;
+    running += task.is_run() && task.state == TaskState::running;
+    deposits += !task.is_run() && task.state == TaskState::running;
+  }
+  // What is left takes as long as what was done since the beginning, in proportion to the work.
+  const double done = work_done(), gained = done - work_before_;
+  const double fraction = all_work_ > 0.0 ? done / all_work_ : 1.0;
+  std::string text = line_.style() == StatusLine::Style::bar ? bar_text(fraction) : "";
+  text += printed("%3.0f %%  %zu of %zu runs, %zu running", std::floor(100.0 * fraction), finished,
+                  runs, running);
+  if (deposits > 0) text += ", " + std::to_string(deposits) + " depositing";
+  if (failed > 0) text += ", " + std::to_string(failed) + " FAILED";
+  if (gained > 0.0) text += "  " + duration_text(now * (all_work_ - done) / gained) + " left";
+  return text;
+}
+
+void PlanProgress::show(double now) {
+  const double interval =
+      3.0 * line_.interval();  // hours rather than minutes: half a minute between lines
+  if (line_.style() == StatusLine::Style::quiet || now < written_ + interval) return;
+  written_ = now;
+  line_.write(text(now));
+}
+
+void PlanProgress::say(const std::string& text) {
+  line_.end();
+  if (line_.style() != StatusLine::Style::quiet) std::cout << text << std::endl;
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+/// A manifest that is damaged does not count; the run itself then says what is wrong with it.
+bool is_finished(const fs::path& folder, const std::string& key) {
+  try {
+    return RunFolder(folder).is_finished(key);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+Task run_task(const fs::path& results, const ResolvedRun& run) {
+  Task task;
+  task.title = run.run.name;
+  task.key = run.key;
+  task.folder = run_folder(results, run);
+  task.log = results / "logs" / (run.key + ".log");
+  task.arguments = run_arguments(results, run);
+  task.steps = run.steps;
+  task.work = run.work;
+  if (is_finished(task.folder, run.key)) task.state = TaskState::finished;
+  return task;
+}
+
+Task deposit_task(const fs::path& results, const ResolvedRun& run) {
+  Task task;
+  task.title = "packing of " + run.run.name;
+  task.key = run.packing;
+  task.log = results / "logs" / ("packing-" + run.packing + ".log");
+  task.arguments = deposit_arguments(results, run);
+  task.work = run.packing_work;
+  return task;
+}
+
+void sort_by_work(std::vector<Task>& tasks) {
+  std::stable_sort(tasks.begin(), tasks.end(),
+                   [](const Task& a, const Task& b) { return a.work > b.work; });
+}
+
+}  // namespace
+
+std::vector<Task> make_tasks(const fs::path& results, const std::vector<ResolvedRun>& runs) {
+  // A packing that several runs need is deposited once. Of deposits and of drives the longest come
+  // first, so that no long one is left for the end.
+  std::vector<Task> drives, tasks;
+  std::map<std::string, Task> deposits;           // by packing
+  std::map<std::string, std::string> packing_of;  // run -> packing
+  std::set<std::string> seen;                     // two names may be one run
+  for (const ResolvedRun& run : runs) {
+    if (!seen.insert(run.key).second) continue;
+    drives.push_back(run_task(results, run));
+    const bool needs_packing = drives.back().state != TaskState::finished && !run.packing.empty() &&
+                               !is_there(packing_file(packing_folder(results), run.packing));
+    if (!needs_packing) continue;
+    packing_of[run.key] = run.packing;
+    deposits.emplace(run.packing, deposit_task(results, run));
+  }
+  // the deposits in their final order first: runs refer to them by their place
+  for (auto& [key, task] : deposits) tasks.push_back(std::move(task));
+  sort_by_work(tasks);
+  std::map<std::string, int> place;  // of a deposit
+  for (size_t k = 0; k < tasks.size(); ++k) place[tasks[k].key] = static_cast<int>(k);
+  sort_by_work(drives);
+  for (Task& task : drives) {
+    if (const auto found = packing_of.find(task.key); found != packing_of.end())
+      task.deposit = place.at(found->second);
+    tasks.push_back(std::move(task));
+  }
+  return tasks;
+}
+
 namespace fs = std::filesystem;
 namespace {
 

@@ -1,15 +1,40 @@
 #pragma once
-// The engine: sees to it that the runs of a plan are there, each as a process of its own.
+// What running a plan has to do: deposits, and the runs that wait for them.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "experiments/plans/plan.hpp"
+#include "experiments/plans/resolved_run.hpp"
 #include "platform/error.hpp"
 #include "platform/status_line.hpp"
 
 namespace ballast {
+
+enum class TaskState { waiting, running, finished, failed, stopped };
+
+struct Task {
+  std::string title;  ///< for the user: the run's name, or whose packing it is
+  std::string key;    ///< of the run or the packing
+  std::filesystem::path folder,
+      log;  ///< the run's folder, empty for a deposit; what the process prints
+  std::vector<std::string> arguments;  ///< of the ballast program
+  long steps = 0;                      ///< of a run
+  double work = 0.0;                   ///< see ResolvedRun
+  int deposit = -1;                    ///< task that must be finished first; -1: none
+  TaskState state = TaskState::waiting;
+  std::string reason;  ///< why it failed
+
+  bool is_run() const { return !folder.empty(); }
+};
+
+/// One task per packing that isn't there, then one per distinct run; both longest first. Runs that
+/// are finished are so from the start.
+std::vector<Task> make_tasks(const std::filesystem::path& results,
+                             const std::vector<ResolvedRun>& runs);
+
+// The engine: sees to it that the runs of a plan are there, each as a process of its own.
 
 struct PlanOptions {
   std::filesystem::path results = "results";
@@ -37,5 +62,28 @@ ExitCode run_plan(const Plan& plan, const PlanOptions& options);
 
 /// The runs of the plan that a shell's pattern names. Throws SceneFileError when there are none.
 std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern);
+
+/// How far a plan is, on one line.
+class PlanProgress {
+ public:
+  /// `tasks` outlive this and change while it looks.
+  PlanProgress(StatusLine::Style style, const std::vector<Task>& tasks);
+
+  /// `now`: seconds since the plan was taken up. Costs next to nothing unless it is time to write.
+  void show(double now);
+  /// Something happened: a line on stdout.
+  void say(const std::string& text);
+  void end() { line_.end(); }
+
+ private:
+  /// Work that has been done, of all tasks: runs that go on by the steps in their logs.
+  double work_done() const;
+  std::string text(double now) const;
+
+  StatusLine line_;
+  const std::vector<Task>& tasks_;
+  double all_work_ = 0.0, work_before_ = 0.0;
+  double written_ = 0.0;
+};
 
 }  // namespace ballast

@@ -23,9 +23,8 @@ struct Checkpoint {
       key;  ///< hash of the resolved scene, or a packing's key: of another one it is refused
   std::string phase;  ///< "rain", "press", "settle", "packing" or "drive"
   MotionState state;
-  StepMemory memory;                    ///< warm start and who rests
-  std::optional<DepositState> deposit;  ///< in a deposit and its packing, where nobody rests; none
-                                        ///< in a drive
+  StepMemory memory;                    ///< warm start
+  std::optional<DepositState> deposit;  ///< of a deposit and its packing; none in a drive
 };
 
 /// Binary, with magic, format and a checksum; written to a neighbour, fsynced, renamed. Throws

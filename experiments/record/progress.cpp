@@ -10,13 +10,6 @@
 #include "platform/text.hpp"
 
 namespace ballast {
-namespace {
-
-/// Columns from which a line has traces, of a trace, and of the shortest that says anything.
-constexpr size_t wide_line = 99, trace_columns = 12, least_trace = 5;
-
-}  // namespace
-
 Progress::Progress(Telling telling)
     : Progress(telling == Telling::nobody    ? Style::quiet
                : telling == Telling::program ? Style::json
@@ -48,10 +41,6 @@ void Progress::show(std::string_view label, double time, double total, const Ste
   contacts_ = record.contacts;
   velocity_ = rms_velocity;
   x_ = record.wall_x;
-  if (line_.style() == Style::bar) {
-    x_trace_.add(time / total, x_);
-    error_trace_.add(time / total, error_);
-  }
   stale_ = true;
   if (now - last_written_ >= line_.interval()) write(now);
 }
@@ -66,8 +55,6 @@ void Progress::restart() {
   finish();
   started_ = false;
   steps_ = 0;
-  x_trace_ = Trace();
-  error_trace_ = Trace(true);
 }
 
 double Progress::seconds_left(double now) const {
@@ -80,14 +67,8 @@ double Progress::seconds_left(double now) const {
 std::string Progress::line(double now) const {
   const double elapsed = now - first_clock_,
                fraction = total_ > 0.0 ? std::clamp(time_ / total_, 0.0, 1.0) : 0.0;
-  // in a wide terminal the wall's way stands for the bar, and the error's beside its number
-  const bool is_wide = line_.style() == Style::bar && line_.columns() >= wide_line &&
-                       line_.columns() != std::string::npos && writes_unicode();
   std::string text = label_ + " ";
-  if (is_wide && !x_trace_.is_flat())
-    text += "x " + x_trace_.text(trace_columns) + ' ';
-  else if (line_.style() == Style::bar)
-    text += bar_text(fraction);
+  if (line_.style() == Style::bar) text += bar_text(fraction);
   if (std::isnan(total_))
     text += printed("  ? %%  %.4g s", time_);
   else
@@ -96,9 +77,6 @@ std::string Progress::line(double now) const {
     text += "  " + duration_text(left) + " left";
   if (steps_ > 0) text += printed("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));
   text += printed("  error %.1e m/s", error_);
-  const size_t used = columns_of(text) + 1;
-  if (is_wide && !error_trace_.is_flat() && used + least_trace <= line_.columns())
-    text += " " + error_trace_.text(std::min(trace_columns, line_.columns() - used));
   text += printed("  %.0f contacts", contacts_);
   if (!std::isnan(velocity_)) text += printed("  %.1e m/s rms", velocity_);
   return text;

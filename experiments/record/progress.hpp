@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/record/trace.hpp"
 #include "experiments/step/step_record.hpp"
 #include "platform/status_line.hpp"
 
@@ -60,7 +59,6 @@ class Progress {
   // what was shown last
   std::string label_;
   double time_ = 0.0, total_ = 0.0, error_ = 0.0, contacts_ = 0.0, velocity_ = 0.0, x_ = 0.0;
-  Trace x_trace_, error_trace_{true};  // of the phase
 };
 
 }  // namespace ballast

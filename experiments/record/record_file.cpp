@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
-#include "experiments/record/bits_generation.hpp"
-#include "experiments/record/force_log.hpp"
-#include "experiments/record/row_parts.hpp"
+#include "geometry/shape/convex_hull.hpp"
 #include "platform/error.hpp"
-#include "platform/hdf5_file.hpp"
 
 namespace ballast {
 
@@ -229,6 +227,210 @@ std::vector<PoseFrame> read_record_poses(const std::filesystem::path& path) {
     frames.push_back(unpack_pose_row(row));
   }
   return frames;
+}
+
+void add_row_parts(Hdf5Writer& file, RowReader& rows, std::span<const RowPart> parts,
+                   const std::function<void(std::span<const double> row)>& see) {
+  const auto count = static_cast<size_t>(rows.safe_count());
+  std::vector<Hdf5Id> datasets;
+  for (const RowPart& part : parts) {
+    Hdf5Shape shape = part.shape;
+    shape.insert(shape.begin(), count);
+    datasets.push_back(file.add_rows(part.dataset, shape, part.number));
+    file.add_attribute(part.dataset, "unit", part.unit);
+    file.add_attribute(part.dataset, "description", part.description);
+  }
+  constexpr size_t most_numbers = 1 << 17;  // that are gathered: a megabyte
+  const size_t length = rows.header().row_size,
+               most_rows = std::max<size_t>(1, most_numbers / length);
+  std::vector<double> gathered, values;
+  rows.rewind();
+  for (size_t first = 0; first < count; first += gathered.size() / length) {
+    // as many rows as may be gathered
+    gathered.clear();
+    for (size_t k = first; k < std::min(count, first + most_rows); ++k) {
+      const std::span<const double> row = rows.next();
+      gathered.insert(gathered.end(), row.begin(), row.end());
+      if (see) see(row);
+    }
+    // part by part from all of them
+    for (size_t p = 0; p < parts.size(); ++p) {
+      const Hdf5Shape& shape = parts[p].shape;
+      const auto size = std::accumulate(shape.begin(), shape.end(), size_t{1}, std::multiplies<>());
+      values.clear();
+      for (size_t at = parts[p].begin; at < gathered.size(); at += length)
+        values.insert(values.end(), gathered.data() + at, gathered.data() + at + size);
+      file.write_rows(datasets[p], first, values);
+    }
+  }
+}
+
+void pack_force_row(const MotionState& state, const ContactPoint& contact, const Vec3& impulse,
+                    double h, std::vector<double>& row) {
+  // Fourteen numbers: step, time, a, b | position x y z | normal x y z | gap | force x y z.
+  row = {static_cast<double>(state.step), state.time, static_cast<double>(contact.body_a),
+         static_cast<double>(contact.body_b)};
+  for (const Vec3& vector : {contact.position, contact.normal})
+    row.insert(row.end(), vector.begin(), vector.end());
+  row.push_back(contact.gap);
+  const Vec3 force = impulse / h;
+  row.insert(row.end(), force.begin(), force.end());
+}
+
+void add_forces(Hdf5Writer& file, RowReader& rows, std::span<const std::int64_t> frame_steps) {
+  const RowPart parts[] = {
+      {"contacts/body_a", 2, {}, "1", "number of the body in /bodies", Hdf5Number::int32},
+      {"contacts/body_b",
+       3,
+       {},
+       "1",
+       "number of the other body, to which the normal points",
+       Hdf5Number::int32},
+      {"contacts/position", 4, {3}, "m", "world frame, midway between the two surfaces"},
+      {"contacts/normal", 7, {3}, "1", "unit, world frame, from a to b"},
+      {"contacts/gap", 10, {}, "m", "along the normal at detection; negative: overlap"},
+      {"contacts/force",
+       11,
+       {3},
+       "N",
+       "on body b, world frame: the step's impulse over its length"},
+  };
+  file.add_group("contacts");
+  // Rows and frames come in the order of steps: a frame has the rows up to its own step.
+  std::vector<std::int64_t> frame_begin{0};
+  std::int64_t count = 0;
+  add_row_parts(file, rows, parts, [&](std::span<const double> row) {
+    while (frame_begin.size() <= frame_steps.size() &&
+           row[0] > static_cast<double>(frame_steps[frame_begin.size() - 1]))
+      frame_begin.push_back(count);
+    ++count;
+  });
+  frame_begin.resize(frame_steps.size() + 1, count);
+  file.add("contacts/frame_begin", frame_begin);
+  file.add_attribute("contacts/frame_begin", "unit", "1");
+  file.add_attribute("contacts/frame_begin", "description",
+                     "frame k of /poses has the contacts frame_begin[k] to frame_begin[k + 1]");
+}
+
+RecordForces::RecordForces(const std::filesystem::path& record) : file_(record) {
+  if (!file_.has("contacts")) return;
+  begin_ = file_.read_ints("contacts/frame_begin");
+  bool fits = !begin_.empty() && begin_.front() == 0 && std::ranges::is_sorted(begin_);
+  for (const char* name : {"body_a", "body_b", "position", "normal", "force"}) {
+    const Hdf5Shape shape = file_.shape(std::string("contacts/") + name);
+    const bool is_number = std::string_view(name).starts_with("body");
+    fits = fits && shape.size() == (is_number ? 1u : 2u) && (is_number || shape[1] == 3) &&
+           shape[0] == static_cast<unsigned long long>(begin_.back());
+  }
+  if (!fits) file_.fail("the datasets of /contacts do not fit together");
+}
+
+std::vector<FrameContact> RecordForces::of_frame(size_t frame) const {
+  if (frame >= frame_count()) file_.fail("has no contacts of frame " + std::to_string(frame));
+  const auto first = static_cast<size_t>(begin_[frame]),
+             count = static_cast<size_t>(begin_[frame + 1]) - first;
+  if (count == 0) return {};
+  const auto read = [&](const char* name) {
+    return file_.read_rows(std::string("contacts/") + name, first, count);
+  };
+  const std::vector<double> body_a = read("body_a"), body_b = read("body_b"),
+                            position = read("position"), normal = read("normal"),
+                            force = read("force");
+  const auto vector = [](const std::vector<double>& values, size_t c) {
+    return Eigen::Vector3f(Vec3(values.data() + 3 * c).cast<float>());
+  };
+  std::vector<FrameContact> contacts;
+  for (size_t c = 0; c < count; ++c)
+    if (const Eigen::Vector3f on_b = vector(force, c); !on_b.isZero())
+      contacts.push_back({static_cast<int>(body_a[c]), static_cast<int>(body_b[c]),
+                          vector(position, c), vector(normal, c), on_b});
+  return contacts;
+}
+
+namespace {
+
+/// The polygons of a shape are what its hull makes of the vertices; where that drops one, the
+/// stored triangles are taken as they are.
+std::shared_ptr<const Polyhedron> shape_of(std::vector<Vec3> vertices,
+                                           const std::vector<std::vector<int>>& triangles) {
+  try {
+    Polyhedron hull = convex_hull(vertices);
+    if (hull.vertex_count() == static_cast<int>(vertices.size()))
+      return std::make_shared<const Polyhedron>(std::move(hull));
+  } catch (const InvalidPolyhedron&) {
+  }
+  return std::make_shared<const Polyhedron>(std::move(vertices), triangles, 1e-6);
+}
+
+std::vector<std::shared_ptr<const Polyhedron>> read_shapes(const Hdf5Reader& file,
+                                                           const std::filesystem::path& path) {
+  const std::vector<double> vertices = file.read_doubles("shapes/vertices");
+  const std::vector<int> triangles = file.read_ints("shapes/triangles"),
+                         vertex_begin = file.read_ints("shapes/vertex_begin"),
+                         triangle_begin = file.read_ints("shapes/triangle_begin");
+  const auto refuse = [&] {
+    throw Error(path.string() + ": the datasets of /shapes do not fit together");
+  };
+  // Where each shape begins: from zero, ascending, to the end of entries that come three by three.
+  const auto divides = [](const std::vector<int>& begin, size_t entries) {
+    return !begin.empty() && begin.front() == 0 && std::is_sorted(begin.begin(), begin.end()) &&
+           3 * static_cast<size_t>(begin.back()) == entries;
+  };
+  if (vertex_begin.size() != triangle_begin.size() || !divides(vertex_begin, vertices.size()) ||
+      !divides(triangle_begin, triangles.size()))
+    refuse();
+  std::vector<std::shared_ptr<const Polyhedron>> shapes;
+  for (size_t k = 0; k + 1 < vertex_begin.size(); ++k) {
+    std::vector<Vec3> corners;
+    for (int v = vertex_begin[k]; v < vertex_begin[k + 1]; ++v)
+      corners.emplace_back(vertices.data() + 3 * static_cast<size_t>(v));
+    std::vector<std::vector<int>> faces;
+    for (int t = triangle_begin[k]; t < triangle_begin[k + 1]; ++t) {
+      const int* corner = triangles.data() + 3 * static_cast<size_t>(t);
+      faces.push_back({corner[0], corner[1], corner[2]});
+    }
+    try {
+      shapes.push_back(shape_of(std::move(corners), faces));
+    } catch (const InvalidPolyhedron& error) {
+      throw Error(path.string() + ": shape " + std::to_string(k) + ": " + error.what());
+    }
+  }
+  return shapes;
+}
+
+}  // namespace
+
+MechanicalSystem read_record_system(const std::filesystem::path& path) {
+  const Hdf5Reader file(path);
+  const std::vector<std::string> names = file.read_texts("bodies/name");
+  const std::vector<double> mass = file.read_doubles("bodies/mass"),
+                            volume = file.read_doubles("bodies/volume"),
+                            inertia = file.read_doubles("bodies/inertia"),
+                            normal = file.read_doubles("bodies/wall_normal");
+  const std::vector<int> shape = file.read_ints("bodies/shape");
+  const size_t count = names.size();
+  if (mass.size() != count || volume.size() != count || shape.size() != count ||
+      inertia.size() != 3 * count || normal.size() != 3 * count)
+    throw Error(path.string() + ": the datasets of /bodies do not fit together");
+  MechanicalSystem system;
+  system.shapes = read_shapes(file, path);
+  for (size_t b = 0; b < count; ++b) {
+    RigidBody body;
+    body.name = names[b];
+    body.mass = mass[b];
+    body.volume = volume[b];
+    body.inertia = Vec3(inertia.data() + 3 * b);
+    body.shape.plane.normal = Vec3(normal.data() + 3 * b);
+    if (shape[b] >= static_cast<int>(system.shapes.size()))
+      throw Error(path.string() + ": bodies/shape[" + std::to_string(b) + "] names no shape");
+    if (shape[b] >= 0) {
+      body.shape.polyhedron = system.shapes[static_cast<size_t>(shape[b])].get();
+      if (static_cast<int>(b) != system.grain_count++)
+        throw Error(path.string() + ": /bodies has a wall before a grain");
+    }
+    system.bodies.push_back(std::move(body));
+  }
+  return system;
 }
 
 }  // namespace ballast

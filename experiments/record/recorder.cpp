@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "experiments/record/force_log.hpp"
 #include "experiments/record/record_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"

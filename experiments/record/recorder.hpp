@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/record/pose_frame.hpp"
+#include "experiments/record/record_file.hpp"
 #include "experiments/step/step_memory.hpp"
 #include "experiments/step/step_record.hpp"
 #include "problems/mechanics/mechanical_system.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/record/record_system.hpp"
+#include "experiments/record/record_file.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"

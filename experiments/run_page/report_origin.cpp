@@ -62,10 +62,6 @@ void add_scene(const Scene& scene, page::Table& table) {
           page::marked(scene.gravity.isZero() ? " m/s" : " *gh*") + ", at most " +
           page::exact(scene.solver.max_iterations) +
           (scene.solver.warm_start ? " iterations, warm start" : " iterations, cold start"));
-  if (scene.sleep.enabled)
-    row("islands at rest fall asleep", "after " + page::exact(scene.sleep.steps) + " steps below " +
-                                           page::exact(scene.sleep.velocity) +
-                                           page::marked(" *gh*"));
   row("overlap correction",
       scene.correction.enabled
           ? page::exact_quantity(100.0 * scene.correction.fraction, "%") + " of what exceeds " +

@@ -7,7 +7,6 @@
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "solvers/parts/local_change.hpp"
-#include "solvers/seam/island_solver.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
@@ -29,7 +28,6 @@ StepSettings step_settings(const Scene& scene) {
   settings.h = scene.step;
   settings.solver = scene.solver;
   settings.detection = scene.detection;
-  settings.sleep = scene.sleep;
   settings.correction = scene.correction;
   const double g = scene.gravity.norm();
   settings.scale = g > 0.0 ? g * scene.step : 1.0;
@@ -61,13 +59,11 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& set
       assembler_(system),
       correction_(system, settings.correction),
       solver_(make_solver(settings.solver.name)),
-      resting_(system, settings.sleep, settings.detection, settings.velocity_scale()),
       impact_law_(system.restitution),
       reach_(system.bodies.size(), 0.0) {
   if (settings.solver.change_tolerance > 0.0)
     solver_ = make_change_stopped(std::move(solver_),
                                   {settings.solver.change_tolerance, settings.solver.change_every});
-  if (settings.solver.islands) solver_ = make_island_solver(std::move(solver_));
   if (settings.solver.threads > 1) share_work(settings.solver.threads);
 }
 
@@ -92,7 +88,7 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
   const double h = settings_.h;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
     const int first = assembler_.first_dof(static_cast<int>(b));
-    if (first < 0 || resting_.is_asleep(static_cast<int>(b))) continue;
+    if (first < 0) continue;
     const RigidBody& body = system_.bodies[b];
     Vec3 force = body.force.at(mid_time);
     if (body.is_wall()) force = body.wall.load.at(mid_time) * body.wall.normal;
@@ -117,7 +113,7 @@ void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
   // Two bodies further apart than the sum of their reaches cannot touch within the step.
   for (size_t b = 0; b < system_.bodies.size(); ++b)
     reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
-  resting_.detect(detector_, mid.pose, reach_, memory, contacts_);
+  detector_.detect(mid.pose, reach_, contacts_);
   // A contact that was there in the last step begins with the impulse that it had then.
   if (settings_.solver.warm_start)
     carry_impulses(memory.contacts, memory.impulses, contacts_, carried_);
@@ -153,7 +149,6 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   record.seconds_solve = run.prepare_seconds + run.solve_seconds + run.startup_seconds;
   memory.contacts = contacts_;
   assembler_.to_world(impulses_, contacts_, memory.impulses);
-  resting_.restore_kept(memory);
 }
 
 /// Works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of
@@ -199,11 +194,9 @@ double TimeStepper::gained_energy(double end_time) {
   return std::max(0.0, given);
 }
 
-/// Of the contacts solved for, and of those of sleepers.
 void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record) {
   for (int c = 0; c < problem_.contact_count(); ++c)
     record.active_contacts += impulses_[problem_.row_begin[c]] > 0.0;
-  record.active_contacts += resting_.kept_active();
   double overlap = 0.0;
   for (size_t c = 0; c < memory.contacts.size(); ++c) {
     const ContactPoint& contact = memory.contacts[c];
@@ -222,7 +215,6 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
 void TimeStepper::finish_motion(double end_time, MotionState& state) {
   assembler_.unpack(v_after_, state);
   for (size_t b = 0; b < state.pose.size(); ++b) {
-    if (resting_.is_asleep(static_cast<int>(b))) continue;
     if (system_.bodies[b].is_wall() && system_.bodies[b].wall.motion == WallMotion::prescribed)
       state.velocity[b] = prescribed_velocity(system_.bodies[b], end_time);
     state.pose[b] = moved(mid_.pose[b], state.velocity[b], state.spin[b], 0.5 * settings_.h);
@@ -237,14 +229,12 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   const double h = settings_.h;
   const double mid_time = state.time + 0.5 * h, end_time = (state.step + 1) * h;
   record.time = end_time;
-  resting_.begin(memory);
   // A step of Moreau and Jean, of which this is the first half:
   //
   //     q -- h/2 v --> q_m: contacts are found, impulses r and v' follow -- h/2 v' --> q'
   mid_ = state;
   for (size_t b = 0; b < state.pose.size(); ++b)
-    if (!resting_.is_asleep(static_cast<int>(b)))
-      mid_.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
+    mid_.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
   // contacts are found at the mid-point, half a step of free flight away
   record.seconds_other = clock.restart();
   detect(mid_, memory);
@@ -265,11 +255,6 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   record.seconds_other += clock.restart();
   record.work_correction = correction_.apply(assembler_, problem_, contacts_, v_after_, h, state);
   record.seconds_correct = clock.restart();
-  // what falls asleep stops: that energy leaves the account
-  const double stopped = resting_.settle(state, memory);
-  record.kinetic_energy -= stopped;
-  record.energy_residual -= stopped;
-  record.seconds_other += clock.restart();
 
   if (driven_wall_ >= 0) {
     record.wall_x = outward_displacement(system_, state, driven_wall_);

@@ -16,7 +16,6 @@
 
 #include "experiments/step/impact_law.hpp"
 #include "experiments/step/overlap_correction.hpp"
-#include "experiments/step/resting_islands.hpp"
 #include "experiments/step/step_memory.hpp"
 #include "experiments/step/step_record.hpp"
 #include "geometry/contact/contact_detector.hpp"
@@ -29,7 +28,6 @@ struct StepSettings {
   double h = 2e-4;  ///< [s]
   SolverSpec solver;
   DetectionSettings detection;
-  SleepSpec sleep;
   CorrectionSpec correction;
   /// Tolerances are quoted relative to this velocity [m/s]: g h, or 1 m/s where there is no
   /// gravity.
@@ -53,14 +51,13 @@ class TimeStepper {
   StepRecord step(MotionState& state, StepMemory& memory);
 
   /// The problem solved last, its solution, and the contacts it came from: for capture and export.
-  /// Sleepers' contacts are in the StepMemory alone.
   const FrictionProblem& problem() const { return problem_; }
   const Impulses& impulses() const { return impulses_; }
   const ProblemAssembler& assembler() const { return assembler_; }
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   /// The impulses from which its solution was begun, rows as in the problem.
   void warm_start(Impulses& rows) const { assembler_.to_rows(carried_, rows); }
-  const DetectionCounters& detection_counters() const { return resting_.counters(detector_); }
+  const DetectionCounters& detection_counters() const { return detector_.counters(); }
   const ContactError& error() const { return error_; }
   /// For what is done between steps; null: there is one thread.
   WorkerTeam* team() const { return team_.get(); }
@@ -83,7 +80,6 @@ class TimeStepper {
   ProblemAssembler assembler_;
   OverlapCorrection correction_;
   std::unique_ptr<Solver> solver_;
-  RestingIslands resting_;
   SolverRunner runner_;
   ImpactLaw impact_law_;
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiments/record/force_log.hpp"
+#include "experiments/record/record_file.hpp"
 #include "experiments/view/view_data.hpp"
 #include "problems/files/captured_problem.hpp"
 

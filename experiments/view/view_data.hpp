@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/record/force_log.hpp"
-#include "experiments/record/pose_frame.hpp"
+#include "experiments/record/record_file.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {

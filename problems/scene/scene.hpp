@@ -138,8 +138,6 @@ struct SolverSpec {
   bool warm_start = true;
   double change_tolerance = 0.0;  ///< above 0: LMGC90's rule in place of the tolerance, looked at
   int change_every = 500;         ///< every so many iterations (solvers/parts/local_change.hpp)
-  bool islands =
-      false;        ///< heaps that don't touch are solved each on its own, each to the tolerance
   int threads = 1;  ///< set by the program, never by the file: results do not depend on it
 
   /// What holds whatever the masses and shapes are: where sweeps stand still, as with heavy bodies
@@ -150,14 +148,6 @@ struct SolverSpec {
     spec.max_iterations = 1000;
     return spec;
   }
-};
-
-/// Islands at rest fall asleep: frozen, and neither detected nor solved until something comes near
-/// (docs/theory/method.md). Not exact.
-struct SleepSpec {
-  bool enabled = false;
-  double velocity = 0.1;  ///< |v| + |w| R below which a body counts as at rest, in g h
-  int steps = 100;        ///< for which all bodies of an island must have been at rest
 };
 
 /// Overlap correction by displacements only: grains are moved apart without changing velocities;
@@ -200,7 +190,6 @@ struct Scene {
   DepositSpec deposit;
   DriveSpec drive;
   SolverSpec solver;
-  SleepSpec sleep;
   CorrectionSpec correction;
   DetectionSettings detection;
   RecordSpec record;

@@ -284,12 +284,6 @@ void check_volume(const TomlTable& table, const ControlVolumeSpec& volume, const
 }
 
 void read_numerics(TomlTable& root, Scene& scene) {
-  // resolved only where given: a run from before it keeps its text and its key
-  if (root.has("sleep")) {
-    const TomlTable sleep = read_section(root.section("sleep"), sleep_keys(scene.sleep));
-    if (scene.sleep.enabled && scene.gravity.isZero(0.0))
-      sleep.fail("enabled", "rest is measured in g h, expected a gravity.magnitude > 0");
-  }
   if (!root.has("grains")) scene.solver = SolverSpec::for_any_scene();
   read_section(root.section("solver"), solver_keys(scene.solver));
   read_section(root.section("correction"), correction_keys(scene.correction));
@@ -330,9 +324,8 @@ void read_body_scene(TomlTable& root, Scene& scene, const fs::path& folder,
 Scene read(const fs::path& file, std::span<const std::string> overrides, toml::table& resolved) {
   const toml::table table = load_toml(file, overrides);
   TomlTable root(file.string(), table, resolved);
-  for (const char* key :
-       {"scene", "gravity", "contact", "body", "wall", "grains", "box", "deposit", "drive",
-        "solver", "sleep", "correction", "detection", "record", "control_volume"})
+  for (const char* key : {"scene", "gravity", "contact", "body", "wall", "grains", "box", "deposit",
+                          "drive", "solver", "correction", "detection", "record", "control_volume"})
     root.know(key);
   root.finish();  // a misspelt section first: what follows depends on which sections there are
   // grains decide the kind of scene: a box to be filled, or single bodies and walls

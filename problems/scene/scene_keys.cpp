@@ -63,24 +63,6 @@ SceneKeys solver_keys(SolverSpec& s) {
       {"change_every", &s.change_every, whole(1),
        "iterations between two looks of that rule, for backends whose iterations are sweeps",
        Presence::only_where_given},
-      {"islands", &s.islands, anything,
-       "heaps that no contact joins are solved one by one, each to the tolerance and with "
-       "`max_iterations` of its own; one heap: the same bits as with false. Pays where several "
-       "heaps are. A deposit never does",
-       Presence::only_where_given},
-  };
-}
-
-SceneKeys sleep_keys(SleepSpec& s) {
-  return {
-      {"enabled", &s.enabled, anything,
-       "islands at rest are frozen until something comes near: **not exact** "
-       "([method.md](../theory/method.md)); needs gravity. The section is in `scene.toml` only "
-       "where given; a deposit never sleeps"},
-      {"velocity", &s.velocity, in(positive, "g h"),
-       "a body whose speed + spin · circumradius is at most this counts as at rest"},
-      {"steps", &s.steps, whole(1),
-       "for so many steps all bodies of an island must have been at rest"},
   };
 }
 

@@ -64,7 +64,6 @@ SceneKeys head_keys(Scene& scene);     ///< [scene]
 SceneKeys contact_keys(Scene& scene);  ///< [contact]
 SceneKeys gravity_keys(GravityText& gravity);
 SceneKeys solver_keys(SolverSpec& solver);
-SceneKeys sleep_keys(SleepSpec& sleep);
 SceneKeys correction_keys(CorrectionSpec& correction);
 SceneKeys detection_keys(DetectionSettings& detection);
 SceneKeys record_keys(RecordSpec& record);

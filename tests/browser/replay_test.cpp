@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/record/force_log.hpp"
+#include "experiments/record/record_file.hpp"
 #include "experiments/view/problem_view.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/text.hpp"

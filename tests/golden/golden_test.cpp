@@ -5,7 +5,7 @@
 #include <functional>
 #include <iterator>
 
-#include "experiments/record/bits_generation.hpp"
+#include "experiments/record/record_file.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
 #include "tests/golden/golden_values.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "experiments/box/deposit.hpp"
-#include "experiments/record/bits_generation.hpp"
+#include "experiments/record/record_file.hpp"
 #include "experiments/step/time_step.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/pose.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/box/rest_forecast.hpp"
+#include "experiments/box/packing_cache.hpp"
 
 #include <cmath>
 

@@ -48,8 +48,6 @@ TEST_CASE("bash offers commands, options and what can be listed") {
              Contains("\nvibrated_box_small\n"));
   CHECK_THAT(offered_by_bash({"ballast", "bench", "st"}), Contains("\nstep\n"));
   CHECK_THAT(offered_by_bash({"ballast", "compare", "--solvers", "nn"}), Contains("\nnncg\n"));
-  // an old name leads to the same options
-  CHECK(offered_by_bash({"ballast", "sweep", "--"}) == offered_by_bash({"ballast", "plan", "--"}));
 }
 
 TEST_CASE("every command and option is in every script and in the man page") {

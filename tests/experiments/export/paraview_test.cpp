@@ -1,4 +1,4 @@
-#include "experiments/export/paraview.hpp"
+#include "experiments/export/vtp_file.hpp"
 
 #include "tests/experiments/export/sample_contacts.hpp"
 #include "tests/experiments/export/xml_sample.hpp"

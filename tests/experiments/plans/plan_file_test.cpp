@@ -86,22 +86,6 @@ set = ["scene.duration=1"]
   }
 }
 
-TEST_CASE("a grid under its old name, sweep, is the same grid") {
-  const TemporaryFolder folder;
-  const auto plan_with = [&](const std::string& name) {
-    return read_plan(folder.write("plan.toml", "scene = \"incline\"\n[[" + name +
-                                                   "]]\nname = \"mu\"\n"
-                                                   "vary.\"contact.friction\" = [0.1, 0.2]\n"));
-  };
-  const Plan now = plan_with("grid"), before = plan_with("sweep");
-  REQUIRE(now.runs.size() == 2);
-  REQUIRE(before.runs.size() == 2);
-  for (size_t k = 0; k < 2; ++k) {
-    CHECK(before.runs[k].name == now.runs[k].name);
-    CHECK(before.runs[k].overrides == now.runs[k].overrides);
-  }
-}
-
 TEST_CASE("a scene's file is looked for beside the plan") {
   const TemporaryFolder folder;
   fs::copy_file(find_scene("incline"), folder.path() / "mine.toml");

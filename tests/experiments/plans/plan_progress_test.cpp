@@ -1,4 +1,4 @@
-#include "experiments/plans/plan_progress.hpp"
+#include "experiments/plans/plan_runner.hpp"
 
 #include <iostream>
 

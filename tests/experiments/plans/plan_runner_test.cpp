@@ -138,7 +138,7 @@ TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else runs
                                     "\"record.checkpoint_seconds=1000\"]\n");
   const fs::path run = folder_of(results, read_plan(file).runs[0]);
   BackgroundProgram long_plan(
-      BALLAST_PROGRAM, {"sweep", file.string(), "--output", results.string(), "--only", "long"},
+      BALLAST_PROGRAM, {"plan", file.string(), "--output", results.string(), "--only", "long"},
       log);
   for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_plan.has_ended(); ++k)
     usleep(10'000);

@@ -1,4 +1,4 @@
-#include "experiments/plans/tasks.hpp"
+#include "experiments/plans/plan_runner.hpp"
 
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/record/force_log.hpp"
+#include "experiments/record/record_file.hpp"
 
 #include "platform/hdf5_file.hpp"
 #include "tests/support/hdf5_attribute.hpp"

@@ -105,35 +105,6 @@ TEST_CASE("where the end is not known, neither part nor time left is made up") {
   CHECK_THAT(out.str(), Contains("rain   ? %  0.009 s") && !Contains("left") && !Contains("nan"));
 }
 
-TEST_CASE("in a wide terminal the wall's way stands for the bar, in a narrow one not") {
-  setenv("LC_ALL", "C.UTF-8", 1);
-  const auto line = [](size_t columns, const char* label = "drive") {
-    std::ostringstream out;
-    double now = 0.0;
-    Progress progress(
-        Progress::Style::bar, out, [&] { return now; }, columns);
-    StepRecord record;
-    for (int step = 1; step <= 100; ++step) {
-      now += 0.2;
-      record.wall_x = 1e-3 * step;
-      record.error_rms = 1e-6 * step;
-      progress.show(label, 0.01 * step, 1.0, record);
-    }
-    progress.finish();
-    const std::string text = out.str();
-    return text.substr(text.rfind('\r') + 1);
-  };
-  CHECK_THAT(line(120), Contains("x ▁▂▂▃▄▄▅▆▆▇██") && !Contains("[#"));
-  CHECK_THAT(line(120), Contains("▅▆▆▇▇▇██"));  // the error's, logarithmic
-  // in the narrowest of the wide ones a long name leaves room for both traces
-  CHECK_THAT(line(99, "vibrated_box_small"),
-             Contains("x ▁▂▂▃▄▄▅▆▆▇██") && Contains("m/s ▃▅▆▆▇▇▇█████"));
-  CHECK_THAT(line(90), Contains("[####") && !Contains("▁"));
-  setenv("LC_ALL", "C", 1);
-  CHECK_THAT(line(120), Contains("[####") && !Contains("▁"));
-  unsetenv("LC_ALL");
-}
-
 TEST_CASE("for programs every line is an object with units in its names") {
   const std::string text = told(Progress::Style::json, 100, 0.1);  // 10 s
   std::istringstream lines(text);

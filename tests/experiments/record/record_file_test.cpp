@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "experiments/record/bits_generation.hpp"
 #include "platform/hdf5_file.hpp"
 #include "tests/support/hdf5_attribute.hpp"
 #include "tests/support/sample_record.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/record/record_system.hpp"
+#include "experiments/record/record_file.hpp"
 
 #include <algorithm>
 

@@ -103,30 +103,6 @@ TEST_CASE(
   CHECK(named.name == "pgs");
 }
 
-TEST_CASE(
-    "what is skipped stands in the resolved text only where it was given: older runs keep their "
-    "key") {
-  const TemporaryFolder folder;
-  const auto bare = folder.write("bare.toml", one_wall),
-             skipping = folder.write("skipping.toml",
-                                     one_wall + "[solver]\nislands = true\n[sleep]\nsteps = 7\n");
-  CHECK_FALSE(read_scene(bare).solver.islands);
-  CHECK_FALSE(read_scene(bare).sleep.enabled);
-  const std::string text = resolved_scene_text(bare);
-  CHECK_THAT(text, !Catch::Contains("islands") && !Catch::Contains("sleep"));
-
-  CHECK(read_scene(skipping).solver.islands);
-  const std::string given = resolved_scene_text(skipping);
-  for (const char* line :
-       {"islands = true", "[sleep]", "enabled = false", "steps = 7", "velocity = 0.1"})
-    CHECK_THAT(given, Catch::Contains(line));
-  CHECK(resolved_scene_text(folder.write("skipping.toml", given)) == given);
-
-  const Scene awake =
-      read_scene(bare, std::vector<std::string>{"sleep.enabled=true", "sleep.velocity=0.3"});
-  CHECK((awake.sleep.enabled && awake.sleep.velocity == 0.3 && awake.sleep.steps == 100));
-}
-
 TEST_CASE("bodies rest on their walls without gap or overlap at the start") {
   for (const char* name :
        {"incline", "stick_slip", "shaken_plate", "tipping_box", "sliding_cube", "rolling_sphere"}) {
