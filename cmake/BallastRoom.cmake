@@ -88,13 +88,12 @@ function(ballast_made_source name source code)
 endfunction()
 
 # ballast_texts(NAME): builds the texts/*.md of all rooms beside this CMakeLists.txt into the room
-# ballast_NAME, which defines page::words by them, and its style.css as page::light_and_dark.
+# ballast_NAME, which defines page::words by them.
 function(ballast_texts name)
   file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/texts/*.md)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/words.cpp)
-  set(code "#include \"experiments/page/page_style.hpp\"\n")
-  string(APPEND code "#include \"experiments/page/prose.hpp\"\n\n")
+  set(code "#include \"experiments/page/text.hpp\"\n\n")
   string(APPEND code "const ballast::page::Prose& ballast::page::prose() {\n")
   string(APPEND code "  static const Prose all{\n")
   foreach(file IN LISTS files)
@@ -102,11 +101,6 @@ function(ballast_texts name)
     string(APPEND code "R\"prose(${words})prose\",\n")
   endforeach()
   string(APPEND code "  };\n  return all;\n}\n")
-  set(style ${CMAKE_CURRENT_SOURCE_DIR}/${name}/style.css)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${style})
-  file(READ ${style} rules)
-  string(APPEND code "\nstd::string ballast::page::light_and_dark() {\n")
-  string(APPEND code "  return R\"css(${rules})css\";\n}\n")
   ballast_made_source(${name} ${source} "${code}")
 endfunction()
 

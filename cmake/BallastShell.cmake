@@ -1,9 +1,8 @@
-# Completions of shells and the man page: made by the program itself from the tables of its
-# commands, installed where shells and man look for them.
+# Completions of shells: made by the program itself, installed where shells look for them.
 include(GNUInstallDirs)
 set(shell_folder ${CMAKE_BINARY_DIR}/shell)
 set(shell_files)
-foreach(pair bash:ballast zsh:_ballast fish:ballast.fish man:ballast.1)
+foreach(pair bash:ballast zsh:_ballast fish:ballast.fish)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 what)
   list(GET pair 1 file)
@@ -20,4 +19,3 @@ install(FILES ${shell_folder}/bash/ballast
 install(FILES ${shell_folder}/zsh/_ballast DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(FILES ${shell_folder}/fish/ballast.fish
   DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-install(FILES ${shell_folder}/man/ballast.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

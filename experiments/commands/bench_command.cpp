@@ -5,6 +5,7 @@
 
 #include "experiments/bench/accuracy_bench.hpp"
 #include "experiments/bench/captured_bench.hpp"
+#include "experiments/bench/jam_bench.hpp"
 #include "experiments/bench/kernels.hpp"
 #include "experiments/bench/scaling_bench.hpp"
 #include "experiments/bench/step_bench.hpp"
@@ -16,9 +17,6 @@
 #include "platform/text.hpp"
 
 namespace ballast {
-
-Command bench_jam_command();
-
 namespace {
 
 /// What all that measure have on their command lines.
@@ -48,11 +46,11 @@ struct AccuracyRequest : BenchRequest {
   AccuracyOptions accuracy;
 };
 
-constexpr int most = 1'000'000'000;  // of steps, iterations, repetitions
+constexpr int most_count = 1'000'000'000;  // of steps, iterations, repetitions
 
-/// Whole numbers from 1 to `most`, separated by commas.
+/// Whole numbers from 1 to `most_count`, separated by commas.
 std::vector<int> counts(const std::string& list) {
-  const std::vector<long> numbers = parse_counts(list, most);
+  const std::vector<long> numbers = parse_counts(list, most_count);
   return {numbers.begin(), numbers.end()};
 }
 std::vector<int> thread_counts(const std::string& list) {
@@ -186,7 +184,7 @@ Command kernels_command() {
       bench_kernels,
       {{"--filter", &kernels.filter, "Regular expression over group/name"},
        {"--min-time", &kernels.min_time, "CPU seconds of a repetition", shown, above(0)},
-       {"--repeats", &kernels.repeats, "Repetitions", shown, between(1, most)},
+       {"--repeats", &kernels.repeats, "Repetitions", shown, between(1, most_count)},
        {"--streaming-MB", &kernels.streaming_MB,
         "Least records of the streaming sweep (0: twice the last cache)"}});
 }
@@ -195,7 +193,7 @@ Command step_command() {
   const auto request = std::make_shared<StepRequest>();
   return measuring(
       "step", "Whole steps by phase, from the deposited packing driven", request, bench_step,
-      {{"--steps", &request->steps, "Steps", shown, between(1, most)},
+      {{"--steps", &request->steps, "Steps", shown, between(1, most_count)},
        {"--threads", &request->threads_text, "Threads of the solver, separated by commas", shown,
         into(request->threads, thread_counts)}});
 }
@@ -209,16 +207,17 @@ Command scaling_command() {
       {{"--grains", &request->grains_text,
         "Grains, separated by commas: each the nearest number of copies", shown,
         into(scaling.grains,
-             [](const std::string& list) { return parse_counts(list, most / 10); })},
+             [](const std::string& list) { return parse_counts(list, most_count / 10); })},
        {"--threads", &request->threads_text, "Threads of the solver, separated by commas", shown,
         into(scaling.threads, thread_counts)},
-       {"--steps", &scaling.steps, "Measured steps", shown, between(1, most)},
-       {"--warm-up", &scaling.warm_up, "Steps before them", shown, between(1, most)},
+       {"--steps", &scaling.steps, "Measured steps", shown, between(1, most_count)},
+       {"--warm-up", &scaling.warm_up, "Steps before them", shown, between(1, most_count)},
        {"--solvers", &request->solvers_text, "Whose iterations are counted", shown,
         into(scaling.solvers, solver_names)},
        {"--tolerance", &scaling.tolerance, "To this error [g h]", shown, above(0)},
        {"--cold", &scaling.cold_start, "From no impulses, not from the last step's"},
-       {"--max-iterations", &scaling.max_iterations, "At most so many", shown, between(1, most)}});
+       {"--max-iterations", &scaling.max_iterations, "At most so many", shown,
+        between(1, most_count)}});
 }
 
 Command accuracy_command() {
@@ -264,6 +263,52 @@ Command captured_command() {
       [request] { return bench_captured(*request); }};
 }
 
+struct JamRequest {
+  std::filesystem::path run, output = "results/bench";
+  std::string solvers_text = "nncg", iterations_text = "20,50,80,200,500", steps_text = "2e-4";
+  JamOptions jams;
+};
+
+ExitCode bench_jam(const JamRequest& request) {
+  const auto rows = measure_jams(request.run, request.jams, [](const JamRow& r) {
+    std::cout << printed(
+                     "t %.4f s  %-8s %6d iterations  h %g s  k_art %10.3e N/m  wall %9.2e m/s  "
+                     "error %8.2e m/s\n",
+                     r.time, r.solver.c_str(), r.iterations, r.h, r.stiffness(), r.found.speed,
+                     r.found.error)
+              << std::flush;
+    return !InterruptGuard::requested();
+  });
+  const auto measurements = jam_measurements(rows);
+  create_folder(request.output);
+  write_bench_result(request.output, "jam", own_command(), measure_machine(), measurements);
+  write_whole_file(request.output / "jam_rows.csv", jam_csv(rows));
+  std::cout << measurement_table(measurements) << "\nresults in " << request.output.string()
+            << ": jam.json, jam.csv, jam_rows.csv\n";
+  return ExitCode::ok;
+}
+
+Command jam_command() {
+  const auto request = std::make_shared<JamRequest>();
+  JamOptions& jams = request->jams;
+  return {
+      "jam",
+      "How stiff a run's jams are under other solvers, iterations and steps",
+      {{"run", &request->run, "A run's folder that keeps states (record.state_rate)", required},
+       {"--solvers", &request->solvers_text, "Separated by commas", shown,
+        into(jams.solvers, solver_names)},
+       {"--iterations", &request->iterations_text, "In every step", shown,
+        into(jams.iterations, counts)},
+       {"--steps", &request->steps_text, "h [s]", shown, into(jams.steps, parse_tolerances)},
+       {"--states", &jams.states, "Jams that are loaded, those with the largest load", shown,
+        between(1, 1'000'000)},
+       {"--part", &jams.part, "By which part the load rises and falls", shown, above(0)},
+       {"--settle", &jams.settle, "Simulated under the steady load before [s]", shown, above(0)},
+       {"--seconds", &jams.seconds, "Simulated at each load [s]", shown, above(0)},
+       {"--output DIR", &request->output, "Folder of the results", shown}},
+      [request] { return bench_jam(*request); }};
+}
+
 Command diff_command() {
   struct Files {
     std::filesystem::path a, b;
@@ -287,7 +332,7 @@ Command bench_command() {
           {},
           {},
           {kernels_command(), step_command(), scaling_command(), accuracy_command(),
-           captured_command(), bench_jam_command(), diff_command()}};
+           captured_command(), jam_command(), diff_command()}};
 }
 
 }  // namespace ballast

@@ -1,7 +1,7 @@
 #pragma once
 // The commands of the ballast program as data: which words each takes, where their values go, what
-// --help says of them, and what is done then. ballast_main.cpp reads a command line by these
-// tables, with CLI11.
+// --help says of them, and what is done then. command.cpp reads a command line by these tables,
+// with CLI11.
 
 #include <filesystem>
 #include <functional>
@@ -96,10 +96,9 @@ struct Command {
   Action act;
   /// Its subcommands, one of which must be named where there is no `act`.
   std::vector<Command> parts = {};
-  std::string alias = {};
 };
 
-/// All, in the order of --help, with their defaults. A new command is its file and a row here.
+/// All, in the order of --help, with their defaults. A new command is its function and a row there.
 std::vector<Command> commands();
 
 /// What --help says after the options of "ballast", "run" or "compare merge": help/run.txt,

@@ -1,19 +1,24 @@
-// Backends on identical problems: rows, figures and a page.
+// Backends on identical problems: rows, figures and a page; what a change did to them; several as
+// one site; the collection of captured problems.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
+#include <map>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/commands/command.hpp"
-#include "experiments/commands/compare_snakemake.hpp"
 #include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/case_views.hpp"
+#include "experiments/compare/collection.hpp"
+#include "experiments/compare/compare_diff.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "experiments/compare/compare_page.hpp"
+#include "experiments/compare/comparison_site.hpp"
 #include "experiments/compare/live_page.hpp"
 #include "experiments/compare/reference_times.hpp"
+#include "experiments/compare/stored_comparison.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
@@ -23,9 +28,147 @@
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
+namespace {
 
-// Each is defined in the file of its name.
-Command compare_diff_command(), compare_merge_command(), compare_collect_command();
+struct CollectOptions {
+  std::filesystem::path output = "results/collection", check;
+  int largest = 2400;
+};
+
+ExitCode collect(const CollectOptions& options) {
+  require_own_folder(options.output, {"runs", "packings"});
+  std::vector<CollectedProblem> theirs, ours;
+  if (!options.check.empty()) theirs = read_collection(options.check);
+  InterruptGuard guard;
+  const auto runs = collection_runs(options.largest);
+  size_t done = 0;
+  const auto told = [&](const CollectedRun& run) {
+    std::cout << printed("%3zu/%zu  ", ++done, runs.size()) << run.name << std::endl;
+  };
+  const ExitCode code = make_collection(options.output, runs, told, ours);
+  if (code != ExitCode::ok) return code;
+  std::cout << summary_of(ours) << ": " << (options.output / "problems" / "manifest.csv").string()
+            << std::endl;
+  const std::vector<std::string> others = other_contents(ours, theirs);
+  if (!others.empty())
+    throw Error(options.check.string() + ": " + std::to_string(others.size()) +
+                " problems are others than here: " + joined(others));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+Command compare_collect_command() {
+  const auto options = std::make_shared<CollectOptions>();
+  return {"collect",
+          "Makes the collection: 72 captured problems of 60 to 10000 contacts, with a manifest",
+          {{"--output DIR", &options->output, "Where it is made; the same command goes on", shown},
+           {"--largest", &options->largest,
+            "Grains of the largest runs: 25, 80, 200, 600, 1200, 2400 and below", shown,
+            between(25, 2400)},
+           {"--check MANIFEST", &options->check,
+            "Another one's manifest.csv: exit code 1 where the contents differ"}},
+          [options] { return collect(*options); }};
+}
+
+namespace {
+
+struct DiffOptions {
+  std::filesystem::path before, after;
+  double least = 1.1;
+  bool shows_all = false;
+};
+
+/// `width`: of the longest case's name.
+void print_change(const ChangedSolve& solve, int width) {
+  const bool has_both = solve.before > 0.0 && solve.after > 0.0;
+  const std::string ratio = has_both ? printed("%.2f", solve.after / solve.before) : "-";
+  std::cout << printed("%-*s %-14s %-8g%-6s%12.4g%12.4g%8s%8.2f  %s\n", width,
+                       solve.case_name.c_str(), solve.solver.c_str(), solve.tolerance,
+                       name_of(solve.start), solve.before, solve.after, ratio.c_str(), solve.spread,
+                       name_of(solve.change));
+}
+
+ExitCode diff(const DiffOptions& options) {
+  const StoredComparison before = read_comparison(options.before),
+                         after = read_comparison(options.after);
+  double least = options.least;
+  if (before.machine != after.machine) {
+    std::cout << "other machines (" << before.machine << "; " << after.machine
+              << "): times are not compared\n";
+    least = std::numeric_limits<double>::infinity();
+  }
+  const std::vector<ChangedSolve> changes = compare_diff(before.rows, after.rows, least);
+  std::map<Change, int> counts;
+  int width = 34;
+  for (const ChangedSolve& solve : changes)
+    width = std::max(width, static_cast<int>(solve.case_name.size()));
+  std::cout << printed("%-*s %-14s %-8s%-6s%12s%12s%8s%8s  %s\n", width, "case", "solver", "tol",
+                       "start", "before_s", "after_s", "ratio", "spread", "change");
+  for (const ChangedSolve& solve : changes) {
+    ++counts[solve.change];
+    if (solve.change != Change::same || options.shows_all) print_change(solve, width);
+  }
+  std::string summary;
+  for (const auto& [change, count] : counts)
+    add_to_list(summary, std::to_string(count) + " " + name_of(change));
+  std::cout << before.program << " -> " << after.program << ": " << summary << std::endl;
+  const auto common = changes.size() - static_cast<size_t>(counts[Change::only_before]) -
+                      static_cast<size_t>(counts[Change::only_after]);
+  if (common == 0) throw Error("compare diff: the two have no solve in common");
+  if (counts[Change::lost] + counts[Change::slower] == 0) return ExitCode::ok;
+  std::cerr << "ballast: compare diff: " << counts[Change::lost] << " solves are lost and "
+            << counts[Change::slower] << " slower\n";
+  return ExitCode::failure;
+}
+
+}  // namespace
+
+Command compare_diff_command() {
+  const auto options = std::make_shared<DiffOptions>();
+  return {"diff",
+          "Two comparisons of the same cases: what is faster, slower, lost; exit code 1 if any is",
+          {{"before", &options->before, "Folder of a comparison", required},
+           {"after", &options->after, "Folder of another one, of the same machine", required},
+           {"--least", &options->least,
+            "Factor by which a median must have changed; also by more than the repeats' spread",
+            shown, at_least(1)},
+           {"--all", &options->shows_all, "Show what is the same, too"}},
+          [options] { return diff(*options); }};
+}
+
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> folders;
+  std::filesystem::path output = "results/site";
+};
+
+ExitCode merge(const MergeOptions& options) {
+  require_own_folder(options.output, {"machines"});
+  std::vector<StoredComparison> comparisons;
+  size_t rows = 0;
+  for (const std::string& folder : options.folders) {
+    comparisons.push_back(read_comparison(folder));
+    rows += comparisons.back().rows.size();
+  }
+  if (rows == 0) throw Error("compare merge: the comparisons have no rows");
+  write_comparison_site(options.output, comparisons, own_command());
+  std::cout << comparisons.size() << " comparisons, " << rows
+            << " rows: " << (options.output / "index.html").string() << std::endl;
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+Command compare_merge_command() {
+  const auto options = std::make_shared<MergeOptions>();
+  return {"merge",
+          "Comparisons of several machines, commits, days as one site; ratios within a machine",
+          {{"folders", &options->folders, "Folders of comparisons", required},
+           {"--output DIR", &options->output, "Folder of the site: any web host serves it", shown}},
+          [options] { return merge(*options); }};
+}
 
 namespace {
 
@@ -38,28 +181,8 @@ struct CompareRequest {
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
   std::filesystem::path output = "results/compare", reference;
   CompareOptions comparison;
-  bool report = true, is_quiet = false, is_json = false;
-  std::filesystem::path snakemake;
-
-  Telling telling() const {
-    return is_json ? Telling::program : is_quiet ? Telling::nobody : Telling::reader;
-  }
+  bool report = true, is_quiet = false;
 };
-
-using Json = nlohmann::ordered_json;
-
-void tell(const Json& line) {
-  std::cout << line.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
-}
-
-/// A row for a program: as its file has it, without the history.
-bool tell_row(const CompareRow& row, bool was_there, size_t done, size_t count) {
-  Json line = {{"event", "row"}, {"done", done}, {"count", count}, {"was_there", was_there}};
-  line.update(Json::parse(to_json(row)));
-  line.erase("history");
-  tell(line);
-  return !InterruptGuard::requested();
-}
 
 bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
   if (row.verdict == Verdict::unreadable) {
@@ -101,12 +224,6 @@ ExitCode verdict_on_cases(const std::vector<CompareRow>& rows, size_t cases) {
   return ExitCode::failure;
 }
 
-bool show_trajectory(const Trajectory& trajectory) {
-  std::cout << trajectory.label() << ": " << trajectory.steps.size() << " steps, "
-            << trajectory.ended << std::endl;
-  return !InterruptGuard::requested();
-}
-
 /// The closed loop under each backend.
 ExitCode compare_live(const CompareRequest& options) {
   LiveOptions live = options.live;
@@ -114,15 +231,11 @@ ExitCode compare_live(const CompareRequest& options) {
   live.tolerances = options.comparison.tolerances;
   live.max_seconds = options.comparison.max_seconds;
   live.folder = options.output;
-  live.telling = options.telling();
+  live.telling = options.is_quiet ? Telling::nobody : Telling::reader;
   const auto told = [&](const Trajectory& trajectory) {
-    if (live.telling == Telling::reader) return show_trajectory(trajectory);
-    if (live.telling == Telling::program)
-      tell({{"event", "trajectory"},
-            {"solver", trajectory.solver},
-            {"tolerance", trajectory.tolerance},
-            {"steps", trajectory.steps.size()},
-            {"ended", trajectory.ended}});
+    if (!options.is_quiet)
+      std::cout << trajectory.label() << ": " << trajectory.steps.size() << " steps, "
+                << trajectory.ended << std::endl;
     return !InterruptGuard::requested();
   };
   const LiveComparison comparison = run_live(live, told);
@@ -131,44 +244,11 @@ ExitCode compare_live(const CompareRequest& options) {
   manifest.summary("blas", loaded_blas());
   manifest.write(options.output / "manifest.json");
   write_live_page(options.output, comparison);
-  if (live.telling == Telling::program)
-    tell({{"event", "end"}, {"folder", options.output.string()}, {"exit_code", 0}});
-  if (live.telling != Telling::reader) return ExitCode::ok;
+  if (options.is_quiet) return ExitCode::ok;
   std::cout << "\nresults in " << options.output.string()
             << "\n  live.html   figures and the table: open it in a browser\n"
             << "  live.csv    one row per trajectory; steps-*.csv: every step's scalars"
             << std::endl;
-  return ExitCode::ok;
-}
-
-/// The comparison as jobs for others; solves nothing.
-ExitCode plan_jobs(const CompareRequest& options) {
-  if (!options.live.scene.empty())
-    throw UsageError(
-        "compare: --snakemake: not with --live, whose trajectories go on from one start in one "
-        "process; for closed loops on a cluster vary solver.name in `ballast plan --snakemake`");
-  const CompareOptions& c = options.comparison;
-  ComparisonPlan plan{
-      .cases = options.cases,
-      .solvers = {},
-      .external = options.external,
-      .options = {"--tolerances", options.tolerances, "--starts", options.starts, "--measure",
-                  options.measure, "--repeats", std::to_string(c.repeats), "--max-seconds",
-                  printed("%.17g", c.max_seconds), "--exact-seconds",
-                  printed("%.17g", c.exact_seconds), "--memory",
-                  printed("%.17g", c.limits.memory_MB), "--startup-seconds",
-                  printed("%.17g", options.program_limits.startup_seconds)},
-      .finish = {},
-      .results = options.output};
-  for (const ComparedSolver& solver : c.solvers) plan.solvers.push_back(solver.name);
-  if (!options.reference.empty())
-    plan.finish = {"--reference", std::filesystem::absolute(options.reference).string()};
-  if (options.with_views) plan.finish.emplace_back("--views");
-  if (!options.report) plan.finish.emplace_back("--no-report");
-  write_compare_snakemake(plan, options.snakemake);
-  std::cout << "cd " << shell_word(std::filesystem::absolute(options.snakemake).string())
-            << "\n  snakemake -s Snakefile --profile slurm   on a cluster with Slurm\n"
-            << "  snakemake -s Snakefile --cores 4         on this machine" << std::endl;
   return ExitCode::ok;
 }
 
@@ -185,7 +265,6 @@ ExitCode compare(CompareRequest& options) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("compare: --external: ") + error.what());
   }
-  if (!options.snakemake.empty()) return plan_jobs(options);
   for (ComparedSolver& program : programs) options.comparison.solvers.push_back(std::move(program));
   if (options.comparison.solvers.empty())
     throw UsageError("compare: --solvers none: expected a program that solves, --external");
@@ -198,7 +277,6 @@ ExitCode compare(CompareRequest& options) {
   const std::vector<CompareCase> cases = compare_cases(options.cases);
   InterruptGuard guard;
   const auto told = [&](const CompareRow& row, bool was_there, size_t done, size_t count) {
-    if (options.is_json) return tell_row(row, was_there, done, count);
     return options.is_quiet ? !InterruptGuard::requested() : show(row, was_there, done, count);
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
@@ -208,11 +286,7 @@ ExitCode compare(CompareRequest& options) {
   if (options.comparison.is_part) return verdict_on_cases(rows, cases.size());
   if (options.report) write_compare_page(options.output, rows, reference);
   const ExitCode code = verdict_on_cases(rows, cases.size());
-  if (options.is_json)
-    tell({{"event", "end"},
-          {"folder", options.output.string()},
-          {"exit_code", static_cast<int>(code)}});
-  if (options.telling() != Telling::reader) return code;
+  if (options.is_quiet) return code;
   std::cout << '\n'
             << compare_summary(rows, reference) << "\nresults in " << options.output.string()
             << "\n"
@@ -263,13 +337,8 @@ Command compare_command() {
        {"--views", &options->with_views,
         "Of captured cases also a page each in 3D, where in the packing which backend is wrong"},
        {"--quiet", &options->is_quiet, "Says nothing but failures"},
-       {"--snakemake DIR", &options->snakemake,
-        "Solves nothing, but writes cases x backends as a Snakefile with a profile for Slurm"},
        {"--part", &comparison.is_part,
         "One of several processes that fill one folder: rows alone; being killed is a row"},
-       {"--json", &options->is_json,
-        "Every solve for programs: one JSON object a line on stdout, nothing else",
-        excludes("--quiet")},
        {"--live SCENE", &live.scene,
         "Instead of cases: a scene's closed loop from one start under each backend and tolerance"},
        {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value"},

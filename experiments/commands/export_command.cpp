@@ -12,8 +12,6 @@
 #include "experiments/record/checkpoint.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
-#include "experiments/view/animated_png.hpp"
-#include "experiments/view/run_view.hpp"
 #include "experiments/view/still.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
@@ -26,12 +24,9 @@ struct ExportOptions {
   std::filesystem::path source, output;
   std::optional<ExportFormat> format;  ///< without one the output's suffix says it
   std::optional<double> time;          ///< [s]
-  bool last = false, all = false;
-  std::string format_word, time_word;
-  // of pictures
-  int frame = -1;  ///< number of the stored frame; -1: by time, or the last
-  std::string view_word, colour_word, frames_word;
-  std::optional<std::pair<int, int>> frames;  ///< first and last of an animation
+  bool all = false;
+  std::string format_word, time_word, view_word, frames_word;
+  std::optional<std::pair<size_t, size_t>> frames;  ///< of pictures: numbers of the first and last
   StillOptions still;
 };
 
@@ -48,6 +43,16 @@ std::optional<ExportFormat> parsed_format(const std::string& word) {
   return export_format(word);
 }
 
+/// "35" or "20:40".
+std::optional<std::pair<size_t, size_t>> parsed_frames(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  const std::vector<std::string> ends = split(word, ':');
+  const auto first = parsed<int>(ends[0]), last = parsed<int>(ends.back());
+  if (ends.size() > 2 || !first || !last || *first < 0 || *last < *first)
+    throw std::invalid_argument("'" + word + "': expected the number of a frame, or FIRST:LAST");
+  return std::pair(static_cast<size_t>(*first), static_cast<size_t>(*last));
+}
+
 MotionState state_of(const PoseFrame& frame) {
   return {frame.time, frame.step, frame.pose, frame.velocity, frame.spin};
 }
@@ -59,12 +64,12 @@ std::vector<PoseFrame> frames_of(const std::filesystem::path& folder) {
 }
 
 /// The stored frame nearest in time.
-MotionState state_at(const std::filesystem::path& folder, double time) {
-  const std::vector<PoseFrame> frames = frames_of(folder);
-  return state_of(
-      *std::min_element(frames.begin(), frames.end(), [&](const PoseFrame& a, const PoseFrame& b) {
+size_t frame_at(const std::vector<PoseFrame>& frames, double time) {
+  const auto nearest =
+      std::min_element(frames.begin(), frames.end(), [&](const PoseFrame& a, const PoseFrame& b) {
         return std::abs(a.time - time) < std::abs(b.time - time);
-      }));
+      });
+  return static_cast<size_t>(nearest - frames.begin());
 }
 
 void require_bodies(const ExportOptions& options, const MechanicalSystem& system, size_t bodies) {
@@ -89,33 +94,7 @@ ExitCode export_all(const ExportOptions& options, const MechanicalSystem& system
   return ExitCode::ok;
 }
 
-/// "20:40".
-std::optional<std::pair<int, int>> parsed_frames(const std::string& word) {
-  if (word.empty()) return std::nullopt;
-  const std::vector<std::string> ends = split(word, ':');
-  const auto first = parsed<int>(ends[0]), last = parsed<int>(ends.back());
-  if (ends.size() != 2 || !first || !last || *first < 0 || *last <= *first)
-    throw std::invalid_argument("'" + word + "': expected FIRST:LAST, two numbers of frames");
-  return std::pair(*first, *last);
-}
-
-/// Some stored frames as a picture that moves: a tenth of a second each.
-ExitCode export_animation(const ExportOptions& options, const ViewData& view) {
-  const auto [first, last] = *options.frames;
-  if (last >= static_cast<int>(view.frames.size()))
-    throw Error(options.source.string() + ": has frames 0 to " +
-                std::to_string(view.frames.size() - 1) + ", not --frames " + options.frames_word);
-  std::vector<Picture3> pictures;
-  for (int frame = first; frame <= last; ++frame)
-    pictures.push_back(still_picture(view, static_cast<size_t>(frame), options.still));
-  const std::string png = animated_png(pictures, still_finer, 100);
-  write_whole_file(options.output, png);
-  std::cout << options.output.string() << ": frames " << first << " to " << last << ", "
-            << png.size() / 1000 << " kB\n";
-  return ExitCode::ok;
-}
-
-/// A picture of one stored frame, drawn without a display.
+/// Stored frames drawn without a display: one, or a picture that moves.
 ExitCode export_picture(const ExportOptions& options) {
   const std::optional<ViewData> view = view_of_run(read_run_data(options.source));
   if (!view) throw Error(options.source.string() + ": no poses are stored there");
@@ -123,22 +102,16 @@ ExitCode export_picture(const ExportOptions& options) {
     throw Error(options.source.string() +
                 ": no forces are stored there (--set record.forces=true)");
   const std::vector<PoseFrame>& frames = view->frames;
-  size_t frame = frames.size() - 1;
-  if (options.frame >= static_cast<int>(frames.size()))
-    throw Error(options.source.string() + ": has frames 0 to " + std::to_string(frame) +
-                ", not --frame " + std::to_string(options.frame));
-  if (options.frames) return export_animation(options, *view);
-  const double time = options.time.value_or(frames.back().time);
-  const auto is_nearer = [&](const PoseFrame& a, const PoseFrame& b) {
-    return std::abs(a.time - time) < std::abs(b.time - time);
-  };
-  frame = options.frame >= 0
-              ? static_cast<size_t>(options.frame)
-              : static_cast<size_t>(std::min_element(frames.begin(), frames.end(), is_nearer) -
-                                    frames.begin());
-  write_whole_file(options.output, still_png(*view, frame, options.still));
-  std::cout << options.output.string() << ": frame " << frame << " at " << frames[frame].time
-            << " s\n";
+  const size_t one = frame_at(frames, options.time.value_or(frames.back().time));
+  const auto [first, last] = options.frames.value_or(std::pair(one, one));
+  if (last >= frames.size())
+    throw Error(options.source.string() + ": has frames 0 to " + std::to_string(frames.size() - 1) +
+                ", not --frames " + options.frames_word);
+  std::vector<size_t> chosen;
+  for (size_t frame = first; frame <= last; ++frame) chosen.push_back(frame);
+  write_whole_file(options.output, still_png(*view, chosen, options.still));
+  std::cout << options.output.string() << ": frames " << first << " to " << last << ", from "
+            << frames[first].time << " s to " << frames[last].time << " s\n";
   return ExitCode::ok;
 }
 
@@ -161,7 +134,7 @@ ExitCode export_run(const ExportOptions& options) {
   if (!from_folder)
     state = read_checkpoint(options.source).state;
   else if (options.time)
-    state = state_at(folder, *options.time);
+    state = state_of(frames_of(folder)[frame_at(frames_of(folder), *options.time)]);
   require_bodies(options, system, state.pose.size());
   export_state(system, state, format, options.output);
   std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step
@@ -185,22 +158,19 @@ Command export_command() {
        {"--output FILE", &options->output, "The file to write", required},
        {"--time S", &options->time_word, "The stored frame nearest to this time [s]",
         into(options->time, parsed_time)},
-       {"--frame N", &options->frame, "png: number of the stored frame (the last)"},
-       {"--frames FIRST:LAST", &options->frames_word,
-        "png: these stored frames as a picture that moves", into(options->frames, parsed_frames)},
+       {"--frames N", &options->frames_word,
+        "png: number of the stored frame (the last); FIRST:LAST: a picture that moves",
+        into(options->frames, parsed_frames)},
        {"--view FROM", &options->view_word, "png: home, x, -x, y, -y, z, or YAW,PITCH in degrees",
         parsed([options](const std::string& word) { set_view(options->still, word); })},
-       {"--colour BY", &options->colour_word, "png: speed, displacement, size or none (speed)",
-        parsed([options](const std::string& word) { set_colour(options->still, word); })},
        {"--chains", &options->still.with_chains,
         "png: force chains, bodies as glass; needs a run with record.forces"},
        {"--width PIXELS", &options->still.width, "png", between(16, 8000), shown},
        {"--height PIXELS", &options->still.height, "png", between(16, 8000), shown},
-       {"--last", &options->last, "The latest checkpoint (default)", excludes("--time")},
        {"--all", &options->all,
         "Every stored frame: FILE with _<step> before its suffix; with vtp also FILE.pvd, "
         "which ParaView opens as one series",
-        excludes("--time"), excludes("--last")}},
+        excludes("--time")}},
       [options] { return export_run(*options); }};
 }
 

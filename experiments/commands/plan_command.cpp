@@ -1,3 +1,5 @@
+// Many runs: a plan, and the paper's campaign with its report.
+
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -5,11 +7,16 @@
 
 #include "experiments/box/packing_cache.hpp"
 #include "experiments/commands/command.hpp"
+#include "experiments/paper/campaign.hpp"
+#include "experiments/paper/paper_report.hpp"
+#include "experiments/paper/sections.hpp"
 #include "experiments/plans/plan_runner.hpp"
 #include "experiments/plans/resolved_run.hpp"
 #include "experiments/plans/snakemake.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/clock.hpp"
+#include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
@@ -90,6 +97,128 @@ Command plan_command() {
             "Wall clock after which everything writes a checkpoint and the program exits with 3",
             above(0)}},
           [options] { return run_planned(*options); }};
+}
+
+namespace {
+
+struct PaperOptions {
+  std::string target;
+  CampaignSettings campaign;
+  PlanOptions running;
+  fs::path output, rows;
+};
+
+PaperData data_of(const Campaign& campaign, const PaperOptions& options) {
+  std::vector<RunObservables> rows;
+  if (!options.rows.empty()) rows = read_runs_csv(options.rows);
+  return {campaign, options.running.results, std::move(rows)};
+}
+
+/// Rows of another scene or setting look like a report's that is merely short.
+void print_foreign_rows(const PaperData& data, const fs::path& file) {
+  const std::vector<std::string> names = data.foreign_rows();
+  if (names.empty()) return;
+  std::cerr << "ballast: " << file.string() << ": " << names.size()
+            << " rows are of no run of this campaign and left out (" << names.front()
+            << (names.size() > 1 ? ", ...)" : ")")
+            << "; --scene, --set, --seeds and --iterations must be those of their report"
+            << std::endl;
+}
+
+void print_plan(const PaperData& data) {
+  const Campaign& campaign = data.campaign();
+  std::cout << printed("%-16s%-52s%8s%10s  state\n", "stage", "run", "steps", "core-s");
+  double left = 0.0;
+  for (size_t k = 0; k < campaign.runs.size(); ++k) {
+    const CampaignRun& run = campaign.runs[k];
+    const char* state = data.has(k) ? "finished" : data.knows(k) ? "row" : "–";
+    if (!data.knows(k)) left += run.seconds;
+    std::cout << printed("%-16s%-52s%8ld%10ld  %s\n", run.stage.c_str(), run.planned.name.c_str(),
+                         run.steps, std::lround(run.seconds), state);
+  }
+  std::cout
+      << printed(
+             "\n%zu runs, %ld steps, %d packings: about %ld core-seconds (1200 grains, a core "
+             "to each run); %d finished, about %ld core-seconds of drives left",
+             campaign.runs.size(), campaign.steps(), campaign.packings,
+             std::lround(campaign.seconds()), data.finished(), std::lround(left))
+      << std::endl;
+}
+
+/// Stage by stage, so that time running out leaves whole figures. Not made: runs whose rows are
+/// known.
+ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
+  const Stopwatch watch;
+  ExitCode worst = ExitCode::ok;
+  for (const Plan& stage : stages_of(data, options.target)) {
+    PlanOptions running = options.running;
+    running.max_seconds -= watch.seconds();
+    if (!(running.max_seconds > 0.0)) return ExitCode::time_limit;
+    std::cout << "stage " << stage.name << ": " << stage.runs.size() << " runs" << std::endl;
+    const ExitCode code = run_plan(stage, running);
+    if (code == ExitCode::time_limit) return code;
+    if (code != ExitCode::ok) worst = code;
+    if (code != ExitCode::ok && InterruptGuard::requested()) return code;
+  }
+  return worst;
+}
+
+ExitCode reproduce(PaperOptions options) {
+  const std::vector<std::string> targets = paper_targets();
+  const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
+  if (!is_target && options.target != "plan" && options.target != "report")
+    throw UsageError("paper: '" + options.target + "' is none of plan, report, " + joined(targets));
+  const Campaign campaign = make_campaign(options.campaign);
+  if (options.output.empty()) options.output = options.running.results / "report";
+  const PaperData known = data_of(campaign, options);
+  print_foreign_rows(known, options.rows);
+  if (options.target == "plan") {
+    print_plan(known);
+    return ExitCode::ok;
+  }
+  require_own_folder(options.running.results, {"runs", "packings", "report"});
+  // "report" draws what is there; every other target makes its runs first
+  ExitCode code = ExitCode::ok;
+  if (options.target == "report")
+    options.target = "all";
+  else
+    code = run_stages(known, options);
+  PaperData data = data_of(campaign, options);
+  write_paper_report(data, make_sections(data, options.target), options.output);
+  std::cout << data.finished() << " of " << campaign.runs.size() << " runs; report in "
+            << (options.output / "paper.html").string() << std::endl;
+  return code;
+}
+
+}  // namespace
+
+Command paper_command() {
+  const auto options = std::make_shared<PaperOptions>();
+  PlanOptions& running = options->running;
+  CampaignSettings& campaign = options->campaign;
+  running.results = "results/paper";
+  running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return {"paper",
+          "Reproduces the paper: runs, figures 3 to 13, one report",
+          {{"target", &options->target,
+            "What: all; " + joined(paper_targets()) +
+                "; plan (lists the runs); report (draws what is there, runs nothing)",
+            required},
+           {"--jobs N", &running.jobs, "Runs at a time (as many as there are processors)",
+            between(1, 4096)},
+           {"--results DIR", &running.results, "The folder of runs (results/paper)"},
+           {"--output DIR", &options->output, "The folder of the report (<results>/report)"},
+           {"--rows FILE", &options->rows,
+            "A report's data/runs.csv: its runs are taken from there, not made again"},
+           {"--max-seconds S", &running.max_seconds,
+            "Wall clock after which runs write checkpoints; the report is written all the same",
+            above(0)},
+           {"--scene SCENE", &campaign.scene, "Another vibrated box (vibrated_box)"},
+           {"--set KEY=VALUE", &campaign.overrides, "Overrides one value in every run"},
+           {"--seeds N", &campaign.seeds, "Samples of each scaling point (3)", between(1, 1000)},
+           {"--iterations N", &campaign.iterations,
+            "Solver iterations a step, where they are not what is varied", between(1, 1'000'000)}},
+          [options] { return reproduce(*options); }};
 }
 
 }  // namespace ballast

@@ -1,3 +1,6 @@
+// One run, and its page, which can be drawn again: after a full disk, with gnuplot installed
+// meanwhile, or while the run goes on.
+
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -8,13 +11,35 @@
 #include "experiments/measure/run_trust.hpp"
 #include "experiments/run/capture.hpp"
 #include "experiments/run/run.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "experiments/run_page/report.hpp"
-#include "experiments/run_page/report_origin.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "platform/program.hpp"
 #include "platform/worker_team.hpp"
 
 namespace ballast {
+namespace {
+
+ExitCode draw_pages(const std::vector<std::string>& folders) {
+  for (const std::filesystem::path folder : folders) {
+    if (!RunFolder(folder).has_run())
+      throw Error(folder.string() + ": no run here: scene.toml is missing");
+    write_report(folder);
+    std::cout << (folder / "report.html").string() << std::endl;
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+Command report_command() {
+  const auto folders = std::make_shared<std::vector<std::string>>();
+  return {"report",
+          "Draws the page of a run from its record, again or while it goes on",
+          {{"run", folders.get(), "Folders of runs", required}},
+          [folders] { return draw_pages(*folders); }};
+}
 
 namespace {
 

@@ -1,15 +1,20 @@
-// Stored problems through one solver, with every measure of the judge.
+// Stored problems through one solver, with every measure of the judge; and Ballast as a solver
+// behind the protocol that it offers to others (docs/manual/external.md).
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/compare_options.hpp"
+#include "experiments/external/external_files.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
@@ -46,7 +51,7 @@ struct SolvedFile {
 };
 
 /// One number of the table: its heading, its JSON name, where it is.
-struct Measure {
+struct ShownMeasure {
   const char* heading;
   const char* name;
   std::variant<double ContactError::*, double SolverRun::*, double Solved::*> member;
@@ -60,7 +65,7 @@ struct Measure {
 };
 
 // What the headings mean is said in the command's help.
-const Measure measures[] = {
+const ShownMeasure measures[] = {
     {"rms", "natural_map_rms", &ContactError::natural_map_rms},
     {"max", "natural_map_max", &ContactError::natural_map_max},
     {"scale", "velocity_scale", &ContactError::velocity_scale},
@@ -95,7 +100,7 @@ void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
                 {"solver", options.solver},
                 {"reason", name_of(solved.run.solved.reason)},
                 {"verdict", name_of(solved.run.verdict)}}};
-  for (const Measure& m : measures) stored.numbers.emplace_back(m.name, m.value(solved));
+  for (const ShownMeasure& m : measures) stored.numbers.emplace_back(m.name, m.value(solved));
   const std::filesystem::path file = answer_of(solved.file, options.output);
   std::error_code error;
   if (std::filesystem::equivalent(file, solved.file, error))
@@ -152,7 +157,7 @@ SolvedFile solved_or_refused(const std::string& file, const SolveOptions& option
 void print_heading(int width) {
   std::string line = printed("%-*s%9s%8s  %-18s%8s%13s", width, "problem", "contacts", "rows",
                              "stopped", "iter", "verdict");
-  for (const Measure& m : measures) line += printed("%10s", m.heading);
+  for (const ShownMeasure& m : measures) line += printed("%10s", m.heading);
   std::cout << line << printed("%8s\n", "worst");
 }
 
@@ -166,7 +171,7 @@ void print_row(const SolvedFile& s, int width) {
   std::string line =
       printed("%-*s%9d%8d  %-18s%8d%13s", width, name.c_str(), s.contacts, s.rows,
               name_of(s.run.solved.reason), s.run.solved.iterations, name_of(s.run.verdict));
-  for (const Measure& m : measures) line += printed("%10.2e", m.value(s));
+  for (const ShownMeasure& m : measures) line += printed("%10.2e", m.value(s));
   std::cout << line << printed("%8d", s.run.error.worst_contact) << std::endl;
 }
 
@@ -189,7 +194,7 @@ nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options)
                              {"iterations", s.run.solved.iterations},
                              {"worst_contact", s.run.error.worst_contact},
                              {"finite", s.run.error.finite}};
-  for (const Measure& m : measures) row[m.name] = m.value(s);
+  for (const ShownMeasure& m : measures) row[m.name] = m.value(s);
   return row;
 }
 
@@ -277,6 +282,81 @@ Command solve_command() {
        {"--start PATH", &options->start, "Begin with the r of such a file or folder"},
        {"--json", &options->json, "Rows as JSON instead of a table"}},
       [options] { return solve(*options); }};
+}
+
+namespace {
+
+struct AnswerOptions {
+  std::filesystem::path problem, answer;
+  std::string solver = "auto";
+  bool serves = false;
+};
+
+/// What the request asks for, by one solver; the answer's clock runs while that works.
+ExternalAnswer answer_to(const ExternalRequest& request, const std::string& name) {
+  Budget budget{request.tolerance, request.max_iterations, request.max_seconds, true};
+  std::optional<FclibStop> fclib;
+  if (request.fclib_tolerance > 0.0)
+    budget.fclib = &fclib.emplace(request.problem, request.fclib_tolerance);
+  ExternalAnswer answer;
+  const auto solver = make_solver(name);
+  try {
+    SolverRun run = SolverRunner().run(*solver, request.problem, request.start, budget);
+    answer.reason = run.solved.reason;
+    answer.impulses = std::move(run.solved.impulses);
+    answer.iterations = run.solved.iterations;
+    answer.own_residual = run.solved.own_residual;
+    answer.seconds = run.prepare_seconds + run.solve_seconds;
+    answer.history = std::move(run.solved.history);
+  } catch (const UnsupportedProblem& error) {
+    std::cerr << error.what() << '\n';
+    answer.verdict = Verdict::unsupported;
+  }
+  return answer;
+}
+
+void answer_file(const std::filesystem::path& problem, const std::filesystem::path& answer,
+                 const std::string& solver) {
+  const ExternalRequest request = read_request(problem);
+  write_answer(answer, request, answer_to(request, solver));
+}
+
+/// Until standard input ends.
+ExitCode serve(const AnswerOptions& options) {
+  std::cout << "ready bodies" << std::endl;  // these alone are read where they are known
+  for (std::string line; std::getline(std::cin, line);) {
+    try {
+      const std::vector<std::string> files = split(line, '\t');
+      if (files.size() != 2) throw std::invalid_argument("expected PROBLEM<tab>ANSWER");
+      answer_file(files[0], files[1], options.solver);
+      std::cout << "done" << std::endl;
+    } catch (const std::exception& error) {
+      std::cout << "failed: " << error.what() << std::endl;
+    }
+  }
+  return ExitCode::ok;
+}
+
+ExitCode answer(const AnswerOptions& options) {
+  if (options.serves != options.problem.empty() || options.serves != options.answer.empty())
+    throw UsageError("answer: expected PROBLEM and ANSWER, or --serve");
+  if (options.serves) return serve(options);
+  answer_file(options.problem, options.answer, options.solver);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+Command answer_command() {
+  const auto options = std::make_shared<AnswerOptions>();
+  return {"answer",
+          "Solves one request of ballast compare --external, as other programs do",
+          {{"problem", &options->problem, "The request's file"},
+           {"answer", &options->answer, "The file to be written"},
+           {"--serve", &options->serves, "Requests as lines PROBLEM<tab>ANSWER on standard input"},
+           {"--solver", &options->solver, "As listed by ballast solvers", shown,
+            parsed([](const std::string& name) { make_solver(name); })}},
+          [options] { return answer(*options); }};
 }
 
 }  // namespace ballast

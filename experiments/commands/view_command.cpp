@@ -7,8 +7,6 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/view/problem_view.hpp"
-#include "experiments/view/run_view.hpp"
-#include "experiments/view/still_scene.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
@@ -26,7 +24,6 @@ struct ViewOptions {
   std::string thing;
   fs::path output, packing_cache = "results/packings";
   std::vector<std::string> solvers, overrides;
-  std::string scene;
   int iterations = 1000;
   bool warm = false, open = false;
 };
@@ -49,11 +46,6 @@ ViewData view_of(const ViewOptions& options) {
     if (!view) throw Error(path.string() + ": no poses are stored there");
     return *view;
   }
-  if (is_packing_file(path))
-    return view_of_packing(
-        path, options.scene.empty()
-                  ? scenes_around(path)
-                  : std::vector{read_scene(find_scene(options.scene), options.overrides)});
   if (suffix == ".obj" || suffix == ".stl") return view_of_mesh(path);
   if (suffix == ".hdf5" || suffix == ".h5" || suffix == ".dat") {
     if (is_file(path) && !is_captured(path))
@@ -98,8 +90,8 @@ Command view_command() {
       "view",
       "Writes a page that shows something in 3D, and says its path",
       {{"thing", &options->thing,
-        "A run's folder, a captured problem (.hdf5), a scene (name or TOML file), a packing "
-        "(packing-KEY.bin), or a mesh (.obj, .stl)",
+        "A run's folder, a captured problem (.hdf5), a scene (name or TOML file), or a mesh (.obj, "
+        ".stl)",
         required},
        {"--output FILE", &options->output,
         "The page (view.html in a run's folder, NAME.view.html else)"},
@@ -110,10 +102,7 @@ Command view_command() {
         "Of a captured problem: the largest budget; 1, 3, 10, 30, ... below it are shown too",
         between(1, 100000), shown},
        {"--warm", &options->warm, "Of a captured problem: begin where the run did, not at zero"},
-       {"--scene SCENE", &options->scene,
-        "Of a packing: the scene that makes it (looked for among the program's own and the runs' "
-        "beside)"},
-       {"--set KEY=VALUE", &options->overrides, "Of that scene, or of a scene that is the thing"},
+       {"--set KEY=VALUE", &options->overrides, "Of a scene: dotted.key=value"},
        {"--packing-cache DIR", &options->packing_cache,
         "Of a scene with grains: where its packing may be", shown}},
       [options] { return write_view(*options); }};

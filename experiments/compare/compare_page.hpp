@@ -9,7 +9,7 @@
 
 namespace ballast {
 
-/// Reads manifest.json of `folder`; writes figures/*.svg, *.pdf and compare.html there. Without
+/// Reads manifest.json of `folder`; writes figures/*.svg and compare.html there. Without
 /// gnuplot the page has the tables alone and says so. Throws Error.
 void write_compare_page(const std::filesystem::path& folder, std::span<const CompareRow> rows,
                         std::span<const ReferenceTimes> reference);

@@ -4,9 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"
-#include "experiments/run_page/report_origin.hpp"
+#include "experiments/run_page/report.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 

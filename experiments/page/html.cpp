@@ -1,14 +1,176 @@
 #include "experiments/page/html.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 
-#include "experiments/page/drawing.hpp"
-#include "experiments/page/page_style.hpp"
-#include "platform/atomic_file.hpp"
+#include <nlohmann/json.hpp>
 
-namespace ballast::page {
+#include "platform/atomic_file.hpp"
+#include "platform/deflate.hpp"
+#include "platform/text.hpp"
+
+namespace ballast {
+
+std::string answers_file(const std::string& name);  // of experiments/page/answers
+std::string replay_file(const std::string& name);   // of experiments/page/replay
+std::string style_sheet();                          // experiments/page/style.css
+std::string chart_library();                        // Chart.js; empty: not found when configured
+
+namespace page {
+
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The ink's variable in the style sheet.
+const char* variable_of(Ink ink) {
+  // in the order of Ink
+  constexpr const char* names[] = {"ink", "blue",   "vermilion", "green", "orange",
+                                   "sky", "purple", "yellow",    "grey",  "light"};
+  return names[static_cast<size_t>(ink)];
+}
+
+/// Rules that turn one colour of the figures into a variable of the page.
+std::string colour_rules(const std::string& rgb, const std::string& variable) {
+  std::string rules;
+  for (const char* property : {"stroke", "fill", "color"})
+    rules += std::string("svg [") + property + "=\"" + rgb + "\"]{" + property + ":var(" +
+             variable + ")}\n";
+  return rules;
+}
+
+std::string attribute_form(const char* hex) {
+  const long value = std::strtol(hex + 1, nullptr, 16);
+  return printed("rgb(%ld,%ld,%ld)", value >> 16, (value >> 8) & 255, value & 255);
+}
+
+std::string palette_rules() {
+  std::string rules = colour_rules("black", "--ink") + colour_rules("rgb(224,224,224)", "--grid");
+  for (int ink = 0; ink <= static_cast<int>(Ink::light); ++ink)
+    rules +=
+        colour_rules(attribute_form(rgb_of(Ink(ink))), std::string("--") + variable_of(Ink(ink)));
+  return rules;
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+/// Cuts every stretch from `begin` to `end`, both included.
+void cut_all(std::string& text, std::string_view begin, std::string_view end) {
+  for (size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+    const size_t close = text.find(end, at + begin.size());
+    text.erase(at, close == std::string::npos ? std::string::npos : close + end.size() - at);
+  }
+}
+
+/// "rgb(  0, 114, 178)" to "rgb(0,114,178)": the style sheet matches the attribute's text.
+void tighten_colours(std::string& text) {
+  for (size_t at = 0; (at = text.find("rgb(", at)) != std::string::npos; ++at) {
+    const size_t close = text.find(')', at);
+    if (close == std::string::npos) return;
+    const auto begin = text.begin() + static_cast<long>(at),
+               end = text.begin() + static_cast<long>(close);
+    text.erase(std::remove(begin, end, ' '), end);
+  }
+}
+
+/// The modules in the order in which they build upon each other.
+constexpr std::array common_modules = {"elements.js", "choice.js",  "numbers.js", "tables.js",
+                                       "palette.js",  "legends.js", "charts.js",  "origins.js",
+                                       "pictures.js", "answers.js"};
+
+/// Five digits are more than a chart shows; JSON has no NaN.
+Json short_number(double value) {
+  return std::isfinite(value) ? Json(parsed_number(printed("%.5g", value)).value_or(0.0)) : Json();
+}
+
+Json short_numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(short_number(value));
+  return list;
+}
+
+Json axis_json(const std::string& label, bool is_log, const std::optional<double>& low,
+               const std::optional<double>& high) {
+  const Text words = label_words(label);
+  Json axis = {{"label", html_of(words)}, {"words", plain_words(words)}, {"log", is_log}};
+  if (low) axis["min"] = *low;
+  if (high) axis["max"] = *high;
+  return axis;
+}
+
+Json curve_json(const Curve& curve) {
+  const bool is_area = curve.mark == Mark::area;
+  return {{"title", plain_words(label_words(curve.title))},
+          {"ink", variable_of(curve.ink)},
+          {"dash", curve.dashed ? 1 + curve.fineness : 0},
+          {"width", curve.width},
+          {"mark", is_area                      ? "area"
+                   : curve.mark == Mark::points ? "points"
+                                                : "line"},
+          {"x", short_numbers(curve.x)},
+          {"y", short_numbers(curve.y)},
+          {"error", short_numbers(curve.y_error)},
+          {"low", short_numbers(curve.y_low)},
+          {"from", curve.origins}};
+}
+
+Json picture_json(const Figure& figure) {
+  Json panels = Json::array();
+  for (const Panel& panel : figure.panels) {
+    Json curves = Json::array(), lines = Json::array();
+    for (const Curve& curve : panel.curves) curves.push_back(curve_json(curve));
+    for (const ReferenceLine& line : panel.lines)
+      lines.push_back({{"value", line.value},
+                       {"vertical", line.vertical},
+                       {"label", plain_words(label_words(line.label))}});
+    panels.push_back({{"x", axis_json(panel.x_label, panel.log_x, panel.x_min, panel.x_max)},
+                      {"y", axis_json(panel.y_label, panel.log_y, panel.y_min, panel.y_max)},
+                      {"curves", curves},
+                      {"lines", lines}});
+  }
+  return {{"name", figure.name}, {"title", figure.title}, {"panels", panels}};
+}
+
+/// The page's own data, and the curves of its figures as "pictures".
+std::string data_of(const Page& page) {
+  Json data = page.answers.data.empty() ? Json::object() : Json::parse(page.answers.data);
+  if (page.answers.with_curves) {
+    Json& pictures = data["pictures"] = Json::array();
+    for (const Section& section : page.sections)
+      for (const Block& block : section.blocks)
+        if (const auto* picture = std::get_if<Picture>(&block))
+          pictures.push_back(picture_json(picture->plot));
+  }
+  // no "<" can end the element or begin a comment in it
+  std::string json;
+  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
+    json += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return json;
+}
+
+/// The modules in the order in which they build upon each other.
+constexpr std::array replay_modules = {
+    "vector.js", "colour.js", "data.js",  "camera.js", "shader.js", "mesh.js",  "stage.js",
+    "shades.js", "marks.js",  "plots.js", "panel.js",  "errors.js", "input.js", "replay.js"};
+
+std::string replay_script() {
+  std::string code = "(() => {\n\"use strict\";\n" + answers_file("choice.js");
+  for (const char* name : replay_modules) code += replay_file(name);
+  return code + "})();\n";
+}
+
+/// Inside a script element only "</" could end it: "<\/" is the same in JSON.
+std::string for_script(std::string json) {
+  for (size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3)
+    json.insert(at + 1, 1, '\\');
+  return json;
+}
 
 /// Tables of more columns may be wider than the text.
 constexpr size_t widest_in_text = 8;
@@ -186,7 +348,7 @@ void write_html(const Page& page, const Write& write) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
-      escaped_html(page.title) + "</title>\n<style>\n" + style_sheet() +
+      escaped_html(page.title) + "</title>\n<style>\n" + style_sheet() + palette_rules() +
       "</style>\n</head>\n<body>\n<main>\n" + header_of(page) + html_of(Block(page.notices)));
   for (const Section& section : page.sections) write_section(section, write);
   if (page.answers.are_given && !can_answer())
@@ -205,4 +367,60 @@ std::string html_of(const Page& page) {
   return gathered([&](const Write& write) { write_html(page, write); });
 }
 
-}  // namespace ballast::page
+std::string inline_svg(std::string_view svg, const std::string& name, const std::string& title) {
+  std::string text(svg);
+  cut_all(text, "<?xml", "?>");
+  cut_all(text, "<!DOCTYPE", ">");
+  cut_all(text, "<!--", "-->");
+  cut_all(text, "<desc>", "</desc>");
+  // gnuplot numbers its marks alike in every file
+  for (const char quote : {'\'', '"'}) {
+    replace_all(text, std::string("id=") + quote, std::string("id=") + quote + name + '-');
+    replace_all(text, std::string("href=") + quote + '#',
+                std::string("href=") + quote + '#' + name + '-');
+  }
+  replace_all(text, "url(#", "url(#" + name + '-');
+  tighten_colours(text);
+  const size_t begin = text.find("<title>"), end = text.find("</title>");
+  if (begin != std::string::npos && end != std::string::npos && begin < end)
+    text.replace(begin + 7, end - begin - 7, escaped_html(title));
+  const size_t root = text.find("<svg");
+  if (root != std::string::npos) text.replace(root, 4, "<svg role=\"img\"");
+  return text;
+}
+
+bool can_answer() { return !chart_library().empty(); }
+
+std::string answers_html(const Page& page) {
+  if (!page.answers.are_given || !can_answer()) return {};
+  std::string whole = "(() => {\n\"use strict\";\n";
+  for (const char* name : common_modules) whole += answers_file(name);
+  for (const std::string& module : page.answers.modules) whole += module;
+  return "<style>\n" + answers_file("answers.css") +
+         "</style>\n<script type=\"application/json\" id=\"page-data\">" + data_of(page) +
+         "</script>\n<script>\n" + chart_library() + "</script>\n<script>\n" + whole +
+         "})();\n</script>\n";
+}
+
+void write_replay(const Replay& replay, const Write& write) {
+  write("<figure class=\"replay\" id=\"replay\">\n<style>\n" + replay_file("replay.css") +
+        "</style>\n<div id=\"replay-stage\">");
+  if (!replay.still.empty())
+    write("<img alt=\"The bodies in 3D: a still picture\" src=\"data:image/png;base64," +
+          base64(replay.still) + "\">");
+  write(
+      "</div>\n<p id=\"replay-sentence\">This picture moves in a browser with WebGL 2 and "
+      "scripts.</p>\n");
+  if (!replay.caption.empty()) write("<figcaption>" + html_of(replay.caption) + "</figcaption>\n");
+  write("<script type=\"application/json\" id=\"replay-head\">" + for_script(replay.head) +
+        "</script>\n");
+  for (const auto& [name, bytes] : replay.parts) {
+    write("<script type=\"text/plain\" id=\"replay-" + name + "\">");
+    write(base64(deflated(bytes, 9)));
+    write("</script>\n");
+  }
+  write("<script>\n" + replay_script() + "</script>\n</figure>\n");
+}
+
+}  // namespace page
+}  // namespace ballast

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "experiments/page/drawing.hpp"
 
 namespace ballast::page {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 // What a page says, in plain words: the model that every page of the program is written in. It
-// knows no HTML and no Markdown; html.hpp and markdown.hpp write it, drawing.hpp draws its figures.
+// knows no HTML and no Markdown; html.hpp and markdown.hpp write it.
 //
 //   page::Page page{.title = name_of_run, .lede = {page::exact(steps) + " steps"}};
 //   page::Table table{.head = {"phase", page::marked("error / *gh*")}, .is_number = {false, true}};
@@ -12,14 +12,13 @@
 //   page::write_html_file(folder / "report.html", page);
 //   write_whole_file(folder / "README.md", page::markdown_of(page));
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "experiments/page/number.hpp"
 #include "experiments/page/plot.hpp"
-#include "experiments/page/prose.hpp"
 #include "experiments/page/text.hpp"
 
 namespace ballast::page {
@@ -118,5 +117,21 @@ Table facts_table();
 /// A table. Its words are lines: the caption, the cells of the head with "||" between them, and
 /// the rows that it has already.
 Table words_table(const std::string& name, const Values& values = {});
+
+/// Where figures stand, beside the page's file.
+inline constexpr const char* picture_folder = "figures";
+
+/// What is left beside the page for each figure; the SVG always is.
+struct Drawing {
+  bool with_script = true;  ///< gnuplot's script, which holds the data
+  bool on_white = false;    ///< the SVG as a file has a white ground: for pages that show the file
+  std::string command =
+      {};  ///< named where gnuplot is missing: "ballast report RUN" draws them later
+};
+
+/// Draws every picture of `page` into folder/figures and fills its svg. Pictures without panels are
+/// dropped silently; what gnuplot cannot draw is dropped and becomes one of the page's notices, and
+/// without gnuplot one notice stands for all. Throws Error when `folder` cannot be written.
+void draw_pictures(Page& page, const std::filesystem::path& folder, const Drawing& drawing = {});
 
 }  // namespace ballast::page

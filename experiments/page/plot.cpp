@@ -7,11 +7,322 @@
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Pixels: beside the axes' boxes, and the height of one line of a key.
+constexpr double left_margin = 98.0, right_margin = 22.0, key_row = 22.0;
+
+/// What an axis must show.
+struct Extent {
+  bool is_log = false;
+  double low = 1e300, high = -1e300;
+
+  /// Takes in a value that the axis can show: finite, and positive where it is logarithmic.
+  void add(double value) {
+    if (!std::isfinite(value) || (is_log && value <= 0.0)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool is_empty() const { return low > high; }
+  /// `margin` of the span to both sides.
+  void pad(double margin) {
+    if (is_log) {
+      // a constant gets a factor of two to both sides
+      const double more = high > low ? margin * std::log(high / low) : std::log(2.0);
+      low *= std::exp(-more);
+      high *= std::exp(more);
+      return;
+    }
+    // a constant gets room above and below; so does what differs in digits that no axis writes
+    const double size = std::max(std::abs(low), std::abs(high));
+    const bool is_constant = high - low <= std::max(1e-6 * size, 1e-100);
+    const double span = is_constant ? std::max(size * 0.1, 1e-9) : high - low;
+    if (is_constant) {
+      low -= 0.5 * span;
+      high += 0.5 * span;
+    }
+    low -= margin * span;
+    high += margin * span;
+  }
+};
+
+/// 1 to 9 of every decade within the extent: marked without a number.
+std::vector<double> minor_log_ticks(const Extent& extent) {
+  std::vector<double> ticks;
+  for (double decade = std::floor(std::log10(extent.low)); std::pow(10.0, decade) < extent.high;
+       ++decade)
+    for (int digit = 1; digit < 10; ++digit) {
+      const double tick = digit * std::pow(10.0, decade);
+      if (tick >= extent.low * (1.0 - 1e-9) && tick <= extent.high * (1.0 + 1e-9))
+        ticks.push_back(tick);
+    }
+  return ticks;
+}
+
+/// Ticks of a logarithmic axis: 1, 2, 5 of every decade, only the powers of ten where there are
+/// many decades. Within the extent.
+std::vector<double> log_ticks(const Extent& extent) {
+  const double decades = std::log10(extent.high / extent.low);
+  constexpr double many = 3.0;
+  std::vector<double> ticks = minor_log_ticks(extent);
+  // the first digit of each decides; over less than half a decade all are numbered
+  std::erase_if(ticks, [&](double tick) {
+    const long digit = std::lround(tick / std::pow(10.0, std::floor(std::log10(tick * 1.0001))));
+    return decades >= many ? digit != 1 : decades > 0.5 && digit != 1 && digit != 2 && digit != 5;
+  });
+  return ticks;
+}
+
+/// Of all curves, error bars and reference lines of a panel, padded; the panel's own limits where
+/// it has them. Throws std::invalid_argument when there is nothing to show.
+Extent y_extent(const Panel& panel) {
+  Extent extent{panel.log_y};
+  for (const Curve& curve : panel.curves)
+    for (size_t k = 0; k < curve.y.size(); ++k) {
+      if (!std::isfinite(curve.x[k])) continue;
+      const double bar = curve.y_error.empty() ? 0.0 : curve.y_error[k];
+      extent.add(curve.y[k] - bar);
+      extent.add(curve.y[k] + bar);
+      if (!curve.y_low.empty()) extent.add(curve.y_low[k]);
+    }
+  if (extent.is_empty()) throw std::invalid_argument("nothing to draw for " + panel.y_label);
+  for (const ReferenceLine& line : panel.lines)
+    if (!line.vertical) extent.add(line.value);
+  extent.pad(0.06);
+  if (panel.y_min) extent.low = *panel.y_min;
+  if (panel.y_max) extent.high = *panel.y_max;
+  return extent;
+}
+
+Extent x_extent(const Panel& panel) {
+  Extent extent{panel.log_x};
+  for (const Curve& curve : panel.curves)
+    for (double x : curve.x) extent.add(x);
+  if (extent.is_empty()) throw std::invalid_argument("nothing to draw along " + panel.x_label);
+  if (!panel.x_min || !panel.x_max) extent.pad(0.03);
+  if (panel.x_min) extent.low = *panel.x_min;
+  if (panel.x_max) extent.high = *panel.x_max;
+  return extent;
+}
+
+/// Columns and rows of a panel's key: all columns are as wide as the longest title (gnuplot's
+/// rule), letters taken as wide as it takes them.
+struct KeySize {
+  int columns = 1, rows = 0;
+};
+
+KeySize key_size(const Figure& figure, const Panel& panel) {
+  constexpr double letter = 10.6, sample = 5.3 * letter;
+  double widest = 0.0;
+  int entries = 0;
+  for (const Curve& curve : panel.curves) {
+    if (curve.title.empty()) continue;
+    ++entries;
+    const auto letters = std::count_if(curve.title.begin(), curve.title.end(),
+                                       [](unsigned char c) { return (c & 0xc0) != 0x80; });
+    widest = std::max(widest, sample + letter * static_cast<double>(letters));
+  }
+  // as many columns as fit beside each other
+  if (entries == 0) return {};
+  KeySize size;
+  size.columns = std::clamp(static_cast<int>((figure.width - left_margin - right_margin) / widest),
+                            1, entries);
+  size.rows = (entries + size.columns - 1) / size.columns;
+  return size;
+}
+
+struct PanelPlace {
+  double left, right;  ///< pixels from the figure's left edge to the axes' box
+  double top, bottom;  ///< pixels from the figure's lower edge to it
+  bool shows_x;        ///< numbers and label below the x axis
+  KeySize key;         ///< above the box
+};
+
+/// One place for each panel, from the top down; all boxes are of the same height.
+std::vector<PanelPlace> panel_places(const Figure& figure) {
+  // numbers and x label below the last box, or below each when the axes differ
+  const bool is_shared =
+      std::all_of(figure.panels.begin(), figure.panels.end(), [&](const Panel& panel) {
+        return panel.is_inset || panel.x_label == figure.panels[0].x_label;
+      });
+  constexpr double above = 12.0, below_last = 66.0;
+  const double below = is_shared ? 12.0 : below_last;
+  // what keys (and letters, which stand beside them), numbers and labels leave is shared evenly
+  // among the boxes; an inset takes no room
+  size_t count = 0;
+  double keys = 0.0;
+  std::vector<KeySize> sizes;
+  for (const Panel& panel : figure.panels) {
+    KeySize& key = sizes.emplace_back(key_size(figure, panel));
+    if (figure.has_letters) key.rows = std::max(key.rows, 1);
+    if (panel.is_inset) continue;
+    keys += key_row * key.rows;
+    ++count;
+  }
+  const double box = (figure.height - keys - static_cast<double>(count) * above - below_last -
+                      static_cast<double>(count - 1) * below) /
+                     static_cast<double>(count);
+  // from the top of the figure down
+  std::vector<PanelPlace> places;
+  double y = figure.height;
+  const double right = figure.width - right_margin;
+  for (size_t p = 0, boxes = 0; p < sizes.size(); ++p) {
+    if (figure.panels[p].is_inset) {
+      const PanelPlace& outer = places.back();
+      const double width = outer.right - outer.left, height = outer.top - outer.bottom;
+      places.push_back({outer.left + 0.09 * width, outer.left + 0.47 * width,
+                        outer.top - 0.05 * height, outer.bottom + 0.45 * height, true, sizes[p]});
+      continue;
+    }
+    ++boxes;
+    y -= above + key_row * sizes[p].rows;
+    places.push_back({left_margin, right, y, y - box, !is_shared || boxes == count, sizes[p]});
+    y -= box + below;
+  }
+  return places;
+}
+
+/// In single quotes gnuplot expands nothing (double quotes would run what is between backquotes).
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : one_line(text, ' ')) {
+    if (c == '\'') result += '\'';
+    result += c;
+  }
+  return result + '\'';
+}
+
+std::string script_number(double value) {
+  return std::isfinite(value) ? printed("%.7g", value) : "NaN";
+}
+
+std::string data_block(const std::string& name, const Curve& curve) {
+  std::string text = name + " << EOD\n";
+  for (size_t k = 0; k < curve.x.size(); ++k) {
+    text += script_number(curve.x[k]) + ' ' + script_number(curve.y[k]);
+    if (!curve.y_low.empty()) text += ' ' + script_number(curve.y_low[k]);
+    if (!curve.y_error.empty()) text += ' ' + script_number(curve.y_error[k]);
+    text += '\n';
+  }
+  return text + "EOD\n";
+}
+
+std::string colour(Ink ink, double opacity) {
+  const int transparency =
+      static_cast<int>(std::lround(255.0 * (1.0 - std::clamp(opacity, 0.0, 1.0))));
+  if (transparency == 0) return std::string("'") + rgb_of(ink) + "'";
+  return printed("'#%02x%s'", transparency, rgb_of(ink) + 1);
+}
+
+std::string plot_command(const std::string& block, const Curve& curve) {
+  constexpr const char* dashes[] = {" dt (8,5)", " dt (4,3)", " dt (1.5,3)"};
+  constexpr int shapes[] = {7, 9, 5, 13};  // gnuplot's numbers, in the order of MarkShape
+  const int shape = shapes[static_cast<size_t>(curve.shape)];
+  std::string text = block;
+  const std::string ink = colour(curve.ink, curve.opacity);
+  switch (curve.mark) {
+    case Mark::line:
+      text += printed(" using 1:2 with lines lc rgb %s lw %.3g%s", ink.c_str(), curve.width,
+                      curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
+      break;
+    case Mark::points:
+      text += curve.y_error.empty()
+                  ? printed(" using 1:2 with points pt %d ps %.3g lc rgb %s", shape,
+                            0.35 * curve.width, ink.c_str())
+                  : printed(" using 1:2:3 with yerrorbars pt %d ps %.3g lc rgb %s", shape,
+                            0.35 * curve.width, ink.c_str());
+      break;
+    case Mark::area:
+      text += printed(" using 1:2:3 with filledcurves fs solid noborder fc rgb %s", ink.c_str());
+      break;
+  }
+  return text + (curve.title.empty() ? " notitle" : " title " + quoted(curve.title));
+}
+
+std::string reference(const ReferenceLine& line) {
+  const std::string v = script_number(line.value), ink = rgb_of(line.ink);
+  std::string text = line.vertical
+                         ? "set arrow from first " + v + ", graph 0 to first " + v + ", graph 1"
+                         : "set arrow from graph 0, first " + v + " to graph 1, first " + v;
+  text += " nohead front lw 1.2 dt (3,4) lc rgb '" + ink + "'\n";
+  if (line.label.empty()) return text;
+  text += "set label " + quoted(line.label) +
+          (line.vertical ? " at first " + v + ", graph 0.95 left offset character 0.5, 0"
+                         : " at graph 0.995, first " + v + " right offset character 0, 0.5");
+  return text + " front font ',13' tc rgb '" + rgb_of(Ink::black) + "'\n";
+}
+
+void check(const Figure& figure) {
+  const auto require = [&](bool is_good, const char* what) {
+    if (!is_good) throw std::invalid_argument(what);
+  };
+  const bool is_plain = !figure.name.empty() &&
+                        std::all_of(figure.name.begin(), figure.name.end(), [](unsigned char c) {
+                          return std::isalnum(c) || c == '_' || c == '-';
+                        });
+  require(is_plain, "its name must be of letters, digits, _ and -");
+  require(!figure.panels.empty(), "no panel");
+  for (const Panel& panel : figure.panels)
+    for (const Curve& curve : panel.curves) {
+      require(curve.x.size() == curve.y.size(), "as many x as y");
+      require(curve.y_error.empty() || curve.y_error.size() == curve.y.size(),
+              "as many error bars as points");
+      require((curve.mark == Mark::area) == !curve.y_low.empty(),
+              "an area, and only it, has lower bounds");
+      require(curve.y_low.empty() || curve.y_low.size() == curve.y.size(),
+              "as many lower bounds as y");
+    }
+}
+
+/// The ticks of a logarithmic axis ('x' or 'y'): with numbers at `numbered`, small ones between.
+std::string log_axis(char axis, const Extent& extent, std::vector<double> numbered) {
+  if (numbered.empty()) numbered = log_ticks(extent);
+  std::string list;
+  for (const double tick : numbered) list += (list.empty() ? "" : ", ") + script_number(tick);
+  for (const double tick : minor_log_ticks(extent)) list += ", '' " + script_number(tick) + " 1";
+  const bool has_powers_only = extent.high / extent.low >= 1e3;
+  return printed("set logscale %c\nset format %c '%s'\nset %ctics (", axis, axis,
+                 has_powers_only ? "10^{%L}" : "%g", axis) +
+         list + ")\n";
+}
+
+std::string panel_commands(const Figure& figure, const Panel& panel, const PanelPlace& place,
+                           const std::string& blocks, char letter) {
+  const Extent x = x_extent(panel), y = y_extent(panel);
+  std::string text =
+      "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n"
+      "set xtics autofreq\nset ytics autofreq\n";
+  const double right = place.right / figure.width;
+  text += printed("set lmargin at screen %.5f\nset rmargin at screen %.5f\n",
+                  place.left / figure.width, right);
+  text += printed("set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
+                  place.top / figure.height, place.bottom / figure.height);
+  text += "set xrange [" + script_number(x.low) + ':' + script_number(x.high) + "]\nset yrange [" +
+          script_number(y.low) + ':' + script_number(y.high) + "]\n";
+  if (panel.log_x) text += log_axis('x', x, panel.x_ticks);
+  if (panel.log_y) text += log_axis('y', y, {});
+  text += printed("set tics font ',%d'\n", panel.is_inset ? 12 : 15);
+  text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n"
+                        : "set xlabel ''\nset format x ''\n";
+  text += "set ylabel " + quoted(panel.y_label) + '\n';
+  // above the box, to the right
+  text += printed(
+      "set key at screen %.5f, screen %.5f right center horizontal maxcols %d samplen 1.6 spacing "
+      "1.0\n",
+      right, (place.top + 5.0 + 0.5 * key_row * place.key.rows) / figure.height, place.key.columns);
+  for (const ReferenceLine& line : panel.lines) text += reference(line);
+  if (letter) text += printed("set label '(%c)' at graph 0, graph 1 left offset 0, 0.7\n", letter);
+  std::string curves;
+  for (size_t c = 0; c < panel.curves.size(); ++c)
+    curves += (curves.empty() ? "" : ", \\\n     ") +
+              plot_command(blocks + std::to_string(c), panel.curves[c]);
+  return text + "plot " + curves + '\n';
+}
 
 /// gnuplot points at its complaint with a line of "^": the sentence is the last line that says
 /// something.
@@ -35,48 +346,79 @@ std::string why(const ProgramResult& child, double seconds) {
   return "gnuplot failed (" + std::to_string(child.status) + "): " + last_line(child.errors);
 }
 
-/// Writes the script into `commands` and what gnuplot makes of it into `target`, and returns that.
-/// `last`: without it the picture is incomplete.
-std::string render(const Figure& figure, PlotFormat format, const fs::path& target,
-                   const fs::path& commands, const char* last, double seconds) {
-  const std::string name = "figure " + figure.name + ": ";
-  std::error_code ignored;
-  fs::remove(target, ignored);
-  std::string script;
-  try {
-    script = gnuplot_script(figure, format);
-  } catch (const std::invalid_argument& error) {
-    throw Error(name + error.what());
-  }
-  create_folder(fs::absolute(target).parent_path());
-  write_whole_file(commands, script);
-  // absolute: a name beginning with "-" or "<" would mean something to gnuplot
-  ProgramResult child = run_program("gnuplot", {"-d", fs::absolute(commands).string()}, seconds);
-  if (!child.succeeded()) throw Error(name + why(child, seconds));
-  if (child.output.find(last) == std::string::npos)
-    throw Error(name + "gnuplot's " + (format == PlotFormat::pdf ? "PDF" : "SVG") +
-                " is incomplete");
-  write_whole_file(target, child.output);
-  return std::move(child.output);
+}  // namespace
+
+const char* rgb_of(Ink ink) {
+  // in the order of Ink
+  constexpr const char* colours[] = {"#1a1a1a", "#0072b2", "#d55e00", "#009e73", "#e69f00",
+                                     "#56b4e9", "#cc79a7", "#f0e442", "#767676", "#b8b8b8"};
+  return colours[static_cast<size_t>(ink)];
 }
 
-}  // namespace
+std::string plain_text(const std::string& text) {
+  std::string result;
+  for (const char c : one_line(text, ' ')) {
+    if (c == '^' || c == '_' || c == '@' || c == '&' || c == '~' || c == '{' || c == '}' ||
+        c == '\\')
+      result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string gnuplot_script(const Figure& figure) {
+  check(figure);
+  std::string text =
+      "# " + figure.name + ": gnuplot " + figure.name + ".gnuplot > " + figure.name + ".svg\n";
+  for (size_t p = 0; p < figure.panels.size(); ++p)
+    for (size_t c = 0; c < figure.panels[p].curves.size(); ++c)
+      text += data_block("$p" + std::to_string(p) + "c" + std::to_string(c),
+                         figure.panels[p].curves[c]);
+  text += "set encoding utf8\nset minussign\n";
+  std::string id = figure.name;  // gnuplot takes no hyphen here
+  std::replace(id.begin(), id.end(), '-', '_');
+  text += printed(
+      "set terminal svg size %d,%d dynamic enhanced rounded font 'sans-serif,15' name '%s'\n",
+      figure.width, figure.height, id.c_str());
+  text += "set border 3 lw 1 lc rgb '#767676'\nset tics nomirror out scale 0.6 tc rgb '#1a1a1a'\n";
+  text += "set grid lw 0.6 lt 1 lc rgb '#e0e0e0'\n";
+  text += "set multiplot\n";
+  const std::vector<PanelPlace> places = panel_places(figure);
+  char next = 'a';
+  for (size_t p = 0; p < figure.panels.size(); ++p) {
+    const bool is_lettered = figure.has_letters && !figure.panels[p].is_inset;
+    text += panel_commands(figure, figure.panels[p], places[p], "$p" + std::to_string(p) + "c",
+                           is_lettered ? next++ : '\0');
+  }
+  return text + "unset multiplot\n";
+}
 
 std::string gnuplot_version() {
   const ProgramResult child = run_program("gnuplot", {"--version"}, 10.0);
   return child.succeeded() ? child.output.substr(0, child.output.find('\n')) : std::string();
 }
 
-void render_pdf(const Figure& figure, const fs::path& folder, double seconds) {
-  const fs::path pdf = folder / (figure.name + ".pdf"), commands = pdf.string() + ".gnuplot";
-  render(figure, PlotFormat::pdf, pdf, commands, "%%EOF", seconds);
-  std::error_code ignored;
-  fs::remove(commands, ignored);
-}
-
 std::string render_svg(const Figure& figure, const fs::path& folder, double seconds) {
-  return render(figure, PlotFormat::svg, folder / (figure.name + ".svg"),
-                folder / (figure.name + ".gnuplot"), "</svg>", seconds);
+  const std::string name = "figure " + figure.name + ": ";
+  const fs::path svg = folder / (figure.name + ".svg"),
+                 commands = folder / (figure.name + ".gnuplot");
+  std::error_code ignored;
+  fs::remove(svg, ignored);
+  std::string script;
+  try {
+    script = gnuplot_script(figure);
+  } catch (const std::invalid_argument& error) {
+    throw Error(name + error.what());
+  }
+  create_folder(fs::absolute(folder));
+  write_whole_file(commands, script);
+  // absolute: a name beginning with "-" or "<" would mean something to gnuplot
+  ProgramResult child = run_program("gnuplot", {"-d", fs::absolute(commands).string()}, seconds);
+  if (!child.succeeded()) throw Error(name + why(child, seconds));
+  if (child.output.find("</svg>") == std::string::npos)
+    throw Error(name + "gnuplot's SVG is incomplete");
+  write_whole_file(svg, child.output);
+  return std::move(child.output);
 }
 
 void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit) {

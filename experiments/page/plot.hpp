@@ -72,11 +72,9 @@ struct Figure {
 /// Escapes what enhanced text would interpret; control characters become spaces.
 std::string plain_text(const std::string& text);
 
-enum class PlotFormat { svg, pdf };
-
 /// The script, data included; output goes to standard output. Throws std::invalid_argument when the
 /// figure is inconsistent.
-std::string gnuplot_script(const Figure& figure, PlotFormat format = PlotFormat::svg);
+std::string gnuplot_script(const Figure& figure);
 
 /// Version line of the gnuplot found on PATH ("gnuplot 5.4 patchlevel 4"); empty when there is
 /// none.
@@ -87,9 +85,6 @@ std::string gnuplot_version();
 /// Throws Error naming the figure; an older SVG of that name is gone then.
 std::string render_svg(const Figure& figure, const std::filesystem::path& folder,
                        double seconds = 60.0);
-
-/// Writes folder/<name>.pdf in the same way: for papers. Nothing else is left behind.
-void render_pdf(const Figure& figure, const std::filesystem::path& folder, double seconds = 60.0);
 
 /// At most `limit` samples that look the same: the least and the largest of each stretch, in their
 /// order; NaN once per stretch.

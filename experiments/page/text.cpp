@@ -1,11 +1,15 @@
 #include "experiments/page/text.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "experiments/page/plot.hpp"
+#include "platform/text.hpp"
 
 namespace ballast::page {
 namespace {
@@ -163,6 +167,46 @@ std::string raised(const std::string& text) {
   return result;
 }
 
+constexpr const char* narrow_space = "\u202f";
+
+std::string without_trailing_zeros(std::string digits) {
+  if (digits.find('.') == std::string::npos) return digits;
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits;
+}
+
+std::string with_minus_sign(std::string digits) {
+  if (digits[0] == '-') digits.replace(0, 1, "−");
+  return digits;
+}
+
+Text unknown() { return {"–", note}; }
+
+Text number_text(double value, int digits, bool is_exact) {
+  if (!std::isfinite(value)) return unknown();
+  if (value == 0.0) return "0";
+  // the rounded value decides, so that 999999.9 isn't printed as 1.00e+06
+  std::string text = printed("%.*e", digits - 1, value);
+  const size_t mark = text.find('e');
+  const int exponent = std::atoi(text.c_str() + mark + 1);
+  const bool has_power = exponent < -3 || exponent >= 6;
+  text =
+      has_power ? text.substr(0, mark) : printed("%.*f", std::max(0, digits - 1 - exponent), value);
+  if (is_exact) text = without_trailing_zeros(text);
+  Text result = with_minus_sign(text);
+  if (has_power) {
+    result += "×10";
+    result += {with_minus_sign(std::to_string(exponent)), superscript};
+  }
+  return result;
+}
+
+Text with_unit(double value, Text digits, const char* unit) {
+  if (!std::isfinite(value) || !*unit) return digits;
+  return std::move(digits) + narrow_space + marked(unit);
+}
+
 }  // namespace
 
 Text::Text(std::string words, Styles styles, std::string link) {
@@ -252,6 +296,73 @@ std::string clean_utf8(std::string_view text) {
     at += std::max<size_t>(length, 1);
   }
   return result;
+}
+
+Text number(double value, int digits) { return number_text(value, digits, false); }
+
+Text exact(double value, int digits) { return number_text(value, digits, true); }
+
+Text quantity(double value, const char* unit, int digits) {
+  return with_unit(value, number(value, digits), unit);
+}
+
+Text exact_quantity(double value, const char* unit, int digits) {
+  return with_unit(value, exact(value, digits), unit);
+}
+
+Text with_error(double value, double error) {
+  if (!std::isfinite(value) || !std::isfinite(error) || error == 0.0) return number(value);
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(error))));
+  if (exponent < -6 || exponent > 5) return number(value) + " ± " + number(error, 2);
+  // as many places as give the error two digits
+  const int places = std::max(0, 1 - exponent);
+  return with_minus_sign(printed("%.*f", places, value)) + " ± " + printed("%.*f", places, error);
+}
+
+Text percent(double relative) {
+  if (!std::isfinite(relative)) return unknown();
+  return (relative >= 0.0 ? "+" : "−") + number(100.0 * std::abs(relative), 2) + " %";
+}
+
+Text interval(double low, double high) { return "[" + number(low) + ", " + number(high) + "]"; }
+
+Text verdict(double value, double bound) {
+  if (std::isnan(value) || std::isnan(bound)) return {};
+  return value <= bound ? Text("✓ met", good) : Text("✗ missed", bad);
+}
+
+Prose::Prose(std::initializer_list<std::string_view> files) {
+  for (const std::string_view file : files) {
+    std::istringstream lines{std::string(file)};
+    std::string* entry = nullptr;
+    bool is_after_gap = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("# ")) {
+        const auto [place, is_new] = entries_.try_emplace(line.substr(2));
+        if (!is_new) throw std::logic_error("page texts: \"" + place->first + "\" stands twice");
+        entry = &place->second;
+        is_after_gap = false;
+      } else if (line.empty()) {
+        is_after_gap = true;
+      } else if (!entry) {
+        throw std::logic_error("page texts: no headline before \"" + line + "\"");
+      } else {
+        if (!entry->empty()) *entry += is_after_gap ? '\n' : ' ';
+        *entry += line;
+        is_after_gap = false;
+      }
+    }
+  }
+}
+
+Text Prose::operator()(const std::string& name, const Values& values) const {
+  const auto entry = entries_.find(name);
+  if (entry == entries_.end()) throw std::logic_error("page texts: there is no \"" + name + "\"");
+  // the texts of one figure share their values: what this one does not name is not for it
+  Values named;
+  for (const auto& [value, words] : values)
+    if (entry->second.find('{' + value + '}') != std::string::npos) named.emplace(value, words);
+  return marked(entry->second, named);
 }
 
 }  // namespace ballast::page

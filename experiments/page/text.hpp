@@ -6,8 +6,9 @@
 //
 // A string becomes Text as it is: no character of it means anything, so that what comes from files
 // and users cannot become markup. Only marked() reads the notation; it is given literals of this
-// program and its text files (prose.hpp), never anything from outside.
+// program and its text files (Prose), never anything from outside.
 
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -71,5 +72,59 @@ Text label_words(std::string_view label);
 /// The text with what is no UTF-8 and every control character except line breaks and tabs replaced
 /// by U+FFFD.
 std::string clean_utf8(std::string_view text);
+
+/// How a page writes numbers: one way for every page.
+///
+/// `digits` significant digits; powers of ten below 1e-3 and from 1e6 on; a dash for NaN and
+/// infinities.
+Text number(double value, int digits = 3);
+
+/// The same without trailing zeros: settings and counts, which are exact.
+Text exact(double value, int digits = 7);
+
+/// number or exact, narrow space, unit; the dash alone when the value isn't known. `unit` is in
+/// the notation of marked(); empty: none.
+Text quantity(double value, const char* unit, int digits = 3);
+Text exact_quantity(double value, const char* unit, int digits = 7);
+
+/// "1.23 ± 0.04": the error to two digits of its own; no error when it isn't known.
+Text with_error(double value, double error);
+
+/// A relative deviation with its sign: "+3.1 %", "−12 %".
+Text percent(double relative);
+
+/// "[1.1, 1.4]"
+Text interval(double low, double high);
+
+/// Value against its bound: "met" or "missed" with a sign that doesn't need colour; nothing when
+/// either is NaN.
+Text verdict(double value, double bound);
+
+/// Prose in text files: experiments/<room>/texts/*.md are built into the program (ballast_texts of
+/// CMake), one entry under each headline, in the notation of text.hpp:
+///
+///   # fig3.found
+///   Displacement *x* of the wall. Here it first goes in by {size}.
+///
+///   page::words("fig3.found", {{"size", page::quantity(1e3 * size, "mm")}})
+class Prose {
+ public:
+  /// Contents of the files. An entry's lines are joined by spaces, an empty line in it is a line
+  /// break. Throws std::logic_error when a name occurs twice, or words stand before a headline.
+  explicit Prose(std::initializer_list<std::string_view> files);
+
+  /// The entry with its values filled in; values that it does not name are left out. Throws
+  /// std::logic_error when there is no entry of that name, and as marked() does.
+  Text operator()(const std::string& name, const Values& values = {}) const;
+
+ private:
+  std::map<std::string, std::string> entries_;
+};
+
+/// All text files of the program together: a name stands once in all rooms.
+const Prose& prose();
+inline Text words(const std::string& name, const Values& values = {}) {
+  return prose()(name, values);
+}
 
 }  // namespace ballast::page

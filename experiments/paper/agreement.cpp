@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiments/page/number.hpp"
+#include "experiments/page/text.hpp"
 
 namespace ballast {
 namespace {

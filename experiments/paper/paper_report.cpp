@@ -3,7 +3,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/page/markdown.hpp"
 #include "experiments/paper/point_origins.hpp"

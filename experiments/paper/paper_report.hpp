@@ -1,5 +1,5 @@
 #pragma once
-// The report of a reproduction: README.md, paper.html (opens offline), figures/*.svg and *.pdf,
+// The report of a reproduction: README.md, paper.html (opens offline), figures/*.svg,
 // data/*.csv.
 
 #include <filesystem>

@@ -28,8 +28,7 @@ void PaperSection::draw(const std::string& name, Figure plot, const page::Values
   figures.push_back({std::move(plot),
                      {page::marked("**Paper:** ") + page::words(name + ".paper"),
                       page::marked("**Ballast:** ") + page::words(name + ".found", values)},
-                     page::Text("PDF", 0, "figures/" + file + ".pdf") + ", " +
-                         page::Text("data", 0, "data/" + file + ".csv")});
+                     page::Text("data", 0, "data/" + file + ".csv")});
 }
 
 void PaperSection::claim(const std::string& name, const page::Values& values,

@@ -20,27 +20,15 @@ std::vector<page::Picture> diagnostic_figures(const RunData& data, const RunSumm
 
 page::Picture figure_3(const RunData& data, const RunSummary& summary);
 page::Picture figure_4(const RunData& data, const RunSummary& summary);
-page::Picture figure_12(const RunData& data, const RunSummary& summary);
-page::Picture jammed_figure(const RunData& data, const RunSummary& summary);
 
 /// Draws the change of the solid fraction since before the drive into the panel of Fig. 12, beside
 /// what it shows already.
 void draw_solid_fraction(const RunData& data, double initial, const std::string& title, Ink ink,
                          double width, Panel& panel);
 
-/// A figure of this room: its title is words(run.<name>.title).
-page::Picture run_picture(const std::string& name, int height, std::vector<Panel> panels,
-                          page::Text caption);
-
-/// A panel over the run's time.
-Panel time_panel(const RunData& data, const std::string& y_label, bool log_y = false);
-
 /// A line of at most 3000 samples that look like all.
 Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink,
               double width = 1.6);
-/// `factor` times a column of the record against time.
-Curve column_line(const RunData& data, double StepRecord::*value, double factor,
-                  const std::string& title, Ink ink, double width);
 
 /// Unit in which forces up to f_max are readable.
 struct ForceUnit {

@@ -1,23 +1,198 @@
 #include "experiments/run_page/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "experiments/measure/run_data.hpp"
+#include <nlohmann/json.hpp>
+
 #include "experiments/measure/run_summary.hpp"
 #include "experiments/measure/run_trust.hpp"
-#include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"
-#include "experiments/page/page.hpp"
 #include "experiments/run_page/figures.hpp"
-#include "experiments/run_page/report_origin.hpp"
-#include "experiments/run_page/report_tables.hpp"
-#include "experiments/view/run_view.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// quantity | this run | bound or paper | verdict
+class Results {
+ public:
+  /// Its name stands above its first row; without rows it does not stand.
+  void group(const char* name) { group_ = name; }
+  void bounded(const char* what, double value, double bound, const char* unit = "",
+               double factor = 1.0) {
+    row(page::marked(what), page::quantity(factor * value, unit),
+        "≤\u00a0" + page::exact_quantity(factor * bound, unit), page::verdict(value, bound));
+  }
+  void compared(const char* what, page::Text value, page::Text paper) {
+    row(page::marked(what), std::move(value), std::move(paper), {"paper", page::note});
+  }
+  void plain(const char* what, page::Text value, page::Text remark = {}) {
+    row(page::marked(what), std::move(value), {}, std::move(remark));
+  }
+
+  /// `has_paper`: of the vibrated box, for which the paper's values are known.
+  page::Table table(bool has_paper) {
+    table_.head = {"", "this run", has_paper ? "asked, or paper" : "asked", ""};
+    table_.is_number = {false, true, true, false};
+    return std::move(table_);
+  }
+
+ private:
+  void row(page::Text what, page::Text value, page::Text bound, page::Text mark) {
+    // what is not known of this run takes no row
+    const std::string words = plain_words(value);
+    if (words.find_first_not_of("–, ") == std::string::npos) return;
+    if (!group_.empty())
+      table_.rows.push_back({styled(page::marked(group_), page::strong), {}, {}, {}});
+    group_.clear();
+    table_.rows.push_back({std::move(what), std::move(value), std::move(bound), std::move(mark)});
+  }
+  page::Table table_;
+  std::string group_;
+};
+
+page::Text range_of(const Statistics& values, double factor, const char* unit) {
+  const page::Text mean = page::quantity(factor * values.mean, unit);
+  if (values.samples < 2) return mean;
+  return mean + " " +
+         styled("(" + page::number(factor * values.min) + " … " +
+                    page::number(factor * values.max) + ")",
+                page::note);
+}
+
+void add_accuracy(const RunSummary& summary, Results& results) {
+  const auto bounded = [&](const char* what, double value, double bound, const char* unit,
+                           double factor) {
+    if (std::isfinite(bound))
+      results.bounded(what, value, bound, unit, factor);
+    else
+      results.plain(what, page::quantity(factor * value, unit));
+  };
+  // errors are judged by what the scene asks of each step
+  const double tolerance = summary.facts.tolerance;
+  results.group("Contact law");
+  if (std::isfinite(summary.facts.velocity_scale)) {
+    bounded("error, rms over contacts, over *gh*: mean of the steps", summary.error_mean_relative,
+            tolerance, "", 1.0);
+    bounded("the same: worst step", summary.error_max_relative, tolerance, "", 1.0);
+    results.plain("worst contact of all steps, over *gh*",
+                  page::number(summary.error_worst_contact));
+    results.plain("steps with an error above the tolerance",
+                  page::quantity(100.0 * summary.above_tolerance, "%"));
+  } else {
+    results.plain("error, rms over contacts: mean of the steps",
+                  page::quantity(summary.error_rms.mean, "m/s"));
+    results.plain("the same: worst step", page::quantity(summary.error_rms.max, "m/s"));
+  }
+  // these bounds are the vibrated box's: its grains' size, its drive
+  const double known = *summary.facts.has_packing ? 1.0 : not_known;
+  results.group("Overlap");
+  bounded("deepest of all steps", summary.penetration_max, known * target::penetration_max, "µm",
+          1e6);
+  bounded("mean over active contact points and steps", summary.penetration_mean,
+          known * target::penetration_mean, "µm", 1e6);
+  results.group("Energy");
+  results.plain("|Δ*K* − works + dissipation| over absolute work",
+                page::number(summary.energy.relative));
+}
+
+void add_wall(const RunSummary& summary, Results& results) {
+  const JammedState& jammed = summary.jammed;
+  results.group("Jammed state (*f* above its mean)");
+  results.bounded("|*f*~g~ − *f*|/*f*~max~, mean of the steps", jammed.force_mean,
+                  target::jammed_force);
+  results.plain("the same: 95\u202f% of the steps below, worst step",
+                page::number(jammed.force_p95) + ", " + page::number(jammed.force_max));
+  results.plain("|*v*|: mean, largest",
+                page::quantity(1e3 * jammed.speed_mean, "mm/s") + ", " +
+                    page::quantity(1e3 * jammed.speed_max, "mm/s"),
+                styled("moving phases: up to " + page::quantity(1e3 * summary.wall.v_peak, "mm/s"),
+                       page::note));
+  if (!summary.wall.periods.empty())
+    results.plain("jammed stretch found in",
+                  page::exact(summary.wall.jammed_periods) + " of " +
+                      page::exact(static_cast<double>(summary.wall.periods.size())) + " periods");
+  results.group("Motion of the wall");
+  results.plain("first contraction", page::quantity(1e3 * summary.contraction.size, "mm"));
+  results.compared("90\u202f% of it reached at", page::quantity(summary.contraction.time90, "s"),
+                   "~\u00a00.2\u202fs");
+  results.plain("Δ*x*~max~ per period: mean (least … largest)", range_of(summary.rise, 1e3, "mm"));
+  results.plain("contraction per period", range_of({-summary.net.mean, -summary.net.max,
+                                                    -summary.net.min, summary.net.samples},
+                                                   1e3, "mm"));
+  results.plain("*v*~max~ inwards", range_of(summary.speed_in, 1e3, "mm/s"));
+  results.compared("*C* of Eq. 3, *m* the mass of all grains", page::number(summary.prefactor),
+                   "~\u00a0" + page::number(paper::prefactor, 1));
+  results.plain("exponential fit, active: *R*², length",
+                page::number(summary.loop.active.r2) + ", " +
+                    page::quantity(1e3 / summary.loop.active.rate, "mm"));
+  results.plain("linear fit, passive: *R*², slope",
+                page::number(summary.loop.passive.r2) + ", " +
+                    page::quantity(1e-3 * summary.loop.passive.slope, "N/mm"));
+}
+
+void add_compaction(const RunSummary& summary, Results& results) {
+  const Compaction& compaction = summary.compaction;
+  results.group("Solid fraction");
+  results.compared("before the drive", page::number(compaction.initial, 4),
+                   page::number(paper::solid_fraction_initial, 2));
+  results.compared("ρ~0~, at 0.2\u202fs", page::number(compaction.reference, 4),
+                   page::number(paper::solid_fraction_reference, 2));
+  results.plain("at the end", page::number(compaction.last, 4));
+  results.compared("gain per period over ρ~0~", page::number(compaction.relative_gain),
+                   "~\u00a0" + page::number(paper::gain_per_period, 2));
+  results.plain("compaction rate (Eq. 4)", page::quantity(compaction.rate, "1/s"));
+}
+
+page::Table cost_table(const RunSummary& summary) {
+  page::Table table{.head = {"phase", "ms per step", "%"}, .is_number = {false, true, true}};
+  for (const PhaseCost& phase : summary.cost)
+    table.rows.push_back(
+        {phase.name, page::number(phase.ms_per_step), page::number(100.0 * phase.share)});
+  table.rows.push_back({page::Text("all", page::strong), page::number(summary.ms_per_step),
+                        page::number(summary.ms_per_step > 0.0 ? 100.0 : not_known)});
+  return table;
+}
+
+/// Lists and objects on one line, without JSON's quotes and braces.
+std::string readable(const nlohmann::ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& [name, part] : value.items())
+    add_to_list(text, (value.is_object() ? name + ' ' : std::string()) + readable(part));
+  return text;
+}
+
+/// What the manifest says at "/group/name", as words; empty when it says nothing.
+std::string text_at(const RunData& data, const char* where) {
+  const Json::json_pointer at(where);
+  if (!data.manifest().contains(at) || data.manifest()[at].is_null()) return {};
+  return readable(data.manifest()[at]);
+}
+
+/// The texts in a list of the manifest; empty when there is no such list.
+std::vector<std::string> list_at(const RunData& data, const char* name) {
+  std::vector<std::string> list;
+  const auto found = data.manifest().find(name);
+  if (found != data.manifest().end() && found->is_array())
+    for (const Json& entry : *found) list.push_back(readable(entry));
+  return list;
+}
+
+/// The scene's title, else its name, else the folder's.
+std::string name_of_run(const RunData& data) {
+  if (data.scene && !data.scene->title.empty()) return data.scene->title;
+  const auto scene = data.manifest().find("scene");
+  if (scene != data.manifest().end() && scene->is_string()) return scene->get<std::string>();
+  return data.folder.filename().string();
+}
 
 /// How much was run, and by what.
 std::vector<page::Text> lede_of(const RunData& data, const RunSummary& summary) {
@@ -47,18 +222,120 @@ page::Section pictures(const char* id, const char* heading,
 
 /// The bodies in 3D; empty where no pose is stored, or none that can be read.
 page::Replay replay_of_run(RunData& data) {
-  page::Replay replay;
   try {
-    const std::optional<ViewData> view = view_of_run(data);
-    if (!view) return {};
-    replay = replay_of(*view);
+    if (const std::optional<ViewData> view = view_of_run(data)) return replay_of(*view);
   } catch (const Error& error) {
     data.notices.push_back(std::string("No replay: ") + error.what());
   }
-  return replay;
+  return {};
 }
 
 }  // namespace
+
+page::Table results_table(const RunSummary& summary) {
+  Results results;
+  add_accuracy(summary, results);
+  if (*summary.facts.has_wall && *summary.facts.has_packing) add_wall(summary, results);
+  if (*summary.facts.has_packing) add_compaction(summary, results);
+  results.group("Effort");
+  results.plain("iterations per step: mean, most",
+                page::number(summary.iterations.mean) + ", " + page::exact(summary.iterations.max));
+  results.plain("contact points per step: mean, most",
+                page::number(summary.contacts.mean, 4) + ", " + page::exact(summary.contacts.max));
+  results.plain("wall clock per step", page::quantity(summary.ms_per_step, "ms"));
+  return results.table(*summary.facts.has_packing);
+}
+
+page::Table periods_table(const RunSummary& summary) {
+  page::Table table;
+  for (const char* head :
+       {"period", "from\n(s)", "to\n(s)", "Δ*x*~max~\n(mm)", "contraction\n(mm)",
+        "*v*~max~ in\n(mm/s)", "*v* out\n(mm/s)", "jammed\n(%)", "ρ,\nmean", "gain\nof ρ"})
+    table.head.push_back(page::marked(head));
+  table.is_number.assign(10, true);
+  double before = not_known;
+  for (const WallPeriod& period : summary.wall.periods) {
+    table.rows.push_back(
+        {page::exact(std::round(period.end * summary.facts.frequency)),
+         page::exact(period.begin, 4), page::exact(period.end, 4), page::number(1e3 * period.rise),
+         page::number(-1e3 * period.net), page::number(1e3 * period.speed_in),
+         page::number(1e3 * period.speed_out), page::number(100.0 * period.jammed_share),
+         page::number(period.solid_fraction, 5), page::number(period.solid_fraction - before, 2)});
+    before = period.solid_fraction;
+  }
+  return table;
+}
+
+page::Table provenance_table(const RunData& data) {
+  constexpr std::pair<const char*, const char*> facts[] = {
+      {"ballast", "/ballast/version"},
+      {"commit", "/ballast/commit"},
+      {"compiler", "/ballast/compiler"},
+      {"build", "/ballast/build_type"},
+      {"flags", "/ballast/flags"},
+      {"libraries", "/ballast/libraries"},
+      {"processor", "/machine/cpu"},
+      {"cores", "/machine/cores"},
+      {"memory (GB)", "/machine/memory_GB"},
+      {"load average at the start (1, 5, 15 min)", "/machine/load_average"},
+      {"environment", "/machine/environment"},
+      {"started", "/started"},
+      {"key", "/key"}};
+  page::Table table = page::facts_table();
+  for (const auto& [what, where] : facts) {
+    std::string value = text_at(data, where);
+    if (value.empty()) continue;
+    const bool is_commit = std::string_view(what) == "commit";
+    if (is_commit && text_at(data, "/ballast/modified") == "true")
+      value += ", with changes that are not committed";
+    table.rows.push_back({what, value});
+  }
+  for (const std::string& resumed : list_at(data, "resumed"))
+    table.rows.push_back({"resumed", resumed});
+  return table;
+}
+
+std::string made_by(const RunData& data) {
+  std::string text;
+  const auto add = [&](const std::string& before, const std::string& part) {
+    if (!part.empty()) add_to_list(text, before + part);
+  };
+  add("ballast ", text_at(data, "/ballast/version"));
+  add("commit ", text_at(data, "/ballast/commit").substr(0, 12));
+  add("", text_at(data, "/machine/cpu"));
+  add("started ", text_at(data, "/started"));
+  return text;
+}
+
+std::string reproduce_commands(const RunData& data) {
+  std::string text;
+  const std::string commit = text_at(data, "/ballast/commit");
+  if (!commit.empty() && commit != "unknown")
+    text += "# the program of commit " + commit + " made it\n";
+  if (data.scene_text.empty()) return text;
+  // The resolved scene says everything; its name and the --set of the command line do not.
+  const std::filesystem::path folder =
+      std::filesystem::absolute(data.folder / "scene.toml").lexically_normal().parent_path();
+  return text +
+         shell_line({own_program().string(), "run", (folder / "scene.toml").string(), "--output",
+                     folder.string() + "-again"}) +
+         '\n';
+}
+
+std::string next_commands(bool has_grains) {
+  const std::string program = shell_word(own_program().string()) + ' ';
+  std::string text;
+  if (has_grains)
+    text += "# another frequency, other grains; every key of a scene: docs/manual/scenes.md\n" +
+            program +
+            "run vibrated_box --set drive.frequency=10 --set grains.seed=2 --output results/10Hz\n"
+            "# one figure of the paper with all its runs (each made once); what they cost: paper "
+            "plan\n" +
+            program + "paper fig12 --jobs 2\n";
+  return text + "# solvers beside each other in the same closed loop\n" + program +
+         "compare --live vibrated_box_small --duration 0.02 --solvers pgs,nncg --tolerances "
+         "1e-2,1e-4\n";
+}
 
 void write_report(const std::filesystem::path& folder) {
   RunData data = read_run_data(folder);
@@ -84,23 +361,24 @@ void write_report(const std::filesystem::path& folder) {
   page.add({"periods", "Period by period", {periods_table(summary)}});
   page.add(pictures("diagnostics", "Can it be trusted?", diagnostic_figures(data, summary)));
   page.add({"cost-table", "Cost", {cost_table(summary)}});
-  page.add({"energy-table", "Energy", {energy_table(summary)}});
-  page.add(
-      {"parameters",
-       "Parameters",
-       {parameters_table(data), page::Folded{"The whole scene (scene.toml)", data.scene_text}}});
+  page::Section parameters{"parameters", "Parameters"};
+  std::string list;
+  for (const std::string& set : list_at(data, "overrides"))
+    list += (list.empty() ? "" : "\n") + set;
+  if (!list.empty()) {
+    parameters.add("Settings other than the scene’s (--set):");
+    parameters.add(page::Listing{list});
+  }
+  parameters.add(page::Folded{"The whole scene (scene.toml)", data.scene_text});
+  page.add(std::move(parameters));
   page.add({"provenance",
             "Program and machine",
             {provenance_table(data),
              page::Folded{"The whole manifest (manifest.json)", data.manifest_text}}});
-  // figures are drawn before their folder is listed
   page::draw_pictures(page, folder,
-                      {.with_pdf = false,
-                       .command = shell_line({own_program().string(), "report",
+                      {.command = shell_line({own_program().string(), "report",
                                               std::filesystem::absolute(folder).string()})});
-  page.add({"reproduce",
-            "How to make it again",
-            {page::Listing{reproduce_commands(data)}, files_table(data)}});
+  page.add({"reproduce", "How to make it again", {page::Listing{reproduce_commands(data)}}});
   page.add({"next", "What next", {page::Listing{next_commands(has_packing)}}});
   write_html_file(folder / "report.html", page);
 }

@@ -1,7 +1,12 @@
 #pragma once
-// Figures (gnuplot, SVG) and one HTML page that opens offline, from a run's folder.
+// The page of a run: its numbers beside what is asked and what the paper has, figures, where it
+// came from. One HTML file that opens offline.
 
 #include <filesystem>
+#include <string>
+
+#include "experiments/measure/run_data.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 
@@ -9,5 +14,21 @@ namespace ballast {
 /// report.html, each beside and renamed. Without gnuplot the page says so and has the table alone.
 /// Throws Error when there is no record.
 void write_report(const std::filesystem::path& folder);
+
+/// Accuracy, jammed state, energy, and for the vibrated box what the paper says: every number with
+/// its unit, and the bound or the paper's value where there is one.
+page::Table results_table(const RunSummary& summary);
+/// One row per whole period of the load; no rows when there is none.
+page::Table periods_table(const RunSummary& summary);
+
+/// Program, machine, dates, of a run or a comparison.
+page::Table provenance_table(const RunData& data);
+/// One line for the head of the page: program, machine, date; empty when the manifest says nothing.
+std::string made_by(const RunData& data);
+/// Commands that make the run again, as text for a shell in any folder.
+std::string reproduce_commands(const RunData& data);
+/// What to do next with the program, as text for a shell in any folder: another run, a figure of
+/// the paper, a plan, a comparison of solvers. `has_grains`: of a vibrated box.
+std::string next_commands(bool has_grains);
 
 }  // namespace ballast

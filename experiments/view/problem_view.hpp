@@ -21,7 +21,7 @@ struct ErrorQuestion {
 /// The bodies of a captured problem with its contacts and forces, and the judge's error of every
 /// contact under each backend and budget, over the problem's velocity scale. The bodies are those
 /// of the run whose capture/ holds the file, at the stored frame nearest to the problem's time;
-/// where no run is around the file, what the problem knows of them (problem_bodies.hpp). Throws
+/// where no run is around the file, what the problem knows of them. Throws
 /// UnknownSolver, MissingSolver, UnsupportedProblem, ProblemFileError.
 ViewData view_of_problem(const std::filesystem::path& file, const ErrorQuestion& question);
 

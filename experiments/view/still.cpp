@@ -2,227 +2,457 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
-#include "experiments/view/still_marks.hpp"
+#include "platform/deflate.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
-constexpr int shadow_size = 1400;                               // pixels of the sun's own picture
+/// Red, green and blue in linear light, 1 is white.
+using Colour = Eigen::Array3f;
+using Box = Eigen::AlignedBox3d;
+
+constexpr int finer = 2;           // so many rows and columns are drawn for each of the picture's
+constexpr int shadow_size = 1400;  // pixels of the sun's own picture
 constexpr double lens_angle = 28.0 * std::numbers::pi / 180.0;  // angle that the height spans
 
 const Vec3 sun = Vec3(0.42, -0.5, 0.76).normalized();
+const Colour paper_white(0.98f, 0.98f, 0.96f), blue(0.0f, 0.168f, 0.445f),
+    grey(0.18f, 0.18f, 0.17f), vermilion(0.665f, 0.112f, 0.0f);
 
-/// What each grain is coloured by, largest value and all.
-struct Values {
-  std::vector<double> of_grain;
-  double top = 0.0;
-};
-
-Values values_of(const ViewData& view, size_t frame, const std::string& colour) {
-  Values values;
-  for (int g = 0; g < view.system.grain_count; ++g) {
-    const auto b = static_cast<size_t>(g);
-    const auto at = [&](const PoseFrame& f) {
-      if (colour == "speed") return f.velocity[b].norm();
-      if (colour == "displacement")
-        return (f.pose[b].position - view.frames.front().pose[b].position).norm();
-      if (colour == "size") return std::cbrt(view.system.bodies[b].volume);
-      return 0.0;
-    };
-    for (const PoseFrame& f : view.frames) values.top = std::max(values.top, at(f));
-    values.of_grain.push_back(at(view.frames[frame]));
-  }
-  return values;
+/// Light at rest to dark at the top, as the page's ramp; `share` from 0 to 1.
+Colour ramp_colour(double share) {
+  static const Colour stops[] = {{0.79f, 0.72f, 0.58f}, {0.86f, 0.45f, 0.12f},
+                                 {0.80f, 0.17f, 0.05f}, {0.56f, 0.05f, 0.10f},
+                                 {0.23f, 0.03f, 0.19f}, {0.06f, 0.03f, 0.21f}};
+  const double at = 5.0 * std::clamp(share, 0.0, 1.0);
+  const auto k = std::min<size_t>(4, static_cast<size_t>(at));
+  return stops[k] + (stops[k + 1] - stops[k]) * static_cast<float>(at - static_cast<double>(k));
 }
 
-/// All faces in the picture that a lens makes; `faces` says which grain and normal a number is.
-struct Face {
-  int grain;
-  Vec3 normal;
+void blend(Colour& pixel, const Colour& colour, float share) { pixel += share * (colour - pixel); }
+
+/// A pinhole or, far away, the sun: from the world to column, row and depth. Depth is linear in the
+/// picture and grows with the distance.
+struct Lens {
+  Mat3 axes;  // rows: right, up, back
+  Vec3 eye;
+  double scale = 1.0;
+  int width = 0, height = 0;
+  bool is_far = false;
+
+  Vec3 operator*(const Vec3& p) const {
+    const Vec3 seen = axes * (p - eye);
+    const double w = is_far ? 1.0 : -seen.z();
+    return {0.5 * width + scale * seen.x() / w, 0.5 * height - scale * seen.y() / w,
+            is_far ? -seen.z() : -1.0 / w};
+  }
+  /// The point that a pinhole sees in the middle of a pixel.
+  Vec3 point(int x, int y, float depth) const {
+    const double w = -1.0 / static_cast<double>(depth);
+    const Vec3 seen((x + 0.5 - 0.5 * width) * w / scale, (0.5 * height - y - 0.5) * w / scale, -w);
+    return eye + axes.transpose() * seen;
+  }
+  size_t at(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+  }
+  size_t size() const { return at(0, height); }
 };
-void draw_grains(const ViewData& view, const PoseFrame& frame, const Lens& camera, Raster& raster,
-                 std::vector<Face>& faces) {
-  faces.assign(1, {-1, Vec3::Zero()});
+
+Mat3 axes_towards(const Vec3& back) {
+  const Vec3 up = std::abs(back.z()) > 0.9999 ? Vec3::UnitY() : Vec3::UnitZ();
+  Mat3 axes;
+  axes.row(0) = up.cross(back).normalized();
+  axes.row(2) = back;
+  axes.row(1) = back.cross(Vec3(axes.row(0)));
+  return axes;
+}
+
+/// Calls visit(column, row, depth) for each pixel whose middle a convex polygon covers.
+template <class Visit>
+void scan(const Lens& lens, const std::vector<Vec3>& corners, Visit&& visit) {
+  for (size_t k = 2; k < corners.size(); ++k) {
+    const Vec3 a = lens * corners[0], b = lens * corners[k - 1], c = lens * corners[k];
+    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    if (std::abs(area) < 1e-12) continue;
+    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    const int x0 = std::max(0, static_cast<int>(std::ceil(low.x() - 0.5))),
+              x1 = std::min(lens.width - 1, static_cast<int>(std::floor(high.x() - 0.5))),
+              y0 = std::max(0, static_cast<int>(std::ceil(low.y() - 0.5))),
+              y1 = std::min(lens.height - 1, static_cast<int>(std::floor(high.y() - 0.5)));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        // the pixel's middle in shares of the corners
+        const double px = x + 0.5, py = y + 0.5;
+        const double u = ((b.x() - px) * (c.y() - py) - (b.y() - py) * (c.x() - px)) / area;
+        const double v = ((c.x() - px) * (a.y() - py) - (c.y() - py) * (a.x() - px)) / area;
+        const double w = 1.0 - u - v;
+        if (u >= 0.0 && v >= 0.0 && w >= 0.0)
+          visit(x, y, static_cast<float>(u * a.z() + v * b.z() + w * c.z()));
+      }
+  }
+}
+
+/// Calls use(grain, outward normal, corners) for every face of every grain.
+template <class Use>
+void for_faces(const ViewData& view, const PoseFrame& frame, Use&& use) {
   for (int g = 0; g < view.system.grain_count; ++g) {
-    const auto b = static_cast<size_t>(g);
-    const Polyhedron& shape = *view.system.bodies[b].shape.polyhedron;
-    std::vector<Vec3> seen;
-    for (const Vec3& vertex : shape.vertices()) seen.push_back(camera * (frame.pose[b] * vertex));
+    const Pose& pose = frame.pose[static_cast<size_t>(g)];
+    const Polyhedron& shape = *view.system.bodies[static_cast<size_t>(g)].shape.polyhedron;
     for (int f = 0; f < shape.face_count(); ++f) {
-      const auto loop = shape.face(f);
-      faces.push_back({g, frame.pose[b].rotation * shape.normal(f)});
-      for (size_t k = 2; k < loop.size(); ++k)
-        raster.triangle(seen[static_cast<size_t>(loop[0])], seen[static_cast<size_t>(loop[k - 1])],
-                        seen[static_cast<size_t>(loop[k])],
-                        static_cast<std::uint32_t>(faces.size() - 1));
+      std::vector<Vec3> corners;
+      for (const int v : shape.face(f))
+        corners.push_back(pose * shape.vertices()[static_cast<size_t>(v)]);
+      use(static_cast<size_t>(g), Vec3(pose.rotation * shape.normal(f)), corners);
     }
   }
 }
 
-/// What the sun sees, and what the eye sees of some rows of the picture; which faces these are.
-struct Exposure {
-  Lens camera, sunlight;
-  std::vector<float> shadow = {};  // depths
-  Raster seen{0, 0};
-  std::vector<Face> faces = {};
-  ViewBox box = {};
-  double radius = 1.0;
-};
-
-Exposure expose(const ViewData& view, size_t frame, const StillOptions& options) {
-  const ViewBox box = box_of(view);
-  const auto& [low, high] = box;
-  const Vec3 centre = 0.5 * (low + high);
-  const double radius = 0.5 * (high - low).norm();
-  const double yaw = options.yaw * std::numbers::pi / 180.0,
-               pitch = options.pitch * std::numbers::pi / 180.0;
-  const Vec3 back(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
-                  std::sin(pitch));
-  const int width = still_finer * options.width, height = still_finer * options.height;
-  const double narrow = std::min(1.0, options.width / (1.25 * options.height));
-  Exposure exposure{
-      {axes_towards(back), centre + 3.4 * radius * back,
-       0.5 * height / std::tan(0.5 * lens_angle) * narrow, double(width), double(height)},
-      {axes_towards(sun), centre, 0.49 * shadow_size / radius, shadow_size, shadow_size, true}};
-  exposure.box = box;
-  exposure.radius = radius;
-  if (options.with_chains) return exposure;  // glass has no shadow
-  Raster shadow(shadow_size, shadow_size, false);
-  draw_grains(view, view.frames[frame], exposure.sunlight, shadow, exposure.faces);
-  exposure.shadow = std::move(shadow.depth);
-  return exposure;
+/// The box that all is in, over all frames: walls along the axes where there are some, else the
+/// grains.
+Box box_of(const ViewData& view) {
+  Box grains;
+  double largest = 0.0;
+  for (const PoseFrame& frame : view.frames)
+    for (int g = 0; g < view.system.grain_count; ++g) {
+      const auto b = static_cast<size_t>(g);
+      const double reach = view.system.bodies[b].shape.polyhedron->circumradius();
+      largest = std::max(largest, reach);
+      grains.extend(frame.pose[b].position - Vec3::Constant(reach));
+      grains.extend(frame.pose[b].position + Vec3::Constant(reach));
+    }
+  if (grains.isEmpty()) return {-Vec3::Ones(), Vec3::Ones()};
+  Box box = grains;
+  for (auto b = static_cast<size_t>(view.system.grain_count); b < view.system.bodies.size(); ++b)
+    for (int k = 0; k < 3; ++k) {
+      const double side =
+          (view.frames[0].pose[b].rotation * view.system.bodies[b].shape.plane.normal)[k];
+      if (std::abs(side) < 0.999) continue;
+      std::vector<double> places;
+      for (const PoseFrame& frame : view.frames) places.push_back(frame.pose[b].position[k]);
+      // a lid far above what it closes is not part of the picture
+      const auto [low, high] = std::minmax_element(places.begin(), places.end());
+      if (side > 0.0)
+        box.min()[k] = std::max(*low, grains.min()[k] - 2.0 * largest);
+      else
+        box.max()[k] = std::min(*high, grains.max()[k] + 2.0 * largest);
+    }
+  return box;
 }
 
-/// How bright the face is that is seen at a place of the picture.
-double light_at(const Exposure& exposure, int x, int y) {
-  const Lens& camera = exposure.camera;
-  const size_t here = exposure.seen.at(x, y);
-  const Face& face = exposure.faces[exposure.seen.owner[here]];
-  // the point itself, for its shadow
-  const double w = -1.0 / static_cast<double>(exposure.seen.depth[here]);
-  const Vec3 local((x + 0.5 - 0.5 * camera.width) * w / camera.scale,
-                   (0.5 * camera.height - camera.above - y - 0.5) * w / camera.scale, -w);
-  const Vec3 point = camera.eye + camera.axes.transpose() * local;
-  const Vec3 from_sun = exposure.sunlight * (point + 0.01 * exposure.radius * face.normal);
-  const int sx = static_cast<int>(from_sun.x()), sy = static_cast<int>(from_sun.y());
-  const bool is_lit =
-      sx < 0 || sy < 0 || sx >= shadow_size || sy >= shadow_size ||
-      from_sun.z() <=
-          double(exposure.shadow[static_cast<size_t>(sy) * shadow_size + static_cast<size_t>(sx)]);
-  const double direct = is_lit ? std::max(0.0, face.normal.dot(sun)) : 0.0;
-  const double light = 0.80 * direct + 0.42 * (0.54 + 0.46 * face.normal.z()) + 0.12;
-  // edges are where another face begins
-  const auto other = [&](int i, int j) {
-    return i < exposure.seen.width && j < exposure.seen.height &&
-           exposure.seen.owner[exposure.seen.at(i, j)] != exposure.seen.owner[here];
+/// The part of a plane within a box, corner by corner; fewer than three: none.
+std::vector<Vec3> plane_in_box(const Vec3& point, const Vec3& normal, const Box& box) {
+  const Vec3 side = normal.unitOrthogonal(), other = normal.cross(side);
+  const double wide = 4.0 * box.diagonal().norm() + (point - box.min()).norm();
+  std::vector<Vec3> loop{point + wide * (side + other), point + wide * (other - side),
+                         point - wide * (side + other), point + wide * (side - other)};
+  // cut off what is outside of each side in turn (Sutherland and Hodgman 1974); the box is a hair
+  // wider, so that its own walls stay in
+  for (int k = 0; k < 6; ++k) {
+    const double sign = k < 3 ? 1.0 : -1.0, bound = k < 3 ? box.max()[k] : -box.min()[k - 3];
+    const auto room = [&](const Vec3& p) { return bound + 1e-6 * wide - sign * p[k % 3]; };
+    std::vector<Vec3> kept;
+    for (size_t at = 0; at < loop.size(); ++at) {
+      const Vec3 &p = loop[at], &q = loop[(at + 1) % loop.size()];
+      if (room(p) >= 0.0) kept.push_back(p);
+      if (room(p) * room(q) < 0.0) kept.push_back(p + (q - p) * (room(p) / (room(p) - room(q))));
+    }
+    loop = std::move(kept);
+  }
+  return loop;
+}
+
+/// A rod between two balls. A negative radius is in pixels, else [m].
+struct Rod {
+  Vec3 from, to;
+  double from_radius, to_radius;
+  Colour colour;
+};
+
+/// One rod between the centres of two bodies that push on each other, with its force. A wall's end
+/// is where it is touched. Of a frame before the first step: the next one's.
+std::vector<std::pair<Rod, double>> chains_in(const ViewData& view, size_t frame) {
+  std::vector<FrameContact> contacts = view.contacts(frame);
+  if (contacts.empty() && frame == 0 && view.frames.size() > 1) contacts = view.contacts(frame = 1);
+  std::map<std::pair<int, int>, std::pair<Rod, double>> pairs;
+  const auto centre = [&](int body) {
+    return view.frames[frame].pose[static_cast<size_t>(body)].position;
   };
-  return light * (other(x + 1, y) || other(x, y + 1) ? 0.62 : 1.0);
-}
-
-/// What colours a grain.
-Colour colour_of(const Values& values, const StillOptions& options, int grain) {
-  const double share =
-      values.top > 0.0 ? values.of_grain[static_cast<size_t>(grain)] / values.top : 0.0;
-  return ramp_colour(options.colour == "speed" ? std::sqrt(share) : share);
-}
-
-constexpr Colour paper_white{0.98f, 0.98f, 0.96f};
-
-/// Bodies as they are seen in the light, on paper.
-void draw_solid(const Exposure& exposure, const Values& values, const StillOptions& options,
-                Picture3& picture) {
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const std::uint32_t owner = exposure.seen.owner[exposure.seen.at(x, y)];
-      if (owner == 0) continue;
-      Colour pixel = colour_of(values, options, exposure.faces[owner].grain);
-      for (float& channel : pixel) channel *= static_cast<float>(light_at(exposure, x, y));
-      picture.pixels[picture.at(x, y)] = pixel;
-    }
-}
-
-/// Bodies as glass: each face that looks at the eye is a veil over what is behind it.
-void draw_glass(const ViewData& view, const PoseFrame& frame, const Lens& camera,
-                const Values& values, const StillOptions& options, const Raster& raster,
-                Picture3& picture) {
-  for (int g = 0; g < view.system.grain_count; ++g) {
-    const auto b = static_cast<size_t>(g);
-    const Polyhedron& shape = *view.system.bodies[b].shape.polyhedron;
-    Colour colour = colour_of(values, options, g);
-    for (float& channel : colour) channel = 0.6f * channel + 0.16f;
-    for (int f = 0; f < shape.face_count(); ++f) {
-      const auto loop = shape.face(f);
-      const auto corner = [&](size_t k) {
-        return Vec3(frame.pose[b] * shape.vertices()[static_cast<size_t>(loop[k])]);
-      };
-      const double facing =
-          (frame.pose[b].rotation * shape.normal(f)).dot((camera.eye - corner(0)).normalized());
-      if (facing <= 0.0) continue;
-      const auto veil = static_cast<float>(0.03 + 0.2 * (1.0 - facing) * (1.0 - facing));
-      for (size_t k = 2; k < loop.size(); ++k)
-        scan_triangle(picture.width, picture.height, camera * corner(0), camera * corner(k - 1),
-                      camera * corner(k), [&](int x, int y, float depth) {
-                        if (depth < raster.depth[raster.at(x, y)])
-                          blend(picture.pixels[picture.at(x, y)], colour, veil);
-                      });
-    }
+  for (const FrameContact& contact : contacts) {
+    const auto [a, b] = std::minmax(contact.body_a, contact.body_b);  // walls come after grains
+    const bool meets_wall = b >= view.system.grain_count;
+    const Vec3 to = meets_wall ? Vec3(contact.position.cast<double>()) : centre(b);
+    auto& [rod, force] =
+        pairs.try_emplace({a, b}, Rod{centre(a), to, 0, 0, grey}, 0.0).first->second;
+    force += static_cast<double>(contact.force.dot(contact.normal));
   }
+  std::vector<std::pair<Rod, double>> chains;
+  for (const auto& [bodies, chain] : pairs) chains.push_back(chain);
+  return chains;
 }
 
-/// One picture, in as many parts as one likes.
-class Still {
+/// What nearly all chains of some frames stay below [N].
+double top_force(const ViewData& view) {
+  std::vector<double> forces;
+  const size_t count = view.frames.size();
+  for (size_t f = 0; f < count; f += std::max<size_t>(1, count / 10))
+    for (const auto& [rod, force] : chains_in(view, f)) forces.push_back(force);
+  std::sort(forces.begin(), forces.end());
+  const double top = forces.empty() ? 0.0 : forces[(forces.size() - 1) * 199 / 200];
+  return top > 0.0 ? top : 1.0;
+}
+
+/// A series of the view at a time, by its last row before, over its largest; 0 where there is none.
+double share_of_series(const ViewData& view, const std::string& name, double time) {
+  const auto row = std::upper_bound(view.series_time.begin(), view.series_time.end(), time);
+  const auto k = static_cast<size_t>(std::max<long>(0, row - view.series_time.begin() - 1));
+  for (const ViewSeries& series : view.series) {
+    if (series.name != name || k >= series.values.size()) continue;
+    const auto [low, high] = std::minmax_element(series.values.begin(), series.values.end());
+    const double largest = std::max(std::abs(*low), std::abs(*high));
+    return largest > 0.0 ? std::abs(series.values[k]) / largest : 0.0;
+  }
+  return 0.0;
+}
+
+/// Takes pictures of one view, all alike.
+class Camera {
  public:
-  Still(const ViewData& view, size_t frame, const StillOptions& options)
-      : view_(view),
-        frame_(view.frames[frame]),
-        options_(options),
-        exposure_(expose(view, frame, options)),
-        values_(values_of(view, frame, options.colour)),
-        walls_(walls_of(view, frame, exposure_.box)),
-        rods_(wall_rods(view, frame, exposure_.box)) {
-    if (!options.with_chains) return;
-    const std::vector<Rod> chains = chain_rods(view, frame);
-    rods_.insert(rods_.end(), chains.begin(), chains.end());
+  Camera(const ViewData& view, const StillOptions& options)
+      : view_(view), options_(options), box_(box_of(view)) {
+    const double yaw = options.yaw * std::numbers::pi / 180.0,
+                 pitch = options.pitch * std::numbers::pi / 180.0;
+    const Vec3 back(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
+                    std::sin(pitch));
+    const double narrow = std::min(1.0, options.width / (1.25 * options.height));
+    const int width = finer * options.width, height = finer * options.height;
+    lens_ = {axes_towards(back), box_.center() + 3.4 * radius() * back,
+             0.5 * height / std::tan(0.5 * lens_angle) * narrow, width, height};
+    sunlight_ = {axes_towards(sun), box_.center(), 0.49 * shadow_size / radius(),
+                 shadow_size,       shadow_size,   true};
+    for (size_t f = 0; f < view.frames.size(); ++f)
+      for (size_t g = 0; g < static_cast<size_t>(view.system.grain_count); ++g)
+        top_value_ = std::max(top_value_, value_of(f, g));
+    if (options.with_chains) top_force_ = top_force(view);
   }
 
-  /// `count` rows of the finer picture, from row `first` on.
-  Picture3 rows(int first, int count) {
-    Lens& camera = exposure_.camera;
-    camera.above = first;
-    // one row more, where there is one: it says where edges are
-    const int width = static_cast<int>(camera.width),
-              height = std::min(count + 1, static_cast<int>(camera.height) - first);
-    exposure_.seen = Raster(width, height);
-    Picture3 picture{width, height, {}};
-    picture.pixels.assign(exposure_.seen.depth.size(), paper_white);
-    if (!options_.with_chains) {  // else nothing hides what is within
-      draw_grains(view_, frame_, camera, exposure_.seen, exposure_.faces);
-      draw_solid(exposure_, values_, options_, picture);
+  /// Red, green and blue as sRGB bytes, row after row from the top.
+  std::string take(size_t frame) {
+    depth_.assign(lens_.size(), std::numeric_limits<float>::infinity());
+    pixels_.assign(lens_.size(), paper_white);
+    if (!options_.with_chains) draw_solid(frame);  // else nothing hides what is within
+    draw_walls(frame);
+    if (options_.with_chains) {
+      draw_chains(frame);
+      draw_glass(frame);
     }
-    draw_rods(rods_, camera, exposure_.seen, picture);
-    if (options_.with_chains)
-      draw_glass(view_, frame_, camera, values_, options_, exposure_.seen, picture);
-    draw_walls(walls_, camera, exposure_.seen, picture);
-    picture.height = count;
-    picture.pixels.resize(picture.at(0, count));
-    return picture;
+    fill_walls(frame);
+    return shrunk();
   }
 
  private:
+  double radius() const { return 0.5 * box_.diagonal().norm(); }
+
+  /// What a grain is coloured by: its speed, with fine steps near rest; in a single frame its size.
+  double value_of(size_t f, size_t g) const {
+    return view_.frames.size() > 1 ? std::sqrt(view_.frames[f].velocity[g].norm())
+                                   : std::cbrt(view_.system.bodies[g].volume);
+  }
+  Colour colour_of(size_t frame, size_t grain) const {
+    return ramp_colour(top_value_ > 0.0 ? value_of(frame, grain) / top_value_ : 0.0);
+  }
+
+  void draw_solid(size_t frame) {
+    std::vector<float> shadow(sunlight_.size(), std::numeric_limits<float>::infinity());
+    for_faces(view_, view_.frames[frame], [&](size_t, const Vec3&, const auto& corners) {
+      scan(sunlight_, corners, [&](int x, int y, float depth) {
+        shadow[sunlight_.at(x, y)] = std::min(shadow[sunlight_.at(x, y)], depth);
+      });
+    });
+    std::vector<int> owner(lens_.size(), 0);  // which face is seen
+    int number = 0;
+    for_faces(view_, view_.frames[frame],
+              [&](size_t grain, const Vec3& normal, const auto& corners) {
+                ++number;
+                const Colour colour = colour_of(frame, grain);
+                scan(lens_, corners, [&](int x, int y, float depth) {
+                  const size_t here = lens_.at(x, y);
+                  if (depth >= depth_[here]) return;
+                  depth_[here] = depth;
+                  owner[here] = number;
+                  const Vec3 above = lens_.point(x, y, depth) + 0.01 * radius() * normal;
+                  pixels_[here] = colour * light_at(sunlight_ * above, normal, shadow);
+                });
+              });
+    // edges are where another face begins
+    for (int y = 0; y < lens_.height; ++y)
+      for (int x = 0; x < lens_.width; ++x) {
+        const int here = owner[lens_.at(x, y)];
+        const bool is_edge = (x + 1 < lens_.width && owner[lens_.at(x + 1, y)] != here) ||
+                             (y + 1 < lens_.height && owner[lens_.at(x, y + 1)] != here);
+        if (here > 0 && is_edge) pixels_[lens_.at(x, y)] *= 0.62f;
+      }
+  }
+
+  /// How bright a place is that the sun sees there, or does not.
+  float light_at(const Vec3& from_sun, const Vec3& normal, const std::vector<float>& shadow) const {
+    const int x = static_cast<int>(from_sun.x()), y = static_cast<int>(from_sun.y());
+    const bool is_lit = x < 0 || y < 0 || x >= shadow_size || y >= shadow_size ||
+                        from_sun.z() <= static_cast<double>(shadow[sunlight_.at(x, y)]);
+    const double direct = is_lit ? std::max(0.0, normal.dot(sun)) : 0.0;
+    return static_cast<float>(0.80 * direct + 0.42 * (0.54 + 0.46 * normal.z()) + 0.12);
+  }
+
+  /// Bodies as glass: each face that looks at the eye is a veil over what is behind it.
+  void draw_glass(size_t frame) {
+    for_faces(
+        view_, view_.frames[frame], [&](size_t grain, const Vec3& normal, const auto& corners) {
+          const double facing = normal.dot((lens_.eye - corners[0]).normalized());
+          if (facing <= 0.0) return;
+          const Colour colour = 0.6f * colour_of(frame, grain) + 0.16f;
+          fill(corners, colour, static_cast<float>(0.03 + 0.2 * (1.0 - facing) * (1.0 - facing)));
+        });
+  }
+
+  void fill(const std::vector<Vec3>& corners, const Colour& colour, float share) {
+    scan(lens_, corners, [&](int x, int y, float depth) {
+      const size_t here = lens_.at(x, y);
+      if (depth < depth_[here]) blend(pixels_[here], colour, share);
+    });
+  }
+
+  /// Calls use(corners, inward normal, is it the driven one) for every wall in the picture.
+  template <class Use>
+  void for_walls(size_t frame, Use&& use) const {
+    for (auto b = static_cast<size_t>(view_.system.grain_count); b < view_.system.bodies.size();
+         ++b) {
+      const Pose& pose = view_.frames[frame].pose[b];
+      const Vec3 normal = pose.rotation * view_.system.bodies[b].shape.plane.normal;
+      const std::vector<Vec3> loop = plane_in_box(pose.position, normal, box_);
+      if (loop.size() >= 3) use(loop, normal, static_cast<int>(b) == view_.driven_wall);
+    }
+  }
+
+  void fill_walls(size_t frame) {
+    for_walls(frame, [&](const auto& loop, const Vec3&, bool is_driven) {
+      fill(loop, is_driven ? blue : grey, is_driven ? 0.24f : 0.07f);
+    });
+  }
+
+  /// Edges of walls, and the load on the driven one as an arrow as long as it is large.
+  void draw_walls(size_t frame) {
+    const double load = share_of_series(view_, "f", view_.frames[frame].time);
+    for_walls(frame, [&](const auto& loop, const Vec3& inward, bool is_driven) {
+      Vec3 middle = Vec3::Zero();
+      const double width = is_driven ? -2.2 : -1.5;
+      for (size_t k = 0; k < loop.size(); ++k) {
+        draw({loop[k], loop[(k + 1) % loop.size()], width, width, is_driven ? blue : grey});
+        middle += loop[k] / static_cast<double>(loop.size());
+      }
+      if (!is_driven || load == 0.0) return;
+      const Vec3 tail = middle - (0.08 + 0.5 * load) * radius() * inward,
+                 neck = middle - 0.09 * radius() * inward;
+      draw({tail, neck, 0.009 * radius(), 0.009 * radius(), vermilion});
+      draw({neck, middle, 0.028 * radius(), 0.001 * radius(), vermilion});
+    });
+  }
+
+  /// Those above the mean force, as wide as the force is large.
+  void draw_chains(size_t frame) {
+    double mean = 0.0, reach = 0.0;
+    const auto chains = chains_in(view_, frame);
+    for (const auto& [rod, force] : chains) mean += force / static_cast<double>(chains.size());
+    for (size_t g = 0; g < static_cast<size_t>(view_.system.grain_count); ++g)
+      reach += view_.system.bodies[g].shape.polyhedron->circumradius() / view_.system.grain_count;
+    for (auto [rod, force] : chains) {
+      if (force < mean) continue;
+      const double share = force / top_force_;
+      rod.from_radius = rod.to_radius = 0.24 * reach * std::min(share, 1.3);
+      rod.colour = ramp_colour(0.25 + 0.65 * std::sqrt(std::min(share, 1.0)));
+      draw(rod);
+    }
+  }
+
+  void draw(const Rod& rod) {
+    const Vec3 s = lens_ * rod.from, t = lens_ * rod.to;
+    const auto radius_at = [&](double radius, double depth) {
+      return radius < 0.0 ? -radius : std::max(0.8, -lens_.scale * radius * depth);
+    };
+    const double at_s = radius_at(rod.from_radius, s.z()), at_t = radius_at(rod.to_radius, t.z());
+    const double reach = std::max(at_s, at_t) + 1.0;
+    const Eigen::Vector2d d = (t - s).head<2>();
+    const int x0 = std::max(0, static_cast<int>(std::min(s.x(), t.x()) - reach)),
+              y0 = std::max(0, static_cast<int>(std::min(s.y(), t.y()) - reach)),
+              x1 = std::min(lens_.width - 1, static_cast<int>(std::max(s.x(), t.x()) + reach)),
+              y1 = std::min(lens_.height - 1, static_cast<int>(std::max(s.y(), t.y()) + reach));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        const Eigen::Vector2d p(x + 0.5 - s.x(), y + 0.5 - s.y());
+        const double on = std::clamp(p.dot(d) / std::max(d.squaredNorm(), 1e-9), 0.0, 1.0),
+                     radius = at_s + on * (at_t - at_s), away = (p - on * d).norm();
+        const auto depth = static_cast<float>(s.z() + on * (t.z() - s.z()));
+        const size_t here = lens_.at(x, y);
+        if (away > radius || depth >= depth_[here]) continue;
+        depth_[here] = depth;
+        // round, lit from where the eye is
+        const double height = std::sqrt(1.0 - away * away / (radius * radius));
+        pixels_[here] = rod.colour * static_cast<float>(radius < 3.0 ? 1.0 : 0.55 + 0.45 * height);
+      }
+  }
+
+  std::string shrunk() const {
+    std::string bytes;
+    for (int y = 0; y < options_.height; ++y)
+      for (int x = 0; x < options_.width; ++x) {
+        Colour sum = Colour::Zero();
+        for (int j = 0; j < finer; ++j)
+          for (int i = 0; i < finer; ++i) sum += pixels_[lens_.at(finer * x + i, finer * y + j)];
+        for (const float c : (sum / float(finer * finer)).min(1.0f).max(0.0f).eval()) {
+          const float srgb =
+              c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+          bytes += static_cast<char>(std::lround(255.0f * srgb));
+        }
+      }
+    return bytes;
+  }
+
   const ViewData& view_;
-  const PoseFrame& frame_;
   const StillOptions& options_;
-  Exposure exposure_;
-  Values values_;
-  std::vector<WallPatch> walls_;
-  std::vector<Rod> rods_;
+  Box box_;
+  Lens lens_, sunlight_;
+  double top_value_ = 0.0, top_force_ = 1.0;
+  std::vector<float> depth_;
+  std::vector<Colour> pixels_;
 };
+
+/// Most significant byte first, as PNG has its numbers.
+std::string png_numbers(std::initializer_list<size_t> values) {
+  std::string bytes;
+  for (const size_t value : values)
+    for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(value >> shift & 255);
+  return bytes;
+}
+
+/// Length, name, content, check sum.
+std::string png_chunk(const std::string& name, const std::string& content) {
+  return png_numbers({content.size()}) + name + content + png_numbers({crc32_of(name + content)});
+}
+
+/// Each row as its difference from the one above.
+std::string packed_rows(const std::string& bytes, size_t width) {
+  std::string rows;
+  for (size_t at = 0; at < bytes.size(); ++at) {
+    if (at % (3 * width) == 0) rows += '\2';
+    rows += static_cast<char>(bytes[at] - (at < 3 * width ? 0 : bytes[at - 3 * width]));
+  }
+  return deflated(rows, 9);
+}
 
 }  // namespace
 
@@ -231,38 +461,35 @@ void set_view(StillOptions& options, const std::string& word) {
       {"", {-52.0, 20.0}}, {"home", {-52.0, 20.0}}, {"x", {0.0, 0.0}},   {"-x", {180.0, 0.0}},
       {"y", {90.0, 0.0}},  {"-y", {-90.0, 0.0}},    {"z", {-90.0, 90.0}}};
   const std::vector<std::string> parts = split(word, ',');
-  if (const auto found = named.find(word); found != named.end()) {
+  const auto yaw = parsed_number(parts[0]), pitch = parsed_number(parts.back());
+  if (const auto found = named.find(word); found != named.end())
     std::tie(options.yaw, options.pitch) = found->second;
-  } else if (const auto yaw = parsed_number(parts[0]); parts.size() == 2 && yaw) {
-    const auto pitch = parsed_number(parts[1]);
-    if (!pitch || !std::isfinite(*yaw) || !std::isfinite(*pitch))
-      throw std::invalid_argument("'" + word + "' is no pair of angles");
-    options.yaw = *yaw;
-    options.pitch = *pitch;
-  } else {
+  else if (parts.size() == 2 && yaw && pitch && std::isfinite(*yaw) && std::isfinite(*pitch))
+    std::tie(options.yaw, options.pitch) = std::pair(*yaw, *pitch);
+  else
     throw std::invalid_argument("'" + word + "' is no view: home, x, -x, y, -y, z or YAW,PITCH");
+}
+
+std::string still_png(const ViewData& view, const std::vector<size_t>& frames,
+                      const StillOptions& options) {
+  const auto width = static_cast<size_t>(options.width),
+             height = static_cast<size_t>(options.height);
+  Camera camera(view, options);
+  // 8 bits of red, green and blue
+  std::string png = "\x89PNG\r\n\x1a\n" +
+                    png_chunk("IHDR", png_numbers({width, height}) + std::string("\x8\2\0\0\0", 5));
+  const bool moves = frames.size() > 1;
+  if (moves) png += png_chunk("acTL", png_numbers({frames.size(), 0}));  // played for ever
+  size_t number = 0;  // runs through fcTL and fdAT together
+  for (const size_t frame : frames) {
+    // size, place, seconds as a fraction; it replaces what was there
+    if (moves)
+      png += png_chunk("fcTL", png_numbers({number++, width, height, 0, 0}) +
+                                   std::string("\0\x64\3\xe8\0\0", 6));
+    const std::string rows = packed_rows(camera.take(frame), width);
+    png += number > 1 ? png_chunk("fdAT", png_numbers({number++}) + rows) : png_chunk("IDAT", rows);
   }
-}
-
-void set_colour(StillOptions& options, const std::string& word) {
-  for (const char* known : {"speed", "displacement", "size", "none"})
-    if (word == known) options.colour = word;
-  if (!word.empty() && options.colour != word)
-    throw std::invalid_argument("'" + word + "' is no colour: speed, displacement, size or none");
-}
-
-Picture3 still_picture(const ViewData& view, size_t frame, const StillOptions& options) {
-  return Still(view, frame, options).rows(0, still_finer * options.height);
-}
-
-std::string still_png(const ViewData& view, size_t frame, const StillOptions& options) {
-  // an eighth of the picture at a time: drawn finer, it takes twenty times its bytes and more
-  Still still(view, frame, options);
-  const int height = still_finer * options.height, most = still_finer * ((options.height + 7) / 8);
-  std::string bytes;
-  for (int first = 0; first < height; first += most)
-    bytes += srgb_bytes(still.rows(first, std::min(most, height - first)), still_finer);
-  return png_of_bytes(bytes, options.width);
+  return png + png_chunk("IEND", "");
 }
 
 }  // namespace ballast

@@ -1,10 +1,13 @@
 #pragma once
 // What a page's replay shows, before it is packed: bodies at some moments, contacts, curves.
 
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/measure/run_data.hpp"
 #include "experiments/record/record_file.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
@@ -14,15 +17,12 @@ namespace ballast {
 struct ViewSeries {
   std::string name;    ///< short, for the page's script: "x"
   std::string symbol;  ///< for the reader: "f_g"
-  std::string meaning;
   std::string unit;
   std::string ink;             ///< colour of the page's style: "blue"
   std::vector<double> values;  ///< one for each entry of ViewData::series_time
 };
 
-/// One plot: the first series is what the others are drawn over.
 struct ViewPlot {
-  std::string title;
   std::string over;  ///< name of a series; empty: time
   std::vector<std::string> series;
 };
@@ -50,5 +50,17 @@ struct ViewData {
   std::vector<ViewPlot> plots;
   std::vector<ViewErrors> errors;  ///< of the contacts of the one frame
 };
+
+/// What there is to see of a run: stored frames, forces where the record has them, and the wall's
+/// curves; without a driven wall the energy's. Nothing where no pose is stored. Throws Error on a
+/// damaged record.
+std::optional<ViewData> view_of_run(const RunData& run);
+
+/// A scene before its first step. One with grains: its packing, where the cache has it, else the
+/// rain from which it would be made.
+ViewData view_of_scene(const Scene& scene, const std::filesystem::path& packing_cache);
+
+/// One convex body of an OBJ or STL file, in its own frame. Throws MeshFileError.
+ViewData view_of_mesh(const std::filesystem::path& file);
 
 }  // namespace ballast

@@ -1,17 +1,314 @@
 #include "experiments/view/view_page.hpp"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
 #include "experiments/page/html.hpp"
-#include "experiments/view/pack_view.hpp"
 #include "experiments/view/still.hpp"
+#include "platform/deflate.hpp"
 
 namespace ballast {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Words = std::vector<std::uint16_t>;
+using Bytes = std::vector<std::uint8_t>;
+
+std::string text_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
+/// Low bytes before high ones.
+std::string text_of(const Words& values) {
+  std::string bytes(2 * values.size(), '\0');
+  for (size_t k = 0; k < values.size(); ++k) {
+    bytes[k] = static_cast<char>(values[k] & 255);
+    bytes[values.size() + k] = static_cast<char>(values[k] >> 8);
+  }
+  return bytes;
+}
+
+/// In single precision, first bytes before second ones and so on: neighbours are alike.
+std::string text_of(const std::vector<double>& values) {
+  std::string bytes(4 * values.size(), '\0');
+  for (size_t k = 0; k < values.size(); ++k) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(values[k]));
+    for (size_t b = 0; b < 4; ++b)
+      bytes[b * values.size() + k] = static_cast<char>(bits >> (8 * b) & 255);
+  }
+  return bytes;
+}
+
+/// A history holds frames of equally many columns, values[frame * columns + column]. Its bytes are
+/// the differences in time of every column, one column after the other, as zigzag numbers (0, -1,
+/// 1, -2, ...): mostly zeros, which deflate packs well. `order`: differences of differences of ...
+/// (1 or 2). Modulo 2^16 or 2^8: nothing overflows.
+template <class Word>
+std::string history_of(const std::vector<Word>& values, size_t columns, int order) {
+  std::vector<Word> codes;
+  const size_t frames = columns ? values.size() / columns : 0;
+  for (size_t c = 0; c < columns; ++c) {
+    Word value = 0, slope = 0;
+    for (size_t f = 0; f < frames; ++f) {
+      const Word next = values[f * columns + c], difference = static_cast<Word>(next - value),
+                 change = static_cast<Word>(difference - (order == 2 ? slope : 0));
+      value = next;
+      slope = difference;
+      const bool is_negative = change >> (8 * sizeof(Word) - 1);
+      codes.push_back(static_cast<Word>(static_cast<Word>(change << 1) ^
+                                        static_cast<Word>(is_negative ? ~Word{} : Word{})));
+    }
+  }
+  return text_of(codes);
+}
+
+/// The place of `value` in [low, low + span] in 16 bits; an empty span gives 0.
+std::uint16_t in_16_bits(double value, double low, double span) {
+  const double share = span > 0.0 ? std::clamp((value - low) / span, 0.0, 1.0) : 0.0;
+  return static_cast<std::uint16_t>(std::lround(share * 65535.0));
+}
+
+/// -1 .. 1 in 8 bits (0 is 128), with a root's steps: fine near 0.
+std::uint8_t signed_root(double value) {
+  const double root = std::copysign(std::sqrt(std::min(std::abs(value), 1.0)), value);
+  return static_cast<std::uint8_t>(128 + std::lround(127.0 * root));
+}
+
+/// What a replay of these bytes takes in the page.
+size_t page_bytes(const page::Replay& replay, size_t first_part = 0) {
+  size_t bytes = 0;
+  for (size_t k = first_part; k < replay.parts.size(); ++k)
+    bytes += deflated(replay.parts[k].second).size() * 4 / 3;
+  return bytes;
+}
+
+/// Every `stride`-th of `count`, and the last.
+std::vector<size_t> thinned(size_t count, size_t stride) {
+  std::vector<size_t> kept;
+  for (size_t k = 0; k < count; k += stride) kept.push_back(k);
+  if (!kept.empty() && kept.back() + 1 < count) kept.push_back(count - 1);
+  return kept;
+}
+
+/// Of each shape how many corners and faces it has, the faces as loops of corner numbers, each
+/// after its length, and the corners over the largest coordinate of all.
+void pack_shapes(const ViewData& view, Json& head, page::Replay& replay) {
+  double scale = 0.0;
+  for (const auto& shape : view.system.shapes)
+    for (const Vec3& vertex : shape->vertices())
+      scale = std::max(scale, vertex.lpNorm<Eigen::Infinity>());
+  Words words;
+  const auto add = [&](long number) { words.push_back(static_cast<std::uint16_t>(number)); };
+  std::map<const Polyhedron*, size_t> place;
+  for (const auto& shape : view.system.shapes) {
+    place.emplace(shape.get(), place.size());
+    add(shape->vertex_count());
+    add(shape->face_count());
+    for (int f = 0; f < shape->face_count(); ++f) {
+      add(static_cast<long>(shape->face(f).size()));
+      for (const int v : shape->face(f)) add(v);
+    }
+    for (const Vec3& vertex : shape->vertices())
+      for (const double entry : vertex) add(std::lround(entry / scale * 32767.0));
+  }
+  head["scale"] = scale;
+  head["shapes"] = place.size();
+  head["shape_of"] = Json::array();
+  std::vector<double> grains;
+  for (int b = 0; b < view.system.grain_count; ++b) {
+    const RigidBody& body = view.system.bodies[static_cast<size_t>(b)];
+    head["shape_of"].push_back(place.at(body.shape.polyhedron));
+    grains.insert(grains.end(), {body.mass, body.volume});
+  }
+  replay.parts.emplace_back("shapes", text_of(words));
+  replay.parts.emplace_back("grains", text_of(grains));
+}
+
+/// Where grains are and how fast, at the frames of these numbers. A quaternion keeps the sign that
+/// brings it near the one before.
+void pack_poses(const ViewData& view, const std::vector<size_t>& chosen, Json& head,
+                page::Replay& replay) {
+  const auto grains = static_cast<size_t>(view.system.grain_count);
+  Eigen::AlignedBox3d box;
+  double fastest = 0.0;
+  for (const size_t f : chosen)
+    for (size_t g = 0; g < grains; ++g) {
+      box.extend(view.frames[f].pose[g].position);
+      fastest = std::max(fastest, view.frames[f].velocity[g].lpNorm<Eigen::Infinity>());
+    }
+  if (grains == 0) box.extend(Vec3::Zero().eval());
+  const Vec3 low = box.min(), span = box.diagonal();
+  Words positions, rotations;
+  Bytes velocities;
+  std::vector<Quat> before(grains, Quat::Identity());
+  head["times"] = head["steps"] = Json::array();
+  for (const size_t f : chosen) {
+    const PoseFrame& frame = view.frames[f];
+    head["times"].push_back(frame.time);
+    head["steps"].push_back(frame.step);
+    for (size_t g = 0; g < grains; ++g) {
+      for (int k = 0; k < 3; ++k) {
+        positions.push_back(in_16_bits(frame.pose[g].position[k], low[k], span[k]));
+        velocities.push_back(signed_root(fastest > 0.0 ? frame.velocity[g][k] / fastest : 0.0));
+      }
+      Quat turn = frame.pose[g].rotation;
+      if (turn.dot(before[g]) < 0.0) turn.coeffs() *= -1.0;
+      before[g] = turn;
+      for (const double entry : {turn.w(), turn.x(), turn.y(), turn.z()})
+        rotations.push_back(in_16_bits(entry, -1.0, 2.0));
+    }
+  }
+  head["low"] = {low.x(), low.y(), low.z()};
+  head["span"] = {span.x(), span.y(), span.z()};
+  head["fastest"] = fastest;
+  replay.parts.emplace_back("positions", history_of(positions, 3 * grains, 2));
+  replay.parts.emplace_back("rotations", history_of(rotations, 4 * grains, 2));
+  replay.parts.emplace_back("velocities", history_of(velocities, 3 * grains, 1));
+}
+
+void pack_walls(const ViewData& view, const std::vector<size_t>& chosen, Json& head,
+                page::Replay& replay) {
+  head["walls"] = Json::array();
+  std::vector<double> values;
+  for (auto b = static_cast<size_t>(view.system.grain_count); b < view.system.bodies.size(); ++b) {
+    const RigidBody& body = view.system.bodies[b];
+    const Vec3 normal = view.frames[chosen.front()].pose[b].rotation * body.shape.plane.normal;
+    head["walls"].push_back({{"name", body.name},
+                             {"normal", {normal.x(), normal.y(), normal.z()}},
+                             {"driven", static_cast<int>(b) == view.driven_wall}});
+    for (const size_t f : chosen)
+      for (const Vec3& part : {view.frames[f].pose[b].position, view.frames[f].velocity[b]})
+        values.insert(values.end(), part.begin(), part.end());
+  }
+  replay.parts.emplace_back("walls", text_of(values));
+}
+
+/// The contacts of every `stride`-th of the chosen frames: forces as roots in 12 bits, the share of
+/// friction that is used, and places from the centre of grain a, over that grain's circumradius.
+void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size_t stride,
+                   Json& head, page::Replay& replay) {
+  Words body_a, body_b, forces;
+  std::vector<double> normal_forces;
+  std::array<Bytes, 3> places;
+  Bytes mobilised;
+  head["contact_frames"] = head["contact_counts"] = Json::array();
+  for (const size_t k : thinned(chosen.size(), stride)) {
+    const PoseFrame& frame = view.frames[chosen[k]];
+    const std::vector<FrameContact> contacts = view.contacts(chosen[k]);
+    // before its first step a run knows no forces: those of the next frame stand for them
+    if (frame.step == 0 && contacts.empty()) continue;
+    head["contact_frames"].push_back(k);
+    head["contact_counts"].push_back(contacts.size());
+    int last = 0;
+    for (const FrameContact& contact : contacts) {
+      // a is a grain, so that the place can follow it: walls come after grains
+      const auto [a, b] = contact.body_a < view.system.grain_count
+                              ? std::pair(contact.body_a, contact.body_b)
+                              : std::pair(contact.body_b, contact.body_a);
+      const RigidBody& body = view.system.bodies[static_cast<size_t>(a)];
+      const double reach = body.is_wall() ? 1.0 : body.shape.polyhedron->circumradius();
+      body_a.push_back(static_cast<std::uint16_t>(a - last));
+      body_b.push_back(static_cast<std::uint16_t>(b - a));
+      last = a;
+      const Vec3 place =
+          (contact.position.cast<double>() - frame.pose[static_cast<size_t>(a)].position) /
+          (1.02 * reach);
+      for (int i = 0; i < 3; ++i)
+        places[static_cast<size_t>(i)].push_back(
+            static_cast<std::uint8_t>(128 + std::lround(127.0 * std::clamp(place[i], -1.0, 1.0))));
+      const float force = contact.force.dot(contact.normal);
+      const double tangential = (contact.force - force * contact.normal).norm();
+      const double bound = view.friction * static_cast<double>(force);
+      normal_forces.push_back(force);
+      mobilised.push_back(static_cast<std::uint8_t>(
+          bound > 0.0 ? std::lround(255.0 * std::min(tangential / bound, 1.0)) : 0));
+    }
+  }
+  double largest = 0.0;
+  for (const double force : normal_forces) largest = std::max(largest, force);
+  for (const double force : normal_forces) {
+    const double share = largest > 0.0 ? std::max(force, 0.0) / largest : 0.0;
+    forces.push_back(static_cast<std::uint16_t>(std::lround(4095.0 * std::sqrt(share))));
+  }
+  head["largest_force"] = largest;
+  body_a.insert(body_a.end(), body_b.begin(), body_b.end());
+  replay.parts.emplace_back("contact_bodies", text_of(body_a));
+  replay.parts.emplace_back("contact_places",
+                            text_of(places[0]) + text_of(places[1]) + text_of(places[2]));
+  replay.parts.emplace_back("contact_forces", text_of(forces));
+  replay.parts.emplace_back("contact_mobilised", text_of(mobilised));
+}
+
+void pack_series(const ViewData& view, Json& head, page::Replay& replay) {
+  std::vector<double> values = view.series_time;
+  head["rows"] = view.series_time.size();
+  head["series"] = head["plots"] = Json::array();
+  for (const ViewSeries& one : view.series) {
+    head["series"].push_back(
+        {{"name", one.name}, {"symbol", one.symbol}, {"unit", one.unit}, {"ink", one.ink}});
+    values.insert(values.end(), one.values.begin(), one.values.end());
+  }
+  for (const ViewPlot& plot : view.plots)
+    head["plots"].push_back({{"over", plot.over}, {"series", plot.series}});
+  replay.parts.emplace_back("series", text_of(values));
+}
+
+/// Errors in 255 steps of their logarithm, from 1e-9 to 1e2.
+void pack_errors(const ViewData& view, Json& head, page::Replay& replay) {
+  Bytes bytes;
+  head["errors"] = Json::array();
+  for (const ViewErrors& one : view.errors) {
+    head["errors"].push_back(
+        {{"backend", one.backend}, {"iterations", one.iterations}, {"rms", one.rms}});
+    for (const auto& budget : one.error)
+      for (const double error : budget)
+        bytes.push_back(static_cast<std::uint8_t>(
+            std::lround(255.0 * std::clamp((std::log10(error) + 9.0) / 11.0, 0.0, 1.0))));
+  }
+  replay.parts.emplace_back("errors", text_of(bytes));
+}
+
+}  // namespace
+
+page::Replay pack_view(const ViewData& view, size_t most_bytes) {
+  if (view.frames.empty()) throw std::invalid_argument("a replay without a frame");
+  Json head{{"grains", view.system.grain_count}};
+  page::Replay replay;
+  pack_shapes(view, head, replay);
+  pack_series(view, head, replay);
+  pack_errors(view, head, replay);
+  const size_t still_parts = replay.parts.size(), still_bytes = page_bytes(replay);
+  const bool has_contacts = static_cast<bool>(view.contacts);
+  // poses may take two thirds of what is left, where there are contacts too
+  const size_t room = most_bytes > still_bytes ? most_bytes - still_bytes : 0,
+               pose_room = has_contacts ? room / 3 * 2 : room;
+  std::vector<size_t> chosen;
+  for (size_t stride = 1;; stride *= 2) {
+    chosen = thinned(view.frames.size(), stride);
+    replay.parts.resize(still_parts);
+    pack_poses(view, chosen, head, replay);
+    pack_walls(view, chosen, head, replay);
+    if (chosen.size() <= 2 || page_bytes(replay, still_parts) <= pose_room) break;
+  }
+  const size_t pose_parts = replay.parts.size(), pose_bytes = page_bytes(replay, still_parts);
+  for (size_t stride = 1; has_contacts; stride *= 2) {
+    replay.parts.resize(pose_parts);
+    pack_contacts(view, chosen, stride, head, replay);
+    if (stride >= chosen.size() || pose_bytes + page_bytes(replay, pose_parts) <= room) break;
+  }
+  replay.head = head.dump();
+  return replay;
+}
 
 page::Replay replay_of(const ViewData& view) {
   const bool moves = view.frames.size() > 1;
-  std::string still =
-      still_png(view, 0, {.width = 640, .height = 420, .colour = moves ? "speed" : "size"});
   page::Replay replay = pack_view(view);
-  replay.still = std::move(still);
+  replay.still = still_png(view, {0}, {.width = 640, .height = 420});
   replay.caption = page::words(moves ? "view.motion" : "view.still");
   if (!view.errors.empty()) replay.caption += page::words("view.errors");
   if (!view.has_shapes) replay.caption += page::words("view.no_shapes");

@@ -36,7 +36,7 @@ struct HandMadeComparison {
     const bool fails = solver[0] == 'c' && name[0] == 'z';
     const double seconds = fails ? 60.0 : (is_b ? 0.2 : 0.4) + (solver[0] == 'c' ? 0.3 : 0.0);
     CompareRow row =
-        hand_made_row(name, solver, seconds, fails ? Outcome::timeout : Outcome::solved);
+        hand_made_row(name, solver, seconds, fails ? Verdict::timeout : Verdict::solved);
     row.tolerance = tolerance;
     row.family = name[0] == 'x' ? "small, first" : "large";
     row.facts.contacts = name[0] == 'x' ? 10 : name[0] == 'y' ? 20 : 300;

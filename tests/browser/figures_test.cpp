@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "experiments/page/drawing.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/page/plot.hpp"
 #include "platform/atomic_file.hpp"
@@ -49,7 +48,7 @@ TEST_CASE("later curves stand above earlier ones, and no column is cut where the
   if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
   const TemporaryFolder folder;
   page::Page page = wide_page();
-  page::draw_pictures(page, folder.path(), {.with_pdf = false});
+  page::draw_pictures(page, folder.path());
   write_whole_file(folder.path() / "page.html", html_of(page));
   Browser browser(1400, 900);
   browser.open(folder.path() / "page.html", "", "document.querySelector('#two canvas')");
@@ -87,7 +86,7 @@ TEST_CASE("a logarithmic axis ends beside its points, and only round values have
   page::Page page{.title = "Logarithms"};
   page.answers = {.are_given = true, .with_curves = true};
   page.add({"figure", "Figure", {picture}});
-  page::draw_pictures(page, folder.path(), {.with_pdf = false});
+  page::draw_pictures(page, folder.path());
   write_whole_file(folder.path() / "page.html", html_of(page));
   Browser browser(1400, 900);
   browser.open(folder.path() / "page.html", "", "document.querySelector('#log canvas')");
@@ -117,35 +116,6 @@ TEST_CASE("the figures of a run tell the values under the pointer") {
   browser.wait_for("document.querySelector('#error .said').textContent.includes('rms')");
   const std::string said = browser.js("document.querySelector('#error .said').textContent");
   CHECK_THAT(said, Catch::Contains(printed("t %.3g", box.steps[9].time)));
-  // the time that the solver took, told anywhere within its area: in the middle of its broadest
-  // band over three steps, with the axis cut above it, so that no step of a busy machine, however
-  // long, leaves less than a few pixels
-  browser.wait_for("Chart.getChart(document.querySelector('#cost canvas'))");
-  const Json inside = browser.js(
-      "(() => { const c = document.querySelector('#cost canvas'); c.scrollIntoView({block: "
-      "'center'}); const chart = Chart.getChart(c), set = chart.data.datasets.find((s) => "
-      "s.label === 'solver').data, near = (k) => set.slice(k - 1, k + 2), "
-      "low = (k) => Math.max(...near(k).map((p) => p.low)), "
-      "top = (k) => Math.min(...near(k).map((p) => p.y)), "
-      "steps = [...set.keys()].slice(9, -9), "
-      "k = steps.reduce((a, b) => (top(b) - low(b) > top(a) - low(a) ? b : a)); "
-      "chart.options.scales.y.max = 1.2 * top(k); chart.update('none'); "
-      "const { x, y } = chart.scales, b = c.getBoundingClientRect(); return [b.left + "
-      "x.getPixelForValue(set[k].x), b.top + y.getPixelForValue(0.5 * (low(k) + top(k))), k]; "
-      "})()");
-  const StepRecord& step = box.steps[inside[2].get<size_t>()];
-  browser.hover(inside[0], inside[1]);
-  browser.wait_for("document.querySelector('#cost .said').textContent.includes('solver')");
-  const std::string cost = browser.js("document.querySelector('#cost .said').textContent");
-  CHECK_THAT(cost, Catch::Contains(printed("t %.3g", step.time)));
-  // three significant digits
-  const std::string clock = cost.substr(cost.find("clock ") + 6);
-  CHECK(parsed_number(clock.substr(0, clock.find_first_not_of("0123456789."))).value() ==
-        Approx(1e3 * step.seconds_solve).margin(0.0).epsilon(0.005));
-  CHECK(browser.js("(() => { const c = document.querySelector('#cost canvas'), b = "
-                   "c.getBoundingClientRect(); return [...c.getContext('2d').getImageData(" +
-                   inside[0].dump() + " - b.left, " + inside[1].dump() +
-                   " - b.top, 1, 1).data]; })()") == Json{0x00, 0x72, 0xb2, 0xff});
   // tables in groups keep their order; others sort
   CHECK(browser.js("document.querySelectorAll('#results .sort').length") == 0);
   CHECK(browser.js("document.querySelectorAll('#cost-table .sort').length") == 3);

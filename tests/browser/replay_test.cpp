@@ -43,7 +43,7 @@ TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to t
   if (Browser::is_missing()) return;
   const DrivenBox box;
   Browser browser(900, 700);
-  browser.open(box.page(), "play=0&rest=0", is_ready);
+  browser.open(box.page(), "play=0", is_ready);
   REQUIRE(browser.js("window.ballastReplayError || ''") == "");
   REQUIRE(browser.js("ballastReplay.data.times.length") == box.frames.size());
   const auto time = [&] { return browser.js("ballastReplay.time").get<double>(); };
@@ -96,7 +96,7 @@ TEST_CASE("the driven wall stands where steps.csv says, within a pixel's worth")
   if (Browser::is_missing()) return;
   const DrivenBox box;
   Browser browser(900, 700);
-  browser.open(box.page(), "play=0&rest=0&view=y&grains=hidden", is_ready);
+  browser.open(box.page(), "play=0&view=y&grains=hidden", is_ready);
   std::set<int> columns;
   for (const size_t k : {size_t{9}, box.steps.size() - 1}) {
     const StepRecord& step = box.steps[k];
@@ -122,7 +122,7 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
   if (Browser::is_missing()) return;
   const DrivenBox box;
   Browser browser(900, 700);
-  browser.open(box.page(), "play=0&rest=0&t=0.02", is_ready);
+  browser.open(box.page(), "play=0&t=0.02", is_ready);
   const Json whole = pixels(browser, "Math.max(r, g, b) - Math.min(r, g, b) > 40");
   CHECK(whole["share"] > 0.05);
   Json last = picture(browser);
@@ -182,7 +182,7 @@ TEST_CASE("two backends' errors stand side by side, and the worst contact is fou
       view_of_problem(file, {.backends = {"pgs", "auto"}, .iterations = {1, 10, 100}});
   write_view_page(view, place.path() / "errors.html");
   Browser browser(900, 700);
-  browser.open(place.path() / "errors.html", "rest=0", is_ready);
+  browser.open(place.path() / "errors.html", "", is_ready);
   REQUIRE(browser.js("window.ballastReplayError || ''") == "");
   REQUIRE(browser.js("ballastReplay.stages.length") == 2);
   for (const int budget : {0, 2})
@@ -214,7 +214,7 @@ TEST_CASE("what is most wrong stands out from a light and a dark ground") {
                   place.path() / "errors.html");
   for (const bool is_dark : {false, true}) {
     Browser browser(900, 700, is_dark);
-    browser.open(place.path() / "errors.html", "rest=0", is_ready);
+    browser.open(place.path() / "errors.html", "", is_ready);
     // contrast of the largest ball with the ground, as the accessibility guidelines count it
     const double contrast = browser.js(
         "(() => { const { rods, paper } = ballastReplay.look(0), balls = []; for (let k = 0; "
@@ -231,7 +231,7 @@ TEST_CASE("narrow, dark, and without 3D") {
   const DrivenBox box;
   {
     Browser browser(375, 800, true);
-    browser.open(box.page(), "play=0&rest=0", is_ready);
+    browser.open(box.page(), "play=0", is_ready);
     CHECK(browser.js("document.scrollingElement.scrollWidth") == 375);
     // the words of every legend stand clear of each other, and the load's within the picture
     for (const char* colour : {"speed", "size", "rotation"}) {
@@ -251,7 +251,7 @@ TEST_CASE("narrow, dark, and without 3D") {
   }
   {
     Browser browser(1400, 900);
-    browser.open(box.page(), "play=0&rest=0", is_ready);
+    browser.open(box.page(), "play=0", is_ready);
     CHECK(browser.js("document.scrollingElement.scrollWidth") == 1400);
     CHECK(browser.js("document.getElementById('replay').clientWidth").get<int>() > 1200);
   }
@@ -259,6 +259,58 @@ TEST_CASE("narrow, dark, and without 3D") {
   browser.open(box.page(), "", is_ready);
   CHECK_THAT(browser.js("document.getElementById('replay-sentence').innerText").get<std::string>(),
              Contains("WebGL 2"));
+}
+
+TEST_CASE("what is chosen stands in the address, and shows the same again") {
+  if (Browser::is_missing()) return;
+  const DrivenBox box;
+  Browser browser(900, 700);
+  browser.open(box.page(), "play=0", is_ready);
+  const Browser::Json first = picture(browser);
+  browser.js(chosen("colour", "rotation", "change"));
+  browser.js(clicked("chains"));
+  browser.js(chosen("threshold", "2", "input"));
+  browser.js(chosen("cut", "y", "change"));
+  browser.js(chosen("cutat", "0.3", "input"));
+  browser.js(chosen("time", "0.011", "input"));
+  browser.js(clicked("view-x"));
+  browser.js(
+      "ballastReplay.camera.turn(12, 3); ballastReplay.camera.pan(0.1, 0.05); "
+      "ballastReplay.camera.zoom(0.8); ballastReplay.touched()");
+  // the camera stands in the address with five digits: not to the pixel the same
+  const auto looks = [&] {
+    return browser.js("Array.from(ballastReplay.pixels().bytes.filter((v, k) => k % 397 === 0))");
+  };
+  CHECK(picture(browser) != first);
+  const Browser::Json seen = looks();
+  browser.wait_for("location.hash.includes('t=0.011') && location.hash.includes('view=')");
+  const std::string hash = browser.js("location.hash.slice(1)");
+  CHECK_THAT(hash, Catch::Contains("colour=rotation") && Catch::Contains("chains=1") &&
+                       Catch::Contains("threshold=2") && Catch::Contains("cut=y%3A0.3") &&
+                       Catch::Contains(""));
+  browser.open(box.page(), hash, is_ready);
+  const Browser::Json again = looks();
+  REQUIRE(again.size() == seen.size());
+  int others = 0;
+  for (size_t k = 0; k < seen.size(); ++k)
+    others += std::abs(seen[k].get<int>() - again[k].get<int>()) > 20;
+  CHECK(others < static_cast<int>(seen.size()) / 50);
+  CHECK(browser.js("['colour', 'threshold', 'cut', 'cutat', 'grains'].map((id) => "
+                   "document.getElementById('replay-' + id).value)") ==
+        Browser::Json{"rotation", "2", "y", "0.3", "ghost"});
+  CHECK(browser.js("document.getElementById('replay-chains').checked") == true);
+  CHECK(browser.js("document.getElementById('replay-clock').textContent") == "0.011 s");
+  // another address in the same page
+  browser.js("location.hash = 'play=0&view=y'");
+  browser.wait_for("ballastReplay.options.colour === 'speed'");
+  CHECK(browser.js("ballastReplay.camera.name()") == "y");
+  CHECK(browser.js("ballastReplay.options.chains") == false);
+  // a view along an axis is named; what is as at first is left out
+  browser.js(clicked("viewz"));
+  browser.wait_for("location.hash.includes('view=z')");
+  CHECK(browser.js("location.hash.slice(1).split('&').sort()") ==
+        Browser::Json{"play=0", "", "view=z"});
+  CHECK(browser.complaints == std::vector<std::string>{});
 }
 
 }  // namespace ballast

@@ -83,19 +83,6 @@ const areas = {
   },
 };
 
-/// The point of the area that is under the pointer, otherwise the nearest of all.
-Chart.Interaction.modes.held = (chart, event, options, is_final) => {
-  const { x, y } = chart.scales, at = x.getValueForPixel(event.x), up = y.getValueForPixel(event.y);
-  for (const [datasetIndex, set] of chart.data.datasets.entries()) {
-    if (!set.is_area || !chart.isDatasetVisible(datasetIndex)) continue;
-    const away = set.data.map((point) => Math.abs(point.x - at));
-    const index = away.indexOf(Math.min(...away)), { y: high, low } = set.data[index];
-    if (low <= up && up < high)
-      return [{ element: chart.getDatasetMeta(datasetIndex).data[index], datasetIndex, index }];
-  }
-  return Chart.Interaction.modes.nearest(chart, event, options, is_final);
-};
-
 /// A dashed line across, which no legend names.
 function line_of(line, chart_points) {
   const along = line.vertical ? "y" : "x", across = line.vertical ? "x" : "y";
@@ -181,7 +168,7 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
   };
   const options = () => ({
     animation: false, responsive: true, maintainAspectRatio: false, parsing: false,
-    interaction: { mode: "held", axis: "xy", intersect: false },
+    interaction: { mode: "nearest", axis: "xy", intersect: false },
     layout: { padding: { right: 12, top: 8 } },
     scales: { x: axis_of(along_of(figure)), y: axis_of(figure.y) },
     onHover: (event, [at]) => {

@@ -37,9 +37,7 @@ function picture_charts(picture) {
       return `${name} ${values.map(short_number).join(" to ")}` +
         (unit ? narrow_space + unit[1] : "");
     };
-    // one area is a band; several stand on each other, and each is as high as its own value
-    const is_stack = panel.curves.filter((curve) => curve.mark === "area").length > 1;
-    const heights = ({ y, low = null }) => low === null ? [y] : is_stack ? [y - low] : [low, y];
+    const heights = ({ y, low = null }) => low === null ? [y] : [low, y];
     const opens = panel.curves.some((curve) => curve.from.length);
     return chart_of(panel_figure(picture, panel), {
       told: (curve, { x, error, ...point }) =>

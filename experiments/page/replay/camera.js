@@ -12,9 +12,8 @@ class Camera {
     this.home();
   }
   home() {
-    this.homeDistance = 3.9 * this.data.radius;
     Object.assign(this, { target: [...this.data.centre], yaw: -52, pitch: 20,
-      distance: this.homeDistance });
+      distance: 3.9 * this.data.radius });
   }
   // From where along an axis: "x", "-x", ...
   along(name) {
@@ -25,10 +24,8 @@ class Camera {
   // Along which axis one looks now; empty: along none.
   name() {
     return Object.keys(axisViews).find((name) =>
-      axisViews[name][0] === this.yaw && axisViews[name][1] === this.pitch) || "";
-  }
-  isCentred() {
-    return this.target.every((v, k) => v === this.data.centre[k]);
+      axisViews[name][0] === this.yaw && axisViews[name][1] === this.pitch &&
+      this.target.every((v, k) => v === this.data.centre[k])) || "";
   }
   get eye() {
     const yaw = this.yaw * Math.PI / 180, pitch = this.pitch * Math.PI / 180;
@@ -50,22 +47,13 @@ class Camera {
     this.target = add(this.target, add(times(right, -dx * size), times(up, dy * size)));
   }
   // In narrow pictures the same width is seen.
-  matrix(aspect, shift = [0, 0]) {
+  matrix(aspect) {
     const near = Math.max(0.02 * this.distance, this.distance - 3 * this.data.radius);
     const far = this.distance + 6 * this.data.radius;
-    const lens = perspective(this.angle(aspect), aspect, near, far);
-    lens[8] += shift[0];
-    lens[9] += shift[1];
-    return product(lens, looking(this.eye, this.target));
+    return product(perspective(this.angle(aspect), aspect, near, far),
+      looking(this.eye, this.target));
   }
   angle(aspect) {
     return aspect >= 1.25 ? viewAngle : 2 * Math.atan(Math.tan(viewAngle / 2) * 1.25 / aspect);
-  }
-  // From the eye through a point of a picture of unit size, y downward.
-  ray(x, y, aspect) {
-    const [right, up, back] = axesOf(this.eye, this.target);
-    const t = Math.tan(this.angle(aspect) / 2);
-    return unit(add(add(times(right, (2 * x - 1) * t * aspect), times(up, (1 - 2 * y) * t)),
-      times(back, -1)));
   }
 }

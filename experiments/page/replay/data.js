@@ -1,10 +1,59 @@
-// What the page holds, and the state of all bodies at any time between the stored frames.
+// What the page holds, and the state of all bodies at any time between the stored frames. The parts
+// are those of experiments/view/view_page.cpp.
+
+const element = (id) => document.getElementById("replay-" + id);
+
+// The bytes of a part: base64, then deflate.
+async function partBytes(name) {
+  const holder = element(name);
+  if (!holder) return new Uint8Array(0);
+  const packed = Uint8Array.from(atob(holder.textContent), (c) => c.charCodeAt(0));
+  holder.textContent = "";
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+// Zigzag differences, column after column, as values[frame * columns + column]. `planes`: bytes of
+// a number; `order`: how often differences were taken.
+function historyOf(bytes, columns, planes, order) {
+  const count = bytes.length / planes, frames = columns ? count / columns : 0;
+  const values = planes === 2 ? new Uint16Array(count) : new Uint8Array(count);
+  for (let c = 0, at = 0; c < columns; ++c) {
+    let value = 0, slope = 0;
+    for (let f = 0; f < frames; ++f, ++at) {
+      const code = planes === 2 ? bytes[at] | bytes[count + at] << 8 : bytes[at];
+      const difference = (code >> 1) ^ -(code & 1);
+      slope = order === 2 ? slope + difference : difference;
+      value += slope;
+      values[f * columns + c] = value;  // modulo 2^16 or 2^8
+    }
+  }
+  return values;
+}
+
+function wordsOf(bytes) {
+  const count = bytes.length / 2, values = new Uint16Array(count);
+  for (let k = 0; k < count; ++k) values[k] = bytes[k] | bytes[count + k] << 8;
+  return values;
+}
+
+function floatsOf(bytes) {
+  const count = bytes.length / 4, whole = new Uint8Array(bytes.length);
+  for (let b = 0; b < 4; ++b)
+    for (let k = 0; k < count; ++k) whole[4 * k + b] = bytes[b * count + k];
+  return new Float32Array(whole.buffer);
+}
+
+// -1 .. 1 from 8 bits with a root's steps.
+const fromSignedRoot = (byte) => {
+  const root = (byte - 128) / 127;
+  return root * Math.abs(root);
+};
 
 class Data {
   static async load() {
-    const names = ["shape_sizes", "face_sizes", "face_corners", "vertices", "grains", "positions",
-      "rotations", "left_out", "velocities", "walls", "series", "contact_bodies",
-      "contact_places", "contact_normals", "contact_forces", "contact_mobilised", "errors"];
+    const names = ["shapes", "grains", "positions", "rotations", "velocities", "walls", "series",
+      "contact_bodies", "contact_places", "contact_forces", "contact_mobilised", "errors"];
     const parts = {};
     await Promise.all(names.map(async (name) => { parts[name] = await partBytes(name); }));
     return new Data(JSON.parse(element("head").textContent), parts);
@@ -18,14 +67,13 @@ class Data {
     this.end = head.times[head.times.length - 1];
     const columns = 3 * head.grains;
     this.positions = historyOf(parts.positions, columns, 2, 2);
-    this.rotations = historyOf(parts.rotations, columns, 2, 1);
-    this.leftOut = historyOf(parts.left_out, head.grains, 1, 1);
+    this.rotations = historyOf(parts.rotations, 4 * head.grains, 2, 2);
     this.velocities = historyOf(parts.velocities, columns, 1, 1);
     const constants = floatsOf(parts.grains);
     this.mass = constants.filter((_, k) => k % 2 === 0);
     this.size = constants.filter((_, k) => k % 2).map((volume) => Math.cbrt(6 * volume / Math.PI));
     this.wallStates = floatsOf(parts.walls);
-    this.readShapes(parts);
+    this.readShapes(wordsOf(parts.shapes));
     this.readSeries(floatsOf(parts.series));
     this.readContacts(parts);
     this.errors = parts.errors;
@@ -34,20 +82,15 @@ class Data {
     this.measureBox();
   }
 
-  readShapes(parts) {
-    const sizes = wordsOf(parts.shape_sizes), loops = wordsOf(parts.face_sizes);
-    const corners = wordsOf(parts.face_corners), entries = new Int16Array(wordsOf(parts.vertices));
-    this.shapes = [];
-    let vertex = 0, face = 0, corner = 0;
-    for (let k = 0; k < this.head.shapes; ++k) {
-      const vertices = entries.subarray(3 * vertex, 3 * (vertex + sizes[2 * k])), faces = [];
-      for (let f = 0; f < sizes[2 * k + 1]; ++f, ++face) {
-        faces.push(Array.from(corners.subarray(corner, corner + loops[face])));
-        corner += loops[face];
-      }
-      vertex += sizes[2 * k];
-      this.shapes.push({ vertices, faces });
-    }
+  readShapes(words) {
+    let at = 0;
+    this.shapes = Array.from({ length: this.head.shapes }, () => {
+      const corners = words[at++], faces = new Array(words[at++]);
+      for (let f = 0; f < faces.length; ++f, at += words[at] + 1)
+        faces[f] = Array.from(words.subarray(at + 1, at + 1 + words[at]));
+      const vertices = new Int16Array(words.subarray(at, at += 3 * corners));
+      return { vertices, faces };
+    });
   }
 
   readSeries(values) {
@@ -70,7 +113,7 @@ class Data {
       return Math.sqrt(square) / 32767 * this.head.scale;
     });
     this.reach = this.head.shape_of.map((shape) => reach[shape]);
-    const force = wordsOf(parts.contact_forces).map((v) => v), strength = new Float32Array(count);
+    const force = wordsOf(parts.contact_forces), strength = new Float32Array(count);
     this.contactFrames = (this.head.contact_frames || []).map((frame, k) => ({ frame, k }));
     let at = 0;
     for (const [k, frame] of this.contactFrames.entries()) {
@@ -83,17 +126,13 @@ class Data {
       frame.end = at;
     }
     this.contact = { a, b, force: strength, places: parts.contact_places, count,
-      normals: parts.contact_normals, mobilised: parts.contact_mobilised };
+      mobilised: parts.contact_mobilised };
   }
 
-  // Where a contact is, and its normal, while grain a is where the state has it.
+  // Where a contact is while grain a is where the state has it.
   contactPlace(c) {
     const { a, places, count } = this.contact, g = a[c], reach = 1.02 * this.reach[g] / 127;
     return [0, 1, 2].map((k) => this.state[8 * g + k] + (places[k * count + c] - 128) * reach);
-  }
-  contactNormal(c) {
-    const { normals, count } = this.contact;
-    return fromOctahedron(normals[c], normals[count + c]);
   }
 
   // The stored contacts nearest in time; none where the run kept none.
@@ -125,14 +164,8 @@ class Data {
     return fromSignedRoot(this.velocities[3 * (frame * this.grains + g) + k]) * this.head.fastest;
   }
   rotationOf(frame, g, out = [0, 0, 0, 0]) {
-    const at = frame * this.grains + g, left = this.leftOut[at], most = this.head.largest_kept;
-    let square = 0, place = 3 * at;
     for (let k = 0; k < 4; ++k)
-      if (k !== left) {
-        out[k] = (this.rotations[place++] / 65535 * 2 - 1) * most;
-        square += out[k] ** 2;
-      }
-    out[left] = Math.sqrt(Math.max(0, 1 - square));
+      out[k] = this.rotations[4 * (frame * this.grains + g) + k] / 32767.5 - 1;
     return out;
   }
 

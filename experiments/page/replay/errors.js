@@ -23,7 +23,7 @@ class ErrorView {
     return (this.errorOf(picture, c) - errorDecades[0]) / (errorDecades[1] - errorDecades[0]);
   }
 
-  // Balls at the contacts of a picture, the worst with a long needle.
+  // Balls at the contacts of a picture, the worst on a needle.
   addBalls(rods, picture, marks, cut) {
     const size = marks.meanReach;
     for (let c = 0; c < this.data.contact.count; ++c) {
@@ -32,7 +32,7 @@ class ErrorView {
       const radius = size * (0.06 + 0.28 * share * share);
       addRod(rods, place, radius, place, radius, colourAt(markRamps.heat, share));
       if (c !== this.worst) continue;
-      const n = times(this.data.contactNormal(c), 1.2 * size);
+      const n = [0, 0, 1.2 * size];
       addRod(rods, sub(place, n), 0.03 * size, add(place, n), 0.03 * size, [0.02, 0.45, 0.5]);
     }
   }

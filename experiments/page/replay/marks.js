@@ -20,6 +20,10 @@ function planeInBox(point, normal, low, high) {
   return { loop, side, other };
 }
 
+// Appends a rod to a list of numbers.
+const addRod = (rods, from, fromRadius, to, toRadius, colour, alpha = 1) =>
+  rods.push(...from, fromRadius, ...to, toRadius, ...colour, alpha);
+
 class Marks {
   constructor(data) {
     this.data = data;
@@ -63,7 +67,7 @@ class Marks {
     const { data } = this, { low, high, centre, radius } = data, ground = [];
     const thin = isDark(look.paper) ? 0.4 : 1;  // light on dark covers more
     look.cell = niceStep(2 * radius, 8);
-    const reach = (look.isHasty ? 1.4 : 2.7) * radius;
+    const reach = 2.7 * radius;
     for (let k = 0; k < 40; ++k) {
       const angle = 2 * Math.PI * k / 40;
       ground.push(centre[0] + reach * Math.cos(angle), centre[1] + reach * Math.sin(angle), low[2],
@@ -118,18 +122,17 @@ class Marks {
     }
   }
 
-  // Points coloured by the share of friction that is used, and their normals.
+  // Points coloured by the share of friction that is used.
   addPoints(time, rods, { picked }, cut) {
     const { begin, end } = this.data.contactsAt(time), { a, b, mobilised } = this.data.contact;
     const size = this.meanReach;
     this.shownPoints = 0;
     for (let c = begin; c < end; ++c) {
       if (picked >= 0 && a[c] !== picked && b[c] !== picked) continue;
-      const place = this.data.contactPlace(c), n = times(this.data.contactNormal(c), 0.3 * size);
+      const place = this.data.contactPlace(c);
       if (cut && dot(cut, place) > cut[3]) continue;
       const colour = colourAt(markRamps.water, 0.15 + 0.85 * mobilised[c] / 255);
       addRod(rods, place, 0.09 * size, place, 0.09 * size, colour);
-      addRod(rods, sub(place, n), 0.02 * size, add(place, n), 0.02 * size, colour);
       ++this.shownPoints;
     }
   }

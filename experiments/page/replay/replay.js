@@ -12,14 +12,11 @@ class Replay {
     this.options = { colour: "speed", grains: "solid", chains: false, points: false, threshold: 1,
       cut: "", cutAt: 0.5, picked: -1 };
     this.quality = 1;
-    this.pace = 0;
-    this.frames = 0;
     buildPanel(data, this.shades);
     this.options.colour = element("colour").value;
     this.mesh = new Mesh(data);
     this.errors = new ErrorView(data);
     if (this.errors.isOn) Object.assign(this.options, { colour: "none", grains: "ghost" });
-    this.address = new Address(this);
     this.errors.build(this);
     this.stages = ["canvas", "second"].filter(element).map((id) =>
       new Stage(element(id), data, this.mesh));
@@ -28,7 +25,14 @@ class Replay {
       this.setTime(time);
     });
     this.readStyle();
-    this.address.read();
+    this.defaults = { ...this.options };
+    this.isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches || data.times.length < 2;
+    this.first = { ...this.words(), play: this.isCalm ? "0" : "1" };
+    this.readAddress();
+    choice.changed(() => {
+      this.readAddress();
+      this.set({});
+    });
     for (const { canvas } of this.stages) {
       listenToPointer(canvas, this);
       listenToKeys(canvas, this);
@@ -87,8 +91,7 @@ class Replay {
     this.set({ picked: grain });
   }
   pickAt(x, y) {
-    this.pick(pickGrain(this.data, this.mesh, this.camera, this.stages[0].aspect, this.cutPlane(),
-      x, y));
+    this.pick(this.stages[0].pick(this.look(0), x, y));
   }
 
   // What is beyond is cut away: normal and offset; null: nothing is.
@@ -122,47 +125,72 @@ class Replay {
     this.last = 0;
     this.touched();
   }
+  // Something has changed. The address says so when nothing changes any more.
   touched() {
     this.isStale = true;
-    this.restFrom = performance.now() + 180;
-    this.address.touched();
+    this.movesUntil = performance.now() + 180;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => {
+      const { first } = this, now = this.words();
+      choice.keep(Object.fromEntries(Object.entries(now).map(([name, text]) =>
+        [name, text === first[name] ? null : text])));
+    }, 300);
+  }
+
+  // What the reader has chosen stands in the page's address behind #, so that a link or a reload
+  // shows the same: #t=0.3&colour=displacement&cut=y&cutAt=0.5&chains=1&view=x&play=0. What is as
+  // at first is left out. Here it is all that an address can say: name -> text.
+  words() {
+    const { options, camera, data, errors, time, playing, rate } = this;
+    const rounded = (value) => String(+(+value).toPrecision(5));
+    const words = { ...errors.words(), rate: String(rate), play: playing ? "1" : "0",
+      view: camera.name() || [camera.yaw, camera.pitch, camera.distance, ...camera.target]
+        .map(rounded).join(","), t: rounded(playing ? data.begin : time) };
+    for (const [name, value] of Object.entries(options))
+      words[name] = typeof value === "string" ? value : rounded(value);
+    return words;
+  }
+
+  // Makes the replay what the address says.
+  readAddress() {
+    const { camera, data, defaults } = this;
+    for (const [name, value] of Object.entries(defaults)) {
+      const said = choice.get(name, String(+value));
+      this.options[name] = typeof value === "string" ? choice.get(name, value) :
+        typeof value === "boolean" ? said === "1" : +said;
+    }
+    camera.home();
+    const view = choice.get("view"), numbers = view.split(",").map(Number);
+    if (numbers.length === 6)
+      [camera.yaw, camera.pitch, camera.distance, ...camera.target] = numbers;
+    else camera.along(view);
+    element("rate").value = this.rate = +choice.get("rate", this.first.rate);
+    if (this.errors.isOn) this.errors.read();
+    this.time = clamp(+choice.get("t", data.begin), data.begin, data.end);
+    this.setPlaying(!this.isCalm && choice.get("play") !== "0");
   }
 
   // All that a stage draws at this moment.
   look(picture) {
     const look = { camera: this.camera, grains: this.options.grains, picked: this.options.picked,
-      cut: this.cutPlane(), paper: this.colours.paper.linear,
-      isHasty: this.moving && this.stages[picture].software };
+      cut: this.cutPlane(), paper: this.colours.paper.linear };
     look.rods = this.marks.build(this.time, look, this.options, this.colours, this.errors,
       picture);
     return look;
   }
 
-  // One picture, while things move.
-  drawMoving() {
+  draw() {
     const ramp = this.shades.apply(this.options.colour, this.time);
     this.stages.forEach((stage, picture) => {
-      stage.look = this.look(picture);
-      stage.resize(this.moving && stage.software ? this.quality : 1);
-      stage.moved(ramp);
-      stage.rods.set(stage.look.rods);
-      if (stage.software || !stage.canRest) drawQuick(stage, stage.look, this.moving);
-      else drawResting(stage, stage.look, 9);
+      stage.resize(this.moving ? this.quality : 1);
+      stage.draw(this.look(picture), ramp);
     });
-    // where software draws, words and curves cost as much as the bodies
-    const isHasty = this.playing && this.stages[0].look.isHasty;
-    if (!isHasty || this.frames % 4 === 0) this.tellTime();
-    this.isStale = false;
-    ++this.frames;
-  }
-
-  // The time in all that stands around the picture.
-  tellTime() {
     element("time").value = this.time;
     element("clock").textContent = this.time.toFixed(3) + " s";
     drawFacts(this.data, this.options.picked, this.time);
     this.placeLoad();
     if (this.data.head.plots.length) this.plots.draw(this.time);
+    this.isStale = false;
   }
 
   // The words beside the load's arrow.
@@ -187,32 +215,21 @@ class Replay {
     label.style.top = clamp(top0, 4, clientHeight - high - 4) + "px";
   }
 
-  // Where software draws, fewer pixels keep the motion smooth. Another size costs as much as some
-  // frames: it is chosen once a second at most, and a size that was too slow isn't tried again.
-  chooseQuality(now) {
-    if (now < (this.qualityFrom || 0)) return;
-    if (this.pace > 75 && this.quality > 0.65) this.quality -= 0.2;
-    else return;
-    this.qualityFrom = now + 1000;
-    this.pace = 0;
-  }
-
   // Every frame of the browser.
   loop(now) {
     if (this.playing && this.last) {
       const passed = now - this.last;
+      // where there is no graphics card, fewer pixels keep the motion smooth
       this.pace = this.pace ? 0.85 * this.pace + 0.15 * passed : 60;
-      this.chooseQuality(now);
+      if (this.pace > 75 && this.quality > 0.45) [this.quality, this.pace] = [this.quality - 0.2, 0];
       const time = this.time + Math.min(passed, 120) / 1000 * this.rate;
       this.time = time > this.data.end ? this.data.begin : time;
     }
     this.last = now;
     const wasMoving = this.moving;
-    this.moving = this.playing || now < this.restFrom;
+    this.moving = this.playing || now < this.movesUntil;
     const isDue = this.playing || this.isStale || (wasMoving && !this.moving);
-    if (isDue && this.isSeen) this.drawMoving();
-    else if (!this.moving && this.isSeen)
-      for (const stage of this.stages) drawResting(stage, stage.look, stage.software ? 1 : 6);
+    if (isDue && this.isSeen) this.draw();
     requestAnimationFrame((next) => this.loop(next));
   }
 
@@ -220,7 +237,7 @@ class Replay {
   pixels(stage = this.stages[0]) {
     const { gl, canvas } = stage, bytes = new Uint8Array(4 * canvas.width * canvas.height);
     this.moving = false;
-    this.drawMoving();
+    this.draw();
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
     return { width: canvas.width, height: canvas.height, bytes };
@@ -228,17 +245,14 @@ class Replay {
 }
 
 (async () => {
-  const started = performance.now();
   try {
     if (!window.DecompressionStream) throw new Error("this browser is too old to unpack the data");
     if (!document.createElement("canvas").getContext("webgl2"))
       throw new Error("this browser gives no WebGL 2");
     const replay = new Replay(await Data.load());
-    replay.moving = false;
-    replay.drawMoving();
-    replay.firstFrame = performance.now() - started;
+    replay.draw();
     window.ballastReplay = replay;
-    Object.assign(window.ballastReplay, { projected, turned });
+    window.ballastReplay.projected = projected;
     requestAnimationFrame((now) => replay.loop(now));
   } catch (error) {
     element("sentence").hidden = false;

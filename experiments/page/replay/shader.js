@@ -1,24 +1,24 @@
-// The programs that run on the graphics card (GLSL ES 3). Colours are linear light, white = 1.
+// The programs that run on the graphics card (GLSL ES 3). Colours are linear light, white = 1,
+// until they are `finished`.
 
 // Light that arrives: from one direction (`sun`), shadowed, and from all around.
 const lightText = `
 uniform highp sampler2DShadow shadow;
 uniform vec3 sun, sunColour, around, eye;
 uniform mat4 shadowMatrix;
-uniform bool encode;
 // what lies outside the picture of shadows has none
-float lit(vec3 place) {
+float lit(vec3 p) {
+  vec3 place = (shadowMatrix * vec4(p, 1.)).xyz * .5 + .5;
   vec3 inside = step(vec3(0.), place) * step(place, vec3(1.));
   return max(texture(shadow, place), 1. - inside.x * inside.y * inside.z);
 }
-vec3 shadowPlace(vec3 p) { return (shadowMatrix * vec4(p, 1.)).xyz * .5 + .5; }
 vec3 ambient(vec3 n) { return around * (.54 + .46 * n.z) + (.13 - .06 * n.z) * vec3(1., .97, .93); }
 // sRGB within 0.4 / 255, by roots alone
 vec3 srgb(vec3 c) {
   vec3 a = sqrt(max(c, 0.)), b = sqrt(a), d = sqrt(b);
   return max(.585122381 * a + .783140355 * b - .368262736 * d, 0.);
 }
-vec4 finished(vec3 c, float alpha) { return vec4((encode ? srgb(c) : c) * alpha, alpha); }
+vec4 finished(vec3 c, float alpha) { return vec4(srgb(c) * alpha, alpha); }
 `;
 
 // A body's pose from the texture of states.
@@ -32,7 +32,7 @@ void pose(uint g, out vec4 p, out vec4 q) {
 }
 `;
 
-const grainVertex = lightText + poseText + `
+const grainVertex = poseText + `
 layout(location = 0) in vec3 corner;
 layout(location = 1) in uint grain;
 layout(location = 2) in vec3 normal;
@@ -42,14 +42,13 @@ uniform highp sampler2D ramp;
 uniform float scale;
 uniform int picked;
 out vec3 place, edge;
-flat out vec3 albedo, direct, indirect, facing;
-out vec3 inShadow;
-flat out float chosen, veil;
+flat out vec3 albedo, facing;
+flat out float chosen;
 void main() {
   vec4 p, q;
   pose(grain, p, q);
   place = p.xyz + turn(q, corner * scale);
-  vec3 n = turn(q, normal);
+  facing = turn(q, normal);
   // how far from each edge: an edge inside a face is never near
   int c = gl_VertexID % 3;
   edge = vec3(c == 0, c == 1, c == 2);
@@ -57,36 +56,17 @@ void main() {
   chosen = int(grain) == picked ? 1. : 0.;
   albedo = texelFetch(ramp, ivec2(int(clamp(p.w, 0., 1.) * 255. + .5), 0), 0).rgb;
   if (chosen > .5) albedo = vec3(.25, .9, .95);
-  // faces are flat: their light is found here once, but for the shadow
-  float rim = max(dot(n, normalize(eye - place)), 0.);
-  float edgewise = mix(.8, 1., smoothstep(0., .5, rim));
-  facing = n;
-  direct = albedo * edgewise * max(dot(n, sun), 0.) * sunColour;
-  indirect = albedo * (edgewise * ambient(n) + .08 * rim);
-  inShadow = shadowPlace(place + n * scale * .02);
-#ifdef PLAIN
-#ifdef GHOST
-  float away = 1. - abs(dot(n, normalize(eye - place)));
-  veil = .03 + .2 * away * away + .3 * chosen;
-  indirect = srgb(mix(albedo, around, .4));
-#else
-  // as the eye sees them, in shade and what the sun adds
-  direct = srgb(indirect + direct);
-  indirect = srgb(indirect);
-  direct -= indirect;
-#endif
-#endif
   gl_Position = camera * vec4(place, 1.);
 }`;
 
 const grainFragment = `
 in vec3 place, edge;
-flat in vec3 albedo, direct, indirect, facing;
-in vec3 inShadow;
-flat in float chosen, veil;
+flat in vec3 albedo, facing;
+flat in float chosen;
 out vec4 colour;
 ` + lightText + `
 uniform vec4 cut;
+uniform float scale;
 float edgeShare() {
   vec3 width = fwidth(edge), near = edge / max(width, 1e-4);
   float share = 1. - smoothstep(.3 + chosen, 1.5 + chosen, min(near.x, min(near.y, near.z)));
@@ -94,33 +74,29 @@ float edgeShare() {
   return share * clamp(.55 / max(max(width.x, width.y), width.z) - 1.2, 0., 1.);
 }
 void main() {
+  float edges = edgeShare(), rim = max(dot(facing, normalize(eye - place)), 0.);
 #ifdef CUT
   if (dot(cut.xyz, place) > cut.w) discard;
   if (!gl_FrontFacing) {
     // the back of a convex grain, seen through the cut, is its cut face
     vec3 d = place - eye, p = eye + d * ((cut.w - dot(cut.xyz, eye)) / dot(cut.xyz, d));
-    float sunlit = lit(shadowPlace(p + cut.xyz * .004)) * max(dot(cut.xyz, sun), 0.);
+    float sunlit = lit(p + cut.xyz * .004) * max(dot(cut.xyz, sun), 0.);
     colour = finished(albedo * (ambient(cut.xyz) + sunlit * sunColour), 1.);
     return;
   }
 #endif
-#ifdef PLAIN
 #ifdef GHOST
-  colour = vec4(indirect, 1.) * veil;
+  float away = 1. - rim;
+  colour = finished(mix(albedo, around, .4), .03 + .2 * away * away + .12 * edges + .3 * chosen);
 #else
-  colour = vec4((indirect + direct * lit(inShadow)) * (1. - .2 * edgeShare()), 1.);
-#endif
-#elif defined(GHOST)
-  float rim = 1. - abs(dot(facing, normalize(eye - place)));
-  float alpha = .03 + .2 * rim * rim + .12 * edgeShare() + .3 * chosen;
-  colour = finished(mix(albedo, around, .4), alpha);
-#else
-  vec3 c = indirect + direct * lit(inShadow);
-  colour = finished(mix(c, c * .5, edgeShare() * .7), 1.);
+  float edgewise = mix(.8, 1., smoothstep(0., .5, rim));
+  vec3 direct = max(dot(facing, sun), 0.) * sunColour * lit(place + facing * scale * .02);
+  vec3 c = albedo * (edgewise * (direct + ambient(facing)) + .08 * rim);
+  colour = finished(c * (1. - .35 * edges), 1.);
 #endif
 }`;
 
-// The number of the grain as a colour: which grains can be seen at all.
+// The number of the grain as a colour.
 const numberVertex = poseText + `
 layout(location = 0) in vec3 corner;
 layout(location = 1) in uint grain;
@@ -148,16 +124,13 @@ void main() {
 }`;
 
 // A polygon of a wall with a grid that moves with it, or the ground with its shadow.
-const planeVertex = lightText + `
+const planeVertex = `
 layout(location = 0) in vec3 corner;
 layout(location = 1) in vec2 onPlane;
 uniform mat4 camera;
-uniform vec4 tint;
 out vec3 place;
 out vec2 grid;
-flat out vec4 plain;
 void main() {
-  plain = finished(tint.rgb, tint.a);
   place = corner;
   grid = onPlane;
   gl_Position = camera * vec4(corner, 1.);
@@ -165,35 +138,31 @@ void main() {
 const planeFragment = `
 in vec3 place;
 in vec2 grid;
-flat in vec4 plain;
 out vec4 colour;
 ` + lightText + `
 uniform vec4 tint, cut;
 uniform vec3 ground;  // centre and radius: the ground fades there
-uniform float cell, free;
+uniform float cell;
 void main() {
 #ifdef CUT
   if (ground.z == 0. && dot(cut.xyz, place) > cut.w) discard;
 #endif
   if (ground.z > 0.) {
-    float sunlit = lit(shadowPlace(place + vec3(0., 0., .002))) * max(sun.z, 0.);
-    float light = (sunlit * sunColour.g + ambient(vec3(0., 0., 1.)).g) / free;
+    // as bright as the paper where there is no shadow
+    vec3 sky = ambient(vec3(0., 0., 1.)), all = sky + sun.z * sunColour;
+    float share = (sky.g + lit(place + vec3(0., 0., .002)) * sun.z * sunColour.g) / all.g;
     float fade = 1. - smoothstep(.3, 1., length(place.xy - ground.xy) / ground.z);
-    colour = finished(tint.rgb * mix(1., light, .8), fade);
+    colour = finished(tint.rgb * mix(1., share, .8), fade);
     return;
   }
-#ifdef PLAIN
-  colour = plain;
-#else
   vec2 width = fwidth(grid) / cell, near = abs(fract(grid / cell - .5) - .5) / max(width, 1e-4);
   float line = (1. - smoothstep(.2, 1.3, min(near.x, near.y))) *
       clamp(.4 / max(width.x, width.y) - 1., 0., 1.);
   colour = finished(tint.rgb, clamp(tint.a * (1. + 1.2 * line), 0., .9));
-#endif
 }`;
 
-// A rod between two balls of any radii: chains, normals, points, edges, arrows. Negative radii are
-// pixels. Drawn as a rectangle that faces the eye.
+// A rod between two balls of any radii: chains, points, edges, arrows. Negative radii are pixels.
+// Drawn as a rectangle that faces the eye.
 const rodsInRow = 256;  // of the texture that holds them, three texels each
 const rodVertex = `
 uniform highp sampler2D rods;
@@ -204,14 +173,13 @@ flat out float span;
 flat out vec2 radii;
 flat out vec4 hue;
 out vec2 spot;  // along the rod from its first end and across it [pixels]
-` + lightText + `
 void main() {
   // six corners of two triangles: x 0 at the first end, 1 at the other; y -1 or 1 across
   int c = gl_VertexID % 6, rod = gl_VertexID / 6;
   vec2 side = vec2(c == 1 || c == 2 || c == 4, c == 2 || c == 4 || c == 5 ? 1 : -1);
   ivec2 place = ivec2(rod % ${rodsInRow} * 3, rod / ${rodsInRow});
   vec4 from = texelFetch(rods, place, 0), to = texelFetch(rods, place + ivec2(1, 0), 0);
-  vec4 tint = texelFetch(rods, place + ivec2(2, 0), 0);
+  hue = texelFetch(rods, place + ivec2(2, 0), 0);
   vec4 a = camera * vec4(from.xyz, 1.), b = camera * vec4(to.xyz, 1.);
   vec2 s = (a.xy / a.w * .5 + .5) * pixels, t = (b.xy / b.w * .5 + .5) * pixels;
   radii = vec2(from.w < 0. ? -from.w : max(from.w * lens / a.w, .6),
@@ -221,50 +189,25 @@ void main() {
   vec2 across = vec2(-along.y, along.x);
   span = length(t - s);
   spot = vec2(mix(-reach, span + reach, side.x), side.y * reach);
-  hue = encode ? vec4(srgb(tint.rgb), tint.a) : tint;
   vec4 middle = side.x < .5 ? a : b;
   // without perspective, so that spot is linear in the picture
   gl_Position = a.w <= 0. || b.w <= 0. ? vec4(2., 2., 2., 1.)
       : vec4((s + along * spot.x + across * spot.y) / pixels * 2. - 1., middle.z / middle.w, 1.);
 }`;
-const rodFragment = `
+const rodFragment = lightText + `
 flat in float span;
 flat in vec2 radii;
 flat in vec4 hue;
 in vec2 spot;
 out vec4 colour;
-uniform bool encode;
 void main() {
   float on = clamp(spot.x, 0., span), radius = mix(radii.x, radii.y, on / max(span, 1e-3));
-  float away = length(vec2(spot.x - on, spot.y));
-  // thin ones fade at their edge; the edge of thick ones is smoothed by the picture at rest
-  float alpha = radius > 1.5 ? step(away, radius) : clamp(radius - away + .5, 0., 1.);
+  float away = length(vec2(spot.x - on, spot.y)), alpha = clamp(radius - away + .5, 0., 1.);
   if (alpha <= 0.) discard;
-  // round, lit from where the eye is; the eye takes a root of light
+  // round, lit from where the eye is
   float light = .55 + .45 * sqrt(max(0., 1. - away * away / (radius * radius)));
-  float shade = radius < 1.6 ? 1. : encode ? sqrt(light) : light;
-  colour = vec4(hue.rgb * shade, 1.) * (alpha * hue.a);
-}`;
-
-const wholeVertex = `
-void main() {
-  gl_Position = vec4(float(gl_VertexID & 1) * 4. - 1., float(gl_VertexID >> 1) * 4. - 1., 0., 1.);
-}`;
-const copyFragment = `
-uniform highp sampler2D picture;
-uniform float gain;
-uniform bool encode;
-out vec4 colour;
-void main() {
-  vec3 c = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb * gain;
-  if (encode) {
-    c = mix(12.92 * c, 1.055 * pow(max(c, 0.), vec3(1. / 2.4)) - .055, step(.0031308, c));
-    // a little noise hides the steps of 8 bits
-    c += (fract(52.98 * fract(dot(gl_FragCoord.xy, vec2(.0671, .00584)))) - .5) / 255.;
-  }
-  colour = vec4(c, 1.);
+  colour = vec4(srgb(hue.rgb * (radius < 1.6 ? 1. : light)), alpha * hue.a);
 }`;
 
 const programTexts = { grain: [grainVertex, grainFragment], number: [numberVertex, numberFragment],
-  plane: [planeVertex, planeFragment], rod: [rodVertex, rodFragment],
-  copy: [wholeVertex, copyFragment] };
+  plane: [planeVertex, planeFragment], rod: [rodVertex, rodFragment] };

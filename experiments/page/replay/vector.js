@@ -11,13 +11,6 @@ const norm = (a) => Math.hypot(a[0], a[1], a[2]);
 const unit = (a) => times(a, 1 / (norm(a) || 1));
 const perpendicular = (a) => unit(cross(a, Math.abs(a[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
 
-// v turned by q; with sign -1 turned back.
-function turned(q, v, sign = 1) {
-  const x = sign * q[1], y = sign * q[2], z = sign * q[3], w = q[0];
-  const a = 2 * (y * v[2] - z * v[1]), b = 2 * (z * v[0] - x * v[2]), c = 2 * (x * v[1] - y * v[0]);
-  return [v[0] + w * a + y * c - z * b, v[1] + w * b + z * a - x * c, v[2] + w * c + x * b - y * a];
-}
-
 function product(a, b) {
   const result = new Float32Array(16);
   for (let column = 0; column < 4; ++column)

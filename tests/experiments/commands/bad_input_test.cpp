@@ -75,7 +75,7 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"export", folder.path().string()}, "--output"},
       {{"export", folder.path().string(), "--output", "a", "--format", "gif"}, "gif"},
       {{"export", folder.path().string(), "--output", "a", "--time", "noon"}, "noon"},
-      {{"export", folder.path().string(), "--output", "a", "--time", "1", "--last"}, "--last"},
+      {{"export", folder.path().string(), "--output", "a", "--time", "1", "--all"}, "--all"},
       {{"scenes", "incline", "cradle"}, "cradle"},
       {{"scenes", "--resolved"}, "name"},
       {{"version", "2"}, "2"},

@@ -43,31 +43,26 @@ TEST_CASE("a comparison leaves its table and its page, and the same command goes
   CHECK_FALSE(std::filesystem::exists(output / "compare.html"));
 }
 
-TEST_CASE("a comparison for programs is one object a line, and a quiet one nothing") {
+TEST_CASE(
+    "parts of a comparison fill one folder, and the whole finds them; a quiet one says nothing") {
   const TemporaryFolder folder;
-  std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
-                                    "--solvers",    "pgs,nncg",
-                                    "--tolerances", "1e-2",
-                                    "--memory",     "0",
-                                    "--output",     (folder.path() / "compared").string(),
-                                    "--no-report",  "--json"};
-  const ProgramResult told = ballast_program(words);
-  CHECK(told.status == 0);
-  std::vector<nlohmann::json> lines;
-  for (const std::string& line : split(told.output.substr(0, told.output.size() - 1), '\n'))
-    lines.push_back(nlohmann::json::parse(line));
-  REQUIRE(lines.size() == 3);
-  CHECK(lines[1]["event"] == "row");
-  CHECK(lines[1]["done"] == 2);
-  CHECK(lines[1]["count"] == 2);
-  CHECK(lines[1]["solver"] == "nncg");
-  CHECK(lines[1]["verdict"] == "solved");
-  CHECK_FALSE(lines[1].contains("history"));
-  CHECK(lines[2]["event"] == "end");
-  words.back() = "--quiet";
-  const ProgramResult quiet = ballast_program(words);
-  CHECK(quiet.status == 0);
-  CHECK(quiet.output.empty());
+  std::vector<std::string> words = {
+      "compare",  "known:contacts=6,bodies=4",           "--tolerances", "1e-2", "--memory", "0",
+      "--output", (folder.path() / "compared").string(), "--solvers",    ""};
+  for (const char* solver : {"pgs", "nncg"}) {
+    words.back() = solver;
+    std::vector<std::string> part = words;
+    part.insert(part.end(), {"--part", "--quiet"});
+    const ProgramResult quiet = ballast_program(part);
+    CHECK(quiet.status == 0);
+    CHECK(quiet.output.empty());
+    CHECK_FALSE(fs::exists(folder.path() / "compared" / "compare.html"));
+  }
+  words.back() = "pgs,nncg";
+  const ProgramResult whole = ballast_program(words);
+  CHECK(whole.status == 0);
+  CHECK_THAT(whole.output, Catch::Contains("2/2") && Catch::Contains("(was there)"));
+  CHECK(fs::exists(folder.path() / "compared" / "compare.html"));
 }
 
 TEST_CASE("what became of a comparison is told, with an exit code") {
@@ -113,52 +108,6 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
                 {"--lest, did you mean \"--least\""});
   check_failure(ballast_program({"compare", "known:", "--solver", "pgs"}), ExitCode::usage,
                 {"--solver, did you mean"});
-}
-
-TEST_CASE("a comparison as jobs: each leaves its rows, and the last one finds them all") {
-  const TemporaryFolder folder;
-  const fs::path output = folder.path() / "out", jobs = folder.path() / "jobs",
-                 times = folder.path() / "times.csv";
-  write_whole_file(times, "problem,ms_1e-4,solver_1e-4,ms_1e-8,solver_1e-8\n");
-  const std::string program = std::string("own=") + BALLAST_PROGRAM + " answer --solver pgs";
-  const std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4,count=2",
-                                          "--solvers",    "pgs,nncg",
-                                          "--external",   program,
-                                          "--tolerances", "1e-2",
-                                          "--memory",     "0",
-                                          "--reference",  times.string(),
-                                          "--output",     output.string()};
-  std::vector<std::string> planned = words;
-  planned.insert(planned.end(), {"--snakemake", jobs.string()});
-  const ProgramResult written = ballast_program(planned);
-  INFO(written.errors);
-  REQUIRE(written.status == 0);
-  CHECK(fs::exists(jobs / "slurm/config.yaml"));
-  const auto plan = nlohmann::json::parse(read_whole_file(jobs / "jobs.json"));
-  CHECK(plan["folder"] == fs::current_path().string());  // where the programs' commands are meant
-  // Each backend, and the programs together, for each case.
-  REQUIRE(plan["jobs"].size() == 6);
-  REQUIRE(plan["jobs"].contains("case2-external"));
-  for (const auto& job : plan["jobs"])
-    CHECK(ballast_program(job.get<std::vector<std::string>>()).status == 0);
-  // The times of others are the last job's business.
-  const auto last_words = plan["finish"].get<std::vector<std::string>>();
-  CHECK(std::count(last_words.begin(), last_words.end(), times.string()) == 1);
-  CHECK(plan["jobs"].dump().find("--reference") == std::string::npos);
-  const ProgramResult last = ballast_program(last_words);
-  CHECK(last.status == 0);
-  CHECK(fs::exists(output / "compare.html"));
-  size_t found = 0, own = 0;
-  for (const std::string& line : split(last.output, '\n')) {
-    found += line.find("(was there)") != std::string::npos;
-    own += line.find(" own ") != std::string::npos && line.find("solved") != std::string::npos;
-  }
-  CHECK(found == 6);
-  CHECK(own >= 2);
-  planned.back() = (folder.path() / "with blank").string();
-  check_failure(ballast_program(planned), ExitCode::failure, {"a path without blanks"});
-  check_failure(ballast_program({"compare", "--live", "zeno_ball", "--snakemake", jobs.string()}),
-                ExitCode::usage, {"--snakemake: not with --live", "ballast plan --snakemake"});
 }
 
 TEST_CASE("programs are compared alone where no backend is wanted") {

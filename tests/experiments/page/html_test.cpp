@@ -1,5 +1,10 @@
 #include "experiments/page/html.hpp"
 
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "platform/deflate.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/page/small_page.hpp"
 #include "tests/support/page_sample.hpp"
@@ -96,6 +101,129 @@ TEST_CASE("a subheading alone is no section") {
   Page page;
   page.add({"a", "A", {Subheading{"b"}}});
   CHECK_THAT(html_of(page), !Contains("<section"));
+}
+
+using Json = nlohmann::json;
+
+/// What stands in the page's element of data.
+Json data_in(const std::string& html) {
+  const size_t begin = html.find('>', html.find("id=\"page-data\"")) + 1;
+  const std::string text = html.substr(begin, html.find("</script>", begin) - begin);
+  CHECK_THAT(text, !Contains("<"));
+  return Json::parse(text);
+}
+
+Page answering_page() {
+  Page page = small_page();
+  page.answers = {.are_given = true, .with_curves = true};
+  Panel& panel = std::get<Picture>(page.sections[2].blocks[0]).plot.panels[0];
+  panel.x_label = "{/:Italic t}  (s)";
+  panel.log_y = true;
+  panel.y_min = 1e-3;
+  panel.curves = {{.x = {0.0, 1.0}, .y = {std::nan(""), 1.0 / 3.0}, .title = "a\\_b</script>"}};
+  panel.lines = {{.value = 0.5}};
+  return page;
+}
+
+TEST_CASE("a page that is asked nothing has no script") {
+  CHECK(answers_html(small_page()).empty());
+  CHECK_THAT(html_of(small_page()), !Contains("<script"));
+}
+
+TEST_CASE("curves stand in the page as numbers, and nothing in them ends their element") {
+  if (!can_answer()) return;
+  const std::string html = html_of(answering_page());
+  check_page(without_scripts(html));
+  const Json picture = data_in(html).at("pictures").at(0), panel = picture.at("panels").at(0);
+  CHECK(picture["name"] == "wall");
+  CHECK(panel["x"]["label"] == "<i>t</i>\u00a0 (s)");
+  CHECK(panel["x"]["words"] == "t\u00a0 (s)");
+  CHECK(panel["y"] == Json{{"label", ""}, {"words", ""}, {"log", true}, {"min", 1e-3}});
+  const Json& curve = panel["curves"][0];
+  CHECK(curve["title"] == "a_b</script>");  // as it is read, no HTML
+  CHECK(curve["ink"] == "blue");
+  CHECK(curve["y"] == Json{nullptr, 0.33333});
+  CHECK(panel["lines"][0]["value"] == 0.5);
+}
+
+TEST_CASE("bars of errors and lower bounds of areas go with the numbers of their points") {
+  if (!can_answer()) return;
+  Page page = answering_page();
+  Curve& curve = std::get<Picture>(page.sections[2].blocks[0]).plot.panels[0].curves[0];
+  curve.y_error = {0.25, 1.0};
+  const Json pictures = data_in(html_of(page)).at("pictures");
+  CHECK(pictures.at(0)["panels"][0]["curves"][0]["error"] == Json{0.25, 1.0});
+  curve.mark = Mark::area;
+  curve.y_low = {0.0, 0.125};
+  const Json area = data_in(html_of(page)).at("pictures")[0]["panels"][0]["curves"][0];
+  CHECK(area["mark"] == "area");
+  CHECK(area["low"] == Json{0.0, 0.125});
+}
+
+TEST_CASE("the page's own data and modules are in it") {
+  if (!can_answer()) return;
+  Page page = answering_page();
+  page.answers.data = R"({"a": [1, "<b>"]})";
+  page.answers.modules = {"const own = 1;\n"};
+  const std::string html = html_of(page);
+  CHECK(data_in(html)["a"][1] == "<b>");
+  CHECK_THAT(html, Contains("const own = 1;\n})();\n</script>"));
+}
+
+TEST_CASE("without the library the page says so") {
+  const std::string html = html_of(answering_page());
+  CHECK((html.find("libjs-chart.js") != std::string::npos &&
+         html.find("<script") == std::string::npos) == !can_answer());
+}
+
+TEST_CASE("an inlined SVG has ids of its own and nothing that points outside") {
+  const std::string svg =
+      "<?xml version=\"1.0\"?>\n<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" "
+      "\"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\"><title>gnuplot</title><desc>made by "
+      "http://elsewhere</desc><!-- see http://there -->"
+      "<path id='gpPt0' stroke='rgb(  0, 114, 178)'/><g id=\"b\"/><use xlink:href='#gpPt0'/><g "
+      "filter='url(#b)'/></svg>";
+  const std::string part = inline_svg(svg, "fig03", "x < y & t");
+  CHECK_THAT(part, !Contains("<?xml") && !Contains("DOCTYPE") && !Contains("elsewhere") &&
+                       !Contains("there"));
+  CHECK_THAT(part, Contains("id='fig03-gpPt0'") && Contains("id=\"fig03-b\"") &&
+                       Contains("href='#fig03-gpPt0'") && Contains("url(#fig03-b)"));
+  CHECK_THAT(part, Contains("rgb(0,114,178)") && Contains("<title>x &lt; y &amp; t</title>") &&
+                       Contains("role=\"img\""));
+}
+
+TEST_CASE("damaged SVG is cut, not copied") {
+  CHECK(inline_svg("<svg><!-- no end", "a", "t") == "<svg role=\"img\">");
+  CHECK(inline_svg("", "a", "t").empty());
+}
+
+TEST_CASE("a replay stands in one page with its data, its script and a still picture") {
+  Page page;
+  page.title = "t";
+  page.add({"motion",
+            "Motion",
+            {Replay{.head = "{\"title\":\"</script><b>\"}",
+                    .parts = {{"positions", std::string(1000, '\1')}},
+                    .still = "\x89PNG",
+                    .caption = "What is seen."}}});
+  const std::string html = html_of(page);
+  check_page(html);
+  CHECK_THAT(html, Contains("{\"title\":\"<\\/script><b>\"}</script>"));
+  CHECK_THAT(html, Contains("id=\"replay-positions\">" +
+                            base64(deflated(std::string(1000, '\1'), 9)) + "</script>"));
+  CHECK_THAT(html, Contains("src=\"data:image/png;base64," + base64("\x89PNG") + "\""));
+  CHECK_THAT(html, Contains("<figcaption>What is seen.</figcaption>"));
+  // every module is in it, once
+  for (const char* name :
+       {"class Data ", "class Camera ", "class Stage ", "class Plots ", "class Replay "})
+    CHECK((html.find(name) != std::string::npos && html.find(name) == html.rfind(name)));
+}
+
+TEST_CASE("a page without bodies has no script at all") {
+  Page page;
+  page.add({"motion", "Motion", {Replay{}}});
+  CHECK_THAT(html_of(page), !Contains("<script") && !Contains("Motion"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
+#include "platform/text.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/environment_guard.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -174,6 +175,56 @@ TEST_CASE("thinned curves keep their extremes and their order") {
   std::vector<double> few{1, 2}, as_few{3, 4};
   thin_out(few, as_few, 400);
   CHECK(few == std::vector<double>{1, 2});
+}
+
+/// What stands in a script between two words.
+std::string between(const std::string& script, const std::string& before,
+                    const std::string& after) {
+  const size_t begin = script.find(before) + before.size();
+  return script.substr(begin, script.find(after, begin) - begin);
+}
+
+TEST_CASE("axes hold every value, bar and reference line, with room around them") {
+  const auto ranges = [](const Figure& figure) {
+    const std::string script = gnuplot_script(figure);
+    return between(script, "set xrange [", "]") + ' ' + between(script, "set yrange [", "]");
+  };
+  Figure figure = simple_figure();
+  Panel& panel = figure.panels[0];
+  panel.curves = {curve({0, 10}, {1, 3}, "")};
+  CHECK(ranges(figure) == "-0.3:10.3 0.88:3.12");
+  panel.curves[0].y_error = {0.0, 1.0};
+  panel.curves[0].mark = Mark::points;
+  panel.lines = {{-1.0, "below", false, Ink::grey}, {99.0, "along x", true, Ink::grey}};
+  CHECK(ranges(figure) == "-0.3:10.3 -1.3:4.3");
+  panel.y_max = 7.0;
+  panel.x_min = 0.0;
+  panel.x_max = 10.0;
+  CHECK(ranges(figure) == "0:10 -1.3:7");
+  // what an axis cannot show doesn't stretch it; one value has a factor of two to both sides
+  figure = simple_figure();
+  figure.panels[0].curves = {curve({1, 2, 3, not_known}, {-5, 0, 10, 1e9}, "")};
+  figure.panels[0].log_y = true;
+  CHECK(ranges(figure) == "0.94:3.06 5:20");
+  // a constant, and what differs in digits that no axis writes, has room above and below
+  figure.panels[0].log_y = false;
+  figure.panels[0].curves = {curve({0, 1}, {5e9, 5e9 + 1.0}, "")};
+  CHECK(parsed_number(between(gnuplot_script(figure), "set yrange [", ":")).value() < 4.8e9);
+}
+
+TEST_CASE("a logarithmic axis is numbered at 1, 2, 5, over many decades at powers of ten") {
+  Figure figure = simple_figure();
+  Panel& panel = figure.panels[0];
+  panel.log_y = true;
+  const auto ticks = [&](double low, double high) {
+    panel.curves = {curve({0, 1}, {low, high}, "")};
+    panel.y_min = low;
+    panel.y_max = high;
+    return between(gnuplot_script(figure), "set ytics (", ", ''");
+  };
+  CHECK(ticks(0.9, 70.0) == "1, 2, 5, 10, 20, 50");
+  CHECK(ticks(0.5, 2e3) == "1, 10, 100, 1000");
+  CHECK(ticks(3.5, 8.0) == "4, 5, 6, 7, 8");
 }
 
 }  // namespace

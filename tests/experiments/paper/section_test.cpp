@@ -55,7 +55,7 @@ TEST_CASE("a figure has its words, and files that sort by number") {
   REQUIRE(picture.caption.size() == 2);
   CHECK_THAT(plain_words(picture.caption[0]), Catch::StartsWith("Paper: Displacements"));
   CHECK_THAT(plain_words(picture.caption[1]), Catch::Contains("0.5 raw, 0.1 scaled"));
-  CHECK(picture.files.spans.at(0).link == "figures/fig08.pdf");
+  CHECK(picture.files.spans.at(0).link == "data/fig08.csv");
   section.draw("fig10_mass", {.name = "mine", .title = "Mine"},
                {{"exponent", "1"}, {"misfit", "2"}, {"frequency", "10"}, {"end", "0.7"}});
   CHECK(section.figures[1].plot.name == "mine");

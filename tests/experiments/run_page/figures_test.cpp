@@ -1,6 +1,7 @@
 #include "experiments/run_page/figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/catch.hpp"
 #include "tests/experiments/run_page/box_run.hpp"
@@ -19,18 +20,100 @@ TEST_CASE("lines are thinned, forces have a readable unit") {
   CHECK(force_unit(1000.0).factor == 1e-3);
 }
 
-TEST_CASE("a figure of a run has its title among the words, and its panel the run's time") {
+using Catch::Matchers::Contains;
+
+std::vector<std::string> names_of(const std::vector<page::Picture>& pictures) {
+  std::vector<std::string> names;
+  for (const page::Picture& picture : pictures) names.push_back(picture.plot.name);
+  return names;
+}
+
+TEST_CASE("a box has the paper's figures, a slide has none") {
   const BoxRun box = box_run();
-  Panel panel = time_panel(box.data, "x", true);
-  CHECK(panel.x_max == box.data.steps.back().time);
-  CHECK(panel.log_y);
-  panel.curves = {column_line(box.data, &StepRecord::load, 2.0, "", Ink::blue, 1.0)};
-  CHECK(*std::max_element(panel.curves[0].y.begin(), panel.curves[0].y.end()) ==
-        Approx(2.0 * box.summary.facts.f_max).epsilon(1e-3));
-  const page::Picture picture = run_picture("fig03", 300, {panel}, "words");
-  CHECK(picture.plot.name == "fig03");
-  CHECK_THAT(picture.plot.title, Catch::Matchers::StartsWith("Displacement of the driven wall"));
-  CHECK(picture.caption == std::vector<page::Text>{"words"});
+  CHECK(names_of(paper_figures(box.data, box.summary)) ==
+        std::vector<std::string>{"fig03", "fig04", "fig12"});
+  const BoxRun slide = slide_run();
+  CHECK(paper_figures(slide.data, slide.summary).empty());
+}
+
+TEST_CASE("the loop's phases take each step once, and the axis cuts spikes off") {
+  BoxRun box = box_run();
+  const WallCycles& cycles = box.summary.wall;
+  const size_t first = cycles.periods[cycles.loop_first].first;
+  box.data.steps[first + 10].wall_force = 1e9;  // one step's spike
+  const Panel panel = figure_4(box.data, box.summary).plot.panels.at(0);
+  REQUIRE(panel.curves.size() == 5);  // each step, three phases, fits
+  CHECK(*panel.y_max < 20.0);         // kN
+  const size_t last = cycles.periods[cycles.loop_last - 1].last;
+  for (size_t k = first + 1; k < last; ++k) {
+    int drawn = 0;
+    for (size_t c = 1; c < 4; ++c) drawn += std::isfinite(panel.curves[c].y[k - first]);
+    // where the phase changes, the sample belongs to both curves: no gap
+    const WallPhase before = cycles.phase[k - 1], now = cycles.phase[k];
+    CHECK(drawn == (now != WallPhase::none) + (before != WallPhase::none && before != now));
+  }
+}
+
+TEST_CASE("captions say the run's own numbers") {
+  const BoxRun box = box_run();
+  const auto caption = [](const page::Picture& picture) {
+    return plain_words(picture.caption.at(0));
+  };
+  const std::string first = caption(figure_3(box.data, box.summary));
+  CHECK_THAT(first, Contains("Here the wall first goes in by 6.0"));
+  CHECK_THAT(caption(paper_figures(box.data, box.summary).at(2)),
+             Contains("before the drive, 0.5010 (paper: 0.50)") &&
+                 Contains(plain_words(page::number(box.summary.compaction.gain)) + " per period"));
+  CHECK_THAT(caption(figure_4(box.data, box.summary)), Contains("Dashed: least squares"));
+  CHECK_THAT(caption(diagnostic_figures(box.data, box.summary).at(0)),
+             Contains("While f is above its mean"));
+}
+
+TEST_CASE("without fits the caption doesn't speak of them") {
+  BoxRun box = box_run();
+  box.summary.loop.active.r2 = not_known;
+  const page::Picture picture = figure_4(box.data, box.summary);
+  CHECK(picture.plot.panels.at(0).curves.size() == 4);
+  CHECK_THAT(plain_words(picture.caption.at(0)), !Contains("Dashed"));
+}
+
+const page::Picture* find(const std::vector<page::Picture>& pictures, const std::string& name) {
+  const auto at = std::find_if(pictures.begin(), pictures.end(), [&](const page::Picture& picture) {
+    return picture.plot.name == name;
+  });
+  return at == pictures.end() ? nullptr : &*at;
+}
+
+TEST_CASE("a slide without overlap has no figure of it, and no jam") {
+  const BoxRun slide = slide_run();
+  const auto figures = diagnostic_figures(slide.data, slide.summary);
+  CHECK_FALSE(find(figures, "penetration"));
+  CHECK_FALSE(find(figures, "jammed"));
+  REQUIRE(find(figures, "error"));
+  CHECK_THAT(plain_words(find(figures, "error")->caption.at(0)),
+             Contains("Gravity is not known, so that the error is in m/s."));
+}
+
+TEST_CASE("errors are drawn over g h when gravity is known, with the tolerance") {
+  BoxRun box = box_run();
+  CHECK(find(diagnostic_figures(box.data, box.summary), "error")->plot.panels.at(0).lines.empty());
+  box.summary.facts.tolerance = 0.01;
+  const auto figures = diagnostic_figures(box.data, box.summary);
+  REQUIRE(find(figures, "error"));
+  const Panel& panel = find(figures, "error")->plot.panels.at(0);
+  REQUIRE(panel.lines.size() == 1);
+  CHECK(panel.lines[0].value == 0.01);
+  const double largest =
+      *std::max_element(panel.curves.at(1).y.begin(), panel.curves.at(1).y.end());
+  CHECK(largest == Approx(box.summary.error_max_relative));
+}
+
+TEST_CASE("the residual of a balanced record stays at rounding") {
+  const BoxRun slide = slide_run();
+  const auto figures = diagnostic_figures(slide.data, slide.summary);
+  REQUIRE(find(figures, "energy"));
+  const Panel& below = find(figures, "energy")->plot.panels.back();
+  for (const double residual : below.curves.at(1).y) CHECK(residual < 1e-12);
 }
 
 }  // namespace

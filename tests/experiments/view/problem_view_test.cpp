@@ -2,13 +2,12 @@
 
 #include <cmath>
 
-#include "experiments/run/run.hpp"
 #include "experiments/view/view_page.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/captured_run.hpp"
 #include "tests/support/page_sample.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -17,23 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first problem captured from a pyramid of boxes at rest.
-fs::path captured_in(const fs::path& folder) {
-  RunOptions options;
-  options.scene = "settled_rest";
-  options.overrides = {"scene.duration=0.02"};
-  options.output = folder;
-  options.capture = "every=5";
-  run(options);
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "capture"))
-    if (is_captured(entry.path())) return entry.path();
-  FAIL("nothing was captured");
-  return {};
-}
-
 TEST_CASE("the error of a captured problem falls with the iterations, contact by contact") {
   const TemporaryFolder folder;
-  const fs::path file = captured_in(folder.path() / "run");
+  const fs::path file = captured_run(folder.path() / "run");
   const ViewData view =
       view_of_problem(file, {.backends = {"pgs", "auto"}, .iterations = {1, 200}});
   const CapturedProblem captured = read_captured(file);
@@ -61,6 +46,35 @@ TEST_CASE("the error of a captured problem falls with the iterations, contact by
   write_view_page(view, page);
   check_page(read_whole_file(page));
   CHECK_THROWS_AS(view_of_problem(file, {.backends = {"nobody"}}), UnknownSolver);
+}
+
+TEST_CASE("a problem alone knows where its bodies are: there where the run has them") {
+  const TemporaryFolder folder;
+  const fs::path file = captured_run(folder.path() / "run");
+  const ErrorQuestion question{.backends = {"pgs"}, .iterations = {10}};
+  const ViewData in_run = view_of_problem(file, question);
+  fs::copy_file(file, folder.path() / "alone.hdf5");
+  const ViewData alone = view_of_problem(folder.path() / "alone.hdf5", question);
+  CHECK(in_run.has_shapes);
+  CHECK_FALSE(alone.has_shapes);
+  CHECK(alone.errors[0].error == in_run.errors[0].error);
+  REQUIRE(alone.system.grain_count == in_run.system.grain_count);
+  const auto contacts = alone.contacts(0), known_contacts = in_run.contacts(0);
+  REQUIRE(contacts.size() == known_contacts.size());
+  for (size_t c = 0; c < contacts.size(); ++c) {
+    const FrameContact &mine = contacts[c], &known = known_contacts[c];
+    for (const auto& [body, other] :
+         {std::pair(mine.body_a, known.body_a), std::pair(mine.body_b, known.body_b)}) {
+      const auto b = static_cast<size_t>(body), o = static_cast<size_t>(other);
+      REQUIRE(alone.system.bodies[b].is_wall() == in_run.system.bodies[o].is_wall());
+      if (alone.system.bodies[b].is_wall()) continue;
+      CHECK((alone.frames[0].pose[b].position - in_run.frames[0].pose[o].position).norm() < 1e-6);
+      CHECK(alone.system.bodies[b].mass == Approx(in_run.system.bodies[o].mass));
+      // the contact point is a corner of the hull, or inside
+      CHECK(alone.system.bodies[b].shape.polyhedron->circumradius() >
+            (mine.position.cast<double>() - alone.frames[0].pose[b].position).norm() - 1e-6);
+    }
+  }
 }
 
 }  // namespace

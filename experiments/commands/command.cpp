@@ -1,33 +1,125 @@
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <ostream>
+
+#include <CLI/CLI.hpp>
 
 #include "experiments/commands/command.hpp"
 #include "experiments/run/build_info.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
+#include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
 
+std::string help_file(const std::string& name);  // of experiments/commands/help
+
+// Each is defined in the file of its name, or of what it is about.
+Command run_command(), solve_command(), compare_command(), plan_command(), paper_command(),
+    bench_command(), answer_command(), solvers_command(), scenes_command(), check_command(),
+    export_command(), report_command(), view_command(), version_command(), convert_command();
+
+namespace {
+
+/// What may stand behind the words of a command line: subcommands, options, and where there is a
+/// list of them their values.
+std::vector<std::string> offered(const std::vector<std::string>& line) {
+  const std::vector<Command> all = commands();
+  Command at{"ballast", "", {}, {}, all};
+  for (const std::string& word : line)
+    for (const Command& part : at.parts)
+      if (part.name == word) {
+        const Command below = part;
+        at = below;
+        break;
+      }
+  std::vector<std::string> names{"--help"};
+  for (const Command& part : at.parts) names.push_back(part.name);
+  for (const Word& word : at.words) {
+    const std::string name = option_name(word);
+    const bool is_option = name.starts_with("--");
+    std::vector<std::string> values;
+    if (name == "scene" || name == "--live")
+      for (const auto& [scene, title] : list_scenes()) values.push_back(scene);
+    if (name == "--solver" || name == "--solvers")
+      for (const SolverEntry& entry : solver_list())
+        if (entry.make) values.emplace_back(entry.name);
+    if (is_option && !line.empty() && line.back() == name && !values.empty()) return values;
+    if (is_option)
+      names.push_back(name);
+    else
+      names.insert(names.end(), values.begin(), values.end());
+  }
+  return names;
+}
+
+/// Where no word fits, files do.
+constexpr std::pair<const char*, const char*> completions[] = {
+    {"bash", R"sh(_ballast() {
+  local words=$(ballast completions words -- "${COMP_WORDS[@]:1:COMP_CWORD-1}")
+  COMPREPLY=($(compgen -W "$words" -- "${COMP_WORDS[COMP_CWORD]}"))
+}
+complete -o default -F _ballast ballast
+)sh"},
+    {"zsh", R"sh(#compdef ballast
+local -a offered
+offered=(${(f)"$(ballast completions words -- ${words[2,CURRENT-1]})"})
+compadd -a offered
+_files
+)sh"},
+    {"fish",
+     "complete -c ballast -a '(ballast completions words -- (commandline -opc)[2..-1])'\n"}};
+
+Command completions_command() {
+  struct Options {
+    std::string what;
+    std::vector<std::string> line;
+  };
+  const auto options = std::make_shared<Options>();
+  return {"completions",
+          "Prints the completion of a shell; cmake --install installs them",
+          {{"what", &options->what,
+            "bash, zsh, fish; words: what may stand behind those that follow", required},
+           {"line", &options->line, "The words before"}},
+          [options] {
+            for (const auto& [shell, text] : completions)
+              if (options->what == shell) std::cout << text;
+            if (options->what == "words")
+              for (const std::string& word : offered(options->line)) std::cout << word << '\n';
+            else if (std::none_of(std::begin(completions), std::end(completions),
+                                  [&](const auto& one) { return options->what == one.first; }))
+              throw UsageError("completions: '" + options->what + "': expected bash, zsh or fish");
+            return ExitCode::ok;
+          }};
+}
+
+}  // namespace
+
+std::vector<Command> commands() {
+  return {run_command(),    solve_command(),   compare_command(),     plan_command(),
+          paper_command(),  bench_command(),   answer_command(),      solvers_command(),
+          scenes_command(), check_command(),   export_command(),      report_command(),
+          view_command(),   convert_command(), completions_command(), version_command()};
+}
+
+std::string help_text(std::string path) {
+  std::replace(path.begin(), path.end(), ' ', '_');
+  std::string text = help_file(path + ".txt");
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
 namespace {
 
 void print_failure(std::ostream& err, const std::string& what) {
-  std::string line;
-  for (const char c : what) {
-    if (c == '\n' || c == '\r') {
-      if (!line.empty() && line.back() != ' ') line += ' ';
-    } else {
-      line += c;
-    }
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
+  std::string line = one_line(what, ' ');
+  while (line.ends_with(' ')) line.pop_back();
   err << "ballast: " << line << std::endl;
 }
 
@@ -61,7 +153,6 @@ void add_word(CLI::App& app, const Word& word) {
 void add_command(CLI::App& app, const std::string& path, const Command& command,
                  const Command*& chosen) {
   CLI::App* added = app.add_subcommand(command.name, command.meaning);
-  if (!command.alias.empty()) added->alias(command.alias);
   added->footer(help_text(path));  // else CLI11 hands down that of the command above
   for (const Word& word : command.words) add_word(*added, word);
   for (const Command& part : command.parts)
@@ -113,9 +204,8 @@ std::string unknown_word(const std::vector<Command>& all, int argc, const char* 
       if (std::find(names.begin(), names.end(), given) == names.end())
         return in + ": no option " + given + did_you_mean(given, names);
     } else if (const auto& below = at ? at->parts : all; !below.empty()) {
-      const auto found = std::find_if(below.begin(), below.end(), [&](const Command& command) {
-        return command.name == word || command.alias == word;
-      });
+      const auto found = std::find_if(below.begin(), below.end(),
+                                      [&](const Command& command) { return command.name == word; });
       for (const Command& command : below) names.push_back(command.name);
       if (found == below.end() && at && at->act) continue;  // its own argument
       if (found == below.end())

@@ -1,4 +1,4 @@
-#include "experiments/page/drawing.hpp"
+#include "experiments/page/page.hpp"
 
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
@@ -30,21 +30,21 @@ Page page_with(std::vector<Picture> pictures) {
   return page;
 }
 
-TEST_CASE("every picture is drawn beside the page, as SVG, PDF and script") {
+TEST_CASE("every picture is drawn beside the page, as SVG and script") {
   const TemporaryFolder folder;
   Page page = page_with({picture("one"), picture("two")});
   draw_pictures(page, folder.path());
   CHECK(page.notices.items.empty());
   REQUIRE(page.sections[0].blocks.size() == 3);
   CHECK_THAT(std::get<Picture>(page.sections[0].blocks[2]).svg, Contains("</svg>"));
-  for (const char* name : {"one.svg", "one.pdf", "one.gnuplot", "two.svg"})
+  for (const char* name : {"one.svg", "one.gnuplot", "two.svg"})
     CHECK(fs::exists(folder.path() / picture_folder / name));
 }
 
 TEST_CASE("a picture for pages that show its file is on white, its script gone") {
   const TemporaryFolder folder;
   Page page = page_with({picture("one")});
-  draw_pictures(page, folder.path(), {.with_pdf = false, .with_script = false, .on_white = true});
+  draw_pictures(page, folder.path(), {.with_script = false, .on_white = true});
   const fs::path figures = folder.path() / picture_folder;
   CHECK_THAT(read_whole_file(figures / "one.svg"), Contains("fill=\"#ffffff\"/>"));
   CHECK_THAT(std::get<Picture>(page.sections[0].blocks[1]).svg, !Contains("fill=\"#ffffff\"/>"));
