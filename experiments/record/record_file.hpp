@@ -1,7 +1,7 @@
 #pragma once
 // record.h5: all that a run recorded, in one file that explains itself.
 //
-//   /                attributes format ("ballast record 2"), bits_generation (bits_generation.hpp),
+//   /                attributes format ("ballast record 2"), bits_generation (below),
 //                    scene (TOML), manifest (JSON)
 //   /steps/<column>  (steps): one dataset for each column of step_columns()
 //   /poses/time, step                 (frames)
@@ -17,7 +17,7 @@
 //   /shapes/vertex_begin, triangle_begin   (shapes + 1): where shape k begins and ends
 //
 //   /contacts/...                     contact forces of the frames, where record.forces asks for
-//                                     them: see force_log.cpp
+//                                     them
 //
 // Every dataset of numbers has the attributes unit and description.
 
