@@ -138,9 +138,9 @@ class Unpacker {
 //   (FNV-1a) of all before it
 
 struct SealedKind {
-  std::string_view magic;         ///< 8 letters
-  std::string_view name;          ///< in messages: "checkpoint"
-  std::uint32_t format;           ///< written and read
+  std::string_view magic;  ///< 8 letters
+  std::string_view name;   ///< in messages: "checkpoint"
+  std::uint32_t format;    ///< written and read
 };
 
 /// Written to a neighbour, made safe on disk, renamed. Throws Error.

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <span>
 
-
 namespace ballast {
 namespace {
 

@@ -27,9 +27,9 @@ TEST_CASE("a packing's key is the one under which packings have been kept since 
 
 TEST_CASE("a packing's key knows what the deposit depends on, and nothing of the drive") {
   std::set<std::string> keys{packing_key(small_box())};
-  for (const char* drive : {"drive.frequency=7", "solver.name=\"pgs\"", "contact.friction=0.9",
-                            "scene.step=1e-4", "box.friction_horizontal=0.1",
-                            "drive.wall_mass_over_grains=3", "record.pose_rate=1"})
+  for (const char* drive :
+       {"drive.frequency=7", "solver.name=\"pgs\"", "contact.friction=0.9", "scene.step=1e-4",
+        "box.friction_horizontal=0.1", "drive.wall_mass_over_grains=3", "record.pose_rate=1"})
     CHECK(keys.contains(packing_key(small_box({drive}))));
   const char* deposits[] = {"grains.count=6",
                             "grains.seed=2",
