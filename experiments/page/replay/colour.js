@@ -28,7 +28,8 @@ const markRamps = {};
 const isDark = (paper) => paper[1] < 0.2;
 function suitMarks(paper) {
   for (const name of ["heat", "water"]) {
-    const texels = Array.from({ length: 256 }, (_, k) => [...ramps[name].subarray(4 * k, 4 * k + 4)]);
+    const texels = Array.from({ length: 256 },
+      (_, k) => [...ramps[name].subarray(4 * k, 4 * k + 4)]);
     markRamps[name] = Float32Array.from((isDark(paper) ? texels.reverse() : texels).flat());
   }
 }

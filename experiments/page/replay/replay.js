@@ -221,7 +221,8 @@ class Replay {
       const passed = now - this.last;
       // where there is no graphics card, fewer pixels keep the motion smooth
       this.pace = this.pace ? 0.85 * this.pace + 0.15 * passed : 60;
-      if (this.pace > 75 && this.quality > 0.45) [this.quality, this.pace] = [this.quality - 0.2, 0];
+      if (this.pace > 75 && this.quality > 0.45)
+        [this.quality, this.pace] = [this.quality - 0.2, 0];
       const time = this.time + Math.min(passed, 120) / 1000 * this.rate;
       this.time = time > this.data.end ? this.data.begin : time;
     }
