@@ -52,7 +52,7 @@ begin() {
     compare) exec "$ballast" compare known:bodies=20,contacts=40,count=4 stress:table,copies=4 \
         --solvers pgs,nncg,prox_newton,interior_point --tolerances 1e-4,1e-8 \
         --output "$2" ;;
-    paper) exec "$ballast" paper fig3 --jobs 1 --seeds 1 --iterations 5 --scene vibrated_box_small \
+    paper) exec "$ballast" paper fig3 --jobs 1 --only 'motion*seed=1' --set solver.max_iterations=5 --scene vibrated_box_small \
         "${small[@]}" --results "$2" ;;
   esac
 }

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "experiments/box/packing_cache.hpp"
 #include "experiments/commands/command.hpp"
-#include "experiments/paper/campaign.hpp"
 #include "experiments/paper/paper_report.hpp"
-#include "experiments/paper/sections.hpp"
 #include "experiments/plans/plan_runner.hpp"
 #include "experiments/plans/resolved_run.hpp"
 #include "experiments/plans/snakemake.hpp"
@@ -108,41 +107,25 @@ struct PaperOptions {
   fs::path output, rows;
 };
 
-PaperData data_of(const Campaign& campaign, const PaperOptions& options) {
-  std::vector<RunObservables> rows;
+PaperData data_of(const std::vector<CampaignRun>& campaign, const PaperOptions& options) {
+  std::vector<RunRow> rows;
   if (!options.rows.empty()) rows = read_runs_csv(options.rows);
   return {campaign, options.running.results, std::move(rows)};
 }
 
-/// Rows of another scene or setting look like a report's that is merely short.
-void print_foreign_rows(const PaperData& data, const fs::path& file) {
-  const std::vector<std::string> names = data.foreign_rows();
-  if (names.empty()) return;
-  std::cerr << "ballast: " << file.string() << ": " << names.size()
-            << " rows are of no run of this campaign and left out (" << names.front()
-            << (names.size() > 1 ? ", ...)" : ")")
-            << "; --scene, --set, --seeds and --iterations must be those of their report"
-            << std::endl;
-}
-
 void print_plan(const PaperData& data) {
-  const Campaign& campaign = data.campaign();
-  std::cout << printed("%-16s%-52s%8s%10s  state\n", "stage", "run", "steps", "core-s");
-  double left = 0.0;
-  for (size_t k = 0; k < campaign.runs.size(); ++k) {
-    const CampaignRun& run = campaign.runs[k];
-    const char* state = data.has(k) ? "finished" : data.knows(k) ? "row" : "–";
-    if (!data.knows(k)) left += run.seconds;
-    std::cout << printed("%-16s%-52s%8ld%10ld  %s\n", run.stage.c_str(), run.planned.name.c_str(),
-                         run.steps, std::lround(run.seconds), state);
+  std::cout << printed("%-12s%-72s%8s  state\n", "stage", "run", "steps");
+  long left = 0;
+  std::set<std::string> seen;  // equal runs of several stages are made once
+  for (const CampaignRun& run : data.campaign()) {
+    const char* state = data.has(run) ? "finished" : data.knows(run) ? "row" : "–";
+    if (seen.insert(run.key).second && !data.knows(run)) left += run.steps;
+    std::cout << printed("%-12s%-72s%8ld  %s\n", run.stage.c_str(), run.planned.name.c_str(),
+                         run.steps, state);
   }
-  std::cout
-      << printed(
-             "\n%zu runs, %ld steps, %d packings: about %ld core-seconds (1200 grains, a core "
-             "to each run); %d finished, about %ld core-seconds of drives left",
-             campaign.runs.size(), campaign.steps(), campaign.packings,
-             std::lround(campaign.seconds()), data.finished(), std::lround(left))
-      << std::endl;
+  std::cout << printed("\n%zu runs; %zu finished, %zu known by rows, %ld steps left",
+                       data.planned(), data.finished(), data.known_by_row(), left)
+            << std::endl;
 }
 
 /// Stage by stage, so that time running out leaves whole figures. Not made: runs whose rows are
@@ -164,14 +147,16 @@ ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
 }
 
 ExitCode reproduce(PaperOptions options) {
-  const std::vector<std::string> targets = paper_targets();
+  const std::vector<CampaignRun> campaign = read_campaign(options.campaign);
+  const std::vector<std::string> targets = paper_targets(campaign);
   const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
   if (!is_target && options.target != "plan" && options.target != "report")
     throw UsageError("paper: '" + options.target + "' is none of plan, report, " + joined(targets));
-  const Campaign campaign = make_campaign(options.campaign);
   if (options.output.empty()) options.output = options.running.results / "report";
   const PaperData known = data_of(campaign, options);
-  print_foreign_rows(known, options.rows);
+  if (known.foreign() > 0)
+    std::cerr << "ballast: " << options.rows.string() << ": " << known.foreign()
+              << " rows are of no run of this campaign and drawn as they are" << std::endl;
   if (options.target == "plan") {
     print_plan(known);
     return ExitCode::ok;
@@ -185,7 +170,7 @@ ExitCode reproduce(PaperOptions options) {
     code = run_stages(known, options);
   PaperData data = data_of(campaign, options);
   write_paper_report(data, make_sections(data, options.target), options.output);
-  std::cout << data.finished() << " of " << campaign.runs.size() << " runs; report in "
+  std::cout << data.finished() << " of " << data.planned() << " runs; report in "
             << (options.output / "paper.html").string() << std::endl;
   return code;
 }
@@ -201,8 +186,8 @@ Command paper_command() {
   return {"paper",
           "Reproduces the paper: runs, figures 3 to 13, one report",
           {{"target", &options->target,
-            "What: all; " + joined(paper_targets()) +
-                "; plan (lists the runs); report (draws what is there, runs nothing)",
+            "What: all; a section (fig3 to fig13, curve, box ...) or a stage of the campaign; plan "
+            "(lists the runs); report (draws what is there, runs nothing)",
             required},
            {"--jobs N", &running.jobs, "Runs at a time (as many as there are processors)",
             between(1, 4096)},
@@ -213,11 +198,11 @@ Command paper_command() {
            {"--max-seconds S", &running.max_seconds,
             "Wall clock after which runs write checkpoints; the report is written all the same",
             above(0)},
-           {"--scene SCENE", &campaign.scene, "Another vibrated box (vibrated_box)"},
+           {"--plan FILE", &campaign.plan, "Another campaign (the built-in campaign.toml)"},
+           {"--scene SCENE", &campaign.scene, "Another box instead of vibrated_box"},
            {"--set KEY=VALUE", &campaign.overrides, "Overrides one value in every run"},
-           {"--seeds N", &campaign.seeds, "Samples of each scaling point (3)", between(1, 1000)},
-           {"--iterations N", &campaign.iterations,
-            "Solver iterations a step, where they are not what is varied", between(1, 1'000'000)}},
+           {"--only PATTERN", &campaign.only,
+            "Runs whose names a shell's pattern takes: '*seed=1*' is one sample"}},
           [options] { return reproduce(*options); }};
 }
 

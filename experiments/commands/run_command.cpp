@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/command.hpp"
+#include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_trust.hpp"
 #include "experiments/run/capture.hpp"
 #include "experiments/run/run.hpp"
@@ -96,14 +97,15 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
 /// What the user must know of a run that is finished. Strict: only a clean one is a success.
 ExitCode tell_trust(const RunEnd& end, const RunRequest& request,
                     std::vector<std::string>& to_be_known) {
-  const RunTrust trust = trust_of(read_run_data(end.folder));
-  to_be_known = trust_words(trust);
+  const RunData data = read_run_data(end.folder);
+  const RunSummary run = summarise(data.steps, data.facts);
+  to_be_known = trust_words(run);
   if (request.run.telling == Telling::reader) {
     std::cout << "\nto be known\n";
     for (const std::string& words : to_be_known) std::cout << "  " << words << '\n';
     std::cout << std::flush;
   }
-  if (!request.strict || trust.is_clean()) return ExitCode::ok;
+  if (!request.strict || is_clean(run)) return ExitCode::ok;
   std::cerr << "ballast: " << request.run.scene << ": --strict: finished, with what is said above"
             << std::endl;
   return ExitCode::failure;

@@ -1,22 +1,62 @@
 #pragma once
-// What a referee asks of a fit: an interval. Sample means with standard errors, power laws, lines
-// through the origin, Eq. 5.
+// What a referee asks of a fit: an interval, whether the law holds, whether a difference is more
+// than the scatter of the samples. Sample means, power laws, lines through the origin, Eq. 5, and
+// any linear law with weights; Student's t, the F distribution, pooled errors, and the correction
+// for asking many questions at once. Everything skips what is not finite, and answers NaN where
+// there is no degree of freedom.
 
+#include <Eigen/Core>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "experiments/measure/significance.hpp"
+#include "experiments/measure/curve_fit.hpp"
 
 namespace ballast {
 
+/// Probability that Student's t with this many degrees of freedom is at least |t| away from 0.
+double student_p(double t, double degrees_of_freedom);
+/// Two-sided 95 % quantile of Student's t. Infinite without a degree of freedom.
+double student_t95(int degrees_of_freedom);
+/// Probability that a ratio of variances is at least this large by chance: F with these degrees of
+/// freedom above and below. With `below` unbounded it is that of chi^2/above.
+double f_p(double ratio, double above, double below);
+/// Holm's correction: each p as it must be read when all were asked together. Bounds the
+/// probability that any of them is small by chance. In the order given.
+std::vector<double> holm(std::span<const double> p);
+
 /// Mean over independent samples (seeds) with its standard error s/sqrt(n); NaN error for one
-/// sample. Skips what is not finite.
+/// sample.
 struct SampleMean {
   double mean = not_known, error = not_known;
   int samples = 0;
+  double half_width() const;  ///< of the 95 % confidence interval
+  double p() const;           ///< of a mean so far from zero where there is no difference
 };
 SampleMean sample_mean(std::span<const double> values);
+
+/// Standard deviation of one sample, from several groups of samples that scatter alike about means
+/// of their own: known better than from any one of them.
+struct PooledError {
+  double deviation = not_known;
+  int degrees_of_freedom = 0;  ///< samples less groups
+};
+PooledError pooled_error(std::span<const std::vector<double>> groups);
+
+/// How far a law misses points, in their errors.
+struct Misfit {
+  double reduced = not_known;  ///< chi^2 over its degrees of freedom
+  double p = not_known;        ///< of so large a misfit where the law holds
+};
+
+/// Measured points: means over samples.
+struct Points {
+  std::vector<double> x, y;
+  std::vector<double> error;  ///< standard errors of y
+  int errors_from = 0;        ///< degrees of freedom of all errors together: samples less points
+
+  void add(double at, const SampleMean& mean);
+  void add(const Points& others);
+};
 
 /// y = prefactor x^exponent by least squares of log y on log x: every point weighs the same,
 /// whatever its size.
@@ -30,14 +70,12 @@ struct PowerFit {
 /// Points that are not finite and positive are left out.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 
-/// Is a fitted power law consistent with the scatter of the samples? chi^2 over its degrees of
-/// freedom (points - 2): squared residuals of the logarithms in units of the points' squared
-/// relative standard errors. About 1: yes; much more: the points leave the law by more than their
+/// Squared residuals of the logarithms in units of the points' squared relative standard errors.
+/// About 1: the law holds within the scatter. Much more: the points leave it by more than their
 /// errors, and the interval of the exponent says how well a line can be drawn, not how well it
 /// holds. The errors are pooled over the points, because an error from three samples is itself
 /// known to a factor of two. NaN with fewer than three points that have errors.
-double reduced_chi2(const PowerFit& fit, std::span<const double> x, std::span<const double> y,
-                    std::span<const double> error);
+Misfit misfit_of(const PowerFit& fit, const Points& points);
 
 /// y = C x, C the geometric mean of y/x; its 95 % interval is a factor because the points span
 /// decades.
@@ -64,5 +102,28 @@ struct PeakedRate {
 /// it is known, so that nu_c alone is fitted as in the paper. Needs three points.
 PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate,
                            double gain = not_known);
+
+/// Least squares of y = design * value with points of unequal errors.
+struct WeightedFit {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd covariance;  ///< of the values, from the points' errors
+  double chi2 = not_known;     ///< squared misses in units of the squared errors
+  int degrees_of_freedom = 0;  ///< points less values
+
+  double reduced() const { return chi2 / degrees_of_freedom; }
+  /// A linear combination of the values, with its standard error.
+  double at(const Eigen::VectorXd& row) const { return row.dot(value); }
+  double error_at(const Eigen::VectorXd& row) const;
+};
+/// `error`: the standard error of each y, positive. Needs as many points as values.
+WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
+                         const Eigen::VectorXd& error);
+
+/// F and its p: does `more`, which has further values, fit better than `less` by more than chance?
+/// The scale of the errors is taken from `more`'s own misses.
+struct Improvement {
+  double ratio = not_known, p = not_known;
+};
+Improvement improvement(const WeightedFit& less, const WeightedFit& more);
 
 }  // namespace ballast

@@ -10,15 +10,6 @@ bool is_between(double x, double lo, double hi) { return x >= lo && x <= hi; }
 
 }  // namespace
 
-std::vector<Displacement> displacements(std::span<const Pose> before, std::span<const Pose> after,
-                                        size_t grains) {
-  std::vector<Displacement> list;
-  for (size_t b = 0; b < grains; ++b)
-    list.push_back(
-        {0.5 * (before[b].position + after[b].position), after[b].position - before[b].position});
-  return list;
-}
-
 std::vector<Displacement> period_displacements(std::span<const PoseFrame> frames,
                                                std::span<const WallPeriod> periods, double h,
                                                size_t grains) {
@@ -31,8 +22,10 @@ std::vector<Displacement> period_displacements(std::span<const PoseFrame> frames
   for (const WallPeriod& period : periods) {
     const auto begin = frame_at(period.begin), end = frame_at(period.end);
     if (begin == frames.end() || end == frames.end()) continue;
-    const auto moves = displacements(begin->pose, end->pose, grains);
-    all.insert(all.end(), moves.begin(), moves.end());
+    for (size_t b = 0; b < grains; ++b) {
+      const Vec3 &from = begin->pose[b].position, &to = end->pose[b].position;
+      all.push_back({0.5 * (from + to), to - from});
+    }
   }
   return all;
 }
@@ -76,32 +69,29 @@ Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& r, 
   return roll;
 }
 
-RollField roll_field(std::span<const Displacement> displacements, const XzRectangle& r, int columns,
-                     int rows) {
+std::vector<Displacement> cell_means(std::span<const Displacement> displacements,
+                                     const XzRectangle& r, int columns, int rows) {
   const size_t cells = static_cast<size_t>(columns) * static_cast<size_t>(rows);
-  RollField field{
-      columns, rows, {}, {}, std::vector<double>(cells, 0.0), std::vector<double>(cells, 0.0)};
-  const double width = (r.x_hi - r.x_lo) / columns, height = (r.z_hi - r.z_lo) / rows;
+  std::vector<Vec3> sum(cells, Vec3::Zero());
   std::vector<double> count(cells, 0.0);
+  const double width = (r.x_hi - r.x_lo) / columns, height = (r.z_hi - r.z_lo) / rows;
   for (const Displacement& d : displacements) {
     const double column = std::floor((d.place.x() - r.x_lo) / width),
                  row = std::floor((d.place.z() - r.z_lo) / height);
     if (!is_between(column, 0, columns - 1) || !is_between(row, 0, rows - 1)) continue;
-    const size_t cell =
-        static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
-    field.move_x[cell] += d.move.x();
-    field.move_z[cell] += d.move.z();
+    const size_t cell = static_cast<size_t>(row * columns + column);
+    sum[cell] += d.move;
     count[cell] += 1.0;
   }
-  // 0/0 where there is no grain: not known
+  std::vector<Displacement> means;
   for (size_t cell = 0; cell < cells; ++cell) {
-    const size_t row = cell / static_cast<size_t>(columns), column = cell % columns;
-    field.x.push_back(r.x_lo + (static_cast<double>(column) + 0.5) * width);
-    field.z.push_back(r.z_lo + (static_cast<double>(row) + 0.5) * height);
-    field.move_x[cell] /= count[cell];
-    field.move_z[cell] /= count[cell];
+    if (count[cell] == 0.0) continue;
+    const double column = static_cast<double>(cell % static_cast<size_t>(columns)),
+                 row = static_cast<double>(cell / static_cast<size_t>(columns));
+    means.push_back({Vec3(r.x_lo + (column + 0.5) * width, 0.0, r.z_lo + (row + 0.5) * height),
+                     sum[cell] / count[cell]});
   }
-  return field;
+  return means;
 }
 
 }  // namespace ballast

@@ -21,11 +21,8 @@ struct Displacement {
   Vec3 place;  ///< of its centre, at the middle of its way [m]
   Vec3 move;   ///< [m]
 };
-/// Of the first `grains` bodies between two states.
-std::vector<Displacement> displacements(std::span<const Pose> before, std::span<const Pose> after,
-                                        size_t grains);
-
-/// Over the periods that count, where a frame is stored at both ends (to a step of `h` [s]).
+/// Of the first `grains` bodies over the periods that count, where a frame is stored at both ends
+/// (to a step of `h` [s]).
 std::vector<Displacement> period_displacements(std::span<const PoseFrame> frames,
                                                std::span<const WallPeriod> periods, double h,
                                                size_t grains);
@@ -52,13 +49,9 @@ struct Roll {
 Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& rectangle,
              double reach);
 
-/// Mean displacement on a grid over the rectangle, for a picture: row by row from the lowest, NaN
-/// without grains.
-struct RollField {
-  int columns = 0, rows = 0;
-  std::vector<double> x, z, move_x, move_z;  ///< centres of the cells, means [m]
-};
-RollField roll_field(std::span<const Displacement> displacements, const XzRectangle& rectangle,
-                     int columns, int rows);
+/// Mean displacement on a grid over the rectangle, for a picture: places are the middles of the
+/// cells, row by row from the lowest; cells without grains are left out.
+std::vector<Displacement> cell_means(std::span<const Displacement> displacements,
+                                     const XzRectangle& rectangle, int columns, int rows);
 
 }  // namespace ballast

@@ -95,6 +95,30 @@ void read_scene_of_run(RunData& data) {
   }
 }
 
+/// What the scene alone knows of the solver, the bodies, the box and the deposit.
+void add_settings(const Scene& scene, RunFacts& facts) {
+  facts.solver = scene.solver.name;
+  facts.iterations_most = scene.solver.max_iterations;
+  facts.friction = scene.friction;
+  for (const BodySpec& body : scene.bodies)
+    if (body.shape)
+      facts.smallest_size = std::fmin(facts.smallest_size, body.shape->circumradius());
+  if (!scene.grains) return;
+  facts.seed = static_cast<int>(scene.grains->seed);
+  if (!std::isfinite(facts.grains)) facts.grains = scene.grains->count;
+  facts.length = scene.box.length;
+  facts.width = scene.box.width;
+  facts.lid_raise = scene.drive.lid_raise;
+  const double part = scene.grains->size_convention == SizeConvention::radius ? 1.0 : 0.5;
+  for (const SizeClass& grains : scene.grains->distribution) {
+    facts.largest_size = std::fmax(facts.largest_size, part * grains.size);
+    facts.smallest_size = std::fmin(facts.smallest_size, part * grains.size);
+  }
+  facts.deposit_friction = scene.deposit.friction;
+  facts.lid_pressure = scene.deposit.lid_pressure_weight;
+  facts.start_noise = scene.drive.start_noise;
+}
+
 RunFacts facts_of(const RunData& data) {
   // the manifest's summary was written by the run itself: it comes first
   RunFacts facts;
@@ -108,8 +132,11 @@ RunFacts facts_of(const RunData& data) {
   facts.wall_mass = summary("wall_mass_kg");
   facts.solid_fraction_initial = summary("solid_fraction_initial");
   facts.gravity = summary("weight_N") / facts.grain_mass;
+  facts.grains = summary("grains");
+  facts.height = summary("packing_top_m");
   if (!data.scene) return facts;
   const Scene& scene = *data.scene;
+  add_settings(scene, facts);
   if (!std::isfinite(facts.step)) facts.step = scene.step;
   if (scene.solver.tolerance > 0.0) facts.tolerance = scene.solver.tolerance;
   facts.gravity = scene.gravity.norm();

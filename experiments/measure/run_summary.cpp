@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/step/step_record.hpp"
-
 namespace ballast {
 namespace {
 
@@ -68,6 +66,11 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
     summary.above_tolerance =
         static_cast<double>(above) / static_cast<double>(summary.error_rms.samples);
   }
+  // A record without the column `solved` has the error alone to judge by.
+  const double asked = summary.facts.tolerance * (std::isfinite(scale) ? scale : 1.0);
+  for (const StepRecord& step : steps)
+    if (asked > 0.0 && (std::isnan(step.solved) ? !(step.error_rms <= asked) : step.solved == 0.0))
+      ++summary.missed;
   // the deepest overlap and when it was
   summary.penetration_mean = statistics(record_column(steps, &StepRecord::penetration_mean)).mean;
   for (const StepRecord& step : steps)
@@ -92,12 +95,17 @@ EnergyBalance energy_balance(std::span<const StepRecord> steps) {
   // T_last - T_first = works - dissipated, summed from the second step on, as T_first is the
   // energy at the end of the first.
   double residual = energy.kinetic_last - energy.kinetic_first, works = 0.0;
+  energy.gained = 0.0;
+  double kinetic = 0.0;
   for (size_t k = 0; k < steps.size(); ++k) {
+    kinetic = std::fmax(kinetic, steps[k].kinetic_energy);
+    energy.gained += steps[k].energy_gained;
     const double work = steps[k].work_load + steps[k].work_gravity + steps[k].work_prescribed;
     works += std::abs(work);
     if (k > 0) residual += steps[k].dissipated - work;
   }
   energy.work_absolute = works;
+  energy.moved = works + kinetic;
   energy.residual = residual;
   if (works > 0.0) energy.relative = std::abs(residual) / works;
   return energy;
@@ -136,6 +144,50 @@ Statistics dissipated_in(std::span<const StepRecord> steps,
   return statistics(losses);
 }
 
+/// Mean of the judge's rms error after the transient, in units of the velocity scale.
+double error_after_transient(std::span<const StepRecord> steps, const RunFacts& facts) {
+  std::vector<double> errors;
+  for (const StepRecord& step : steps)
+    if (step.time > transient_of(facts.frequency)) errors.push_back(step.error_rms);
+  return statistics(errors).mean / facts.velocity_scale;
+}
+
+/// Last sample at or before t (a quarter of a step for rounding); -1 when t is before the first.
+long sample_at(std::span<const StepRecord> steps, double t, double h) {
+  const auto later = std::find_if(steps.begin(), steps.end(),
+                                  [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
+  return static_cast<long>(later - steps.begin()) - 1;
+}
+
+/// rho at the end of a period minus rho at its begin: both at the same phase of the load, so that
+/// the swing within the period drops out. NaN when the begin is not in the record.
+double gain_of(std::span<const StepRecord> steps, const WallPeriod& period) {
+  if (period.first == 0) return not_known;
+  return steps[period.last - 1].solid_fraction - steps[period.first - 1].solid_fraction;
+}
+
+Compaction compaction_of(std::span<const StepRecord> steps, std::span<const WallPeriod> periods,
+                         const RunFacts& facts) {
+  Compaction compaction;
+  compaction.initial = facts.solid_fraction_initial;
+  compaction.last = steps.back().solid_fraction;
+  // The reference is the solid fraction where the paper's window begins.
+  for (const StepRecord& row : steps)
+    if (row.time >= paper_window.begin - 0.25 * facts.step) {
+      compaction.reference = row.solid_fraction;
+      break;
+    }
+  for (const WallPeriod& period : periods) compaction.gains.push_back(gain_of(steps, period));
+  compaction.gain = statistics(compaction.gains).mean;
+  compaction.relative_gain = compaction.gain / compaction.reference;
+  const auto rate = [&](const TimeWindow& window) {
+    return compaction_rate(steps, facts.frequency, facts.step, compaction.reference, window);
+  };
+  compaction.rate = rate(paper_window);
+  compaction.rate_common = rate(common_window);
+  return compaction;
+}
+
 void summarise_wall(std::span<const StepRecord> steps, const WallSettings& settings,
                     RunSummary& summary) {
   const RunFacts& facts = summary.facts;
@@ -144,12 +196,17 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
   summary.jammed = jammed_state(steps, summary.wall, facts.f_min, facts.f_max);
   summary.contraction = first_contraction(steps, facts.frequency);
   const std::vector<WallPeriod>& periods = summary.wall.periods;
+  summary.periods = static_cast<long>(periods.size());
   summary.rise = over_periods(periods, &WallPeriod::rise);
   summary.net = over_periods(periods, &WallPeriod::net);
+  summary.net_contraction = -summary.net.mean;
   summary.speed_in = over_periods(periods, &WallPeriod::speed_in);
   summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
   summary.dissipated = dissipated_in(steps, periods);
   summary.prefactor = summary.rise.mean / eq3_displacement(facts);
+  if (!periods.empty())
+    summary.law = force_law(steps, summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity);
+  summary.error_counted = error_after_transient(steps, facts);
 }
 
 }  // namespace
@@ -158,6 +215,22 @@ double eq3_displacement(const RunFacts& facts) {
   // Eq. 3 of the paper: m / (m + m_w) (m g / f_max) g / nu^2, m of all grains, m_w of the wall.
   const double m = facts.grain_mass, g = facts.gravity;
   return m / (m + facts.wall_mass) * m * g / facts.f_max * g / (facts.frequency * facts.frequency);
+}
+
+double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
+                       double reference, const TimeWindow& window) {
+  if (steps.empty()) return not_known;
+  // from the first begin of a period in the window to the last end of one
+  const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
+  // Periods begin at multiples of 1 / nu: the first one not before a, the last one not after b.
+  const double a = std::ceil((window.begin - slack) * frequency) / frequency,
+               b = std::floor((end + slack) * frequency) / frequency;
+  if (!(b > a + slack)) return not_known;
+  const long first = sample_at(steps, a, step), last = sample_at(steps, b, step);
+  if (first < 0 || last <= first) return not_known;
+  return (steps[static_cast<size_t>(last)].solid_fraction -
+          steps[static_cast<size_t>(first)].solid_fraction) /
+         (reference * (b - a));
 }
 
 RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
@@ -184,6 +257,15 @@ RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
   return facts;
 }
 
+Roll roll_of_periods(std::span<const PoseFrame> frames, const RunSummary& summary) {
+  const RunFacts& facts = summary.facts;
+  if (!(facts.grains > 0.0)) return {};
+  const double length = facts.length, top = facts.height;
+  return roll_of(period_displacements(frames, summary.wall.periods, facts.step,
+                                      static_cast<size_t>(facts.grains)),
+                 {0.25 * length, 0.75 * length, 0.25 * top, 0.75 * top}, facts.largest_size);
+}
+
 RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
                      const WallSettings& settings) {
   RunSummary summary;
@@ -192,6 +274,9 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
   summarise_cost(steps, summary);
   if (steps.empty()) return summary;
   summary.duration = steps.back().time;
+  std::vector<double> seconds;
+  for (const StepRecord& step : steps) seconds.push_back(step_seconds(step));
+  summary.seconds_per_step = quantile(seconds, 0.5);
   // what every run has: effort, errors, overlaps, energy
   summary.iterations = statistics(record_column(steps, &StepRecord::iterations));
   summary.contacts = statistics(record_column(steps, &StepRecord::contacts));
@@ -202,9 +287,7 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
   if (*summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
     summarise_wall(steps, settings, summary);
   if (*summary.facts.has_packing)
-    summary.compaction =
-        compaction_of(steps, summary.wall.periods, summary.facts.solid_fraction_initial,
-                      summary.facts.frequency, summary.facts.step);
+    summary.compaction = compaction_of(steps, summary.wall.periods, summary.facts);
   return summary;
 }
 

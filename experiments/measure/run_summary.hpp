@@ -1,6 +1,6 @@
 #pragma once
-// The numbers of a run that its page and the figures of the paper state: pure functions of the
-// record, each defined once. NaN: not known.
+// A run in numbers, computed once: what its page, the rows of a campaign (run_columns.hpp) and the
+// figures of the paper state. Pure functions of the record, each defined once. NaN: not known.
 //
 // clang-format off
 //   Delta x_max         largest rise of x above its running minimum in a period; end of the active
@@ -28,11 +28,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/measure/compaction.hpp"
-#include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/force_law.hpp"
-#include "experiments/measure/wall_cycles.hpp"
-#include "experiments/step/step_record.hpp"
+#include "experiments/measure/roll.hpp"
 
 namespace ballast {
 
@@ -51,9 +48,22 @@ struct RunFacts {
   double grain_mass = not_known, wall_mass = not_known;  ///< m (all grains), m_w [kg]
   double solid_fraction_initial = not_known;             ///< before the drive
   std::optional<bool> has_wall, has_packing;             ///< a driven wall; a solid fraction
+  // what was set besides, as the scene has it
+  int seed = 0;  ///< of the grains: the sample
+  std::string solver;
+  double iterations_most = not_known;            ///< of the solver per step
+  double grains = not_known;                     ///< number
+  double length = not_known, width = not_known;  ///< of the box: L, W [m]
+  double height = not_known;         ///< H: top of the packing before the lid is raised [m]
+  double lid_raise = not_known;      ///< [m]
+  double largest_size = not_known;   ///< largest distance of a grain's centre to a vertex [m]
+  double smallest_size = not_known;  ///< circumradius of the smallest body [m]
+  double friction = not_known, deposit_friction = not_known;
+  double lid_pressure = not_known;  ///< grain weights while depositing; 0: placed
+  double start_noise = not_known;   ///< [m]
 };
 
-/// The right side of Eq. 3 without C, m the mass of all grains [m].
+/// X, the right side of Eq. 3 without C, m the mass of all grains [m].
 double eq3_displacement(const RunFacts& facts);
 
 /// Fills in from the record what is missing: h from the times, f_max, f_min and frequency from the
@@ -94,6 +104,8 @@ struct EnergyBalance {
   /// The same from the other columns, after the first step: K_end - K_1 - works + dissipation.
   double residual = not_known;
   double relative = not_known;  ///< |residual| / work_absolute
+  double gained = not_known;    ///< given by contacts, which no law of contact does [J]
+  double moved = not_known;     ///< work_absolute, and the largest kinetic energy [J]
 };
 
 /// x falls at the start; least x within the first period, at least 0.3 s.
@@ -101,6 +113,32 @@ struct FirstContraction {
   double size = not_known;    ///< [m]
   double time90 = not_known;  ///< when 90 % of it is reached [s]
 };
+
+/// Part of a run's time [s].
+struct TimeWindow {
+  double begin, end;
+};
+/// Compaction is measured in the paper's window, from its time lag to the end of the run, and
+/// within the same absolute time for all frequencies.
+inline constexpr TimeWindow paper_window{0.2, 1e30};
+inline constexpr TimeWindow common_window{0.4, 1.0};
+
+/// The solid fraction rho and how it grows (paper, sec. 5, Eq. 4, Figs. 12 and 13).
+struct Compaction {
+  double initial = not_known;        ///< rho before the drive
+  double reference = not_known;      ///< rho_0: at paper_window.begin
+  double last = not_known;           ///< at the end of the run
+  std::vector<double> gains;         ///< of each period that counts
+  double gain = not_known;           ///< Delta rho_1: mean over them
+  double relative_gain = not_known;  ///< Delta rho_1 / rho_0
+  double rate = not_known;           ///< Eq. 4 over paper_window [1/s]
+  double rate_common = not_known;    ///< Eq. 4 over common_window [1/s]
+};
+
+/// Eq. 4 over the whole periods within a window: (rho(t_b) - rho(t_a)) / (reference (t_b - t_a))
+/// [1/s]; NaN where there is none.
+double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
+                       double reference, const TimeWindow& window);
 
 struct RunSummary {
   RunFacts facts;
@@ -116,6 +154,11 @@ struct RunSummary {
          error_max_relative = not_known;   ///< of error_rms over velocity_scale: mean, worst step
   double error_worst_contact = not_known;  ///< of error_max over velocity_scale
   double above_tolerance = not_known;      ///< share of steps with a relative error_rms above it
+  double error_counted = not_known;  ///< of error_rms over velocity_scale: mean over the steps
+                                     ///< after the transient
+  long missed = 0;  ///< steps that the judge does not call solved, where a tolerance is asked for
+  double seconds_per_step = not_known;  ///< wall clock of the phases, median: a machine that does
+                                        ///< something else for a while does not count
 
   double penetration_max = not_known;       ///< [m] in the whole run
   double penetration_max_time = not_known;  ///< [s]
@@ -126,17 +169,25 @@ struct RunSummary {
 
   // with a driven wall
   WallCycles wall;
+  long periods = 0;  ///< that count
   LoopFits loop;
   JammedState jammed;
   FirstContraction contraction;
   // over the periods that count
   Statistics rise, net, speed_in, speed_out;  ///< as in WallPeriod
   Statistics dissipated;                      ///< [J]
+  double net_contraction = not_known;         ///< of a period, inwards: minus the mean of `net` [m]
   double prefactor = not_known;               ///< C of Eq. 3, m the mass of all grains
+  ForceLaw law;                               ///< f_g(xi) and f_g(f) while the wall moves
 
   // with a packing
   Compaction compaction;
+  Roll roll;  ///< from stored poses (roll_of_periods): summarise, which has none, leaves it out
 };
+
+/// Around the middle half of the box, of a summary's periods. Not known where the facts lack the
+/// box, or no frame stands at a period's ends.
+Roll roll_of_periods(std::span<const PoseFrame> frames, const RunSummary& summary);
 
 RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts,
                      const WallSettings& settings = {});

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "experiments/step/step_record.hpp"
-
 namespace ballast {
 namespace {
 
@@ -94,7 +92,7 @@ bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, do
 
 void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h,
                  const WallSettings& settings, WallCycles& cycles) {
-  const double transient = transient_of(1.0 / duration_of_period, settings.window);
+  const double transient = transient_of(1.0 / duration_of_period);
   const size_t first = first_after(steps, transient, h);
   // what is slow is slow beside the fastest motion after the transient
   std::vector<double> speed;
@@ -131,9 +129,7 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
 
 }  // namespace
 
-double transient_of(double frequency, const TimeWindow& window) {
-  return std::max(window.begin, 1.0 / frequency);
-}
+double transient_of(double frequency) { return std::max(0.3, 1.0 / frequency); }
 
 WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double h,
                        const WallSettings& settings) {
@@ -153,8 +149,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
 
   // Period k begins at k/nu, where the load falls through its mean. A quarter of a step is allowed
   // for the rounding of times.
-  const double transient = transient_of(frequency, settings.window);
-  const double end_time = std::min(steps.back().time, settings.window.end);
+  const double transient = transient_of(frequency), end_time = steps.back().time;
   for (long k = std::lround(std::ceil((transient - 0.25 * h) * frequency));; ++k) {
     const double begin = static_cast<double>(k) * duration_of_period;
     const double end = begin + duration_of_period;
@@ -171,7 +166,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
 JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min,
                          double f_max) {
   JammedState state;
-  std::vector<double> miss, smooth_miss, speed, load_rate, velocity;
+  std::vector<double> miss, smooth_miss, speed;
   long jammed = 0, all = 0;
   for (size_t k = 0; k < steps.size(); ++k) {
     if (cycles.phase[k] == WallPhase::none) continue;
@@ -182,10 +177,6 @@ JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cy
     miss.push_back(std::abs(steps[k].wall_force - steps[k].load) / f_max);
     smooth_miss.push_back(std::abs(cycles.force[k] - steps[k].load) / f_max);
     speed.push_back(std::abs(steps[k].wall_v));
-    if (k == 0 || k + 1 == steps.size()) continue;
-    const StepRecord &before = steps[k - 1], &after = steps[k + 1];
-    load_rate.push_back((after.load - before.load) / (after.time - before.time));
-    velocity.push_back(cycles.velocity[k]);
   }
   if (all > 0) state.share = static_cast<double>(jammed) / static_cast<double>(all);
   const Statistics force = statistics(miss), speeds = statistics(speed);
@@ -196,11 +187,6 @@ JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cy
   state.force_smooth = statistics(smooth_miss).mean;
   state.speed_mean = speeds.mean;
   state.speed_max = speeds.max;
-  const LineFit yield = fit_line(load_rate, velocity);
-  state.creep = yield.offset;
-  state.compliance = -yield.slope;
-  state.compliance_error = yield.slope_error;
-  state.stiffness = 1.0 / state.compliance;
   return state;
 }
 

@@ -29,18 +29,10 @@ namespace ballast {
 
 enum class WallPhase : unsigned char { none, active, passive, jammed };
 
-/// Which part of a run counts [s].
-struct TimeWindow {
-  double begin = 0.3;
-  double end = 1e30;
-};
-
-/// What is cut off at the start for a load of frequency nu [Hz]: the window's begin, at least one
-/// period [s].
-double transient_of(double frequency, const TimeWindow& window = {});
+/// What is cut off at the start for a load of frequency nu [Hz]: 0.3 s, at least one period [s].
+double transient_of(double frequency);
 
 struct WallSettings {
-  TimeWindow window;           ///< of the periods that count
   double smoothing = 4e-3;     ///< width of the low-pass on f_g and v [s], but at most 1/20 period
   double jammed_speed = 0.02;  ///< of v_peak
   double jammed_least = 0.04;  ///< of a period: what is slow for a shorter time only turns
@@ -92,13 +84,6 @@ struct JammedState {
          force_max = not_known;                          ///< |f_g - f|/f_max per step, not smoothed
   double force_smooth = not_known;                       ///< mean |f_g - f|/f_max with f_g smoothed
   double speed_mean = not_known, speed_max = not_known;  ///< |v| [m/s], not smoothed
-  /// How the wall gives way to a load that changes: v = creep - (df/dt)/k over the jammed samples,
-  /// v smoothed. Rigid grains exactly solved: 1/k = 0. See jam_stiffness.hpp for the same of one
-  /// step.
-  double stiffness = not_known;         ///< k [N/m]; negative or huge: not to be told from rigid
-  double compliance = not_known;        ///< 1/k [m/N]
-  double compliance_error = not_known;  ///< its standard error
-  double creep = not_known;             ///< outward velocity under a steady load [m/s]
 };
 JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min,
                          double f_max);

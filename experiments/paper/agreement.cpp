@@ -31,7 +31,7 @@ PaperRange PaperRange::at_most(double value) { return {-unbounded, value}; }
 PaperRange PaperRange::at_least(double value) { return {value, unbounded}; }
 
 Found found(const SampleMean& mean) {
-  const double half = student_t95(mean.samples - 1) * mean.error;
+  const double half = mean.half_width();
   return {.value = mean.mean, .low = mean.mean - half, .high = mean.mean + half};
 }
 

@@ -10,7 +10,7 @@ namespace ballast {
 namespace {
 
 constexpr int orbit_phases = 200;  // of a period, at which orbits are compared
-constexpr double portrait_frequencies[] = {motion_frequency, 2.0 * motion_frequency};
+constexpr double portrait_frequencies[] = {5.0, 10.0};
 
 /// The mean orbit over the periods that count: displacement from the period's first jamming
 /// position [m], velocity [m/s].
@@ -19,10 +19,8 @@ struct Orbit {
   int periods = 0;
 };
 
-/// `from_after`: x from the jamming position that the period ends in, so that the drift lies in the
-/// outward stroke.
-Orbit mean_orbit(const RunData& data, bool from_after) {
-  const RunFacts facts = complete_facts(data.facts, data.steps);
+Orbit mean_orbit(const RunData& data) {
+  const RunFacts& facts = data.facts;
   const WallCycles cycles = wall_cycles(data.steps, facts.frequency, facts.step);
   Orbit orbit;
   orbit.periods = static_cast<int>(cycles.periods.size());
@@ -30,8 +28,7 @@ Orbit mean_orbit(const RunData& data, bool from_after) {
     for (size_t k = 0; k < orbit_phases; ++k) {
       // the same phase of the load in every period, whatever its number of steps
       const size_t sample = period.first + k * (period.last - period.first) / orbit_phases;
-      const double origin = from_after ? period.x_after : period.x_before;
-      orbit.x[k] += (data.steps[sample].wall_x - origin) / orbit.periods;
+      orbit.x[k] += (data.steps[sample].wall_x - period.x_before) / orbit.periods;
       orbit.v[k] += cycles.velocity[sample] / orbit.periods;
     }
   return orbit;
@@ -81,36 +78,38 @@ struct Portrait {
   double collapsed_distance() const { return distance(collapsed[0], collapsed[1]); }
 };
 
-/// None where a run is missing or has no whole period.
-std::optional<Portrait> portrait_of(PaperData& data, int seed, bool from_after) {
+/// Of one sample's records at the two frequencies; none where one has no whole period.
+std::optional<Portrait> portrait_of(const RunData& slow, const RunData& fast) {
   Portrait result;
-  for (const double nu : portrait_frequencies) {
-    const auto run = data.at_frequency(nu, seed);
-    if (!run) return {};
-    result.raw.push_back(mean_orbit(data.read(*run), from_after));
-    if (result.raw.back().periods == 0) return {};
-    result.collapsed.push_back(scaled(result.raw.back(), nu * nu, nu));
+  for (const RunData* data : {&slow, &fast}) {
+    const Orbit orbit = mean_orbit(*data);
+    if (orbit.periods == 0) return {};
+    const double nu = data->facts.frequency;
+    result.raw.push_back(orbit);
+    result.collapsed.push_back(scaled(orbit, nu * nu, nu));
   }
   return result;
 }
 
 }  // namespace
 
-PaperSection fig8_section(PaperData& data) {
-  PaperSection section;
-  std::vector<double> raw, collapsed, from_after;
+void fill_portraits(PaperData& data, PaperSection& section) {
+  std::vector<double> raw, collapsed;
   std::optional<Portrait> shown;
-  for (int seed = 1; seed <= data.campaign().settings.seeds; ++seed) {
-    const std::optional<Portrait> seen = portrait_of(data, seed, false);
+  const std::vector<RunData> fast = data.records("frequency", portrait_frequencies[1]);
+  for (const RunData& slow : data.records("frequency", portrait_frequencies[0])) {
+    const auto same = std::ranges::find_if(
+        fast, [&](const RunData& other) { return other.facts.seed == slow.facts.seed; });
+    if (same == fast.end()) continue;
+    const std::optional<Portrait> seen = portrait_of(slow, *same);
     if (!seen) continue;
     raw.push_back(seen->raw_distance());
     collapsed.push_back(seen->collapsed_distance());
-    from_after.push_back(portrait_of(data, seed, true)->collapsed_distance());
     if (!shown) shown = seen;
   }
   if (!shown) {
-    section.notes = {"PARTIAL: the runs at 5 and 10 Hz are not both there yet."};
-    return section;
+    section.notes.push_back("PARTIAL: the records at 5 and 10 Hz are not both there.");
+    return;
   }
   // Where x goes with nu^-2 and v with nu^-1 the scaled orbits are one.
   const SampleMean after = sample_mean(collapsed);
@@ -118,8 +117,7 @@ PaperSection fig8_section(PaperData& data) {
                            {"slow", std::to_string(shown->raw[0].periods)},
                            {"fast", std::to_string(shown->raw[1].periods)},
                            {"raw", words_of(sample_mean(raw))},
-                           {"scaled", words_of(after)},
-                           {"from_after", words_of(sample_mean(from_after))}};
+                           {"scaled", words_of(after)}};
   section.draw("fig8",
                {.height = 860,
                 .panels = {portrait(shown->raw, "{/:Italic x} − {/:Italic x}_{jam}  (mm)",
@@ -129,7 +127,6 @@ PaperSection fig8_section(PaperData& data) {
                                     "{/:Italic v ν}  (mm/s^2)")}},
                words);
   section.claim("fig8.collapse", words, PaperRange::at_most(0.1), found(after));
-  return section;
 }
 
 }  // namespace ballast

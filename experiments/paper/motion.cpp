@@ -17,23 +17,12 @@ std::vector<PairForce> StoredState::pairs() const {
   return pair_forces(at.memory.contacts, at.memory.impulses, step);
 }
 
-Figure of_run(const MotionRun& run, Figure figure) {
-  for (Panel& panel : figure.panels)
-    for (Curve& curve : panel.curves) curve.origins = {run.origin};
-  return figure;
-}
-
-std::vector<MotionRun> read_motion(PaperData& data, PaperSection& section) {
+std::vector<MotionRun> read_motion(PaperData& data) {
   std::vector<MotionRun> runs;
-  for (const size_t run : data.motion()) {
-    MotionRun motion{data.read(run), {}, origin_of_runs({run})};
-    motion.summary = summarise(motion.data.steps, motion.data.facts);
-    runs.push_back(std::move(motion));
+  for (RunData& record : data.records("motion")) {
+    RunSummary summary = summarise(record.steps, record.facts);
+    runs.push_back({std::move(record), std::move(summary)});
   }
-  const size_t planned = data.campaign().motion.size();
-  if (runs.size() < planned)
-    section.notes.push_back("PARTIAL: " + std::to_string(runs.size()) + " of " +
-                            std::to_string(planned) + " samples at 5 Hz.");
   return runs;
 }
 

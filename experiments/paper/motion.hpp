@@ -9,18 +9,13 @@
 
 namespace ballast {
 
-/// A run with its summary: periods counted by the campaign's rule.
 struct MotionRun {
   RunData data;
   RunSummary summary;
-  std::string origin;  ///< for Curve::origins
 };
 
-/// A figure of one run alone: all its curves open that run.
-Figure of_run(const MotionRun& run, Figure figure);
-
-/// Finished 5 Hz runs; what is missing is noted in `section`.
-std::vector<MotionRun> read_motion(PaperData& data, PaperSection& section);
+/// The finished runs of stage motion.
+std::vector<MotionRun> read_motion(PaperData& data);
 
 /// Mean over runs of a number of the summary, with its standard error.
 template <class Function>

@@ -3,31 +3,27 @@
 // m_w through its right side X alone, and linearly. The first half, the grouping, is tested apart
 // from the second: ln Delta x_max as a polynomial of ln X.
 
-#include <vector>
-
-#include "experiments/measure/weighted_fit.hpp"
-#include "experiments/paper/run_groups.hpp"
+#include "experiments/paper/section.hpp"
 
 namespace ballast {
 
 /// One thing varied: its points have a colour, a mark and a row in every table.
 struct Series {
-  Varied varied;
-  const char *name, *title;  ///< in words, and in the legend
+  Selection selection;  ///< its name in words
+  RunMeasure along;     ///< what its exponent is of: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w)
+  const char* title;    ///< in the legend
   Ink ink;
   MarkShape shape;  ///< as in the paper's Fig. 11
-  double exponent;  ///< of Eq. 3, in abscissa_of
+  double exponent;  ///< of Eq. 3
 };
 std::span<const Series> all_series();
-/// What an exponent is of: nu [Hz], f_max/(m g0), g [m/s^2], m/(m + m_w).
-double abscissa_of(const VariedValue& value, Varied varied);
 
 struct CurvePoint {
   size_t series = 0;  ///< index into all_series()
-  VariedValue value;
+  Group group;
   double x = not_known;  ///< X [m]
 
-  double log_rise() const;  ///< mean over samples of ln Delta x_max
+  double log_rise() const { return sample_mean(group.logs(rise_of)).mean; }
 };
 
 /// ln Delta x_max as a polynomial of ln(X/X0), X0 the middle of the points.
@@ -40,36 +36,23 @@ struct LogPolynomial {
   double at(double x) const;                  ///< Delta x_max [m]
 };
 
-/// A series's own exponent beside what the curve through all other sweeps says of it.
-struct SeriesExponent {
-  size_t series = 0;
-  int points = 0;
-  double own = not_known, own_error = not_known;
-  double predicted = not_known, predicted_error = not_known;
-  bool is_inside = false;  ///< the other sweeps reach over its X
-  double p = not_known;    ///< of their difference
-};
-
 struct OneCurve {
-  std::vector<CurvePoint> points;  ///< distinct runs: the base of all sweeps counts once
+  std::vector<CurvePoint> points;  ///< distinct runs: the base of all series counts once
   PooledError between;             ///< ln Delta x_max of a sample about its point's mean
   PooledError paired;              ///< the same when each packing's mean offset is taken out
-  double weighing = 1.0;           ///< the error of a sample that the fits take
-  LogPolynomial line, curve, cubic;
+  LogPolynomial line, curve;
   Misfit line_misfit, curve_misfit;  ///< with the errors `between`
   Misfit paired_misfit;              ///< of the curve, with the errors `paired`
   Improvement bend;                  ///< of the curve over the line
-  Improvement third;                 ///< of the cubic over the curve
+  Improvement third;                 ///< of a cubic over the curve
   Improvement offsets;               ///< of a factor for each series over the curve
   double largest_offset = not_known, offset_error = not_known;  ///< of a series, in ln Delta x_max
-  std::vector<SeriesExponent> exponents;
-  SampleMean curvature;  ///< of u^2, each packing by itself
 
   bool is_known() const { return points.size() > 4; }
 };
 
-/// `values`: one list for each of all_series().
-OneCurve one_curve(const std::vector<std::vector<VariedValue>>& values);
+/// `groups`: one list for each of all_series().
+OneCurve one_curve(const std::vector<Groups>& groups);
 
 /// The force of the grains over m g that gives this C in the limit f_max >> f_g, when the wall and
 /// all grains move together: C = (9/4 pi^2) (F/m g)^2.

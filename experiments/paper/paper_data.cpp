@@ -3,214 +3,251 @@
 #include <algorithm>
 #include <set>
 
+#include "experiments/record/record_file.hpp"
+#include "experiments/run/run_folder.hpp"
+#include "platform/error.hpp"
+#include "platform/text.hpp"
+
 namespace ballast {
+namespace {
 
-const char* plural_of(Varied varied) {
-  // in the order of Varied
-  constexpr const char* words[] = {"frequencies",
-                                   "values of f_max",
-                                   "values of g",
-                                   "values of m_w",
-                                   "numbers of iterations at 10 Hz",
-                                   "numbers of iterations at 60 Hz",
-                                   "backends",
-                                   "steps",
-                                   "size conventions",
-                                   "gaps under the lid",
-                                   "frictions",
-                                   "deposits",
-                                   "frequencies, looser deposit",
-                                   "frequencies, friction 0.8",
-                                   "frequencies, f_max = 8 m g",
-                                   "steps at 60 Hz",
-                                   "lengths of the box at 5 Hz",
-                                   "lengths of the box at 20 Hz",
-                                   "replicas at 10 Hz",
-                                   "replicas at 60 Hz",
-                                   "frequencies, solver at 1e-2",
-                                   "frequencies, solver at 1e-3",
-                                   "frequencies, lid pressed, μ 0.4",
-                                   "frequencies, lid pressed, μ 0.8",
-                                   "frequencies, lid placed, μ 0.4",
-                                   "frequencies, lid placed, μ 0.8",
-                                   "frequencies, f_max = 6 m g, m_w = 0.1 m",
-                                   "frequencies, f_max = 12 m g, m_w = 0.1 m",
-                                   "frequencies, the same at half scale",
-                                   "kinds of grains at 5 Hz",
-                                   "kinds of grains at 20 Hz",
-                                   "numbers of grains, similar boxes",
-                                   "numbers of grains, wider boxes",
-                                   "frequencies, the paper's reading",
-                                   "frequencies, 300 grains, exact law",
-                                   "frequencies, 300 grains, convex law",
-                                   "frequencies, LMGC90's rule"};
-  return words[static_cast<size_t>(varied)];
+/// Measured values of what was set, from records and from files of nine digits, are the same.
+double rounded(double value) { return parsed_number(printed("%.6g", value)).value_or(value); }
+
+bool takes(const Selection& selection, const RunRow& row) {
+  const bool is_stage =
+      std::ranges::any_of(selection.stages, [&](const char* stage) { return row.stage == stage; });
+  return is_stage && (!selection.holds || selection.holds(row));
 }
 
-SampleMean VariedValue::mean(double Observation::*quantity) const {
-  std::vector<double> values;
-  for (const Observation& sample : samples) values.push_back(sample.*quantity);
-  return sample_mean(values);
+}  // namespace
+
+double frequency_of(const RunSummary& run) { return run.facts.frequency; }
+double grains_of(const RunSummary& run) { return run.facts.grains; }
+double rise_of(const RunSummary& run) { return run.rise.mean; }
+double speed_of(const RunSummary& run) { return run.speed_in.mean; }
+double eq3_of(const RunSummary& run) { return eq3_displacement(run.facts); }
+double prefactor_of(const RunSummary& run) { return run.rise.mean / eq3_of(run); }
+double theory_of(const RunSummary& run) { return run.law.prefactor; }
+double gain_of(const RunSummary& run) { return run.compaction.gain; }
+double rate_of(const RunSummary& run) { return run.compaction.rate; }
+double common_rate_of(const RunSummary& run) { return run.compaction.rate_common; }
+double push_of(const RunSummary& run) {
+  return run.law.push / (run.facts.grain_mass * run.facts.gravity);
+}
+double force_of(const RunSummary& run) {
+  return run.facts.f_max / (run.facts.grain_mass * run.facts.gravity);
 }
 
-const Observation* VariedValue::of_seed(int seed) const {
-  for (size_t k = 0; k < seeds.size(); ++k)
-    if (seeds[k] == seed) return &samples[k];
+const RunSummary* Group::of_seed(int seed) const {
+  for (const RunRow* row : samples)
+    if (row->run.facts.seed == seed) return &row->run;
   return nullptr;
 }
 
-PaperData::PaperData(Campaign campaign, std::filesystem::path results,
-                     std::vector<RunObservables> rows)
+std::vector<double> Group::values(RunMeasure measure) const {
+  std::vector<double> all;
+  for (const RunRow* row : samples) all.push_back(measure(row->run));
+  return all;
+}
+
+std::vector<double> Group::logs(RunMeasure measure) const {
+  std::vector<double> all = values(measure);
+  for (double& value : all) value = std::log(value);
+  return all;
+}
+
+const Group* at(const Groups& groups, double value) {
+  const auto found = std::ranges::find(groups, value, &Group::value);
+  return found == groups.end() ? nullptr : &*found;
+}
+
+Points points_of(const Groups& groups, RunMeasure x, RunMeasure y, double x_factor,
+                 double y_factor) {
+  Points points;
+  for (const Group& group : groups) {
+    const SampleMean mean = group.mean(y);
+    const double place = x_factor * group.mean(x).mean;
+    if (std::isfinite(mean.mean) && std::isfinite(place))
+      points.add(place, {y_factor * mean.mean, y_factor * mean.error, mean.samples});
+  }
+  return points;
+}
+
+SampleMean log_change(const Group& from, const Group& to, RunMeasure measure) {
+  std::vector<double> changes;
+  for (const RunRow* row : from.samples)
+    if (const RunSummary* same = to.of_seed(row->run.facts.seed))
+      changes.push_back(std::log(measure(*same)) - std::log(measure(row->run)));
+  return sample_mean(changes);
+}
+
+SampleMean exponent_by_sample(const Groups& groups, RunMeasure along, RunMeasure measure,
+                              size_t fewest) {
+  std::map<int, Points> samples;
+  for (const Group& group : groups)
+    for (const RunRow* row : group.samples)
+      samples[row->run.facts.seed].add(along(row->run), {measure(row->run)});
+  std::vector<double> exponents;
+  for (const auto& [seed, points] : samples)
+    if (points.x.size() >= fewest) exponents.push_back(fit_power(points.x, points.y).exponent);
+  return sample_mean(exponents);
+}
+
+PooledError scatter_between(const Groups& groups, RunMeasure measure) {
+  std::vector<std::vector<double>> logs;
+  for (const Group& group : groups) logs.push_back(group.logs(measure));
+  return pooled_error(logs);
+}
+
+PooledError scatter_paired(const Groups& groups, RunMeasure measure) {
+  std::set<int> seeds;
+  for (const Group& group : groups)
+    for (const RunRow* row : group.samples) seeds.insert(row->run.facts.seed);
+  // one list for each packing: what it misses of the mean in every group that has all packings
+  std::map<int, std::vector<double>> misses;
+  int complete = 0;
+  for (const Group& group : groups) {
+    const std::vector<double> logs = group.logs(measure);
+    const SampleMean mean = sample_mean(logs);
+    if (mean.samples < static_cast<int>(seeds.size())) continue;
+    ++complete;
+    for (size_t k = 0; k < logs.size(); ++k)
+      misses[group.samples[k]->run.facts.seed].push_back(logs[k] - mean.mean);
+  }
+  std::vector<std::vector<double>> lists;
+  for (const auto& [seed, missed] : misses) lists.push_back(missed);
+  PooledError pooled = pooled_error(lists);
+  // the misses in one group add up to nothing: that takes a degree of freedom for each
+  const int freedom = (complete - 1) * (static_cast<int>(seeds.size()) - 1);
+  if (freedom < 1) return {};
+  pooled.deviation *= std::sqrt(static_cast<double>(pooled.degrees_of_freedom) / freedom);
+  pooled.degrees_of_freedom = freedom;
+  return pooled;
+}
+
+PaperData::PaperData(std::vector<CampaignRun> campaign, std::filesystem::path results,
+                     std::vector<RunRow> rows)
     : campaign_(std::move(campaign)), results_(std::move(results)) {
-  for (const CampaignRun& run : campaign_.runs)
-    finished_.push_back(is_finished(results_, run.planned));
-  for (RunObservables& row : rows) rows_[row.key] = std::move(row);
-}
-
-bool PaperData::has(size_t run) const { return finished_.at(run); }
-
-bool PaperData::knows(size_t run) const { return has(run) || row_of(run); }
-
-std::filesystem::path PaperData::folder(size_t run) const {
-  return folder_of(results_, campaign_.runs.at(run).planned);
-}
-
-RunData PaperData::read(size_t run) const { return read_run_data(folder(run)); }
-
-const RunObservables* PaperData::row_of(size_t run) const {
-  if (rows_.empty()) return nullptr;
-  const auto found = rows_.find(folder(run).filename().string());
-  return found == rows_.end() ? nullptr : &found->second;
-}
-
-const std::vector<RunObservables>& PaperData::observables() {
-  if (!observables_.empty()) return observables_;
-  for (size_t k = 0; k < campaign_.runs.size(); ++k) {
-    if (!knows(k)) continue;
-    RunObservables run = has(k) ? observe_run(read(k)) : *row_of(k);
-    run.run = k;
-    run.name = campaign_.runs[k].planned.name;
-    run.stage = campaign_.runs[k].stage;
-    run.key = folder(k).filename().string();
-    observables_.push_back(std::move(run));
-  }
-  return observables_;
-}
-
-const RunObservables* PaperData::observables_of(size_t run) {
-  for (const RunObservables& seen : observables())
-    if (seen.run == run) return &seen;
-  return nullptr;
-}
-
-int PaperData::finished() const {
-  return static_cast<int>(std::count(finished_.begin(), finished_.end(), true));
-}
-
-int PaperData::known_by_row() const {
-  int rows = 0;
-  for (size_t k = 0; k < campaign_.runs.size(); ++k) rows += !has(k) && row_of(k);
-  return rows;
-}
-
-std::vector<std::string> PaperData::foreign_rows() const {
   std::set<std::string> keys;
-  for (size_t k = 0; k < campaign_.runs.size(); ++k) keys.insert(folder(k).filename().string());
-  std::vector<std::string> names;
-  for (const auto& [key, row] : rows_)
-    if (!keys.contains(key)) names.push_back(row.name);
-  return names;
+  for (const CampaignRun& run : campaign_)
+    if (keys.insert(run.key).second && RunFolder(folder(run.key)).is_finished(run.key))
+      finished_[run.key];
+  for (RunRow& row : rows)
+    if (keys.contains(row.key))
+      given_.emplace(row.key, std::move(row));
+    else
+      foreign_.push_back(std::move(row));
 }
 
-PaperData::Repeats PaperData::repeats() {
-  Repeats repeats;
-  for (const RunObservables& run : observables()) {
-    const RunObservables* row = has(run.run) ? row_of(run.run) : nullptr;
-    if (!row) continue;
-    ++repeats.made;
-    repeats.same += row->record == run.record;
+RunRow PaperData::measured(const std::string& key) {
+  const RunData data = read_run_data(folder(key));
+  RunRow row;
+  row.key = key;
+  row.record = record_hash(data.steps);
+  row.run = summarise(data.steps, data.facts);
+  try {
+    row.run.roll = roll_of_periods(read_record_poses(data.folder / "record.h5"), row.run);
+  } catch (const Error& error) {
+    notices_.push_back(std::string("No poses: ") + error.what());
   }
-  return repeats;
+  return row;
 }
 
-std::vector<size_t> PaperData::motion() const {
-  std::vector<size_t> runs;
-  for (const size_t run : campaign_.motion)
-    if (has(run)) runs.push_back(run);
-  return runs;
+const std::vector<RunRow>& PaperData::rows() {
+  if (!rows_.empty()) return rows_;
+  for (auto& [key, row] : finished_) row = measured(key);
+  for (const CampaignRun& run : campaign_) {
+    if (!knows(run)) continue;
+    rows_.push_back(has(run) ? finished_.at(run.key) : given_.at(run.key));
+    rows_.back().name = run.planned.name;
+    rows_.back().stage = run.stage;
+  }
+  rows_.insert(rows_.end(), foreign_.begin(), foreign_.end());
+  return rows_;
 }
 
-std::optional<size_t> PaperData::at_frequency(double frequency, int seed) const {
-  for (const CampaignPoint& point : campaign_.points)
-    if (point.varied == Varied::frequency && point.value == frequency && point.seed == seed &&
-        has(point.run))
-      return point.run;
-  return {};
+std::vector<const RunRow*> PaperData::rows(const Selection& selection) {
+  std::vector<const RunRow*> found;
+  for (const RunRow& row : rows())
+    if (takes(selection, row)) found.push_back(&row);
+  return found;
 }
 
-bool PaperData::serves(const CampaignPoint& point) const {
-  if (has(point.run)) return true;
-  // a row counts all periods of its run
-  const RunObservables* row = row_of(point.run);
-  if (!row) return false;
-  const double step = row->seen.facts.step;
-  return point.window.end > (static_cast<double>(campaign_.runs[point.run].steps) - 1.0) * step;
+Groups PaperData::groups(const Selection& selection, RunMeasure along) {
+  std::map<double, Group> values;
+  for (const RunRow* row : rows(selection)) {
+    const double value = rounded(along(row->run));
+    if (!std::isfinite(value)) continue;
+    Group& group = values[value];
+    group.value = value;
+    group.label = printed("%g", value);
+    if (!group.of_seed(row->run.facts.seed)) group.samples.push_back(row);
+  }
+  Groups groups;
+  for (auto& [value, group] : values) groups.push_back(std::move(group));
+  return groups;
 }
 
-const Observation* PaperData::observation(const CampaignPoint& point) {
-  if (!serves(point)) return nullptr;
-  if (!has(point.run)) return &observables_of(point.run)->seen;
-  // one run serves several figures, some of which count fewer of its periods
-  const auto key = std::make_pair(point.run, point.window.end);
-  if (const auto found = seen_.find(key); found != seen_.end()) return &found->second;
-  const RunData data = read(point.run);
-  return &seen_.emplace(key, observe(data.steps, data.facts, grain_count(data), point.window))
-              .first->second;
+Groups PaperData::settings(const Selection& selection) {
+  std::vector<Group> groups;
+  std::map<std::string, size_t> known;  // where a setting's group stands
+  for (const RunRow* row : rows(selection)) {
+    std::string setting = row->stage + row->name;
+    if (const size_t seed = setting.find("seed="); seed != std::string::npos)
+      setting.erase(seed, setting.find_first_not_of("0123456789", seed + 5) - seed);
+    const auto [place, is_new] = known.emplace(setting, groups.size());
+    if (is_new) groups.push_back({0.0, setting});
+    Group& group = groups[place->second];
+    if (!group.of_seed(row->run.facts.seed)) group.samples.push_back(row);
+  }
+  return groups;
 }
 
-std::string origin_of_runs(const std::vector<size_t>& runs) {
-  std::string name = "runs";
-  for (const size_t run : runs) name += ' ' + std::to_string(run);
-  return name;
+std::vector<RunData> PaperData::records(const std::string& stage, double frequency) {
+  std::vector<RunData> found;
+  for (const CampaignRun& run : campaign_) {
+    if (run.stage != stage || !has(run)) continue;
+    RunData data = read_run_data(folder(run.key));
+    if (std::isnan(frequency) || data.facts.frequency == frequency)
+      found.push_back(std::move(data));
+  }
+  return found;
 }
 
-std::vector<VariedValue> PaperData::values(Varied which) {
-  // points come in the order of importance; a map sorts them by value
-  std::map<double, VariedValue> values;
-  for (const CampaignPoint& point : campaign_.points) {
-    if (point.varied != which) continue;
-    VariedValue& value = values[point.value];
-    value.value = point.value;
-    value.label = point.label;
-    ++value.planned;
-    if (const Observation* seen = observation(point)) {
-      value.samples.push_back(*seen);
-      value.seeds.push_back(point.seed);
-      value.runs.push_back(point.run);
+std::string PaperData::missing(const std::string& stage) const {
+  int planned = 0, known = 0;
+  for (const CampaignRun& run : campaign_)
+    if (run.stage == stage) {
+      ++planned;
+      known += knows(run);
     }
-  }
-  std::vector<VariedValue> list;
-  for (auto& [at, value] : values)
-    if (!value.samples.empty()) list.push_back(std::move(value));
-  return list;
+  if (known == planned) return {};
+  return printed("PARTIAL: %d of %d runs of %s.", known, planned, stage.c_str());
 }
 
-std::string PaperData::missing(Varied which) const {
-  // values of which at least one sample is finished, and all runs
-  std::set<double> planned, there;
-  int runs = 0, done = 0;
-  for (const CampaignPoint& point : campaign_.points) {
-    if (point.varied != which) continue;
-    planned.insert(point.value);
-    ++runs;
-    if (!serves(point)) continue;
-    there.insert(point.value);
-    ++done;
-  }
-  if (done == runs) return {};
-  return "PARTIAL: " + std::to_string(there.size()) + " of " + std::to_string(planned.size()) +
-         ' ' + plural_of(which) + ", " + std::to_string(done) + " of " + std::to_string(runs) +
-         " runs.";
+size_t PaperData::planned() const {
+  std::set<std::string> keys;
+  for (const CampaignRun& run : campaign_) keys.insert(run.key);
+  return keys.size();
+}
+
+size_t PaperData::known_by_row() const {
+  return static_cast<size_t>(std::ranges::count_if(
+      given_, [&](const auto& given) { return !finished_.contains(given.first); }));
+}
+
+size_t PaperData::foreign() const { return foreign_.size(); }
+
+std::pair<int, int> PaperData::repeats() {
+  rows();
+  int made = 0, same = 0;
+  for (const auto& [key, row] : finished_)
+    if (const auto given = given_.find(key); given != given_.end()) {
+      ++made;
+      same += given->second.record == row.record;
+    }
+  return {made, same};
 }
 
 }  // namespace ballast

@@ -1,91 +1,127 @@
 #pragma once
-// What a campaign has produced so far: finished runs, measured. Whatever is missing is counted and
-// said, never an error.
+// What a campaign has produced so far: one row for each run that is finished, or of which a row was
+// given, and what rows say together. Whatever is missing is counted and said, never an error.
+//
+// A selection takes rows by stage and by what they say. Its groups are the values of one thing that
+// was varied, each with its samples: the seeds. Figures draw means over samples; what compares two
+// groups compares every sample with itself.
 
-#include <filesystem>
 #include <map>
 #include <optional>
-#include <string>
-#include <vector>
 
+#include "experiments/measure/fits.hpp"
+#include "experiments/measure/run_columns.hpp"
+#include "experiments/measure/run_data.hpp"
 #include "experiments/paper/campaign.hpp"
-#include "experiments/paper/run_observables.hpp"
 
 namespace ballast {
 
-/// For Curve::origins: "runs 3 14", numbers in the campaign.
-std::string origin_of_runs(const std::vector<size_t>& runs);
+/// A number of a run: a column of runs.csv, or what follows from it. SI units; NaN: not known.
+using RunMeasure = double (*)(const RunSummary& run);
 
-/// One value of what is varied, with what its seeds gave.
-struct VariedValue {
-  double value = 0.0;
-  std::string label;
-  int planned = 0;                   ///< seeds that the campaign has
-  std::vector<Observation> samples;  ///< seeds that are finished
-  std::vector<int> seeds;            ///< theirs, growing
-  std::vector<size_t> runs = {};     ///< theirs, in the campaign
-  std::string origin() const { return origin_of_runs(runs); }
-  SampleMean mean(double Observation::*quantity) const;
-  const Observation* of_seed(int seed) const;  ///< null: not finished
+// what is varied along, and measured, more than once
+double frequency_of(const RunSummary& run);
+double grains_of(const RunSummary& run);
+double rise_of(const RunSummary& run);         ///< Delta x_max [m]
+double speed_of(const RunSummary& run);        ///< v_max [m/s]
+double eq3_of(const RunSummary& run);          ///< X, right side of Eq. 3 without C [m]
+double prefactor_of(const RunSummary& run);    ///< C = Delta x_max / X
+double theory_of(const RunSummary& run);       ///< C by F and M as measured (force_law.hpp)
+double push_of(const RunSummary& run);         ///< F/(m g)
+double force_of(const RunSummary& run);        ///< f_max/(m g)
+double gain_of(const RunSummary& run);         ///< Delta rho_1 of a period
+double rate_of(const RunSummary& run);         ///< compaction rate, the paper's window [1/s]
+double common_rate_of(const RunSummary& run);  ///< the same, within common_window [1/s]
+
+/// Rows of these stages for which `holds` (null: all of them).
+struct Selection {
+  const char* name;  ///< a case of a table, a series of a figure
+  std::vector<const char*> stages;
+  bool (*holds)(const RunRow& row) = nullptr;
 };
+
+/// One value of what is varied.
+struct Group {
+  double value = 0.0;  ///< to six digits
+  std::string label;
+  std::vector<const RunRow*> samples = {};
+
+  const RunSummary& first() const { return samples.front()->run; }
+  const RunSummary* of_seed(int seed) const;  ///< null: none
+  std::vector<double> values(RunMeasure measure) const;
+  SampleMean mean(RunMeasure measure) const { return sample_mean(values(measure)); }
+  /// One logarithm of each sample.
+  std::vector<double> logs(RunMeasure measure) const;
+};
+using Groups = std::vector<Group>;
+
+/// The one at a value; null: none.
+const Group* at(const Groups& groups, double value);
+
+/// Means over samples, `y` against the mean `x`; what is not known is left out.
+Points points_of(const Groups& groups, RunMeasure x, RunMeasure y, double x_factor = 1.0,
+                 double y_factor = 1.0);
+
+/// Over the samples that both have: ln of `measure` at `to` less that at `from`.
+SampleMean log_change(const Group& from, const Group& to, RunMeasure measure);
+/// Exponent of `measure` in `along` over the groups, fitted to each sample by itself: its mean over
+/// the samples with at least so many values. What a packing does at all values drops out.
+SampleMean exponent_by_sample(const Groups& groups, RunMeasure along, RunMeasure measure,
+                              size_t fewest = 3);
+
+/// How the logarithm of a measure scatters, pooled over groups: between samples of grains; and from
+/// run to run of one packing, where what a packing has in common in all groups is taken out (of the
+/// groups that have every packing).
+PooledError scatter_between(const Groups& groups, RunMeasure measure);
+PooledError scatter_paired(const Groups& groups, RunMeasure measure);
 
 class PaperData {
  public:
-  /// `rows`: of runs whose records are elsewhere (another's runs.csv); runs that are there have
-  /// their own.
-  PaperData(Campaign campaign, std::filesystem::path results,
-            std::vector<RunObservables> rows = {});
+  /// `rows`: of runs whose records are elsewhere (a report's runs.csv). Where a run is there its
+  /// own record is measured. Rows of no run of this campaign are taken as they are.
+  PaperData(std::vector<CampaignRun> campaign, std::filesystem::path results,
+            std::vector<RunRow> rows = {});
 
-  const Campaign& campaign() const { return campaign_; }
-  const std::filesystem::path& results() const { return results_; }
+  const std::vector<CampaignRun>& campaign() const { return campaign_; }
 
-  /// Values in growing order; those without a finished run are left out.
-  std::vector<VariedValue> values(Varied which);
-  /// "3 of 10 frequencies; 5 of 30 runs": empty when everything planned is there.
-  std::string missing(Varied which) const;
+  /// Its record is there, and finished.
+  bool has(const CampaignRun& run) const { return finished_.contains(run.key); }
+  /// The same, or its row was given.
+  bool knows(const CampaignRun& run) const { return has(run) || given_.contains(run.key); }
+  std::filesystem::path folder(const std::string& key) const { return results_ / "runs" / key; }
 
-  /// Its record is there.
-  bool has(size_t run) const;
-  /// Its record is there, or its row.
-  bool knows(size_t run) const;
-  std::filesystem::path folder(size_t run) const;
-  /// A finished run's record. Throws Error.
-  RunData read(size_t run) const;
-  /// Every finished run, measured, in the campaign's order: read once, on the first call. Those of
-  /// which only a row is known stand among them.
-  const std::vector<RunObservables>& observables();
-  /// The one of this run; null: not finished.
-  const RunObservables* observables_of(size_t run);
-  /// Finished ones of Campaign::motion.
-  std::vector<size_t> motion() const;
-  /// The finished run of a seed at this of the frequencies that are varied.
-  std::optional<size_t> at_frequency(double frequency, int seed) const;
-  int finished() const;
-  /// Runs of which a row alone is known.
-  int known_by_row() const;
-  /// Names of given rows that are of no run of the campaign: nothing is drawn from them.
-  std::vector<std::string> foreign_rows() const;
+  /// Every run that is known, measured, in the campaign's order; then the rows of no run of it.
+  /// Measured once, on the first call. Throws Error where a record cannot be read.
+  const std::vector<RunRow>& rows();
+  std::vector<const RunRow*> rows(const Selection& selection);
+  /// By growing value of `along`; one row for each sample: the first.
+  Groups groups(const Selection& selection, RunMeasure along);
+  /// A group for each setting, whatever was varied: rows whose names differ in the seed alone.
+  Groups settings(const Selection& selection);
+
+  /// The records of a stage's finished runs at a frequency (any, where NaN).
+  std::vector<RunData> records(const std::string& stage, double frequency = not_known);
+  /// "PARTIAL: 6 of 30 runs of frequency.": empty when everything planned is there.
+  std::string missing(const std::string& stage) const;
+
+  size_t planned() const;  ///< different runs of the campaign
+  size_t finished() const { return finished_.size(); }
+  size_t known_by_row() const;  ///< runs of which a row alone is known
+  size_t foreign() const;       ///< rows of no run of this campaign
   /// Runs made here whose row was given too: how many, and of how many both have the same hash.
-  struct Repeats {
-    int made = 0, same = 0;
-  };
-  Repeats repeats();
+  std::pair<int, int> repeats();
+  /// What could not be read of the records, one line each. After rows().
+  const std::vector<std::string>& notices() const { return notices_; }
 
  private:
-  /// Is what the point asks for known?
-  bool serves(const CampaignPoint& point) const;
-  const Observation* observation(const CampaignPoint& point);
-  const RunObservables* row_of(size_t run) const;  ///< null: none was given
+  RunRow measured(const std::string& key);
 
-  Campaign campaign_;
+  std::vector<CampaignRun> campaign_;
   std::filesystem::path results_;
-  std::vector<bool> finished_;
-  std::map<std::string, RunObservables> rows_;  ///< by key
-  std::vector<RunObservables> observables_;
-  std::map<std::pair<size_t, double>, Observation> seen_;  // by run and window
+  std::map<std::string, RunRow> finished_;  ///< by key; measured by rows()
+  std::map<std::string, RunRow> given_;     ///< by key
+  std::vector<RunRow> rows_, foreign_;
+  std::vector<std::string> notices_;
 };
-
-/// Many values of what is varied, as a note calls them: "frequencies".
-const char* plural_of(Varied varied);
 
 }  // namespace ballast

@@ -2,10 +2,10 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/page/html.hpp"
 #include "experiments/page/markdown.hpp"
-#include "experiments/paper/point_origins.hpp"
 #include "platform/atomic_file.hpp"
 
 namespace ballast {
@@ -28,43 +28,44 @@ std::string listed(const std::map<std::string, int>& counts) {
   return text;
 }
 
-}  // namespace
-
+/// What the finished runs were made by: programs, machines, steps, wall clock.
 std::vector<page::Text> origin_of(PaperData& data) {
-  const Campaign& campaign = data.campaign();
   std::map<std::string, int> commits, machines;
+  std::set<std::string> seen;
   double steps = 0.0, seconds = 0.0;
-  for (size_t k = 0; k < campaign.runs.size(); ++k) {
-    if (!data.has(k)) continue;
+  for (const CampaignRun& run : data.campaign()) {
+    if (!data.has(run) || !seen.insert(run.key).second) continue;
     const Json manifest =
-        Json::parse(read_whole_file(data.folder(k) / "manifest.json"), nullptr, false);
+        Json::parse(read_whole_file(data.folder(run.key) / "manifest.json"), nullptr, false);
     if (!manifest.is_object()) continue;
     ++commits[text_in(manifest, "/ballast/commit")];
     ++machines[text_in(manifest, "/machine/cpu")];
-    const double run_steps = static_cast<double>(campaign.runs[k].steps);
-    steps += run_steps;
+    steps += static_cast<double>(run.steps);
     const Json::json_pointer time("/summary/ms_per_step");
     if (manifest.contains(time) && manifest[time].is_number())
-      seconds += 1e-3 * manifest[time].get<double>() * run_steps;
+      seconds += 1e-3 * manifest[time].get<double>() * static_cast<double>(run.steps);
   }
-  const page::Text origin =
-      page::words("paper.origin", {{"finished", std::to_string(data.finished())},
-                                   {"runs", std::to_string(campaign.runs.size())},
-                                   {"steps", page::number(steps, 4)},
-                                   {"seconds", page::number(seconds, 3)},
-                                   {"commits", listed(commits)},
-                                   {"machines", listed(machines)},
-                                   {"scene", campaign.settings.scene},
-                                   {"iterations", std::to_string(campaign.settings.iterations)},
-                                   {"seeds", std::to_string(campaign.settings.seeds)}});
-  std::vector<page::Text> parts = parts_of(origin, "||");
-  if (const int rows = data.known_by_row())
-    parts.push_back(page::words("paper.rows", {{"rows", std::to_string(rows)}}));
+  std::vector<page::Text> parts =
+      parts_of(page::words("paper.origin", {{"finished", std::to_string(data.finished())},
+                                            {"runs", std::to_string(data.planned())},
+                                            {"steps", page::number(steps, 4)},
+                                            {"seconds", page::number(seconds, 3)},
+                                            {"commits", listed(commits)},
+                                            {"machines", listed(machines)}}),
+               "||");
+  const auto add = [&](const char* name, size_t count) {
+    if (count > 0) parts.push_back(page::words(name, {{"rows", std::to_string(count)}}));
+  };
+  add("paper.rows", data.known_by_row());
+  add("paper.foreign", data.foreign());
   if (const auto [made, same] = data.repeats(); made > 0)
     parts.push_back(page::words("paper.repeats",
                                 {{"made", std::to_string(made)}, {"same", std::to_string(same)}}));
+  parts.insert(parts.end(), data.notices().begin(), data.notices().end());
   return parts;
 }
+
+}  // namespace
 
 page::Page paper_page(const std::vector<PaperSection>& sections,
                       const std::vector<page::Text>& origin) {
@@ -103,11 +104,10 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
   for (const PaperSection& section : sections)
     for (const page::Picture& figure : section.figures)
       write_whole_file(folder / "data" / (figure.plot.name + ".csv"), figure_csv(figure.plot));
-  write_whole_file(folder / "data" / "runs.csv", runs_csv(data.observables()));
+  write_whole_file(folder / "data" / "runs.csv", runs_csv(data.rows()));
   write_whole_file(folder / "data" / "runs_columns.csv", run_columns_csv());
   page::Page page = paper_page(sections, origin_of(data));
-  page.answers = {
-      .are_given = true, .with_curves = true, .data = origins_of_points(data, sections, folder)};
+  page.answers = {.are_given = true, .with_curves = true};
   // the data stand beside as CSV, and README.md shows the files themselves
   page::draw_pictures(page, folder, {.with_script = false, .on_white = true});
   write_html_file(folder / "paper.html", page);

@@ -2,8 +2,6 @@
 // The report of a reproduction: README.md, paper.html (opens offline), figures/*.svg,
 // data/*.csv.
 
-#include <filesystem>
-
 #include "experiments/paper/sections.hpp"
 
 namespace ballast {
@@ -13,10 +11,8 @@ namespace ballast {
 void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
                         const std::filesystem::path& folder);
 
-/// What the finished runs were made by: programs, machines, steps, wall clock; one sentence each.
-std::vector<page::Text> origin_of(PaperData& data);
-
-/// The page that both files are written from; its figures are not drawn yet.
+/// The page that both files are written from; its figures are not drawn yet. `origin`: what the
+/// runs were made by, one sentence each.
 page::Page paper_page(const std::vector<PaperSection>& sections,
                       const std::vector<page::Text>& origin);
 

@@ -1,7 +1,5 @@
 #include "experiments/paper/section.hpp"
 
-#include <algorithm>
-
 #include "platform/csv.hpp"
 #include "platform/text.hpp"
 
@@ -42,6 +40,53 @@ void PaperSection::report(const std::string& name, const page::Values& values) {
   findings.push_back({cells.at(0), cells.at(1)});
 }
 
+void PaperSection::add(page::Table table) {
+  if (!table.rows.empty()) tables.push_back(std::move(table));
+}
+
+page::Text words_of(const SampleMean& mean, double factor) {
+  return page::with_error(factor * mean.mean, factor * mean.error);
+}
+
+page::Text samples_of(const Group& group) { return std::to_string(group.samples.size()); }
+
+page::Text words_of(const PowerFit& fit) {
+  if (!std::isfinite(fit.exponent)) return "–";
+  page::Text text = page::number(fit.exponent);
+  if (std::isfinite(fit.half_width))
+    text += std::string(" ") +
+            page::interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
+  return text + " (R² " + page::number(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
+}
+
+page::Text words_of(const Proportion& fit, int digits) {
+  return page::number(fit.factor, digits) + " " + page::interval(fit.low, fit.high);
+}
+
+page::Text words_of(const Misfit& misfit) {
+  return "χ²/dof " + page::number(misfit.reduced, 2) + ", p " + words_of_p(misfit.p);
+}
+
+page::Text words_of_p(double p) { return p < 1e-4 ? page::Text("< 1e-4") : page::number(p, 2); }
+
+page::Text words_with_interval(const SampleMean& mean) {
+  if (!std::isfinite(mean.mean)) return "–";
+  page::Text words = page::number(mean.mean);
+  if (mean.samples < 2) return words + " (one sample)";
+  const double half = mean.half_width();
+  return words + " " + page::interval(mean.mean - half, mean.mean + half);
+}
+
+page::Text words_of_change(const SampleMean& change) {
+  if (!std::isfinite(change.mean)) return "–";
+  const page::Text mean = page::percent(std::expm1(change.mean));
+  const double half = change.half_width();
+  if (!std::isfinite(half)) return mean;
+  return mean + " " +
+         page::interval(100.0 * std::expm1(change.mean - half),
+                        100.0 * std::expm1(change.mean + half));
+}
+
 Panel frequency_panel(const std::string& y_label) {
   return {.x_label = "{/:Italic ν}  (Hz)",
           .y_label = y_label,
@@ -51,17 +96,18 @@ Panel frequency_panel(const std::string& y_label) {
           .x_ticks = {1, 2, 5, 10, 20, 60}};
 }
 
-Curve points_of(VariedCurve points, const std::string& title, Ink ink) {
-  for (double& bar : points.error)
+Curve curve_of(const Points& points, const std::string& title, Ink ink, MarkShape shape) {
+  Curve curve{.x = points.x,
+              .y = points.y,
+              .title = title,
+              .ink = ink,
+              .mark = Mark::points,
+              .shape = shape,
+              .width = 2.4,
+              .y_error = points.error};
+  for (double& bar : curve.y_error)
     if (!std::isfinite(bar)) bar = 0.0;  // one sample: no bar
-  return {.x = std::move(points.x),
-          .y = std::move(points.y),
-          .title = title,
-          .ink = ink,
-          .mark = Mark::points,
-          .width = 2.4,
-          .y_error = std::move(points.error),
-          .origins = std::move(points.origins)};
+  return curve;
 }
 
 std::string figure_csv(const Figure& figure) {

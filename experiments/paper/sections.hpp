@@ -1,73 +1,48 @@
 #pragma once
-// The report's sections: what is run (campaign.hpp), what is measured (observables.hpp,
-// grain_fields.hpp), fitted and drawn.
+// The report's sections: which stages of the campaign each needs, and what makes it.
 
 #include <span>
-#include <string>
-#include <vector>
 
-#include "experiments/paper/paper_data.hpp"
 #include "experiments/paper/section.hpp"
 
 namespace ballast {
 
-/// One section of the report: the target of `ballast paper` that makes it, and which of the
-/// campaign's runs it draws. Its heading is words(name.heading).
+/// One section of the report: the target of `ballast paper` that makes it. Its heading is
+/// words(name.heading), its first paragraph words(name.intro). `fill` adds to what its rows in the
+/// tables of laws and cases give; null: nothing.
 struct ReportSection {
-  const char* name;                                           ///< "fig9"
-  PaperSection (*make)(PaperData&);                           ///< without name and heading
-  bool needs_motion;                                          ///< the 5 Hz runs with stored states
-  std::vector<Varied> needs;                                  ///< points of these
-  bool (*needs_point)(const CampaignPoint& point) = nullptr;  ///< of them only where true
+  const char* name;  ///< "fig9"
+  std::vector<const char*> stages;
+  void (*fill)(PaperData& data, PaperSection& section) = nullptr;
 };
-/// The first result, then in the paper's order. A new figure is its file, its words in texts/, and
-/// in sections.cpp its declaration and its row.
+/// The first result, then in the paper's order. A new section is its row in sections.cpp, its words
+/// in texts/, and a row of a table (laws.cpp, cases.cpp) or a function of its own.
 std::span<const ReportSection> paper_sections();
 
-/// Names that `ballast paper` takes: those of the sections, and "all".
-std::vector<std::string> paper_targets();
-/// Indices of the runs a target needs, in the campaign's order. Throws std::invalid_argument naming
-/// the target and what there is.
-std::vector<size_t> runs_for(const Campaign& campaign, const std::string& target);
+/// Names that `ballast paper` takes: those of the sections, of the stages, and "all".
+std::vector<std::string> paper_targets(const std::vector<CampaignRun>& campaign);
 /// What a target needs as plans, one for each stage: to be run in this order. Runs of which a row
-/// alone is known are left out. Throws as runs_for.
+/// alone is known are left out. Throws std::invalid_argument naming the target and what there is.
 std::vector<Plan> stages_of(const PaperData& data, const std::string& target);
-/// The sections of a target. Throws std::invalid_argument when there is none.
+/// The sections of a target; of a stage's, all that draw it.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 
-/// The finished values of what is varied. Says in the section what the campaign has planned of them
-/// and not finished: "PARTIAL: 3 of 10 frequencies, 6 of 30 runs."
-std::vector<VariedValue> read_values(PaperData& data, Varied varied, PaperSection& section);
+/// Figures and tables that are rows of a table: power laws (laws.cpp), then cases (cases.cpp).
+void add_laws(PaperData& data, PaperSection& section);
+void add_cases(PaperData& data, PaperSection& section);
 
-/// The values of what is varied as the axes of a figure: y the mean of `quantity` with its standard
-/// error.
-VariedCurve curve_of_values(const std::vector<VariedValue>& values, double Observation::*quantity,
-                            double factor = 1.0);
-
-/// C of Eq. 3, sample by sample.
-SampleMean prefactor_of(const VariedValue& value);
-
-/// "1.23 ± 0.04"
-page::Text words_of(const SampleMean& mean, double factor = 1.0);
-/// "3": samples that are finished.
-page::Text samples_of(const VariedValue& value);
-/// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995)".
-page::Text words_of(const PowerFit& fit);
-/// How far a law misses a curve's points, in their errors.
-struct Misfit {
-  double reduced = not_known;  ///< chi^2 over its degrees of freedom
-  double p = not_known;        ///< of so large a misfit where the law holds
-};
-Misfit misfit_of(const PowerFit& fit, const VariedCurve& curve);
-/// "χ²/dof 3.2, p 0.004"; what a reader has to know about it: words("misfit").
-page::Text words_of(const Misfit& misfit);
-/// "0.004", "< 1e-4"
-page::Text words_of_p(double p);
-
-/// What the legend says of points that are means over seeds.
-inline constexpr const char* mean_title = "mean over samples ± standard error";
-/// Measured points, the fitted power law, and the paper's exponent through the fit at x = `middle`.
-std::vector<Curve> power_law_curves(const VariedCurve& points, const PowerFit& fit, double expected,
-                                    double middle);
+// what fills sections besides
+void fill_curve(PaperData& data, PaperSection& section);  ///< all that is varied on one curve
+void fill_rates(PaperData& data, PaperSection& section);  ///< Fig. 13 (Eqs. 4 and 5)
+void fill_replicas(PaperData& data, PaperSection& section);
+void fill_reading(PaperData& data, PaperSection& section);     ///< both scenes beside the paper
+void fill_motion(PaperData& data, PaperSection& section);      ///< Fig. 3: x(t), first contraction
+void fill_forces(PaperData& data, PaperSection& section);      ///< Fig. 4: f_g(x), the jam
+void fill_model(PaperData& data, PaperSection& section);       ///< Fig. 5: Eq. 2 integrated
+void fill_velocities(PaperData& data, PaperSection& section);  ///< Fig. 6: grains, the roll
+void fill_chains(PaperData& data, PaperSection& section);      ///< Fig. 7: chains, stress
+void fill_portraits(PaperData& data, PaperSection& section);   ///< Fig. 8: phase portraits
+void fill_density(PaperData& data, PaperSection& section);     ///< Fig. 12: solid fraction
+void fill_packing(PaperData& data, PaperSection& section);     ///< contacts, forces, anisotropies
 
 }  // namespace ballast

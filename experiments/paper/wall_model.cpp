@@ -43,19 +43,12 @@ ModelPhase released(const WallModel& model, ModelPhase phase, double x, double l
 
 }  // namespace
 
-ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& start, int parts) {
+ModelMotion integrate(const WallModel& model, int parts) {
   const double dt = 1.0 / (model.load.frequency * parts);
   ModelMotion motion;
   ModelPhase phase = ModelPhase::jammed_before;
   Moving wall;
-  int first = 0;
-  // taken up in the middle of the rise, or jammed at the period's begin
-  if (start) {
-    phase = ModelPhase::out;
-    wall = {start->x, start->v};
-    first = static_cast<int>(std::lround(start->time / dt));
-  }
-  for (int k = first; k <= parts; ++k) {
+  for (int k = 0; k <= parts; ++k) {
     const double t = k * dt, load = model.load.at(t);
     // at rest the load decides whether it leaves, and which way
     const bool rests = phase != ModelPhase::out && phase != ModelPhase::in;

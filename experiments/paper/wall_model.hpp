@@ -2,7 +2,6 @@
 // The paper's phenomenological model: the wall's equation (Eq. 2) with f_g(x) from the fits of Fig.
 // 4, integrated over one period.
 
-#include <optional>
 #include <vector>
 
 #include "experiments/measure/curve_fit.hpp"
@@ -28,16 +27,10 @@ struct ModelMotion {
   bool jams = false;  ///< the wall comes back to its jamming position within the period
 };
 
-/// Where a motion is taken up that has left the jam already: time in the period [s], x [m], v > 0
-/// [m/s].
-struct ModelStart {
-  double time = 0.0, x = 0.0, v = 0.0;
-};
-
 /// m_w dv/dt = f_g - f(t) by Heun's rule, `parts` steps a period: out while f_g = active(x), in
 /// while f_g = passive; at rest while f lies between the two; jammed (f_g = f) where it started or
-/// came back to. Begins jammed at the period's begin, or at `start`.
-ModelMotion integrate(const WallModel& model, const std::optional<ModelStart>& start = {},
-                      int parts = 20000);
+/// came back to. Begins jammed at the
+/// period's begin.
+ModelMotion integrate(const WallModel& model, int parts = 20000);
 
 }  // namespace ballast

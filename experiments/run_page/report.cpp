@@ -344,9 +344,8 @@ void write_report(const std::filesystem::path& folder) {
   page::Section motion{"motion", "What happens"};
   motion.add(replay_of_run(data));
   // What must be known first stands first.
-  const RunTrust trust = trust_of(data);
-  const std::vector<std::string> words = trust_words(trust);
-  if (!trust.is_clean()) data.notices.insert(data.notices.begin(), words.begin(), words.end());
+  const std::vector<std::string> words = trust_words(summary);
+  if (!is_clean(summary)) data.notices.insert(data.notices.begin(), words.begin(), words.end());
   const bool has_packing = *summary.facts.has_packing;
   page::Page page;
   page.title = name_of_run(data);

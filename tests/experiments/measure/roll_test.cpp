@@ -62,26 +62,14 @@ TEST_CASE("a side without a grain makes the roll not known") {
   CHECK_FALSE(roll.goes_round());
 }
 
-TEST_CASE("displacements are of the first bodies alone, at the middle of their way") {
-  std::vector<Pose> before(3), after(3);
-  after[1].position = Vec3(0.2, 0, 0);
-  const auto list = displacements(before, after, 2);
-  REQUIRE(list.size() == 2);
-  CHECK(list[1].move.x() == 0.2);
-  CHECK(list[1].place.x() == 0.1);
-}
-
-TEST_CASE("the field's cells hold the means of their grains, and nothing without grains") {
-  const auto field = roll_field(std::vector<Displacement>{{Vec3(0.1, 0, 0.1), Vec3(1, 0, 2)},
-                                                          {Vec3(0.2, 0, 0.2), Vec3(3, 0, 2)},
+TEST_CASE("the field's cells hold the means of their grains; cells without grains are left out") {
+  const auto cells = cell_means(std::vector<Displacement>{{Vec3(0.1, 0, 0.6), Vec3(1, 0, 2)},
+                                                          {Vec3(0.2, 0, 0.7), Vec3(3, 0, 2)},
                                                           {Vec3(5, 0, 0), Vec3(9, 9, 9)}},
                                 {0, 1, 0, 1}, 2, 2);
-  REQUIRE(field.move_x.size() == 4);
-  CHECK(field.move_x[0] == 2.0);
-  CHECK(field.move_z[0] == 2.0);
-  CHECK(std::isnan(field.move_x[3]));
-  CHECK(field.x[1] == Approx(0.75));
-  CHECK(field.z[2] == Approx(0.75));
+  REQUIRE(cells.size() == 1);
+  CHECK(cells[0].move.isApprox(Vec3(2, 0, 2)));
+  CHECK(cells[0].place.isApprox(Vec3(0.25, 0, 0.75)));
 }
 
 TEST_CASE("displacements of whole periods are taken between the frames at their ends") {

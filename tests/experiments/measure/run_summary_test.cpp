@@ -241,5 +241,92 @@ TEST_CASE("single NaN samples are passed over") {
   CHECK(summary.loop.passive.slope == Approx(clean.loop.passive.slope).epsilon(1e-2));
 }
 
+constexpr double row_step = 1e-3, load_frequency = 5.0;
+
+/// rho grows by `gain` a period and swings within it, which must not enter.
+std::vector<StepRecord> growing(double gain, double duration) {
+  std::vector<StepRecord> steps;
+  for (long k = 1; k <= std::lround(duration / row_step); ++k) {
+    StepRecord step;
+    step.time = static_cast<double>(k) * row_step;
+    const double turns = step.time * load_frequency;
+    step.solid_fraction = 0.5 + gain * turns + 0.01 * std::sin(2.0 * std::numbers::pi * turns);
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+Compaction measured(const std::vector<StepRecord>& steps, double frequency = load_frequency) {
+  RunFacts facts;
+  facts.frequency = frequency;
+  facts.step = row_step;
+  facts.solid_fraction_initial = 0.49;
+  facts.has_wall = facts.has_packing = true;
+  return summarise(steps, facts).compaction;
+}
+
+TEST_CASE("compaction of a solid fraction that grows and swings") {
+  const auto steps = growing(0.002, 2.0);
+  const Compaction compaction = measured(steps);
+  CHECK(compaction.initial == 0.49);
+  CHECK(compaction.reference == Approx(0.502));  // one period after the start
+  CHECK(compaction.gain == Approx(0.002));
+  CHECK(compaction.relative_gain == Approx(0.002 / 0.502));
+  CHECK(compaction.rate == Approx(0.002 * load_frequency / 0.502));
+  CHECK(compaction.rate_common == Approx(compaction.rate));
+}
+
+TEST_CASE("the two windows of Eq. 4 see what happens in them") {
+  auto steps = growing(0.0, 2.0);
+  for (StepRecord& step : steps)
+    if (step.time > 1.5) step.solid_fraction += 0.01;
+  const Compaction compaction = measured(steps);
+  CHECK(compaction.rate == Approx(0.01 / (0.5 * 1.8)));
+  CHECK(compaction.rate_common == Approx(0.0).margin(1e-12));  // ends at 1 s
+}
+
+TEST_CASE("too short for a whole period there is neither gain nor rate") {
+  const Compaction compaction = measured(growing(0.002, 0.3));
+  CHECK(compaction.reference == Approx(0.502));
+  CHECK(std::isnan(compaction.gain));
+  CHECK(std::isnan(compaction.rate));
+  CHECK(
+      std::isnan(compaction_rate(growing(0.002, 1.0), load_frequency, row_step, 0.5, {0.85, 1.0})));
+  CHECK(std::isnan(compaction_rate({}, load_frequency, row_step, 0.5, paper_window)));
+}
+
+TEST_CASE("without a known frequency the solid fraction is still told") {
+  const auto steps = growing(0.002, 1.0);
+  const Compaction compaction = measured(steps, not_known);
+  CHECK(compaction.reference == Approx(0.502));
+  CHECK(std::isnan(compaction.gain));
+  CHECK(std::isnan(compaction.rate));
+}
+
+TEST_CASE("the roll of whole periods needs frames at their ends and the box") {
+  RunSummary summary;
+  summary.facts.step = 1e-4;
+  summary.facts.grains = 25;
+  summary.facts.length = summary.facts.height = 1.0;
+  summary.facts.largest_size = 0.3;
+  summary.wall.periods.resize(1);
+  summary.wall.periods[0].begin = 0.2;
+  summary.wall.periods[0].end = 0.4;
+  std::vector<PoseFrame> frames(2);
+  for (int f = 0; f < 2; ++f) {
+    frames[f].time = 0.2 + 0.2 * f;
+    for (int k = 0; k < 25; ++k) {
+      const double x = 0.25 * (k % 5), z = 0.25 * (k / 5);  // a clockwise turn by a hundredth
+      Pose pose;
+      pose.position = Vec3(x + 0.01 * f * (z - 0.5), 0, z - 0.01 * f * (x - 0.5));
+      frames[f].pose.push_back(pose);
+    }
+  }
+  CHECK(roll_of_periods(frames, summary).goes_round());
+  frames.pop_back();
+  CHECK(std::isnan(roll_of_periods(frames, summary).circulation));
+  CHECK(std::isnan(roll_of_periods(frames, {}).circulation));
+}
+
 }  // namespace
 }  // namespace ballast

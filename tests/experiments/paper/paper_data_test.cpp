@@ -1,8 +1,7 @@
-// Runs that are there, beside runs of which a row alone is known.
+// Runs that are there, beside runs of which a row alone is known; and what rows say together.
 
 #include "experiments/paper/paper_data.hpp"
 
-#include "experiments/paper/sections.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -10,77 +9,142 @@ using namespace ballast;
 
 namespace {
 
-Campaign one_sample() {
-  CampaignSettings settings;
-  settings.seeds = 1;
-  return make_campaign(settings);
+const Selection frequencies{"ν", {"frequency"}};
+
+bool is_first_sample(const CampaignRun&, const Scene& scene) {
+  return scene.grains->seed == 1 && (scene.drive.frequency == 5.0 || scene.drive.frequency == 20.0);
 }
 
-/// The rows of a campaign whose runs at these frequencies are in `folder`.
-std::vector<RunObservables> rows_of(const std::filesystem::path& folder,
-                                    std::initializer_list<double> frequencies) {
-  const Campaign campaign = one_sample();
-  for (const CampaignPoint& point : campaign.points)
-    if (point.varied == Varied::frequency && std::ranges::count(frequencies, point.value) > 0)
-      write_run(folder, campaign.runs[point.run].planned);
-  return PaperData(campaign, folder).observables();
+PaperData with_rows(const TemporaryFolder& folder, const CampaignSettings& settings,
+                    const std::vector<RunRow>& rows) {
+  return PaperData(read_campaign(settings), folder.path(), rows);
+}
+
+/// The rows of frequency; other stages have some of its runs too.
+std::vector<RunRow> frequency_rows(const TemporaryFolder& folder) {
+  std::vector<RunRow> rows = written(folder.path(), {"frequency"}, {}, is_first_sample).rows();
+  std::erase_if(rows, [](const RunRow& row) { return row.stage != "frequency"; });
+  return rows;
+}
+
+/// A row for each rise, of seeds from 1 on.
+Group group_of(double value, const std::vector<double>& rises, std::vector<RunRow>& rows) {
+  Group group{value, "", {}};
+  for (size_t k = 0; k < rises.size(); ++k) {
+    RunRow& row = rows.emplace_back();
+    row.run.facts.seed = static_cast<int>(k) + 1;
+    row.run.facts.frequency = value;
+    row.run.rise.mean = rises[k];
+    group.samples.push_back(&row);
+  }
+  return group;
 }
 
 }  // namespace
 
 TEST_CASE("a row stands for its run: it is drawn as if it were there, and not made again") {
   const TemporaryFolder there, here;
-  const std::vector<RunObservables> rows = rows_of(there.path(), {5.0, 20.0});
+  const std::vector<RunRow> rows = frequency_rows(there);
   REQUIRE(rows.size() == 2);
-  PaperData data(one_sample(), here.path(), rows);
+  PaperData data = with_rows(here, {}, rows);
   CHECK(data.finished() == 0);
   CHECK(data.known_by_row() == 2);
-  CHECK(data.motion().empty());  // whole states stand in records alone
-  const std::vector<VariedValue> values = data.values(Varied::frequency);
-  REQUIRE(values.size() == 2);
-  CHECK(values[1].value == 20.0);
-  CHECK(values[1].samples.front().rise == rows[1].seen.rise);
-  CHECK_THAT(data.missing(Varied::frequency), Catch::Contains("2 of 10 frequencies"));
-  CHECK(data.knows(values[0].runs.front()));
-  CHECK_FALSE(data.has(values[0].runs.front()));
+  CHECK(data.records("frequency").empty());
+  const Groups groups = data.groups(frequencies, frequency_of);
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[1].value == 20.0);
+  CHECK(groups[1].first().rise.mean == rows[1].run.rise.mean);
+  CHECK(data.missing("frequency") == "PARTIAL: 2 of 27 runs of frequency.");
   size_t planned = 0;
-  for (const Plan& stage : stages_of(data, "fig9")) planned += stage.runs.size();
-  CHECK(planned == runs_for(data.campaign(), "fig9").size() - 2);
-}
-
-TEST_CASE("a row counts all periods of its run, and serves no point that counts fewer") {
-  const TemporaryFolder there, here;
-  // 10 Hz for 1 s is the base of the other series too, which count 0.7 s of it
-  PaperData data(one_sample(), here.path(), rows_of(there.path(), {10.0}));
-  CHECK(data.values(Varied::frequency).size() == 1);
-  CHECK(data.values(Varied::force).empty());
-  CHECK_THAT(data.missing(Varied::force), Catch::Contains("0 of 5 runs"));
+  for (const Plan& stage : stages_of(data, "frequency")) planned += stage.runs.size();
+  CHECK(planned == 25);
 }
 
 TEST_CASE("a run whose row was given and that was made here tells whether both are the same") {
   const TemporaryFolder there, here;
-  std::vector<RunObservables> rows = rows_of(there.path(), {5.0, 20.0});
-  rows_of(here.path(), {5.0, 20.0, 60.0});
-  CHECK(PaperData(one_sample(), here.path()).repeats().made == 0);
-  PaperData same(one_sample(), here.path(), rows);
-  CHECK(same.known_by_row() == 0);
-  CHECK(same.repeats().made == 2);
-  CHECK(same.repeats().same == 2);
+  std::vector<RunRow> rows = frequency_rows(there);
+  written(here.path(), {"frequency"}, {}, is_first_sample);
+  CHECK(with_rows(here, {}, {}).repeats() == std::pair(0, 0));
+  CHECK(with_rows(here, {}, rows).repeats() == std::pair(2, 2));
   rows.front().record[0] ^= 1;
-  PaperData other(one_sample(), here.path(), rows);
-  CHECK(other.repeats().made == 2);
-  CHECK(other.repeats().same == 1);
+  PaperData other = with_rows(here, {}, rows);
+  CHECK(other.repeats() == std::pair(2, 1));
+  CHECK(other.known_by_row() == 0);
+  // a record without poses is measured, and that is said
+  CHECK(other.notices().size() == 2);
+  CHECK_THAT(other.notices().front(), Catch::Contains("No poses") && Catch::Contains("record.h5"));
 }
 
-TEST_CASE("rows of another campaign are named, not drawn") {
+TEST_CASE("rows of another campaign are counted, and drawn where no run stands in their place") {
   const TemporaryFolder there, here;
-  const std::vector<RunObservables> rows = rows_of(there.path(), {5.0, 20.0});
-  CHECK(PaperData(one_sample(), here.path(), rows).foreign_rows().empty());
-  CampaignSettings settings;
-  settings.seeds = 1;
-  settings.overrides = {"grains.count=300"};
-  PaperData other(make_campaign(settings), here.path(), rows);
-  CHECK(other.known_by_row() == 0);
-  CHECK(other.foreign_rows().size() == 2);
-  CHECK(std::ranges::count(other.foreign_rows(), rows.front().name) == 1);
+  std::vector<RunRow> rows = frequency_rows(there);
+  for (RunRow& row : rows) {
+    row.key += "0";
+    row.run.rise.mean = 7.0;
+  }
+  written(here.path(), {"frequency"}, {}, [](const CampaignRun& run, const Scene& scene) {
+    return is_first_sample(run, scene) && scene.drive.frequency == 5.0;
+  });
+  PaperData data = with_rows(here, {}, rows);
+  CHECK(data.foreign() == 2);
+  CHECK(data.rows(frequencies).size() == 3);
+  const Groups groups = data.groups(frequencies, frequency_of);
+  REQUIRE(groups.size() == 2);
+  REQUIRE(groups[0].samples.size() == 1);
+  CHECK(groups[0].first().rise.mean != 7.0);
+  CHECK(groups[1].first().rise.mean == 7.0);
+  CHECK(data.settings(frequencies).size() == 2);
+}
+
+TEST_CASE("targets are sections and stages; an unknown one is refused with what there is") {
+  const TemporaryFolder folder;
+  const PaperData data = with_rows(folder, {}, {});
+  const std::vector<std::string> targets = paper_targets(data.campaign());
+  CHECK(targets.front() == "curve");
+  CHECK(targets.back() == "all");
+  std::set<std::string> drawn, stages;
+  for (const ReportSection& section : paper_sections()) {
+    INFO(section.name);
+    CHECK_FALSE(page::words(section.name + std::string(".heading")).empty());
+    drawn.insert(section.stages.begin(), section.stages.end());
+  }
+  for (const CampaignRun& run : data.campaign()) CHECK(drawn.contains(run.stage));
+  for (const Plan& plan : stages_of(data, "all")) CHECK(stages.insert(plan.name).second);
+  CHECK(stages_of(data, "box").size() == 1);
+  CHECK(stages_of(data, "fig10").size() == 3);
+  CHECK_THROWS_WITH(stages_of(data, "fig2"), Catch::Contains("'fig2'") && Catch::Contains("fig13"));
+}
+
+TEST_CASE("what is compared between two groups compares every sample with itself") {
+  std::vector<RunRow> rows;
+  rows.reserve(20);
+  // ten times the displacement in the second sample: no error of the exponent
+  const Groups groups{group_of(5.0, {4.0, 40.0, 7.0}, rows), group_of(10.0, {1.0, 10.0}, rows)};
+  const SampleMean exponent = exponent_by_sample(groups, frequency_of, rise_of, 2);
+  CHECK(exponent.samples == 2);
+  CHECK(exponent.mean == Approx(-2.0));
+  CHECK(exponent.error == Approx(0.0).margin(1e-12));
+  CHECK(exponent_by_sample(groups, frequency_of, rise_of).samples == 0);
+  const SampleMean change = log_change(groups[0], groups[1], rise_of);
+  CHECK(change.mean == Approx(-std::log(4.0)));
+  CHECK(change.samples == 2);
+  CHECK(at(groups, 10.0) == &groups[1]);
+  CHECK(at(groups, 7.0) == nullptr);
+  CHECK(groups[0].mean(rise_of).mean == Approx(17.0));
+}
+
+TEST_CASE("what a packing has in common is in the scatter between samples, not from run to run") {
+  std::vector<RunRow> rows;
+  rows.reserve(20);
+  // two packings that always differ by a factor e^2, and runs that miss that by e^0.2
+  const Groups groups{group_of(1.0, {1.0, std::exp(2.2)}, rows),
+                      group_of(2.0, {std::exp(5.0), std::exp(6.8)}, rows),
+                      group_of(3.0, {std::exp(7.0)}, rows)};
+  const PooledError between = scatter_between(groups, rise_of),
+                    paired = scatter_paired(groups, rise_of);
+  CHECK(between.degrees_of_freedom == 2);
+  CHECK(between.deviation == Approx(std::sqrt(0.5 * (2.2 * 2.2 / 2.0 + 1.8 * 1.8 / 2.0))));
+  CHECK(paired.degrees_of_freedom == 1);
+  CHECK(paired.deviation == Approx(0.2));  // differences of 2.2 and 1.8, made of four runs
+  CHECK(scatter_paired({groups[0]}, rise_of).degrees_of_freedom == 0);
 }

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/paper/section.hpp"
-#include "experiments/plans/plan.hpp"
+#include "experiments/paper/sections.hpp"
 #include "experiments/run/manifest.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -71,7 +70,7 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
   write_steps_csv(folder / "steps.csv", scaled_record(scene, law));
   Manifest manifest(scene.name, run.overrides, run_key(run));
   const double g = scene.gravity.norm();
-  manifest.summary("grains", 1200);
+  manifest.summary("grains", scene.grains->count);
   manifest.summary("grain_mass_kg", mass);
   manifest.summary("weight_N", mass * g);
   manifest.summary("f_max_N", scene.drive.f_max_over_weight * mass * g);
@@ -83,6 +82,20 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
   manifest.write(folder / "manifest.json");
 }
 
+/// The built-in campaign's runs of these stages, those that `is_wanted`, made by a law.
+inline PaperData written(
+    const std::filesystem::path& results, const std::vector<std::string>& stages,
+    const PaperLaw& law = {},
+    const std::function<bool(const CampaignRun&, const Scene&)>& is_wanted = {}) {
+  static const std::vector<CampaignRun> campaign = read_campaign({});
+  for (const CampaignRun& run : campaign) {
+    if (std::ranges::count(stages, run.stage) == 0 || is_finished(results, run.planned)) continue;
+    const Scene scene = read_scene(find_scene(run.planned.scene), run.planned.overrides);
+    if (!is_wanted || is_wanted(run, scene)) write_run(results, run.planned, law);
+  }
+  return PaperData(campaign, results);
+}
+
 /// The first row of this claim, in plain words.
 inline const AgreementRow& row_of(const std::vector<PaperSection>& sections,
                                   const std::string& paper) {
@@ -91,6 +104,14 @@ inline const AgreementRow& row_of(const std::vector<PaperSection>& sections,
       if (plain_words(row.paper) == paper) return row;
   FAIL("no row says " + paper);
   return sections.front().rows.front();
+}
+
+/// What was found, in plain words, of the finding whose first part begins so.
+inline std::string found_of(const PaperSection& section, const std::string& what) {
+  for (const BeyondRow& row : section.findings)
+    if (plain_words(row.what).starts_with(what)) return plain_words(row.found);
+  FAIL("no finding of " + what);
+  return {};
 }
 
 }  // namespace ballast

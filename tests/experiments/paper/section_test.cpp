@@ -1,6 +1,5 @@
 #include "experiments/paper/section.hpp"
 
-#include "experiments/measure/curve_fit.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -10,7 +9,8 @@ TEST_CASE("a figure's data are its panels and curves, row by row") {
   figure.panels.resize(1);
   figure.panels[0].x_label = "t, s";
   figure.panels[0].y_label = "x";
-  figure.panels[0].curves = {points_of({{1.0, 2.0}, {3.0, 4.5}, {0.5, not_known}}, "", Ink::blue)};
+  figure.panels[0].curves = {
+      curve_of(Points{{1.0, 2.0}, {3.0, 4.5}, {0.5, not_known}}, "", Ink::blue)};
   CHECK(figure_csv(figure) ==
         "panel,y_label,curve,x_label,x,y,y_error,y_low\n1,x,1,\"t, s\",1,3,0.5,\n"
         "1,x,1,\"t, s\",2,4.5,0,\n");
@@ -46,7 +46,6 @@ TEST_CASE("a figure has its words, and files that sort by number") {
                 {"raw", "0.5"},
                 {"scaled", "0.1"},
                 {"samples", "3"},
-                {"from_after", "0.2"},
                 {"more", "x"}});
   REQUIRE(section.figures.size() == 1);
   const page::Picture& picture = section.figures[0];
@@ -57,7 +56,7 @@ TEST_CASE("a figure has its words, and files that sort by number") {
   CHECK_THAT(plain_words(picture.caption[1]), Catch::Contains("0.5 raw, 0.1 scaled"));
   CHECK(picture.files.spans.at(0).link == "data/fig08.csv");
   section.draw("fig10_mass", {.name = "mine", .title = "Mine"},
-               {{"exponent", "1"}, {"misfit", "2"}, {"frequency", "10"}, {"end", "0.7"}});
+               {{"exponent", "1"}, {"misfit", "2"}});
   CHECK(section.figures[1].plot.name == "mine");
   CHECK(section.figures[1].plot.title == "Mine");
 }
@@ -73,8 +72,8 @@ TEST_CASE(
   CHECK_THAT(plain_words(section.rows[0].ballast), Catch::StartsWith("distance raw 0.5, scaled"));
   CHECK(section.rows[0].agreement == Agreement::differs);
   CHECK(std::string(word_of(Agreement::differs)) == "DIFFERS");
-  section.report("sensitivity.claim", {{"what", "steps"}, {"found", "nothing"}});
+  section.report("curve.bend", {{"bend", "nothing"}});
   REQUIRE(section.findings.size() == 1);
-  CHECK(plain_words(section.findings[0].what) == "Δx_max by steps");
+  CHECK(plain_words(section.findings[0].what) == "the curve bends");
   CHECK(section.rows.size() == 1);
 }

@@ -1,0 +1,368 @@
+// Tables of cases: what was changed, each case at the values it was driven at, and what follows,
+// sample by sample. A section is a row of `case_tables` below and its words.
+
+#include <algorithm>
+#include <limits>
+
+#include "experiments/paper/sections.hpp"
+
+namespace ballast {
+namespace {
+
+/// The columns of every table of cases, and their names with units.
+struct StageColumn {
+  const char* head;
+  double factor;  ///< from SI
+  RunMeasure value;
+};
+constexpr StageColumn stage_columns[] = {
+    {"Δx~max~ (mm)", 1e3, rise_of},
+    {"C", 1.0, prefactor_of},
+    {"C by the theory", 1.0, theory_of},
+    {"F/(m g)", 1.0, push_of},
+    {"v~max~ (mm/s)", 1e3, speed_of},
+    {"net a period (mm)", 1e3, [](const RunSummary& run) { return run.net_contraction; }},
+    {"ρ before", 1.0, [](const RunSummary& run) { return run.compaction.initial; }},
+    {"Δρ~1~ (10^−4^)", 1e4, gain_of},
+    {"η (10^−3^/s)", 1e3, rate_of},
+    {"η, 0.4–1 s", 1e3, common_rate_of},
+    {"t~90~ (s)", 1.0, [](const RunSummary& run) { return run.contraction.time90; }},
+    {"error (g·h)", 1.0, [](const RunSummary& run) { return run.error_counted; }}};
+
+bool has_word(const RunRow& row, const char* word) {
+  return row.name.find(word) != std::string::npos;
+}
+bool is_deposit(const RunRow& row, bool is_pressed, double friction) {
+  return (row.run.facts.lid_pressure > 0.0) == is_pressed &&
+         row.run.facts.deposit_friction == friction;
+}
+/// Rows of 23 November 2026 and before: two hundred iterations a step, whatever the error.
+bool is_of_200(const RunRow& row) { return row.run.facts.iterations_most == 200.0; }
+bool is_load(const RunRow& row, double force, bool is_half) {
+  return std::abs(force_of(row.run) / force - 1.0) < 1e-6 &&
+         (row.run.facts.largest_size < 0.04) == is_half;
+}
+bool is_of_size(const RunRow& row, const char* word) {
+  return row.stage == "sizes"
+             ? has_word(row, word)
+             : is_deposit(row, true, 0.4) && frequency_of(row.run) == 5.0 && is_of_200(row);
+}
+bool is_usual(const RunRow& row) {
+  const RunFacts& facts = row.run.facts;
+  return facts.friction == 0.4 && facts.lid_raise == 0.01 && facts.largest_size == 0.05 &&
+         (facts.solver == "nesterov_pgs" || facts.solver == "nncg");
+}
+
+struct CaseTable {
+  const char* section;
+  RunMeasure along;  ///< what the rows of a case are at
+  const char* unit;  ///< of it
+  std::vector<Selection> cases;
+  RunMeasure exponent_along = nullptr;  ///< null: no exponents
+  bool has_changes = false;             ///< of each case beside the first
+};
+
+const std::vector<CaseTable>& case_tables() {
+  using Row = const RunRow&;
+  // one of the older rows of deposits stands under the stage that asked for it first
+  const auto is_plain = [](Row r) {
+    return is_deposit(r, true, 0.4) &&
+           (r.stage == "deposits" || (is_of_200(r) && frequency_of(r.run) == 10.0));
+  };
+  const auto is_old_plain = [](Row r) {
+    return is_deposit(r, true, 0.4) && is_of_200(r) &&
+           (r.stage == "deposits" || frequency_of(r.run) == 10.0);
+  };
+  const RunMeasure length = [](const RunSummary& run) { return run.facts.length; };
+  const RunMeasure aspect = [](const RunSummary& run) {
+    return run.facts.length / run.facts.height;
+  };
+  const RunMeasure side = [](const RunSummary& run) { return std::cbrt(run.facts.grains); };
+  const RunMeasure nu = frequency_of;
+  static const std::vector<CaseTable> tables{
+      {"fig9", nu, " Hz", {{"ν", {"frequency", "slowest"}}}},
+      {"box",
+       length,
+       " m",
+       {{"5 Hz", {"box"}, [](Row r) { return frequency_of(r.run) == 5.0; }},
+        {"20 Hz", {"box"}, [](Row r) { return frequency_of(r.run) == 20.0; }}},
+       aspect},
+      {"tight",
+       nu,
+       " Hz",
+       {{"error ≤ 1e-2 g·h", {"tight"}},
+        {"error ≤ 1e-3 g·h", {"tightest"}},
+        {"LMGC90’s rule", {"rule"}},
+        {"200 iterations a step", {"deposits", "looseness"}, is_old_plain},
+        {"the campaign’s own", {"frequency"}}},
+       nu,
+       true},
+      {"deposits",
+       nu,
+       " Hz",
+       {{"lid pressed, μ 0.4", {"deposits", "looseness"}, is_plain},
+        {"lid pressed, μ 0.8", {"deposits"}, [](Row r) { return is_deposit(r, true, 0.8); }},
+        {"lid placed, μ 0.4", {"deposits"}, [](Row r) { return is_deposit(r, false, 0.4); }},
+        {"lid placed, μ 0.8", {"deposits"}, [](Row r) { return is_deposit(r, false, 0.8); }}},
+       nu,
+       true},
+      {"loads",
+       nu,
+       " Hz",
+       {{"f_max = 6 m g", {"loads"}, [](Row r) { return is_load(r, 6.0, false); }},
+        {"f_max = 12 m g", {"loads"}, [](Row r) { return is_load(r, 12.0, false); }},
+        {"f_max = 6 m g, all at half scale",
+         {"loads"},
+         [](Row r) { return is_load(r, 6.0, true); }}}},
+      {"shapes",
+       nu,
+       " Hz",
+       {{"as the campaign’s",
+         {"shapes", "deposits"},
+         [](Row r) {
+           return r.stage == "shapes" ? has_word(r, "base")
+                                      : is_deposit(r, true, 0.4) && is_of_200(r);
+         }},
+        {"angular and platy", {"shapes"}, [](Row r) { return has_word(r, "platy"); }},
+        {"spheres of 162 vertices", {"shapes"}, [](Row r) { return has_word(r, "spheres"); }},
+        {"fractions by mass", {"shapes"}, [](Row r) { return has_word(r, "mass"); }}},
+       nullptr,
+       true},
+      {"sizes",
+       grains_of,
+       "",
+       {{"similar boxes, H/L fixed",
+         {"sizes", "deposits"},
+         [](Row r) { return is_of_size(r, "similar"); }},
+        {"wider boxes, H/d fixed",
+         {"sizes", "deposits"},
+         [](Row r) { return is_of_size(r, "wide"); }}},
+       side},
+      {"laws",
+       nu,
+       " Hz",
+       {{"Coulomb’s law", {"laws"}, [](Row r) { return r.run.facts.solver != "sap"; }},
+        {"its convex relaxation", {"laws"}, [](Row r) { return r.run.facts.solver == "sap"; }}},
+       nullptr,
+       true},
+      {"sensitivity",
+       [](const RunSummary& run) { return run.facts.step; },
+       " s",
+       {{"step h", {"sensitivity"}, is_usual}}},
+      {"sensitivity",
+       [](const RunSummary& run) { return run.facts.friction; },
+       "",
+       {{"friction μ", {"sensitivity"}, [](Row r) { return r.run.facts.friction != 0.4; }}}},
+      {"sensitivity",
+       [](const RunSummary& run) { return run.facts.lid_raise; },
+       " m",
+       {{"gap under the lid",
+         {"sensitivity"},
+         [](Row r) { return r.run.facts.lid_raise != 0.01; }}}},
+      {"reading", nu, " Hz", {{"vibrated_box_paper", {"reading"}}}}};
+  return tables;
+}
+
+/// A case that has rows.
+struct Case {
+  const char* name;
+  Groups groups;
+};
+
+/// A row for each case and value.
+page::Table stage_table(const std::vector<Case>& cases, const char* unit) {
+  page::Text heads;
+  for (const StageColumn& column : stage_columns)
+    add_to_list(heads, page::marked(column.head), " || ");
+  page::Table table = page::words_table("cases", {{"columns", heads}});
+  for (const Case& row : cases)
+    for (const Group& group : row.groups) {
+      table.rows.push_back({row.name, group.label + unit, samples_of(group)});
+      for (const StageColumn& column : stage_columns)
+        table.rows.back().push_back(words_of(group.mean(column.value), column.factor));
+    }
+  return table;
+}
+
+/// Over all values of a case, over its frequencies from 5 to 60 Hz, or between two of them: what
+/// cases that were driven at fewer are compared by.
+struct Range {
+  double low, high;
+  bool is_pair;
+};
+constexpr Range all_values[] = {{0.0, 1e9, false}},
+                by_frequency[] = {{5.0, 60.0, false}, {10.0, 60.0, true}, {20.0, 60.0, true}};
+
+/// The groups within a range; of frequencies none where an end is not there.
+Groups within(const Groups& groups, const Range& range) {
+  if (range.low == 0.0) return groups;
+  Groups kept;
+  if (!at(groups, range.low) || !at(groups, range.high)) return kept;
+  for (const Group& group : groups)
+    if (group.value >= range.low && group.value <= range.high &&
+        (!range.is_pair || group.value == range.low || group.value == range.high))
+      kept.push_back(group);
+  return kept;
+}
+
+/// Exponents of Delta x_max and v_max, sample by sample; each case's first ones are findings.
+void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperSection& section) {
+  page::Table table = page::words_table("exponents");
+  const bool is_frequency = what.exponent_along == frequency_of;
+  for (const Case& row : cases) {
+    bool is_first = true;
+    for (const Range& range :
+         is_frequency ? std::span<const Range>(by_frequency) : std::span<const Range>(all_values)) {
+      const Groups groups = within(row.groups, range);
+      if (groups.size() < (range.is_pair ? 2 : 3)) continue;
+      const size_t fewest = is_frequency ? groups.size() : 3;
+      const SampleMean rise = exponent_by_sample(groups, what.exponent_along, rise_of, fewest),
+                       speed = exponent_by_sample(groups, what.exponent_along, speed_of, fewest);
+      const page::Text over = groups.front().label + (range.is_pair ? " and " : " to ") +
+                              groups.back().label + what.unit;
+      table.rows.push_back({row.name, over, std::to_string(rise.samples), words_with_interval(rise),
+                            words_with_interval(speed)});
+      if (std::exchange(is_first, false))
+        section.report(section.id + ".claim", {{"case", row.name},
+                                               {"range", over},
+                                               {"rise", words_with_interval(rise)},
+                                               {"speed", words_with_interval(speed)}});
+    }
+  }
+  section.add(table);
+}
+
+/// What every other case does beside the first at the same value, and how likely so large a change
+/// of C is by chance: alone, and among all of the table.
+void add_changes(const CaseTable& what, const std::vector<Case>& cases, PaperSection& section) {
+  page::Table table = page::words_table("changes", {{"reference", cases.front().name}});
+  std::vector<double> chances;
+  for (const Case& row : cases)
+    for (const Group& group : row.groups) {
+      const Group* same = at(cases.front().groups, group.value);
+      if (&row == &cases.front() || !same) continue;
+      const SampleMean change = log_change(*same, group, prefactor_of);
+      if (!std::isfinite(change.mean)) continue;
+      chances.push_back(change.p());
+      table.rows.push_back(
+          {row.name, group.label + what.unit, words_of_change(change), words_of_p(change.p()),
+           page::Text(), words_of_change(log_change(*same, group, speed_of)),
+           words_of_change(log_change(*same, group,
+                                      [](const RunSummary& run) { return run.compaction.gain; }))});
+    }
+  const std::vector<double> corrected = holm(chances);
+  for (size_t k = 0; k < corrected.size(); ++k) table.rows[k][4] = words_of_p(corrected[k]);
+  if (!what.exponent_along)
+    for (const std::vector<page::Text>& row : table.rows)
+      section.report(section.id + ".claim", {{"case", row[0]},
+                                             {"at", row[1]},
+                                             {"change", row[2]},
+                                             {"p", row[3]},
+                                             {"speed", row[5]},
+                                             {"gain", row[6]}});
+  section.add(table);
+}
+
+std::vector<double> all_of(const std::vector<const RunRow*>& rows, RunMeasure measure) {
+  std::vector<double> all;
+  for (const RunRow* row : rows) all.push_back(measure(row->run));
+  return all;
+}
+
+/// Standard deviation over the mean, in percent.
+page::Text scatter_words(const std::vector<double>& values) {
+  const SampleMean mean = sample_mean(values);
+  if (mean.samples < 2) return "–";
+  const double deviation = mean.error * std::sqrt(static_cast<double>(mean.samples));
+  return page::number(100.0 * deviation / std::abs(mean.mean), 2);
+}
+
+/// One of the paper's numbers: an exponent of nu, or a measure at the paper's 5 Hz.
+struct PaperNumber {
+  const char* name;
+  PaperRange range;
+  RunMeasure measure;
+  bool is_exponent;
+};
+const PaperNumber paper_numbers[] = {
+    {"exponent of Δx~max~ in ν", PaperRange::exponent(-2.0), rise_of, true},
+    {"exponent of v~max~ in ν", PaperRange::exponent(-1.0), speed_of, true},
+    {"C at 5 Hz", PaperRange::roughly(paper::prefactor), prefactor_of, false},
+    {"ρ before the drive", PaperRange::about(paper::solid_fraction_initial, 0.005),
+     [](const RunSummary& run) { return run.compaction.initial; }, false},
+    {"Δρ~1~/ρ~0~ a period at 5 Hz", PaperRange::roughly(paper::gain_per_period),
+     [](const RunSummary& run) { return run.compaction.relative_gain; }, false}};
+
+Found found_of(const PaperNumber& number, const Groups& groups) {
+  if (!number.is_exponent) {
+    const Group* slow = at(groups, 5.0);
+    return slow ? found(slow->mean(number.measure)) : Found{};
+  }
+  const Points points = points_of(groups, frequency_of, number.measure);
+  const PowerFit fit = fit_power(points.x, points.y);
+  return std::isfinite(fit.exponent) ? found(fit, misfit_of(fit, points).p) : Found{};
+}
+
+}  // namespace
+
+void add_cases(PaperData& data, PaperSection& section) {
+  for (const CaseTable& what : case_tables()) {
+    if (section.id != what.section) continue;
+    std::vector<Case> cases;
+    for (const Selection& selection : what.cases)
+      if (Groups groups = data.groups(selection, what.along); !groups.empty())
+        cases.push_back({selection.name, std::move(groups)});
+    if (cases.empty()) continue;
+    section.add(stage_table(cases, what.unit));
+    if (what.exponent_along) add_exponents(what, cases, section);
+    if (what.has_changes) add_changes(what, cases, section);
+  }
+}
+
+void fill_replicas(PaperData& data, PaperSection& section) {
+  const auto slow = data.rows(
+                 {"", {"replicas"}, [](const RunRow&r) { return frequency_of(r.run) == 10.0; }}),
+             fast = data.rows(
+                 {"", {"replicas"}, [](const RunRow&r) { return frequency_of(r.run) == 60.0; }});
+  if (slow.size() + fast.size() < 2) return;
+  page::Table table = page::words_table("replicas.table");
+  for (const StageColumn& column : stage_columns) {
+    table.rows.push_back({page::marked(column.head)});
+    for (const auto& rows : {slow, fast}) {
+      const std::vector<double> values = all_of(rows, column.value);
+      table.rows.back().push_back(page::number(column.factor * sample_mean(values).mean));
+      table.rows.back().push_back(scatter_words(values));
+    }
+  }
+  section.add(table);
+  section.report("replicas.claim", {{"slow", scatter_words(all_of(slow, rise_of))},
+                                    {"slow_runs", std::to_string(slow.size())},
+                                    {"fast", scatter_words(all_of(fast, rise_of))},
+                                    {"fast_runs", std::to_string(fast.size())}});
+}
+
+void fill_reading(PaperData& data, PaperSection& section) {
+  const Groups reading = data.groups({"", {"reading"}}, frequency_of);
+  if (reading.empty()) return;
+  // only frequencies that both scenes were driven at
+  Groups base = data.groups({"", {"frequency", "slowest"}}, frequency_of);
+  std::erase_if(base, [&](const Group& group) { return !at(reading, group.value); });
+  page::Table table = page::words_table("reading.table");
+  int agree[2] = {0, 0};
+  for (const PaperNumber& number : paper_numbers) {
+    table.rows.push_back({page::marked(number.name), words_of(number.range)});
+    for (const int scene : {0, 1}) {
+      const Found seen = found_of(number, scene == 0 ? base : reading);
+      const Agreement verdict = agreement_of(number.range, seen);
+      agree[scene] += verdict == Agreement::agrees || verdict == Agreement::partly;
+      table.rows.back().push_back(words_of(seen));
+      table.rows.back().push_back(word_of(verdict));
+    }
+  }
+  section.add(table);
+  section.report("reading.claim", {{"base", std::to_string(agree[0])},
+                                   {"reading", std::to_string(agree[1])},
+                                   {"all", std::to_string(table.rows.size())}});
+}
+
+}  // namespace ballast

@@ -1,0 +1,367 @@
+// Figs. 6 and 7: fields in a section along the middle of the box. Velocities of the grains while
+// the wall moves in, and what is left of the motion over whole periods, where a roll would be seen;
+// normal forces, passive and active, the principal directions of the stress, and how the forces are
+// distributed.
+
+#include <array>
+#include <cmath>
+
+#include "experiments/paper/motion.hpp"
+#include "experiments/record/record_file.hpp"
+
+namespace ballast {
+namespace {
+
+/// Grains whose centres are this near the middle plane are drawn [m]: two layers.
+constexpr double half_section_of_grains = 0.05;
+constexpr double rms_arrow = 0.025;  // how long the rms velocity is drawn [m]
+
+/// Arrows as lines: shaft and two barbs, NaN between them. Lengths in the plot's units (axes of
+/// equal scale).
+void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
+  const auto add = [&](double a, double b) {
+    curve.x.push_back(a);
+    curve.y.push_back(b);
+  };
+  const double length = std::hypot(dx, dz);
+  if (!(length > 0.0)) return;
+  // barbs at 2.6 rad (150 degrees) to the shaft
+  const double barb = 0.3 * length, c = std::cos(2.6), s = std::sin(2.6);
+  add(x, z);
+  add(x + dx, z + dz);
+  for (const double side : {-s, s}) {
+    add(not_known, not_known);
+    add(x + dx, z + dz);
+    add(x + dx + barb * (c * dx - side * dz) / length,
+        z + dz + barb * (side * dx + c * dz) / length);
+  }
+  add(not_known, not_known);
+}
+
+/// Arrows in the box around them, on axes of equal scale.
+Figure arrows_in_box(Curve arrows, const XzRectangle& box) {
+  constexpr double margin = 0.03;  // [m]
+  const Curve walls{.x = {box.x_lo, box.x_hi, box.x_hi, box.x_lo, box.x_lo},
+                    .y = {0.0, 0.0, box.z_hi, box.z_hi, 0.0},
+                    .ink = Ink::black};
+  const double aspect = (box.z_hi + 2.0 * margin) / (box.x_hi - box.x_lo + 2.0 * margin);
+  return {.width = 800,
+          .height = static_cast<int>(78.0 + 680.0 * aspect),  // margins of plot_layout
+          .panels = {{.x_label = "{/:Italic x}  (m): the driven wall is on the right",
+                      .y_label = "{/:Italic z}  (m)",
+                      .y_min = -margin,
+                      .y_max = box.z_hi + margin,
+                      .x_min = box.x_lo - margin,
+                      .x_max = box.x_hi + margin,
+                      .curves = {walls, std::move(arrows)}}}};
+}
+
+struct Field {
+  Figure figure;
+  double wall = 0.0;   ///< inward speed of the wall [m/s]
+  double speed = 0.0;  ///< rms of the grains drawn [m/s]
+};
+
+Field draw(const StoredState& state) {
+  const MotionState& motion = state.at.state;
+  // the grains of the section, and how fast they are
+  std::vector<size_t> section;
+  double squares = 0.0;
+  for (size_t k = 0; k < static_cast<size_t>(state.system.grain_count); ++k)
+    if (std::abs(motion.pose[k].position.y() - state.middle()) < half_section_of_grains) {
+      section.push_back(k);
+      squares += motion.velocity[k].squaredNorm();
+    }
+  const double speed =
+      std::sqrt(squares / std::max<double>(1.0, static_cast<double>(section.size())));
+  const double scale = speed > 0.0 ? rms_arrow / speed : 0.0;
+  Curve arrows{.width = 1.2};
+  for (const size_t k : section)
+    add_arrow(arrows, motion.pose[k].position.x(), motion.pose[k].position.z(),
+              scale * motion.velocity[k].x(), scale * motion.velocity[k].z());
+  const double right = state.wall(wall_x_max).x(), left = state.wall(wall_x_min).x();
+  return {arrows_in_box(std::move(arrows), {left, right, 0.0, state.wall(wall_lid).z()}),
+          -state.wall_speed, speed};
+}
+
+/// The mean displacement of a period on a grid: a roll would close. `rms` of the cells [m].
+Figure period_field(const MotionRun& run, double& rms) {
+  const RunFacts& facts = run.summary.facts;
+  const XzRectangle box{0.0, facts.length, 0.0, facts.height};
+  const auto frames = read_record_poses(run.data.folder / "record.h5");
+  const std::vector<Displacement> cells =
+      cell_means(period_displacements(frames, run.summary.wall.periods, facts.step,
+                                      static_cast<size_t>(facts.grains)),
+                 box, 9, 8);
+  double squares = 0.0;
+  for (const Displacement& cell : cells)
+    squares += cell.move.x() * cell.move.x() + cell.move.z() * cell.move.z();
+  rms = std::sqrt(squares / static_cast<double>(cells.size()));
+  Curve arrows{.width = 1.2};
+  for (const Displacement& cell : cells)
+    add_arrow(arrows, cell.place.x(), cell.place.z(), rms_arrow / rms * cell.move.x(),
+              rms_arrow / rms * cell.move.z());
+  return arrows_in_box(std::move(arrows), box);
+}
+
+/// Contacts this near the middle plane are drawn [m].
+constexpr double half_section_of_contacts = 0.08;
+constexpr size_t classes = 8;          // of thickness
+constexpr double chain_margin = 0.02;  // around the box [m]
+
+/// The normal forces of one state near the middle plane: segments between the centres of touching
+/// grains (to the contact at walls).
+struct Chains {
+  struct Segment {
+    Vec3 from, to;
+    double force;  ///< normal [N]
+  };
+  std::vector<Segment> segments = {};
+  double mean = 0.0;                          ///< normal force of all contacts of the state [N]
+  double left = 0.0, right = 0.0, top = 0.0;  ///< of the box [m]
+};
+
+Chains chains_of(const StoredState& state) {
+  Chains chains;
+  chains.left = state.wall(wall_x_min).x();
+  chains.right = state.wall(wall_x_max).x();
+  chains.top = state.wall(wall_lid).z();
+  const std::vector<PairForce> pairs = state.pairs();
+  const auto centre = [&](int body, const PairForce& pair) -> Vec3 {
+    return body < state.system.grain_count ? state.at.state.pose[static_cast<size_t>(body)].position
+                                           : pair.position;
+  };
+  for (const PairForce& pair : pairs) {
+    chains.mean += pair.normal_force() / static_cast<double>(pairs.size());
+    if (std::abs(pair.position.y() - state.middle()) < half_section_of_contacts)
+      chains.segments.push_back(
+          {centre(pair.body_a, pair), centre(pair.body_b, pair), pair.normal_force()});
+  }
+  return chains;
+}
+
+/// Thickness in eight classes of `width` newtons, the same in all panels. Three of them stand in
+/// the key.
+Panel panel_of(const Chains& chains, double width, const std::string& title, bool has_key) {
+  // one curve for each thickness: gnuplot draws a curve in one width
+  std::array<Curve, classes> curves;
+  for (const Chains::Segment& segment : chains.segments) {
+    Curve& curve =
+        curves[static_cast<size_t>(std::min(classes - 1.0, std::floor(segment.force / width)))];
+    for (const Vec3& end : {segment.from, segment.to}) {
+      curve.x.push_back(end.x());
+      curve.y.push_back(end.z());
+    }
+    curve.x.push_back(not_known);
+    curve.y.push_back(not_known);
+  }
+  const Curve walls{.x = {chains.right, chains.left, chains.left, chains.right},
+                    .y = {0.0, 0.0, chains.top, chains.top},
+                    .ink = Ink::grey},
+      driven{.x = {chains.right, chains.right},
+             .y = {0.0, chains.top},
+             .ink = Ink::vermilion,
+             .width = 3.0};
+  Panel panel{.x_label = "{/:Italic x}  (m)   " + title,
+              .y_label = "{/:Italic z}  (m)",
+              .y_min = -chain_margin,
+              .y_max = chains.top + chain_margin,
+              .x_min = chains.left - chain_margin,
+              .x_max = chains.right + chain_margin,
+              .curves = {walls, driven}};
+  const auto newtons = [&](size_t n) {
+    return plot_label(page::number(width * static_cast<double>(n), 2));
+  };
+  for (size_t k = 0; k < classes; ++k) {
+    if (curves[k].x.empty()) continue;
+    curves[k].ink = Ink::black;
+    curves[k].width = 0.3 + 0.75 * static_cast<double>(k);
+    if (has_key && (k == 1 || k == 4))
+      curves[k].title = newtons(k) + " to " + newtons(k + 1) + " N";
+    if (has_key && k == classes - 1) curves[k].title = "above " + newtons(k) + " N";
+    panel.curves.push_back(curves[k]);
+  }
+  return panel;
+}
+
+/// The phases in the order of the table, with the mean stress of a run's states in each.
+constexpr std::pair<WallPhase, const char*> phases[] = {
+    {WallPhase::passive, "passive"}, {WallPhase::jammed, "jammed"}, {WallPhase::active, "active"}};
+constexpr size_t passive = 0, jammed = 1, active = 2;
+
+struct PhaseStress {
+  Mat3 sum = Mat3::Zero();
+  bool is_known = false;
+
+  void add(const StoredState& state) {
+    sum += stress_tensor(state.system, state.at.state, state.pairs(),
+                         box_volume(state.system, state.at.state));
+    is_known = true;
+  }
+  double inclination() const { return is_known ? major_inclination(sum) : not_known; }
+  double ratio() const { return is_known ? sum(0, 0) / sum(2, 2) : not_known; }
+};
+
+/// "Nearly" horizontal or vertical [degrees].
+constexpr double nearly = 20.0;
+
+/// Histogram of f/<f>, as a density.
+class Histogram {
+ public:
+  void add(const std::vector<double>& values) {
+    for (const double value : values) {
+      const auto bin = static_cast<size_t>(value / width);
+      if (bin < bins) counts_[bin] += 1.0;
+      total_ += 1.0;
+    }
+  }
+  bool is_empty() const { return total_ == 0.0; }
+  Curve curve(const char* title, Ink ink) const {
+    Curve result{.title = title, .ink = ink};
+    for (size_t k = 0; k < bins; ++k) {
+      if (counts_[k] == 0.0) continue;
+      result.x.push_back(middle(k));
+      result.y.push_back(counts_[k] / (total_ * width));
+    }
+    return result;
+  }
+  /// Decay of the tail: P ~ exp(-beta f/<f>) from the mean to six means.
+  double beta() const {
+    std::vector<double> x, y;
+    // Bins 4 to 23 reach from the mean force to six of them; nearly empty ones say nothing.
+    for (size_t k = 4; k < 24; ++k) {
+      if (counts_[k] <= 4.0) continue;
+      x.push_back(middle(k));
+      y.push_back(std::log(counts_[k]));
+    }
+    return -fit_line(x, y).slope;
+  }
+
+ private:
+  static constexpr double width = 0.25;  // of a bin, in means
+  static constexpr size_t bins = 40;
+  static double middle(size_t bin) { return (static_cast<double>(bin) + 0.5) * width; }
+  std::array<double, bins> counts_{};
+  double total_ = 0.0;
+};
+
+}  // namespace
+
+void fill_velocities(PaperData& data, PaperSection& section) {
+  const std::vector<MotionRun> runs = read_motion(data);
+  // of the first sample the state with the fastest inward wall is drawn
+  Field field;
+  if (!runs.empty())
+    for_each_state(runs.front(), [&](const StoredState& state) {
+      if (state.phase == WallPhase::passive && -state.wall_speed > field.wall) field = draw(state);
+    });
+  if (field.figure.panels.empty()) {
+    section.notes.push_back("PARTIAL: no stored state in the passive phase.");
+    return;
+  }
+  // Seen from the other side every roll turns round, and the text does not say from which side the
+  // paper looks: a roll of either sense will do.
+  std::vector<double> round;
+  double closed = 0.0;
+  for (const RunRow* row : data.rows({"", {"motion"}})) {
+    round.push_back(row->run.roll.roundness());
+    closed += row->run.roll.goes_round();
+  }
+  const SampleMean roundness = sample_mean(round);
+  page::Values words{{"wall", page::number(1e3 * field.wall)},
+                     {"arrow", page::number(1e3 * field.speed)},
+                     {"round", words_of(roundness)},
+                     {"closed", page::number(closed)},
+                     {"samples", std::to_string(round.size())}};
+  section.draw("fig6", field.figure, words);
+  if (roundness.samples > 0) {
+    double rms = 0.0;
+    const Figure drift = period_field(runs.front(), rms);
+    words.emplace("drift", page::number(1e3 * rms));
+    section.draw("fig6b", drift, words);
+  }
+  section.claim("fig6.roll", words, PaperRange::at_least(0.0), found(roundness));
+}
+
+void fill_chains(PaperData& data, PaperSection& section) {
+  const std::vector<MotionRun> runs = read_motion(data);
+  std::array<std::vector<double>, 3> angles, ratios;  // by phase, one of each run
+  std::array<Chains, 3> drawn;                        // of the first run's fastest states
+  std::array<double, 3> fastest{};
+  int states = 0;
+  for (const MotionRun& run : runs) {
+    std::array<PhaseStress, 3> stress;
+    states += for_each_state(run, [&](const StoredState& state) {
+      for (size_t k = 0; k < 3; ++k) {
+        if (state.phase != phases[k].first) continue;
+        stress[k].add(state);
+        // of the first sample the states with the fastest wall are drawn
+        const double speed = std::abs(state.wall_speed);
+        if (k == jammed || &run != &runs.front() || speed <= fastest[k]) continue;
+        fastest[k] = speed;
+        drawn[k] = chains_of(state);
+      }
+    });
+    for (size_t k = 0; k < 3; ++k) {
+      angles[k].push_back(stress[k].inclination());
+      ratios[k].push_back(stress[k].ratio());
+    }
+  }
+  if (states == 0) {
+    section.notes.push_back("PARTIAL: no stored states.");
+    return;
+  }
+  // angles and ratios are means over samples: one number of each run
+  page::Table table = page::words_table("fig7.table");
+  std::array<SampleMean, 3> mean;
+  for (size_t k = 0; k < 3; ++k) {
+    mean[k] = sample_mean(angles[k]);
+    table.rows.push_back({phases[k].second, words_of(mean[k]), words_of(sample_mean(ratios[k]))});
+  }
+  section.add(table);
+  const page::Values words{{"passive", words_of(mean[passive])},
+                           {"active", words_of(mean[active])},
+                           {"mean_in", page::number(drawn[passive].mean)},
+                           {"mean_out", page::number(drawn[active].mean)}};
+  if (!drawn[passive].segments.empty() && !drawn[active].segments.empty()) {
+    // one scale for both: eight classes, to four times the larger mean force
+    const double width = 0.5 * std::max(drawn[passive].mean, drawn[active].mean);
+    const Panel in = panel_of(drawn[passive], width, "passive: the wall moves in", true),
+                out = panel_of(drawn[active], width, "active: the wall moves out", false);
+    const double aspect = (*in.y_max - *in.y_min) / (*in.x_max - *in.x_min);
+    section.draw("fig7",
+                 {.width = 760,
+                  .height = static_cast<int>(2.0 * (100.0 + 640.0 * aspect)),
+                  .panels = {in, out}},
+                 words);
+  }
+  section.claim("fig7.passive", words, PaperRange::at_most(nearly), found(mean[passive]));
+  section.claim("fig7.active", words, PaperRange::at_least(90.0 - nearly), found(mean[active]));
+}
+
+void fill_packing(PaperData& data, PaperSection& section) {
+  constexpr std::array<Ink, 3> inks{Ink::vermilion, Ink::green, Ink::blue};
+  std::array<Histogram, 3> forces;  // by phase
+  for (const MotionRun& run : read_motion(data))
+    for_each_state(run, [&](const StoredState& state) {
+      for (size_t k = 0; k < 3; ++k)
+        if (state.phase == phases[k].first)
+          forces[k].add(relative_normal_forces(state.system, state.pairs()));
+    });
+  Panel panel{.x_label = "{/:Italic f}_n / ⟨{/:Italic f}_n⟩",
+              .y_label = "probability density",
+              .log_y = true};
+  page::Text tails;
+  for (size_t k = 0; k < 3; ++k) {
+    if (forces[k].is_empty()) continue;
+    panel.curves.push_back(forces[k].curve(phases[k].second, inks[k]));
+    add_to_list(tails, std::string(phases[k].second) + " β = " + page::number(forces[k].beta()),
+                ", ");
+  }
+  if (panel.curves.empty())
+    section.notes.push_back("PARTIAL: no stored states.");
+  else
+    section.draw("forces", {.panels = {panel}}, {{"tails", tails}});
+}
+
+}  // namespace ballast
