@@ -1,84 +1,137 @@
 #include "experiments/bench/kernels.hpp"
 
-#include <benchmark/benchmark.h>
-
-#include <map>
-#include <sstream>
+#include <algorithm>
+#include <memory>
 #include <stdexcept>
 
-#include "experiments/bench/sweep_floor.hpp"
+#include "experiments/step/time_step.hpp"
+#include "platform/clock.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
 
 namespace ballast {
 namespace {
 
-/// Collects CPU ns per item of every repetition.
-class SampleReporter : public benchmark::BenchmarkReporter {
- public:
-  explicit SampleReporter(const std::map<std::string, double>& items) : items_(items) {}
-  bool ReportContext(const Context&) override { return true; }
-  void ReportRuns(const std::vector<Run>& runs) override {
-    for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
-      const std::string& name = run.run_name.function_name;
-      samples[name].push_back(1e9 * run.cpu_accumulated_time / static_cast<double>(run.iterations) /
-                              items_.at(name));
-    }
-  }
-  std::map<std::string, std::vector<double>> samples;
+/// A step of the driven box, with the problem that it solved.
+struct StepWork {
+  BenchStart start;
+  StepSettings settings;
+  TimeStepper stepper;
+  ProblemAssembler assembler;
+  ContactJudge judge;
+  Eigen::VectorXd v_free;
+  FrictionProblem problem;
+  Impulses rows, warm;
+  std::vector<Vec3> world;
 
- private:
-  const std::map<std::string, double>& items_;
+  StepWork(const DepositedBox& box, int steps)
+      : start(driven_start(box)),
+        settings(step_settings(box.scene)),
+        stepper(start.system, settings, start.system.first_driven_wall()),
+        assembler(start.system) {
+    for (int k = 0; k < steps; ++k) stepper.step(start.state, start.memory);
+    stepper.warm_start(warm);
+    assembler.pack(start.state, v_free);
+    assemble();
+    assembler.to_world(rows = stepper.impulses(), stepper.contacts(), world);
+  }
+  void assemble() {
+    const double end = start.state.time + settings.h;
+    assembler.assemble({start.state, stepper.contacts(), v_free, settings.h, end}, problem);
+  }
 };
 
-/// Copies of the problem that make its records larger than any cache.
-int streaming_copies(const KernelProblem& problem, const KernelBenchOptions& options,
-                     const MachineFacts& facts) {
-  const double last = facts.caches.empty() ? 32e6 : 1024.0 * facts.caches.back().kilobytes;
-  const double wanted = options.streaming_MB > 0.0 ? 1e6 * options.streaming_MB : 2.0 * last;
-  return 1 + static_cast<int>(wanted / std::max(1.0, sweep_working_set(problem.problem)));
+struct DetectionWork {
+  ContactDetector detector;
+  std::vector<Pose> poses;
+  std::vector<double> reach;
+  std::vector<ContactPoint> contacts;
+
+  DetectionWork(const BenchStart& start, DetectionSettings settings, bool use_cache)
+      : detector(contact_shapes(start.system), (settings.use_cache = use_cache, settings)),
+        poses(start.state.pose),
+        reach(poses.size(), 0.0) {}
+  void all() { detector.detect(poses, reach, contacts); }
+};
+
+struct SweepWork {
+  const FrictionProblem problem;
+  const Impulses start;
+  Impulses end;
+  AnySweep sweep;
+
+  SweepWork(const StepWork& step, bool in_single)
+      : problem(step.stepper.problem()), start(step.warm), end(start.size()) {
+    sweep.prepare(problem);
+    sweep->allow_single(in_single);
+    sweep->load(problem, start);
+    sweep->start_search();
+  }
+};
+
+/// CPU ns per item of each repetition. The first call is not timed: it makes what others find.
+std::vector<double> samples_of(const Kernel& kernel, const KernelBenchOptions& options) {
+  kernel.call();
+  std::vector<double> samples;
+  for (long calls = 1; samples.size() < static_cast<size_t>(options.repeats);) {
+    const double begin = processor_seconds();
+    for (long k = 0; k < calls; ++k) kernel.call();
+    const double seconds = processor_seconds() - begin;
+    if (seconds < options.min_time)
+      calls *= 2;
+    else
+      samples.push_back(1e9 * seconds / (static_cast<double>(calls) * kernel.items));
+  }
+  return samples;
 }
 
 }  // namespace
 
-std::vector<Measurement> run_kernels(const KernelProblem& problem,
-                                     const KernelBenchOptions& options, const MachineFacts& facts) {
+std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
+  const auto step = std::make_shared<StepWork>(box, steps);
   std::vector<Kernel> kernels;
-  add_detection_kernels(kernels);
-  add_problem_kernels(problem, kernels);
-  add_sweep_kernels(problem, streaming_copies(problem, options, facts), kernels);
-  add_one_contact_kernels(kernels);
-  add_factor_kernels(problem, kernels);
-
-  std::map<std::string, double> items;
-  benchmark::ClearRegisteredBenchmarks();
-  for (const Kernel& kernel : kernels) {
-    const std::string name = kernel.group + "/" + kernel.name;
-    items[name] = kernel.items;
-    benchmark::RegisterBenchmark(
-        name.c_str(),
-        [&kernel](benchmark::State& state) {
-          kernel.call();  // what is made at the first call is not part of the next
-          for (auto _ : state) kernel.call();
-        })
-        ->MinTime(options.min_time)
-        ->Repetitions(options.repeats);
+  for (const bool use_cache : {false, true}) {
+    const auto work =
+        std::make_shared<DetectionWork>(step->start, step->settings.detection, use_cache);
+    work->all();
+    const double pairs = static_cast<double>(work->detector.counters().candidate_pairs);
+    kernels.push_back({"detection", use_cache ? "axes kept" : "from scratch", "ns/pair",
+                       std::max(1.0, pairs), [work] { work->all(); }});
   }
-  SampleReporter reporter(items);
-  std::ostringstream unsaid;  // the library's own complaint about a filter: ours is an exception
-  reporter.SetErrorStream(&unsaid);
-  benchmark::RunSpecifiedBenchmarks(&reporter, options.filter.empty() ? "." : options.filter);
-  benchmark::ClearRegisteredBenchmarks();
+  const double contacts = std::max(1, step->problem.contact_count());
+  const auto add = [&](const char* group, const std::string& name, std::function<void()> call) {
+    kernels.push_back({group, name, "ns/contact", contacts, std::move(call)});
+  };
+  add("problem", "assembly", [step] { step->assemble(); });
+  add("problem", "validation", [step] { step->problem.validate(); });
+  add("problem", "judge", [step] { step->judge.judge(step->problem, step->rows); });
+  add("problem", "rows to world",
+      [step] { step->assembler.to_world(step->rows, step->stepper.contacts(), step->world); });
+  add("problem", "world to rows", [step] { step->assembler.to_rows(step->world, step->rows); });
+  for (const bool in_single : {false, true}) {
+    const auto work = std::make_shared<SweepWork>(*step, in_single);
+    const std::string how = in_single ? " in float lanes" : "";
+    add("sweep", "sweep" + how, [work] { work->sweep->sweep(); });
+    // What an iteration of nncg does between two looks at the error.
+    add("sweep", "sweep along a search" + how, [work] { work->sweep->sweep_along({0.1, 1.0}); });
+    add("sweep", "error" + how, [work] { work->sweep->error(); });
+    if (in_single) break;
+    add("sweep", "prepare", [work] { work->sweep.prepare(work->problem); });
+    add("sweep", "load", [work] { work->sweep->load(work->problem, work->start); });
+    add("sweep", "store", [work] { work->sweep->store(work->problem, work->end); });
+  }
+  return kernels;
+}
 
+std::vector<Measurement> run_kernels(const std::vector<Kernel>& kernels,
+                                     const KernelBenchOptions& options) {
   std::vector<Measurement> measurements;
-  for (const Kernel& kernel : kernels) {
-    const auto found = reporter.samples.find(kernel.group + "/" + kernel.name);
-    if (found != reporter.samples.end())
-      measurements.push_back(measurement_of(kernel.group, kernel.name, kernel.unit, found->second));
-  }
+  for (const Kernel& kernel : kernels)
+    if ((kernel.group + "/" + kernel.name).find(options.filter) != std::string::npos)
+      measurements.push_back(
+          measurement_of(kernel.group, kernel.name, kernel.unit, samples_of(kernel, options)));
   if (measurements.empty())
     throw std::invalid_argument("no kernel is called like '" + options.filter + "'");
-  for (Measurement& m : floor_measurements(problem.problem, facts))
-    measurements.push_back(std::move(m));
   return measurements;
 }
 

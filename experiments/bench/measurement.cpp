@@ -11,7 +11,6 @@
 #include "experiments/page/markdown.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/csv.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 
@@ -19,15 +18,6 @@ namespace ballast {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json json_of(const MachineFacts& facts) {
-  Json json = {{"read_GB_s", facts.read_GB_s},
-               {"triad_GB_s", facts.triad_GB_s},
-               {"gflops", facts.gflops},
-               {"caches_kB", Json::object()}};
-  for (const CacheSize& cache : facts.caches) json["caches_kB"][cache.name] = cache.kilobytes;
-  return json;
-}
 
 std::string in_digits(double value) { return printed("%.4g", value); }
 
@@ -49,8 +39,7 @@ Measurement measurement_of(const std::string& group, const std::string& name,
 }
 
 void write_bench_result(const std::filesystem::path& folder, const std::string& kind,
-                        const std::string& command, const MachineFacts& facts,
-                        const std::vector<Measurement>& measurements) {
+                        const std::string& command, const std::vector<Measurement>& measurements) {
   create_folder(folder);
   Json json = Json::parse(
       Manifest("bench " + kind, {command}, "").text());  // program, machine, time of day
@@ -58,12 +47,8 @@ void write_bench_result(const std::filesystem::path& folder, const std::string& 
   json.erase("summary");
   json["kind"] = kind;
   json["command"] = command;
-  json["measured_machine"] = json_of(facts);
   json["measurements"] = Json::array();
-  CsvWriter csv;
-  csv.add_row(std::vector<std::string>{"group", "name", "unit", "median", "mean", "quartile_low",
-                                       "quartile_high", "samples"});
-  for (const Measurement& m : measurements) {
+  for (const Measurement& m : measurements)
     json["measurements"].push_back({{"group", m.group},
                                     {"name", m.name},
                                     {"unit", m.unit},
@@ -72,14 +57,8 @@ void write_bench_result(const std::filesystem::path& folder, const std::string& 
                                     {"low", m.low},
                                     {"high", m.high},
                                     {"samples", m.samples}});
-    for (const std::string* text : {&m.group, &m.name, &m.unit}) csv.add(*text);
-    for (const double value : {m.median, m.mean, m.low, m.high}) csv.add(value, 6);
-    csv.add(m.samples);
-    csv.end_row();
-  }
   write_whole_file(folder / (kind + ".json"),
                    json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  write_whole_file(folder / (kind + ".csv"), csv.take());
 }
 
 BenchResult read_bench_result(const std::filesystem::path& file) {
@@ -141,6 +120,10 @@ std::string measurement_table(const std::vector<Measurement>& measurements) {
                      m.median, m.mean, m.low, m.high, m.unit.c_str(), m.samples);
   }
   return table;
+}
+
+std::string thread_words(int threads) {
+  return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
 }  // namespace ballast

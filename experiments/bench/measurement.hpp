@@ -1,12 +1,13 @@
 #pragma once
-// What `ballast bench` measures: named samples with their unit, kept as JSON and CSV with the
-// machine and the commit.
+// What `ballast bench` measures: named samples with their unit, kept as JSON with the machine and
+// the commit.
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "experiments/bench/machine_facts.hpp"
+#include "experiments/page/plot.hpp"
 
 namespace ballast {
 
@@ -22,16 +23,16 @@ struct Measurement {
 Measurement measurement_of(const std::string& group, const std::string& name,
                            const std::string& unit, std::vector<double> values);
 
-/// A file of results: of one kind (kernels, step, scaling, accuracy), machine and program.
+/// A file of results: of one kind (kernels, step, scaling, accuracy, captured), machine and
+/// program.
 struct BenchResult {
   std::string kind, command, commit, cpu;
   std::vector<Measurement> measurements;
 };
 
-/// Writes folder/<kind>.json and folder/<kind>.csv, each beside and renamed. Throws Error.
+/// Writes folder/<kind>.json, beside and renamed. Throws Error.
 void write_bench_result(const std::filesystem::path& folder, const std::string& kind,
-                        const std::string& command, const MachineFacts& facts,
-                        const std::vector<Measurement>& measurements);
+                        const std::string& command, const std::vector<Measurement>& measurements);
 
 /// A file made by write_bench_result. Throws Error naming the file and what is wrong in it.
 BenchResult read_bench_result(const std::filesystem::path& file);
@@ -42,5 +43,8 @@ std::string bench_ratio_table(const BenchResult& a, const BenchResult& b);
 
 /// The same measurements as a table for the terminal.
 std::string measurement_table(const std::vector<Measurement>& measurements);
+
+/// "1 thread", "2 threads"
+std::string thread_words(int threads);
 
 }  // namespace ballast

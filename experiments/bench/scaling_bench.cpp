@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 
+#include "experiments/compare/compare_figures.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/step/step_record.hpp"
 #include "experiments/step/time_step.hpp"
@@ -44,74 +45,71 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
   return quantile(seconds, 0.5);
 }
 
-/// Solves the step's problem once more by another solver, and notes what that took.
-void solve_again(const std::string& solver, const FrictionProblem& problem, const Impulses& start,
-                 const Budget& budget, ScalingPoint& point) {
-  const std::unique_ptr<Solver> backend = make_solver(solver);
-  WorkerTeam team;
-  team.resize(point.threads);
-  backend->use_team(&team);
-  SolverRunner runner;
-  const SolverRun run = runner.run(*backend, problem, start, budget);
-  point.iterations.push_back(run.is_solved() ? run.solved.iterations
-                                             : std::numeric_limits<double>::infinity());
-  point.seconds.push_back(run.prepare_seconds + run.solve_seconds);
-}
-
-/// What the child does.
-ScalingPoint measure_packing(const DepositedBox& box, const ScalingOptions& options,
-                             ScalingPoint point) {
-  const double before = peak_bytes();
+/// What the child does: steps, then the last step's problem once more, a sweep alone and each
+/// solver to the tolerance.
+void measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
+  const auto add = [&](const std::string& name, const char* unit, std::vector<double> values) {
+    const std::string grains = std::to_string(static_cast<long>(point.grains)) + " grains";
+    point.measured.push_back(measurement_of(thread_words(point.threads) + ", " + grains, name, unit,
+                                            {quantile(values, 0.5)}));
+  };
+  const double before = peak_bytes(), ns = 1e9 / point.grains;
   BenchStart start = tiled_start(box, point.nx, point.ny);
   StepSettings settings = step_settings(box.scene);
   settings.solver.threads = point.threads;
-  std::vector<double> detect, assemble, solve, step;
+  std::vector<StepRecord> steps;
   TimeStepper stepper(start.system, settings, -1);
-  const double ns = 1e9 / point.grains;
   // Steps with k < 0 warm up: the seams between the copies settle, caches fill.
   for (int k = -options.warm_up; k < options.steps; ++k) {
-    const StepRecord r = stepper.step(start.state, start.memory);
-    if (k < 0) continue;
-    point.contacts = r.contacts;
-    detect.push_back(ns * r.seconds_detect);
-    assemble.push_back(ns * r.seconds_assemble);
-    solve.push_back(ns * r.seconds_solve);
-    step.push_back(ns * step_seconds(r));
+    const StepRecord step = stepper.step(start.state, start.memory);
+    if (k >= 0) steps.push_back(step);
   }
-  point.detect = quantile(detect, 0.5);
-  point.assemble = quantile(assemble, 0.5);
-  point.solve = quantile(solve, 0.5);
-  point.step = quantile(step, 0.5);
-  point.bytes = (peak_bytes() - before) / point.grains;
-  // The last step's problem once more: a sweep alone, then each solver to the tolerance.
+  std::vector<double> whole;
+  for (const StepRecord& step : steps) whole.push_back(ns * step_seconds(step));
+  const double contacts = steps.back().contacts;
+  add("contacts", "contacts", {contacts});
+  add("detect", "ns/grain", record_column(steps, &StepRecord::seconds_detect, ns));
+  add("assemble", "ns/grain", record_column(steps, &StepRecord::seconds_assemble, ns));
+  add("solve", "ns/grain", record_column(steps, &StepRecord::seconds_solve, ns));
+  add("step", "ns/grain", whole);
+  add("memory", "B/grain", {(peak_bytes() - before) / point.grains});
   Impulses warm;
   stepper.warm_start(warm);
-  point.sweep = ns * sweep_seconds(stepper.problem(), warm, options.sweeps, point.threads);
-  Budget budget;
-  budget.tolerance = options.tolerance * settings.velocity_scale();
-  budget.max_iterations = options.max_iterations;
+  const double sweep = sweep_seconds(stepper.problem(), warm, options.sweeps, point.threads);
+  add("sweep", "ns/grain", {ns * sweep});
+  add("sweep per contact", "ns/contact", {1e9 * sweep / std::max(1.0, contacts)});
+  const Budget budget{.tolerance = options.tolerance * settings.velocity_scale(),
+                      .max_iterations = options.max_iterations};
   if (options.cold_start) warm.setZero();
-  for (const std::string& solver : options.solvers)
-    solve_again(solver, stepper.problem(), warm, budget, point);
-  return point;
+  WorkerTeam team;
+  team.resize(point.threads);
+  for (const std::string& name : options.solvers) {
+    const std::unique_ptr<Solver> solver = make_solver(name);
+    solver->use_team(&team);
+    const SolverRun run = SolverRunner().run(*solver, stepper.problem(), warm, budget);
+    if (run.is_solved())
+      add("iterations needed, " + name, "iterations", {1.0 * run.solved.iterations});
+    add((run.is_solved() ? "time to the tolerance, " : "time, tolerance not reached, ") + name,
+        "ms", {1e3 * (run.prepare_seconds + run.solve_seconds)});
+  }
 }
 
 /// What the child measured, on its way to the parent.
-template <class Carrier, class Point>
-void carry(Carrier& carrier, Point& point) {
-  carrier.numbers(point.contacts, point.detect, point.assemble, point.solve, point.step,
-                  point.sweep, point.bytes);
-  carrier.list(point.iterations);
-  carrier.list(point.seconds);
+template <class Carrier, class List>
+void carry(Carrier& carrier, List& measured) {
+  carrier.list(measured, [&](auto& m) {
+    for (auto* text : {&m.group, &m.name, &m.unit}) carrier.text(*text);
+    carrier.numbers(m.median, m.mean, m.low, m.high, m.samples);
+  });
 }
 
 /// Measures the packing that `point` names in a child, and fills in what it measured.
 void measure_in_child(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
   // The peak of memory is a process' own: a child for each packing keeps them apart.
   const ChildResult child = run_in_child(options.max_seconds, [&] {
-    const ScalingPoint measured = measure_packing(box, options, point);
+    measure_packing(box, options, point);
     Packer packer;
-    carry(packer, measured);
+    carry(packer, point.measured);
     return packer.bytes();
   });
   if (child.end != ChildEnd::complete)
@@ -119,11 +117,16 @@ void measure_in_child(const DepositedBox& box, const ScalingOptions& options, Sc
                 " grains: the child " +
                 (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
   Unpacker unpacker(child.answer, "bench scaling: a child's answer");
-  carry(unpacker, point);
+  carry(unpacker, point.measured);
   unpacker.finish();
 }
 
 }  // namespace
+
+double ScalingPoint::value(const std::string& name) const {
+  const auto found = std::ranges::find(measured, name, &Measurement::name);
+  return found == measured.end() ? not_known : found->median;
+}
 
 std::pair<int, int> tiles_for(long grains, int block) {
   // As nearly square as whole numbers allow.
@@ -149,81 +152,29 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
   return points;
 }
 
-std::vector<Measurement> scaling_measurements(const ScalingOptions& options,
-                                              const std::vector<ScalingPoint>& points) {
-  std::vector<Measurement> result;
-  for (const ScalingPoint& p : points) {
-    const std::string group = std::to_string(p.threads) +
-                              (p.threads == 1 ? " thread, " : " threads, ") +
-                              std::to_string(static_cast<long>(p.grains)) + " grains";
-    const auto add = [&](const std::string& name, const char* unit, double value) {
-      result.push_back(measurement_of(group, name, unit, {value}));
-    };
-    add("contacts", "contacts", p.contacts);
-    add("detect", "ns/grain", p.detect);
-    add("assemble", "ns/grain", p.assemble);
-    add("solve", "ns/grain", p.solve);
-    add("step", "ns/grain", p.step);
-    add("sweep", "ns/grain", p.sweep);
-    add("sweep per contact", "ns/contact",
-        p.contacts > 0.0 ? p.sweep * p.grains / p.contacts : 0.0);
-    add("memory", "B/grain", p.bytes);
-    for (size_t k = 0; k < p.iterations.size(); ++k) {
-      const bool reached = std::isfinite(p.iterations[k]);
-      if (reached) add("iterations needed, " + options.solvers[k], "iterations", p.iterations[k]);
-      add((reached ? "time to the tolerance, " : "time, tolerance not reached, ") +
-              options.solvers[k],
-          "ms", 1e3 * p.seconds[k]);
-    }
-  }
-  return result;
-}
-
 Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPoint>& points) {
-  struct Line {
-    const char* title;
-    double ScalingPoint::*value;
-    Ink ink;
-  };
-  const Line lines[] = {{"detection", &ScalingPoint::detect, Ink::vermilion},
-                        {"assembly", &ScalingPoint::assemble, Ink::orange},
-                        {"a sweep", &ScalingPoint::sweep, Ink::blue}};
-  const Ink solver_inks[] = {Ink::blue, Ink::green, Ink::purple, Ink::sky};
-  Figure figure;
-  figure.name = "scaling";
-  figure.title = "Cost per grain over grains";
-  figure.height = 620;
-  figure.panels.resize(2);
-  const auto add = [&](Panel& panel, int threads, const std::string& title, Ink ink,
-                       const auto& value) {
-    Curve curve;
-    for (const ScalingPoint& p : points)
-      if (p.threads == threads && std::isfinite(value(p))) {
-        curve.x.push_back(p.grains);
-        curve.y.push_back(value(p));
-      }
-    curve.title = title + (threads == 1 ? "" : ", " + std::to_string(threads) + " threads");
-    curve.ink = ink;
+  Panel cost{.x_label = "grains", .y_label = "ns per grain", .log_x = true, .log_y = true},
+      iterations{.x_label = "grains", .y_label = "iterations needed", .log_x = true, .y_min = 0.0};
+  const auto add = [&](const std::string& name, int threads, const std::string& title,
+                       Panel& panel) {
+    Curve curve = backend_curve(panel.curves.size(), title);
     curve.dashed = threads != 1;
+    for (const ScalingPoint& p : points)
+      if (const double value = p.value(name); p.threads == threads && std::isfinite(value)) {
+        curve.x.push_back(p.grains);
+        curve.y.push_back(value);
+      }
     panel.curves.push_back(std::move(curve));
   };
   for (const int threads : options.threads)
-    for (const Line& line : lines)
-      add(figure.panels[0], threads, line.title, line.ink,
-          [&](const ScalingPoint& p) { return p.*line.value; });
-  for (size_t k = 0; k < options.solvers.size(); ++k)
-    add(figure.panels[1], options.threads.front(), options.solvers[k],
-        solver_inks[k % std::size(solver_inks)],
-        [k](const ScalingPoint& p) { return p.iterations.at(k); });
-  figure.panels[0].y_label = "ns per grain";
-  figure.panels[1].y_label = "iterations needed";
-  for (Panel& panel : figure.panels) {
-    panel.x_label = "grains";
-    panel.log_x = true;
-  }
-  figure.panels[0].log_y = true;
-  figure.panels[1].y_min = 0.0;
-  return figure;
+    for (const char* name : {"detect", "assemble", "sweep"})
+      add(name, threads, std::string(name) + ", " + thread_words(threads), cost);
+  for (const std::string& solver : options.solvers)
+    add("iterations needed, " + solver, options.threads.front(), solver, iterations);
+  return {.name = "scaling",
+          .title = "Cost per grain over grains",
+          .height = 620,
+          .panels = {cost, iterations}};
 }
 
 }  // namespace ballast

@@ -3,11 +3,11 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/bench/bench_packing.hpp"
 #include "experiments/bench/measurement.hpp"
-#include "experiments/page/plot.hpp"
 
 namespace ballast {
 
@@ -24,16 +24,16 @@ struct ScalingOptions {
   double max_seconds = 3600.0;  ///< wall clock of one packing
 };
 
-/// What was measured on one packing with one number of threads.
+/// What was measured on one packing with one number of threads: by phase ns per grain and step,
+/// medians of wall clock; a sweep; memory beyond what the process had before; per solver what the
+/// tolerance took. Group "<threads> threads, <grains> grains".
 struct ScalingPoint {
   int threads = 1, nx = 1, ny = 1;
-  double grains = 0.0, contacts = 0.0;
-  double detect = 0.0, assemble = 0.0, solve = 0.0,
-         step = 0.0;   ///< ns per grain and step, medians; wall clock
-  double sweep = 0.0;  ///< ns per grain and sweep
-  double bytes = 0.0;  ///< of the process per grain, at its most, beyond what it had before
-  std::vector<double> iterations;  ///< per solver, to the tolerance; not reached: infinite
-  std::vector<double> seconds;     ///< per solver, wall clock of prepare and solve
+  double grains = 0.0;
+  std::vector<Measurement> measured;
+
+  /// NaN: not measured, or not reached.
+  double value(const std::string& name) const;
 };
 
 /// Tiles nx * ny near grains / block, as square as can be.
@@ -43,10 +43,6 @@ std::pair<int, int> tiles_for(long grains, int block);
 /// Error where a child fails: out of memory, out of time.
 std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said);
-
-/// Group "<threads> threads, <grains> grains".
-std::vector<Measurement> scaling_measurements(const ScalingOptions& options,
-                                              const std::vector<ScalingPoint>& points);
 
 /// ns per grain of detection, assembly and a sweep, and the iterations needed, over grains.
 Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPoint>& points);

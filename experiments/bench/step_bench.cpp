@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
+#include "experiments/compare/compare_figures.hpp"
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
 #include "experiments/step/step_record.hpp"
 #include "experiments/step/time_step.hpp"
+#include "platform/clock.hpp"
 
 namespace ballast {
 namespace {
@@ -79,10 +83,10 @@ std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long 
   TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
   std::vector<BenchStep> result;
   for (long k = 0; k < steps; ++k) {
-    const double begin = cpu_seconds();
+    const double begin = processor_seconds();
     BenchStep step;
     step.record = stepper.step(start.state, start.memory);
-    step.cpu_seconds = cpu_seconds() - begin;
+    step.cpu_seconds = processor_seconds() - begin;
     step.counters = stepper.detection_counters();
     result.push_back(step);
   }
@@ -91,62 +95,46 @@ std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long 
 
 std::vector<Measurement> step_measurements(const Scene& scene, const std::vector<BenchStep>& steps,
                                            int threads) {
-  std::vector<const BenchStep*> all, active, passive, jammed;
+  std::map<std::string, std::vector<const BenchStep*>> groups;
   double fastest = 0.0;
   // As the wall's cycles have it: what is slow beside the fastest of these steps is jammed.
   for (const BenchStep& step : steps) fastest = std::max(fastest, std::abs(step.record.wall_v));
   for (const BenchStep& step : steps) {
-    all.push_back(&step);
     const double v = step.record.wall_v;
-    (std::abs(v) <= WallSettings{}.jammed_speed * fastest ? jammed
-     : v > 0.0                                            ? active
-                                                          : passive)
-        .push_back(&step);
+    const bool is_jammed = std::abs(v) <= WallSettings{}.jammed_speed * fastest;
+    groups["all"].push_back(&step);
+    groups[is_jammed ? "jammed" : v > 0.0 ? "active" : "passive"].push_back(&step);
   }
-  const double scale = step_settings(scene).velocity_scale();
-  const std::string prefix = std::to_string(threads) + (threads == 1 ? " thread, " : " threads, ");
   std::vector<Measurement> result;
-  add_group(prefix + "all", all, scale, result);
-  add_group(prefix + "passive", passive, scale, result);
-  add_group(prefix + "jammed", jammed, scale, result);
-  add_group(prefix + "active", active, scale, result);
+  for (const char* name : {"all", "passive", "jammed", "active"})
+    add_group(thread_words(threads) + ", " + name, groups[name],
+              step_settings(scene).velocity_scale(), result);
   return result;
 }
 
 Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
-  constexpr Ink inks[] = {Ink::vermilion, Ink::orange, Ink::blue, Ink::green, Ink::sky, Ink::grey};
-  Figure figure;
-  figure.name = "step";
-  figure.title = "Where the time of a step goes";
-  figure.height = 620;
-  figure.panels.resize(2);
+  Panel phases{.x_label = "simulated time [s]", .y_label = "time of a step [ms]", .y_min = 0.0},
+      wall{.x_label = phases.x_label, .y_label = "wall, outward [m/s]"};
   // Windows of equal length, each a point of the figure: the median of its steps.
   const size_t length =
       std::max<size_t>(1, steps.size() / static_cast<size_t>(std::max(1, windows)));
-  const auto medians = [&](const auto& value) {
-    Curve curve;
+  const auto add = [&](double StepRecord::*column, double factor, Curve curve, Panel& panel) {
     for (size_t begin = 0; begin + length <= steps.size(); begin += length) {
       std::vector<double> values;
-      for (size_t k = begin; k < begin + length; ++k) values.push_back(value(steps[k].record));
+      for (size_t k = begin; k < begin + length; ++k)
+        values.push_back(factor * (steps[k].record.*column));
       curve.x.push_back(steps[begin + length / 2].record.time);
-      curve.y.push_back(measurement_of("", "", "", std::move(values)).median);
+      curve.y.push_back(quantile(values, 0.5));
     }
-    return curve;
+    panel.curves.push_back(std::move(curve));
   };
-  for (const StepColumn& phase : step_phases()) {
-    Curve curve = medians([&](const StepRecord& r) { return 1e3 * (r.*phase.value); });
-    curve.title = phase.phase_word();
-    curve.ink = inks[figure.panels[0].curves.size() % std::size(inks)];
-    figure.panels[0].curves.push_back(std::move(curve));
-  }
-  figure.panels[0].y_label = "time of a step [ms]";
-  figure.panels[0].y_min = 0.0;
-  Curve wall = medians([](const StepRecord& r) { return r.wall_v; });
-  wall.ink = Ink::black;
-  figure.panels[1].curves.push_back(std::move(wall));
-  figure.panels[1].y_label = "wall, outward [m/s]";
-  figure.panels[0].x_label = figure.panels[1].x_label = "simulated time [s]";
-  return figure;
+  for (const StepColumn& phase : step_phases())
+    add(phase.value, 1e3, backend_curve(phases.curves.size(), phase.phase_word()), phases);
+  add(&StepRecord::wall_v, 1.0, {.ink = Ink::black}, wall);
+  return {.name = "step",
+          .title = "Where the time of a step goes",
+          .height = 620,
+          .panels = {phases, wall}};
 }
 
 }  // namespace ballast

@@ -5,7 +5,6 @@
 
 #include "experiments/bench/bench_packing.hpp"
 #include "experiments/bench/measurement.hpp"
-#include "experiments/page/plot.hpp"
 
 namespace ballast {
 

@@ -5,18 +5,17 @@
 
 #include "experiments/bench/accuracy_bench.hpp"
 #include "experiments/bench/captured_bench.hpp"
-#include "experiments/bench/jam_bench.hpp"
 #include "experiments/bench/kernels.hpp"
 #include "experiments/bench/scaling_bench.hpp"
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/compare_options.hpp"
-#include "platform/atomic_file.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
+
 namespace {
 
 /// What all that measure have on their command lines.
@@ -43,7 +42,8 @@ struct ScalingRequest : BenchRequest {
 struct AccuracyRequest : BenchRequest {
   std::string solvers_text = "nesterov_pgs,nncg,pgs,apgd", tolerances_text = "1e-2,1e-3",
               iterations_text = "20,50,100,200";
-  AccuracyOptions accuracy;
+  LiveOptions live;
+  std::vector<int> iterations;
 };
 
 constexpr int most_count = 1'000'000'000;  // of steps, iterations, repetitions
@@ -68,11 +68,10 @@ std::vector<double> tolerances_or_none(const std::string& list) {
 
 void say(const std::string& text) { std::cout << text << std::flush; }
 
-ExitCode finish(const BenchRequest& request, const std::string& kind, const MachineFacts& facts,
+ExitCode finish(const BenchRequest& request, const std::string& kind,
                 const std::vector<Measurement>& measurements, const Figure* figure) {
-  write_bench_result(request.output, kind, own_command(), facts, measurements);
-  std::string where =
-      "\nresults in " + request.output.string() + ": " + kind + ".json, " + kind + ".csv";
+  write_bench_result(request.output, kind, own_command(), measurements);
+  std::string where = "\nresults in " + request.output.string() + ": " + kind + ".json";
   if (figure && request.plot && !gnuplot_version().empty()) {
     render_svg(*figure, request.output);
     where += ", " + figure->name + ".svg";
@@ -83,10 +82,8 @@ ExitCode finish(const BenchRequest& request, const std::string& kind, const Mach
 
 ExitCode bench_kernels(const KernelRequest& request) {
   const DepositedBox box = request.box();
-  const MachineFacts facts = measure_machine();
   try {
-    const auto measurements = run_kernels(kernel_problem(box, 20), request.kernels, facts);
-    return finish(request, "kernels", facts, measurements, nullptr);
+    return finish(request, "kernels", run_kernels(step_kernels(box, 20), request.kernels), nullptr);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("bench: --filter: ") + error.what());
   }
@@ -94,7 +91,6 @@ ExitCode bench_kernels(const KernelRequest& request) {
 
 ExitCode bench_step(const StepRequest& request) {
   const DepositedBox box = request.box();
-  const MachineFacts facts = measure_machine();
   std::vector<Measurement> measurements;
   Figure figure;
   for (const int threads : request.threads) {
@@ -104,33 +100,36 @@ ExitCode bench_step(const StepRequest& request) {
     for (Measurement& m : step_measurements(box.scene, steps, threads))
       measurements.push_back(std::move(m));
   }
-  return finish(request, "step", facts, measurements, &figure);
+  return finish(request, "step", measurements, &figure);
 }
 
 ExitCode bench_scaling(const ScalingRequest& request) {
   const DepositedBox box = request.box();
-  const MachineFacts facts = measure_machine();
   const auto points = measure_scaling(box, request.scaling, [](const ScalingPoint& p) {
     std::cout << p.nx << " x " << p.ny << " copies, " << p.grains << " grains, " << p.threads
-              << " threads: " << 1e-3 * p.step << " us a grain and step, " << p.bytes
-              << " B a grain" << std::endl;
+              << " threads: " << 1e-3 * p.value("step") << " us a grain and step, "
+              << p.value("memory") << " B a grain" << std::endl;
   });
+  std::vector<Measurement> measurements;
+  for (const ScalingPoint& p : points)
+    measurements.insert(measurements.end(), p.measured.begin(), p.measured.end());
   const Figure figure = scaling_figure(request.scaling, points);
-  return finish(request, "scaling", facts, scaling_measurements(request.scaling, points), &figure);
+  return finish(request, "scaling", measurements, &figure);
 }
 
 ExitCode bench_accuracy(const AccuracyRequest& request) {
-  AccuracyOptions options = request.accuracy;
-  options.live.scene = request.scene;
-  options.live.overrides = request.overrides;
-  options.live.packing_cache = request.packing_cache;
-  options.live.folder = request.output / "live";
-  const auto rows = measure_accuracy(options, [](const Trajectory& t) {
-    std::cout << t.label() << ": " << t.steps.size() << " steps, " << t.ended << std::endl;
-    return !InterruptGuard::requested();
-  });
-  const Figure figure = accuracy_figure(rows);
-  return finish(request, "accuracy", measure_machine(), accuracy_measurements(rows), &figure);
+  LiveOptions live = request.live;
+  live.scene = request.scene;
+  live.overrides = request.overrides;
+  live.packing_cache = request.packing_cache;
+  live.folder = request.output / "live";
+  const LiveComparison comparison =
+      measure_accuracy(live, request.iterations, [](const Trajectory& t) {
+        std::cout << t.label() << ": " << t.steps.size() << " steps, " << t.ended << std::endl;
+        return !InterruptGuard::requested();
+      });
+  const Figure figure = accuracy_figure(comparison);
+  return finish(request, "accuracy", accuracy_measurements(comparison), &figure);
 }
 
 struct CapturedRequest : BenchRequest {
@@ -138,25 +137,25 @@ struct CapturedRequest : BenchRequest {
   std::string solvers_text = "nesterov_pgs,newton_burst",
               tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6", starts_text = "warm",
               within_text = "0.25,1,5";
-  CapturedOptions captured;
+  std::vector<double> within;
+  CompareOptions comparison;
 };
 
 ExitCode bench_captured(const CapturedRequest& request) {
   restart_with_one_algebra_thread();
-  CapturedOptions options = request.captured;
+  CompareOptions options = request.comparison;
   options.folder = request.output;
-  const auto rows =
-      measure_captured(compare_cases(request.files), options, [](const CapturedRow& r) {
-        say(printed("%-24s %-13s %-4s %-6g %-8s %8.3f s  error %8.2e  velocities %8.2e\n",
-                    r.problem.c_str(), r.solver.c_str(), name_of(r.start), r.tolerance,
-                    r.solved ? "solved" : "unsolved", r.seconds, r.error, r.distance.velocity));
-        return !InterruptGuard::requested();
-      });
-  const auto measurements = captured_measurements(options, rows);
-  create_folder(request.output);
-  write_whole_file(request.output / "captured_rows.csv", captured_csv(rows));
-  const Figure figure = captured_figure(options, rows);
-  return finish(request, "captured", measure_machine(), measurements,
+  options.command = own_command();
+  const InterruptGuard guard;
+  const auto said = [](const CompareRow& r, bool, size_t, size_t) {
+    say(printed("%-24s %-13s %-4s %-6g %-8s %8.3f s  error %8.2e  velocities %8.2e\n",
+                r.case_name.c_str(), r.solver.c_str(), name_of(r.start), r.tolerance,
+                name_of(r.verdict), r.seconds(), r.error, r.distance.velocity));
+    return !InterruptGuard::requested();
+  };
+  const auto rows = run_comparison(compare_cases(request.files), options, said);
+  const Figure figure = captured_figure(rows);
+  return finish(request, "captured", captured_measurements(rows, request.within),
                 figure.panels.empty() ? nullptr : &figure);
 }
 
@@ -180,13 +179,10 @@ Command kernels_command() {
   request->scene = "vibrated_box_small";
   KernelBenchOptions& kernels = request->kernels;
   return measuring(
-      "kernels", "The inner loops on their own, beside the machine's limits", request,
-      bench_kernels,
-      {{"--filter", &kernels.filter, "Regular expression over group/name"},
+      "kernels", "The inner loops of a step on their own", request, bench_kernels,
+      {{"--filter", &kernels.filter, "A part of group/name"},
        {"--min-time", &kernels.min_time, "CPU seconds of a repetition", shown, above(0)},
-       {"--repeats", &kernels.repeats, "Repetitions", shown, between(1, most_count)},
-       {"--streaming-MB", &kernels.streaming_MB,
-        "Least records of the streaming sweep (0: twice the last cache)"}});
+       {"--repeats", &kernels.repeats, "Repetitions", shown, between(1, most_count)}});
 }
 
 Command step_command() {
@@ -222,7 +218,7 @@ Command scaling_command() {
 
 Command accuracy_command() {
   const auto request = std::make_shared<AccuracyRequest>();
-  LiveOptions& live = request->accuracy.live;
+  LiveOptions& live = request->live;
   live.duration = 0.01;
   return measuring(
       "accuracy", "What a simulated second costs at which error", request, bench_accuracy,
@@ -231,7 +227,7 @@ Command accuracy_command() {
        {"--tolerances", &request->tolerances_text, "Solved to these [g h]; none: not", shown,
         into(live.tolerances, tolerances_or_none)},
        {"--iterations", &request->iterations_text, "And with so many iterations in every step",
-        shown, into(request->accuracy.iterations, counts)},
+        shown, into(request->iterations, counts)},
        {"--threads", &live.threads, "Of the step and its solver", shown, between(1, 256)},
        {"--from", &live.start, "Simulated time where all begin [s]", shown, at_least(0)},
        {"--duration", &live.duration, "Simulated from there [s]", shown, above(0)}});
@@ -239,7 +235,9 @@ Command accuracy_command() {
 
 Command captured_command() {
   const auto request = std::make_shared<CapturedRequest>();
-  CapturedOptions& captured = request->captured;
+  CompareOptions& captured = request->comparison;
+  captured.max_seconds = 5.0;
+  captured.exact_seconds = 60.0;
   return {
       "captured",
       "Every measure of an answer's error against its cost, on problems of a run",
@@ -251,62 +249,15 @@ Command captured_command() {
        {"--starts", &request->starts_text, "cold, warm or cold,warm", shown,
         into(captured.starts, parse_starts)},
        {"--within", &request->within_text, "Solves within so many seconds are counted", shown,
-        into(captured.within, parse_tolerances)},
+        into(request->within, parse_tolerances)},
        {"--max-seconds", &captured.max_seconds, "Of one solve", shown, above(0)},
        {"--exact-seconds", &captured.exact_seconds,
         "Spent on a solution at 1e-9 of each problem, from which distances are measured; 0: "
         "none",
         shown, at_least(0)},
-       {"--threads", &captured.threads, "Of a solver", shown, between(1, 256)},
        {"--output DIR", &request->output, "Folder of the results", shown},
        {"--no-plot", &request->plot, "No figure"}},
       [request] { return bench_captured(*request); }};
-}
-
-struct JamRequest {
-  std::filesystem::path run, output = "results/bench";
-  std::string solvers_text = "nncg", iterations_text = "20,50,80,200,500", steps_text = "2e-4";
-  JamOptions jams;
-};
-
-ExitCode bench_jam(const JamRequest& request) {
-  const auto rows = measure_jams(request.run, request.jams, [](const JamRow& r) {
-    std::cout << printed(
-                     "t %.4f s  %-8s %6d iterations  h %g s  k_art %10.3e N/m  wall %9.2e m/s  "
-                     "error %8.2e m/s\n",
-                     r.time, r.solver.c_str(), r.iterations, r.h, r.stiffness(), r.found.speed,
-                     r.found.error)
-              << std::flush;
-    return !InterruptGuard::requested();
-  });
-  const auto measurements = jam_measurements(rows);
-  create_folder(request.output);
-  write_bench_result(request.output, "jam", own_command(), measure_machine(), measurements);
-  write_whole_file(request.output / "jam_rows.csv", jam_csv(rows));
-  std::cout << measurement_table(measurements) << "\nresults in " << request.output.string()
-            << ": jam.json, jam.csv, jam_rows.csv\n";
-  return ExitCode::ok;
-}
-
-Command jam_command() {
-  const auto request = std::make_shared<JamRequest>();
-  JamOptions& jams = request->jams;
-  return {
-      "jam",
-      "How stiff a run's jams are under other solvers, iterations and steps",
-      {{"run", &request->run, "A run's folder that keeps states (record.state_rate)", required},
-       {"--solvers", &request->solvers_text, "Separated by commas", shown,
-        into(jams.solvers, solver_names)},
-       {"--iterations", &request->iterations_text, "In every step", shown,
-        into(jams.iterations, counts)},
-       {"--steps", &request->steps_text, "h [s]", shown, into(jams.steps, parse_tolerances)},
-       {"--states", &jams.states, "Jams that are loaded, those with the largest load", shown,
-        between(1, 1'000'000)},
-       {"--part", &jams.part, "By which part the load rises and falls", shown, above(0)},
-       {"--settle", &jams.settle, "Simulated under the steady load before [s]", shown, above(0)},
-       {"--seconds", &jams.seconds, "Simulated at each load [s]", shown, above(0)},
-       {"--output DIR", &request->output, "Folder of the results", shown}},
-      [request] { return bench_jam(*request); }};
 }
 
 Command diff_command() {
@@ -332,7 +283,7 @@ Command bench_command() {
           {},
           {},
           {kernels_command(), step_command(), scaling_command(), accuracy_command(),
-           captured_command(), jam_command(), diff_command()}};
+           captured_command(), diff_command()}};
 }
 
 }  // namespace ballast

@@ -9,15 +9,12 @@
 #include <memory>
 
 #include "experiments/commands/command.hpp"
-#include "experiments/compare/backend_summary.hpp"
-#include "experiments/compare/case_views.hpp"
 #include "experiments/compare/collection.hpp"
 #include "experiments/compare/compare_diff.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/comparison_site.hpp"
 #include "experiments/compare/live_page.hpp"
-#include "experiments/compare/reference_times.hpp"
 #include "experiments/compare/stored_comparison.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
@@ -177,7 +174,6 @@ struct CompareRequest {
   LiveOptions live;
   std::vector<std::string> cases, external;
   ExternalLimits program_limits;
-  bool with_views = false;
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
   std::filesystem::path output = "results/compare", reference;
   CompareOptions comparison;
@@ -280,8 +276,6 @@ ExitCode compare(CompareRequest& options) {
     return options.is_quiet ? !InterruptGuard::requested() : show(row, was_there, done, count);
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
-  if (options.with_views)
-    write_case_views(rows, options.comparison, [] { return !InterruptGuard::requested(); });
   if (InterruptGuard::requested()) return interrupted();
   if (options.comparison.is_part) return verdict_on_cases(rows, cases.size());
   if (options.report) write_compare_page(options.output, rows, reference);
@@ -334,8 +328,6 @@ Command compare_command() {
         "CSV of others' times: problem,ms_1e-4,solver_1e-4,..."},
        {"--output DIR", &options->output, "Folder of the results", shown},
        {"--no-report", &options->report, "No figures and no page"},
-       {"--views", &options->with_views,
-        "Of captured cases also a page each in 3D, where in the packing which backend is wrong"},
        {"--quiet", &options->is_quiet, "Says nothing but failures"},
        {"--part", &comparison.is_part,
         "One of several processes that fill one folder: rows alone; being killed is a row"},

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "experiments/page/page.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
 namespace {
-
-constexpr const char* seconds_axis = "time  (s)";
 
 /// "cold_1e-08": no two tolerances alike.
 std::string suffix_of(const CompareTable& table) {
@@ -23,56 +19,18 @@ std::string suffix_of(const CompareTable& table) {
 double decade_above(double value) { return std::pow(10.0, std::ceil(std::log10(value) - 1e-9)); }
 double decade_below(double value) { return std::pow(10.0, std::floor(std::log10(value) + 1e-9)); }
 
-page::Text table_words(const CompareTable& table) {
-  return page::words("compare.table",
-                     {{"tolerance", page::exact(table.tolerance)},
-                      {"start", name_of(table.start)},
-                      {"cases", page::exact(static_cast<double>(table.cases.size()))}});
+/// Least and largest of what was reached and cost anything; {not_reached, 0} without any.
+std::pair<double, double> range_of(const CompareCosts& costs) {
+  std::pair<double, double> range{not_reached, 0.0};
+  for (const std::vector<double>& line : costs)
+    for (const double cost : line) {
+      if (!std::isfinite(cost) || !(cost > 0.0)) continue;
+      range = {std::min(range.first, cost), std::max(range.second, cost)};
+    }
+  return range;
 }
 
-page::Picture profile(const CompareTable& table, const std::string& name, const std::string& title,
-                      const std::string& x_label, const std::vector<StepCurve>& curves,
-                      double first, double last) {
-  Panel panel;
-  panel.x_label = x_label;
-  panel.y_label = "fraction of cases solved";
-  panel.log_x = true;
-  panel.x_min = first;
-  panel.x_max = last;
-  panel.y_min = 0.0;
-  panel.y_max = 1.02;
-  for (size_t s = 0; s < curves.size(); ++s)
-    panel.curves.push_back(stairs(curves[s], last, backend_curve(s, table.solvers[s])));
-  Figure figure;
-  figure.name = name + "_" + suffix_of(table);
-  figure.title = title;
-  figure.height = height_for(curves.size());
-  figure.panels = {panel};
-  return {figure, {page::words(name + ".caption", {{"table", table_words(table)}})}};
-}
-
-/// One quantity of the cases that cost is drawn against.
-struct CostAxis {
-  const char *name, *label;
-  bool is_log;
-  double (*value)(const CaseFacts&);
-};
-constexpr CostAxis cost_axes[] = {
-    {"contacts", "contacts", true,
-     [](const CaseFacts& f) { return static_cast<double>(f.contacts); }},
-    {"rank", "rank deficiency of {/:Italic W},  1 − rank/rows", false,
-     [](const CaseFacts& f) { return f.rank_deficiency; }},
-    {"mass_ratio", "mass ratio", true, [](const CaseFacts& f) { return f.mass_ratio; }},
-};
-
-const CaseFacts& facts_of(const CompareTable& table, size_t c) {
-  return std::find_if(table.cells[c].begin(), table.cells[c].end(),
-                      [](const CompareCell& cell) { return cell.row != nullptr; })
-      ->row->facts;
-}
-
-}  // namespace
-
+/// Adds the corners of a step curve, held up to `last`, to a curve.
 Curve stairs(const StepCurve& steps, double last, Curve curve) {
   for (size_t k = 0; k < steps.x.size(); ++k) {
     if (k > 0) {
@@ -87,6 +45,32 @@ Curve stairs(const StepCurve& steps, double last, Curve curve) {
   return curve;
 }
 
+page::Picture profile(const CompareTable& table, const std::string& name, const std::string& title,
+                      const std::string& x_label, const CompareCosts& costs, double first,
+                      double last) {
+  Panel panel{.x_label = x_label,
+              .y_label = "fraction of cases solved",
+              .log_x = true,
+              .y_min = 0.0,
+              .y_max = 1.02,
+              .x_min = first,
+              .x_max = last};
+  for (const StepCurve& steps : cost_profiles(costs, first, last)) {
+    const size_t s = panel.curves.size();
+    panel.curves.push_back(stairs(steps, last, backend_curve(s, table.solvers[s])));
+  }
+  Figure figure{.name = name + "_" + suffix_of(table), .title = title};
+  figure.height = height_for(panel.curves.size());
+  figure.panels = {panel};
+  const page::Text words = page::words(
+      "compare.table", {{"tolerance", page::exact(table.tolerance)},
+                        {"start", name_of(table.start)},
+                        {"cases", page::exact(static_cast<double>(table.cases.size()))}});
+  return {figure, {page::words(name + ".caption", {{"table", words}})}};
+}
+
+}  // namespace
+
 Curve backend_curve(size_t k, const std::string& title) {
   constexpr Ink inks[] = {Ink::blue,   Ink::vermilion, Ink::green, Ink::orange,
                           Ink::purple, Ink::sky,       Ink::black, Ink::grey};
@@ -99,6 +83,18 @@ Curve backend_curve(size_t k, const std::string& title) {
   return curve;
 }
 
+void add_marked_line(const std::vector<std::pair<double, double>>& points, Curve curve,
+                     Panel& panel) {
+  for (const auto& [x, y] : points) {
+    curve.x.push_back(x);
+    curve.y.push_back(y);
+  }
+  panel.curves.push_back(curve);
+  curve.title.clear();
+  curve.mark = Mark::points;
+  panel.curves.push_back(std::move(curve));
+}
+
 int height_for(size_t entries) { return 440 + 22 * static_cast<int>(entries / 3); }
 
 std::string figure_name(const std::string& text) {
@@ -109,66 +105,14 @@ std::string figure_name(const std::string& text) {
 }
 
 std::vector<page::Picture> profile_figures(const CompareTable& table) {
-  const std::vector<std::vector<double>> times = table.times();
-  double most_ratio = 1.0, least_cost = infinity, most_cost = 0.0;
-  std::vector<double> sizes;
-  for (size_t c = 0; c < times.size(); ++c) {
-    sizes.push_back(static_cast<double>(facts_of(table, c).contacts));
-    for (const double time : times[c]) {
-      if (!std::isfinite(time)) continue;
-      if (table.fastest(c) > 0.0) most_ratio = std::max(most_ratio, time / table.fastest(c));
-      const double cost = time / std::max(1.0, sizes.back());
-      if (cost > 0.0) least_cost = std::min(least_cost, cost);
-      most_cost = std::max(most_cost, cost);
-    }
-  }
-  if (!(most_cost > 0.0)) return {};
-  const double last_ratio = std::max(10.0, decade_above(most_ratio));
-  const double first = decade_below(least_cost),
-               last = std::max(10.0 * first, decade_above(most_cost));
-  return {
-      profile(table, "performance", "Performance profile", "time over the fastest backend’s time",
-              performance_profiles(times, last_ratio), 1.0, last_ratio),
-      profile(table, "data", "Data profile", "time per contact  (s)",
-              data_profiles(times, sizes, first, last), first, last)};
-}
-
-std::vector<page::Picture> cost_figures(const CompareTable& table) {
-  std::vector<page::Picture> figures;
-  for (const CostAxis& axis : cost_axes) {
-    Panel panel;
-    panel.x_label = axis.label;
-    panel.y_label = seconds_axis;
-    panel.log_x = axis.is_log;
-    panel.log_y = true;
-    std::set<double> places;
-    for (size_t s = 0; s < table.solvers.size(); ++s) {
-      Curve curve = backend_curve(s, table.solvers[s]);
-      curve.mark = Mark::points;
-      curve.width = curve.dashed ? 1.5 : 2.4;
-      curve.opacity = 0.8;
-      for (size_t c = 0; c < table.cases.size(); ++c) {
-        const double x = axis.value(facts_of(table, c)), y = table.cells[c][s].median;
-        if (!std::isfinite(x) || !std::isfinite(y) || !(y > 0.0) || (axis.is_log && !(x > 0.0)))
-          continue;
-        curve.x.push_back(x);
-        curve.y.push_back(y);
-        places.insert(x);
-      }
-      if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
-    }
-    if (places.size() < 2) continue;  // says nothing
-    if (!axis.is_log) panel.x_min = std::min(0.0, *places.begin());
-    Figure figure;
-    figure.name = std::string("cost_") + axis.name + "_" + suffix_of(table);
-    figure.title = std::string("Cost against ") + axis.name;
-    figure.height = height_for(panel.curves.size());
-    figure.panels = {panel};
-    figures.push_back({figure,
-                       {page::words(std::string("cost.") + axis.name + ".caption",
-                                    {{"table", table_words(table)}})}});
-  }
-  return figures;
+  const CompareCosts ratios = table.time_ratios(), times = table.times_per_contact();
+  const auto [least, most] = range_of(times);
+  if (!(most > 0.0)) return {};
+  const double last_ratio = std::max(10.0, decade_above(range_of(ratios).second)),
+               first = decade_below(least), last = std::max(10.0 * first, decade_above(most));
+  return {profile(table, "performance", "Performance profile",
+                  "time over the fastest backend’s time", ratios, 1.0, last_ratio),
+          profile(table, "data", "Data profile", "time per contact  (s)", times, first, last)};
 }
 
 }  // namespace ballast

@@ -32,9 +32,22 @@ struct HistoryRow {
       0.0;  ///< scaled natural map rms over the case's velocity scale: the backend's own figure
 };
 
-/// What the process that solved says of it.
-struct SolveAccount {
-  std::string note;  ///< why it failed
+struct CompareRow {
+  // what was tried
+  std::string key, case_name, family, solver, law;
+  // of the command line, for the case alone; in no file
+  std::string word;
+  bool can_view = false;  ///< `ballast view WORD --solver SOLVER` shows where the answer is wrong
+  Measure measure = Measure::natural_map;
+  double tolerance = 0.0;
+  StartKind start = StartKind::cold;
+  int repeat = 0;
+  double max_seconds = 60.0;  ///< the limit of prepare and solve, start-up apart
+  CaseFacts facts;
+
+  // what the process that solved says
+  std::string reason;  ///< the backend's StopReason; empty when none was heard
+  std::string note;    ///< why it failed
   int iterations = 0;
   int runs = 0;  ///< solves in the child, of which the fastest is timed here
   double own_residual = 0.0;
@@ -45,31 +58,15 @@ struct SolveAccount {
   double first_seconds = 0.0;  ///< prepare and solve of the child's first run: caches cold
   double peak_memory_MB = 0.0;
   std::vector<HistoryRow> history;
-};
 
-struct CompareRow : SolveAccount {
-  // what was tried
-  std::string key, case_name, family, solver, law;
-  // of the command line, for the case alone; in no file
-  std::string word;
-  bool can_view = false;  ///< `ballast view WORD --solver SOLVER` shows where the answer is wrong
-  Measure measure = Measure::natural_map;
-  double tolerance = 0.0;
-  StartKind start = StartKind::cold;
-  int repeat = 0;
-  double max_seconds = 0.0;  ///< the limit
-  CaseFacts facts;
-
-  // what came of it
-  /// By the judge, in another process. Over the time limit it is `timeout`, be it solved or not.
+  // what the judge says, in another process
+  /// Over the time limit it is `timeout`, be it solved or not.
   Verdict verdict = Verdict::crashed;
-  std::string reason;  ///< the backend's StopReason; empty when none was heard
-  double error = 0.0;  ///< in the row's measure, the judge's
-  double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< the judge's [m/s]
+  double error = 0.0;                                   ///< in the row's measure
+  double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< [m/s]
   double fclib = 0.0;
   double cone_violation = 0.0, min_normal_velocity = 0.0;
-  int worst_contact = -1;
-  std::string worst;  ///< the same with its name
+  std::string worst;  ///< contact of natural_map_max
   /// From a solution at 1e-9, velocities over the case's velocity scale; where none is known NaN,
   /// and statuses -1.
   AnswerDistance distance;
@@ -77,13 +74,13 @@ struct CompareRow : SolveAccount {
   double seconds() const { return prepare_seconds + solve_seconds; }
 };
 
-/// One column of the CSV. `text` writes a cell.
+/// One column of the CSV; the members of the JSON have the same names.
 struct CompareColumn {
-  const char* name;
-  const char* description;
-  std::string (*text)(const CompareRow&);
+  const char *name, *description;
 };
-const std::vector<CompareColumn>& compare_columns();
+std::vector<CompareColumn> compare_columns();
+/// A row's cells, a column each; numbers in six digits.
+std::vector<std::string> cells_of(const CompareRow& row);
 
 /// All rows without their histories; fields with commas or quotes are quoted.
 std::string compare_csv(const std::vector<CompareRow>& rows);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "experiments/measure/curve_fit.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -19,10 +20,7 @@ size_t index_of(std::vector<std::string>& names, const std::string& name) {
 
 CompareCell cell_of(const std::vector<const CompareRow*>& repeats) {
   CompareCell cell;
-  if (repeats.empty()) {
-    cell.median = cell.fastest = cell.slowest = infinity;
-    return cell;
-  }
+  if (repeats.empty()) return cell;
   std::vector<double> seconds;
   cell.row = repeats.front();
   cell.solved = true;
@@ -33,13 +31,10 @@ CompareCell cell_of(const std::vector<const CompareRow*>& repeats) {
       cell.row = row;
     seconds.push_back(row->seconds());
   }
-  if (cell.solved) {
-    cell.median = quantile(seconds, 0.5);
-    cell.fastest = *std::min_element(seconds.begin(), seconds.end());
-    cell.slowest = *std::max_element(seconds.begin(), seconds.end());
-  } else {
-    cell.median = cell.fastest = cell.slowest = infinity;
-  }
+  if (!cell.solved) return cell;
+  cell.median = quantile(seconds, 0.5);
+  const auto [fastest, slowest] = std::ranges::minmax(seconds);
+  if (cell.median > 0.0) cell.spread = (slowest - fastest) / cell.median;
   return cell;
 }
 
@@ -62,19 +57,40 @@ StepCurve counted(std::vector<double> values, double first, double last) {
 
 }  // namespace
 
-std::vector<std::vector<double>> CompareTable::times() const {
-  std::vector<std::vector<double>> times;
-  for (const std::vector<CompareCell>& line : cells) {
-    times.emplace_back();
-    for (const CompareCell& cell : line) times.back().push_back(cell.median);
-  }
-  return times;
+const CaseFacts& CompareTable::facts(size_t case_index) const {
+  const auto is_tried = [](const CompareCell& cell) { return cell.row != nullptr; };
+  return std::ranges::find_if(cells[case_index], is_tried)->row->facts;
 }
 
 double CompareTable::fastest(size_t case_index) const {
-  double least = infinity;
+  double least = not_reached;
   for (const CompareCell& cell : cells[case_index]) least = std::min(least, cell.median);
   return least;
+}
+
+CompareCosts CompareTable::time_ratios() const {
+  CompareCosts costs;
+  for (size_t c = 0; c < cases.size(); ++c) {
+    costs.emplace_back();
+    const double best = fastest(c);
+    for (const CompareCell& cell : cells[c])
+      costs[c].push_back(cell.solved ? (best > 0.0 ? cell.median / best : 1.0) : not_reached);
+  }
+  return costs;
+}
+
+CompareCosts CompareTable::times_per_contact() const {
+  CompareCosts costs;
+  for (size_t c = 0; c < cases.size(); ++c) {
+    costs.emplace_back();
+    for (const CompareCell& cell : cells[c])
+      costs[c].push_back(cell.median / std::max(1, facts(c).contacts));
+  }
+  return costs;
+}
+
+std::string CompareTable::heading() const {
+  return printed("Tolerance %g, %s start", tolerance, name_of(start));
 }
 
 std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
@@ -109,6 +125,16 @@ std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
   return tables;
 }
 
+CompareTable tried_by_all(const CompareTable& table) {
+  CompareTable common{table.start, table.tolerance, {}, table.solvers, {}};
+  for (size_t c = 0; c < table.cases.size(); ++c) {
+    if (!std::ranges::all_of(table.cells[c], &CompareCell::row)) continue;
+    common.cases.push_back(table.cases[c]);
+    common.cells.push_back(table.cells[c]);
+  }
+  return common;
+}
+
 double shifted_geometric_mean(std::span<const double> values, double shift) {
   double sum = 0.0;
   for (const double value : values) sum += std::log(value + shift);
@@ -121,30 +147,12 @@ double shifted_geometric_ratio(std::span<const double> a, std::span<const double
   return std::exp(sum / static_cast<double>(a.size()));
 }
 
-std::vector<StepCurve> performance_profiles(const std::vector<std::vector<double>>& times,
-                                            double last) {
-  const size_t solvers = times.empty() ? 0 : times[0].size();
+std::vector<StepCurve> cost_profiles(const CompareCosts& costs, double first, double last) {
   std::vector<StepCurve> curves;
-  for (size_t s = 0; s < solvers; ++s) {
-    std::vector<double> ratios;
-    for (const std::vector<double>& line : times) {
-      const double best = *std::min_element(line.begin(), line.end());
-      ratios.push_back(std::isfinite(line[s]) ? (best > 0.0 ? line[s] / best : 1.0) : infinity);
-    }
-    curves.push_back(counted(std::move(ratios), 1.0, last));
-  }
-  return curves;
-}
-
-std::vector<StepCurve> data_profiles(const std::vector<std::vector<double>>& times,
-                                     std::span<const double> sizes, double first, double last) {
-  const size_t solvers = times.empty() ? 0 : times[0].size();
-  std::vector<StepCurve> curves;
-  for (size_t s = 0; s < solvers; ++s) {
-    std::vector<double> costs;
-    for (size_t c = 0; c < times.size(); ++c)
-      costs.push_back(times[c][s] / std::max(1.0, sizes[c]));
-    curves.push_back(counted(std::move(costs), first, last));
+  for (size_t s = 0; !costs.empty() && s < costs[0].size(); ++s) {
+    std::vector<double> values;
+    for (const std::vector<double>& line : costs) values.push_back(line[s]);
+    curves.push_back(counted(std::move(values), first, last));
   }
   return curves;
 }
@@ -160,24 +168,46 @@ StepCurve best_so_far(const CompareRow& row) {
   return curve;
 }
 
-std::vector<double> mean_error_at(std::span<const StepCurve> curves,
-                                  std::span<const double> times) {
-  std::vector<double> means;
-  for (const double time : times) {
-    double sum = 0.0;
-    long count = 0;
-    for (const StepCurve& curve : curves) {
-      if (curve.x.empty()) continue;
-      const auto after = std::upper_bound(curve.x.begin(), curve.x.end(), time);
-      const size_t k =
-          after == curve.x.begin() ? 0 : static_cast<size_t>(after - curve.x.begin()) - 1;
-      sum += std::log(std::max(curve.y[k], 1e-16));
-      ++count;
+double limit_of(std::span<const CompareRow> rows) {
+  double limit = 0.0;
+  for (const CompareRow& row : rows) limit = std::max(limit, row.max_seconds);
+  return limit;
+}
+
+std::vector<BackendSummary> backend_summaries(const CompareTable& table, double limit) {
+  std::vector<BackendSummary> summaries;
+  for (size_t s = 0; s < table.solvers.size(); ++s) {
+    BackendSummary summary;
+    summary.solver = table.solvers[s];
+    std::vector<double> times, ratios_of, best;
+    for (size_t c = 0; c < table.cases.size(); ++c) {
+      const CompareCell& cell = table.cells[c][s];
+      if (!cell.row) continue;
+      summary.law = cell.row->law;
+      summary.solved += cell.solved;
+      summary.unsolved += !cell.solved;
+      summary.timeouts += cell.row->verdict == Verdict::timeout;
+      summary.crashes +=
+          cell.row->verdict == Verdict::crashed || cell.row->verdict == Verdict::out_of_memory;
+      summary.unsupported += cell.row->verdict == Verdict::unsupported;
+      summary.no_solutions += cell.row->verdict == Verdict::no_solution;
+      summary.denied += cell.row->verdict == Verdict::denied;
+      summary.largest_spread = std::max(summary.largest_spread, cell.spread);
+      times.push_back(std::min(cell.median, limit));
+      if (std::isinf(table.fastest(c))) continue;
+      ratios_of.push_back(times.back());
+      best.push_back(table.fastest(c));
     }
-    means.push_back(count ? std::exp(sum / static_cast<double>(count))
-                          : std::numeric_limits<double>::quiet_NaN());
+    summary.mean_seconds = shifted_geometric_mean(times, summary_shift);
+    summary.mean_ratio =
+        best.empty() ? std::nan("") : shifted_geometric_ratio(ratios_of, best, summary_shift);
+    summaries.push_back(std::move(summary));
   }
-  return means;
+  std::stable_sort(
+      summaries.begin(), summaries.end(), [](const BackendSummary& a, const BackendSummary& b) {
+        return a.solved != b.solved ? a.solved > b.solved : a.mean_seconds < b.mean_seconds;
+      });
+  return summaries;
 }
 
 }  // namespace ballast

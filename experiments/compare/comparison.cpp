@@ -1,7 +1,5 @@
 #include "experiments/compare/comparison.hpp"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <fstream>
 #include <optional>
@@ -42,9 +40,9 @@ std::string key_of(const CompareOptions& options, const std::string& binary,
                    int repeat) {
   const std::string numbers =
       printed("%.17g %.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance, options.max_seconds,
-              options.exact_seconds, options.max_iterations, options.limits.memory_MB,
+              options.exact_seconds, options.limits.max_iterations, options.limits.memory_MB,
               options.limits.warm_seconds, options.limits.most_runs, repeat);
-  return content_key("compare row 3|" + binary + '|' + tried.name + '|' + facts.content + '|' +
+  return content_key("compare row 4|" + binary + '|' + tried.name + '|' + facts.content + '|' +
                      attempt.solver->name + '|' + attempt.solver->external_key + '|' +
                      name_of(options.measure) + '|' + name_of(attempt.start) + '|' + numbers);
 }
@@ -117,14 +115,19 @@ class Comparison {
       loaded.exact = std::move(found->impulses);
   }
 
-  /// One row for the case, whatever was to be tried on it. It has no file: the case may be mended.
-  void add_unreadable(const CompareCase& tried, const std::string& why) {
-    unreadable_.insert(tried.name);
+  CompareRow blank_row(const CompareCase& tried) const {
     CompareRow row;
     row.case_name = tried.name;
     row.family = tried.family;
     row.measure = options_.measure;
     row.max_seconds = options_.max_seconds;
+    return row;
+  }
+
+  /// One row for the case, whatever was to be tried on it. It has no file: the case may be mended.
+  void add_unreadable(const CompareCase& tried, const std::string& why) {
+    unreadable_.insert(tried.name);
+    CompareRow row = blank_row(tried);
     row.verdict = Verdict::unreadable;
     row.note = why;
     goes_on_ = progress_(row, false, done_, count_);
@@ -143,7 +146,7 @@ class Comparison {
 
   CompareRow row_of(const CompareCase& tried, const LoadedCase& loaded, const Attempt& attempt,
                     int repeat, bool& was_there) const {
-    CompareRow row;
+    CompareRow row = blank_row(tried);
     row.key = key_of(options_, binary_, tried, loaded.facts, attempt, repeat);
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
     if (std::optional<CompareRow> stored = stored_row(file)) {
@@ -153,22 +156,15 @@ class Comparison {
     row.word = tried.word;
     row.can_view = tried.has_bodies && attempt.solver->external_key.empty();
     if (was_there) return row;
-    row.case_name = tried.name;
-    row.family = tried.family;
     row.solver = attempt.solver->name;
     row.law = name_of(attempt.solver->law);
-    row.measure = options_.measure;
     row.tolerance = attempt.tolerance;
     row.start = attempt.start;
     row.repeat = repeat;
-    row.max_seconds = options_.max_seconds;
     row.facts = loaded.facts;
     if (options_.is_part && was_killed(file, row)) return row;
-    DriveSettings drive;
-    drive.max_seconds = options_.max_seconds;
-    drive.max_iterations = options_.max_iterations;
     const auto solve = attempt.solver->external_key.empty() ? solve_in_child : solve_outside;
-    solve(attempt.solver->make, loaded, drive, options_.limits, row);
+    solve(attempt.solver->make, loaded, options_.limits, row);
     // an interrupt reaches the child as well: what it left is no result
     if (!InterruptGuard::requested()) write_whole_file(file, to_json(row));
     if (options_.is_part) fs::remove(mark_of(file));
@@ -200,12 +196,6 @@ class Comparison {
     manifest.summary("memory_MB", options_.limits.memory_MB);
     manifest.summary("repeats", options_.repeats);
     manifest.summary("blas", loaded_blas());
-    // of this process, the BLAS's included; children have the one that works
-    manifest.summary("threads",
-                     static_cast<double>(std::distance(fs::directory_iterator("/proc/self/task"),
-                                                       fs::directory_iterator())));
-    double load[3];
-    if (getloadavg(load, 3) == 3) manifest.summary("load_at_end", load[0]);
     manifest.summary("unreadable_cases", static_cast<double>(unreadable_.size()));
     long solved = 0, denied = 0;
     for (const CompareRow& row : rows_) {

@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/compare/compare_case.hpp"
-#include "experiments/compare/compare_row.hpp"
 #include "experiments/compare/solve_child.hpp"
 
 namespace ballast {
@@ -31,10 +29,9 @@ struct CompareOptions {
   int repeats = 1;  ///< interleaved: every attempt once, then every attempt again; unsolved ones
                     ///< are not repeated
   double max_seconds = 60.0;  ///< of one solve, prepare included
-  int max_iterations = 1 << 30;
   /// Spent on a solution of each case to measure distances from; 0: none is looked for.
   double exact_seconds = 0.0;
-  ChildLimits limits;
+  SolveLimits limits;
   std::filesystem::path folder;  ///< rows/<key>.json, results.csv, manifest.json
   std::string command;           ///< for the manifest: how it was called
   /// One of several processes that fill the folder: it leaves rows alone. A solve during which such

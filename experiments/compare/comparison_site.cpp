@@ -5,11 +5,8 @@
 #include <map>
 #include <set>
 
-#include "experiments/compare/backend_summary.hpp"
 #include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/compare_page.hpp"
-#include "experiments/compare/merged_comparison.hpp"
-#include "experiments/compare/page_origin.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
@@ -56,16 +53,14 @@ void write_machine(const fs::path& folder, const MachineRows& machine,
 
 void write_rows(const fs::path& file, std::span<const StoredComparison> comparisons) {
   CsvWriter csv;
-  for (const char* name : {"machine", "program", "started", "content"}) csv.add(name);
+  for (const char* name : {"machine", "program", "started"}) csv.add(name);
   for (const CompareColumn& column : compare_columns()) csv.add(column.name);
   csv.end_row();
   for (const StoredComparison& comparison : comparisons)
     for (const CompareRow& row : comparison.rows) {
-      for (const std::string& text :
-           {comparison.machine, comparison.program, comparison.started, row.facts.content})
+      for (const std::string& text : {comparison.machine, comparison.program, comparison.started})
         csv.add(text);
-      for (const CompareColumn& column : compare_columns()) csv.add(column.text(row));
-      csv.end_row();
+      csv.add_row(cells_of(row));
     }
   write_whole_file(file, csv.take());
 }
@@ -76,25 +71,6 @@ std::map<std::string, const CompareRow*> problems_in(std::span<const MachineRows
   for (const MachineRows& machine : machines)
     for (const CompareRow& row : machine.rows) problems.try_emplace(row.case_name, &row);
   return problems;
-}
-
-void write_problems(const fs::path& file,
-                    const std::map<std::string, const CompareRow*>& problems) {
-  CsvWriter csv;
-  for (const char* name : {"problem", "content", "family", "contacts", "rows", "dofs",
-                           "rank_deficiency", "mass_ratio", "velocity_scale"})
-    csv.add(name);
-  csv.end_row();
-  for (const auto& [name, row] : problems) {
-    const CaseFacts& f = row->facts;
-    for (const std::string& text :
-         {name, f.content, row->family, std::to_string(f.contacts), std::to_string(f.rows),
-          std::to_string(f.dofs), printed("%.4g", f.rank_deficiency), printed("%.4g", f.mass_ratio),
-          printed("%.6g", f.velocity_scale)})
-      csv.add(text);
-    csv.end_row();
-  }
-  write_whole_file(file, csv.take());
 }
 
 page::Table machines_table(std::span<const MachineRows> machines,
@@ -114,19 +90,6 @@ page::Table machines_table(std::span<const MachineRows> machines,
          page::Text("compare.html", 0, folder_of(m, machines[m].machine) + "/compare.html")});
   }
   return table;
-}
-
-page::Table ratios_of_backends(const CompareTable& table, double limit) {
-  page::Table result;
-  result.head = {"backend",  "law",     "solved",    "over fastest",
-                 "timeouts", "crashes", "not taken", "claims denied"};
-  result.is_number = {false, false, true, true, true, true, true, true};
-  for (const BackendSummary& s : backend_summaries(table, limit))
-    result.rows.push_back(
-        {s.solver, s.law, page::exact(s.solved) + " of " + page::exact(s.solved + s.unsolved),
-         page::number(s.mean_ratio), page::exact(s.timeouts), page::exact(s.crashes),
-         page::exact(s.unsupported), page::exact(s.false_successes)});
-  return result;
 }
 
 page::Table problems_table(const std::map<std::string, const CompareRow*>& problems) {
@@ -158,10 +121,10 @@ page::Page index_page(std::span<const MachineRows> machines,
                                     {"limit", page::quantity(limit_of(pooled), "s")}}));
   profiles.add(page::words("site.profiles"));
   for (const CompareTable& table : compare_tables(pooled)) {
-    backends.add(page::Subheading{heading_of(table)});
-    backends.add(ratios_of_backends(table, limit_of(pooled)));
+    backends.add(page::Subheading{table.heading()});
+    backends.add(backends_table(table, limit_of(pooled), true));
     const CompareTable common = tried_by_all(table);
-    profiles.add(page::words("site.common", {{"table", heading_of(table)},
+    profiles.add(page::words("site.common", {{"table", table.heading()},
                                              {"common", number_of(common.cases.size())},
                                              {"all", number_of(table.cases.size())}}));
     // The first alone: a time per contact means one machine's.
@@ -188,7 +151,6 @@ void write_comparison_site(const fs::path& folder, std::span<const StoredCompari
     write_machine(folder / folder_of(m, machines[m].machine), machines[m],
                   comparisons[machines[m].sources.back()]);
   write_rows(folder / "rows.csv", comparisons);
-  write_problems(folder / "problems.csv", problems);
   manifest.summary("comparisons", static_cast<double>(comparisons.size()));
   manifest.summary("machines", static_cast<double>(machines.size()));
   manifest.write(folder / "manifest.json");

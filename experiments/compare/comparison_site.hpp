@@ -3,7 +3,6 @@
 //
 //   index.html             all machines: who solves what, ratios, profiles, problems
 //   rows.csv               every row of every comparison, with machine, program, day
-//   problems.csv           what each problem is, by the key of its content
 //   machines/M1-<name>/    a comparison folder for each machine: compare.html, results.csv,
 //                          rows/, manifest.json; it can be merged and compared again
 

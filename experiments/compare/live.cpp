@@ -17,6 +17,7 @@
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/pack.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -27,6 +28,34 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* out_of_time = "time limit";
+constexpr SealedKind trajectory_kind{"BALTRAJ3", "trajectory", 1};
+
+/// What a solver made of the start; who it was and to what tolerance is in the file's name.
+template <class Carrier, class Of>
+void carry(Carrier& carrier, Of& trajectory) {
+  carrier.text(trajectory.ended);
+  carrier.list(trajectory.steps, [&](auto& step) {
+    for (const StepColumn& column : step_columns()) carrier.number(step.*column.value);
+  });
+  carrier.list(trajectory.frame_times);
+  carrier.list(trajectory.positions, [&](auto& centres) { carrier.list(centres); });
+}
+
+/// As bytes, for a file or on the way from a child.
+std::string packed(const Trajectory& trajectory) {
+  Packer packer;
+  carry(packer, trajectory);
+  return packer.bytes();
+}
+
+/// Back into a trajectory whose solver and limits are known. Throws Error that begins with
+/// `origin`.
+void unpack(const std::string& bytes, const std::string& origin, Trajectory& trajectory) {
+  Unpacker unpacker(bytes, origin);
+  carry(unpacker, trajectory);
+  unpacker.finish();
+  unpacker.require(trajectory.positions.size() == trajectory.frame_times.size());
+}
 
 /// Where every backend begins.
 struct Start {
@@ -147,7 +176,7 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
   if (is_there(file)) {
     const Trajectory fresh = trajectory;
     try {
-      read_trajectory(file, trajectory);
+      unpack(read_sealed_file(file, trajectory_kind), file.string(), trajectory);
       return trajectory;
     } catch (const Error& error) {
       std::cerr << "ballast: " << error.what() << "; it is made again" << std::endl;
@@ -156,7 +185,7 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
   }
   step_in_child(options, scene, start, solver, trajectory);
   // an interrupt reaches the child as well: what it left is no result
-  if (!InterruptGuard::requested()) write_trajectory(file, trajectory);
+  if (!InterruptGuard::requested()) write_sealed_file(file, trajectory_kind, packed(trajectory));
   return trajectory;
 }
 
@@ -179,6 +208,24 @@ std::string command_of(const LiveOptions& options) {
 }
 
 }  // namespace
+
+std::string Trajectory::label() const {
+  return solver +
+         (max_iterations > 0 ? printed(" %d iterations", max_iterations)
+                             : printed(" %g", tolerance)) +
+         (law == name_of(ContactLaw::coulomb) ? "" : " (" + law + ")");
+}
+
+std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference) {
+  std::vector<double> result;
+  for (size_t k = 0; k < std::min(trajectory.positions.size(), reference.positions.size()); ++k) {
+    const Eigen::VectorXd& p = trajectory.positions[k];
+    const double grains = static_cast<double>(p.size()) / 3.0;
+    result.push_back(grains > 0.0 ? std::sqrt((p - reference.positions[k]).squaredNorm() / grains)
+                                  : 0.0);
+  }
+  return result;
+}
 
 LiveComparison run_live(const LiveOptions& options,
                         const std::function<bool(const Trajectory&)>& said) {

@@ -7,12 +7,32 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Dense>
+
 #include "experiments/compare/comparison.hpp"
-#include "experiments/compare/trajectory.hpp"
 #include "experiments/record/progress.hpp"
+#include "experiments/step/step_record.hpp"
 #include "problems/scene/scene.hpp"
 
 namespace ballast {
+
+/// What one backend made of a common start: every step's scalars, and where the grains went.
+struct Trajectory {
+  static constexpr const char* complete = "complete";
+
+  std::string solver, law;
+  double tolerance = 0.0;  ///< natural map rms, over the comparison's velocity scale
+  int max_iterations = 0;  ///< of one solve, the limit; 0: none
+  std::string ended;       ///< complete, or why not: "time limit", "failed", a backend's own words
+  std::vector<StepRecord> steps;
+  std::vector<double> frame_times;         ///< [s]
+  std::vector<Eigen::VectorXd> positions;  ///< centres of all grains, 3 each [m]; one per frame
+  bool is_complete() const { return ended == complete; }
+  std::string label() const;  ///< "pgs 1e-4", "nncg 50 iterations", "sap 1e-4 (convex)"
+};
+
+/// rms over grains of the distance from the reference at each frame that both have [m].
+std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference);
 
 struct LiveOptions {
   std::string scene;                   ///< name or path
@@ -39,6 +59,9 @@ struct LiveComparison {
   int reference = -1;  ///< index of the reference solution: exact law, tightest tolerance,
                        ///< complete, first listed; -1: none
   std::vector<Trajectory> trajectories;
+  const Trajectory* reference_trajectory() const {
+    return reference < 0 ? nullptr : &trajectories[static_cast<size_t>(reference)];
+  }
   /// Of the command line, without --solvers and --tolerances: what makes them again.
   std::string command;
 };

@@ -1,12 +1,12 @@
 #include "experiments/compare/live_page.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
-#include "experiments/compare/compare_figures.hpp"
-#include "experiments/compare/live_figures.hpp"
-#include "experiments/compare/live_row.hpp"
-#include "experiments/compare/page_origin.hpp"
-#include "experiments/page/page.hpp"
+#include "experiments/compare/compare_page.hpp"
+#include "experiments/measure/curve_fit.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/text.hpp"
@@ -14,38 +14,181 @@
 namespace ballast {
 namespace {
 
-page::Table rows_table(const std::vector<LiveRow>& rows, const LiveComparison& comparison) {
-  using page::number;
-  using page::quantity;
-  page::Table table;
-  table.head = {"backend, tolerance",
-                "law",
-                "ended",
-                "error, mean",
-                "worst",
-                "above tolerance",
-                page::marked("wall *x*"),
-                page::marked("mean *f*~g~"),
-                "overlap",
-                "kinetic energy",
-                "solid fraction",
-                "iterations",
-                "solve per step",
-                "distance"};
-  table.is_number.assign(table.head.size(), true);
-  table.is_number[0] = table.is_number[1] = table.is_number[2] = false;
-  for (const LiveRow& r : rows) {
-    const bool is_reference =
-        comparison.reference >= 0 &&
-        r.trajectory == &comparison.trajectories[static_cast<size_t>(comparison.reference)];
-    page::Text label = r.trajectory->label();
-    if (is_reference) label += page::Text(" (reference)", page::strong);
-    table.rows.push_back({label, r.trajectory->law, r.trajectory->ended, number(r.error_mean),
-                          number(r.error_max), quantity(100.0 * r.missed, "%"),
-                          quantity(1e3 * r.wall_x, "mm", 4), quantity(r.force_mean, "N", 4),
-                          quantity(1e6 * r.penetration_max, "µm"), quantity(r.kinetic_energy, "J"),
-                          number(r.solid_fraction, 4), number(r.iterations),
-                          quantity(r.solve_ms_per_step, "ms"), quantity(1e6 * r.distance, "µm")});
+using Values = std::vector<double>;
+/// Of a column of the record; NaN without steps.
+Statistics over_steps(const Trajectory& t, double StepRecord::*value) {
+  return statistics(record_column(t.steps, value));
+}
+
+double last_of(const Trajectory& t, double StepRecord::*value) {
+  return t.steps.empty() ? not_known : t.steps.back().*value;
+}
+
+double sum_of(const Trajectory& t, double StepRecord::*value) {
+  return over_steps(t, value).mean * static_cast<double>(t.steps.size());
+}
+
+/// The last one that is known: not every step has it.
+double last_solid_fraction(const Trajectory& t) {
+  double last = not_known;
+  for (const StepRecord& step : t.steps)
+    if (std::isfinite(step.solid_fraction)) last = step.solid_fraction;
+  return last;
+}
+
+/// The share of the steps whose error is above the tolerance.
+double missed_share(const Trajectory& t, const LiveComparison& c) {
+  const double bound = t.tolerance * c.velocity_scale, count = static_cast<double>(t.steps.size());
+  const auto is_missed = [&](const StepRecord& s) { return !(s.error_rms <= bound); };
+  return static_cast<double>(std::count_if(t.steps.begin(), t.steps.end(), is_missed)) / count;
+}
+
+double mean_step_seconds(const Trajectory& t) {
+  double sum = 0.0;
+  for (const StepRecord& step : t.steps) sum += step_seconds(step);
+  return sum / static_cast<double>(t.steps.size());
+}
+
+double last_distance(const Trajectory& t, const LiveComparison& c) {
+  const Trajectory* reference = c.reference_trajectory();
+  const Values d = reference ? distances(t, *reference) : Values();
+  return d.empty() ? not_known : d.back();
+}
+
+using T = const Trajectory&;
+using C = const LiveComparison&;
+constexpr LiveNumber shown_numbers[] = {
+    {"error_mean", "", "error, mean", "", 1.0, 3,
+     [](T t, C c) { return over_steps(t, &StepRecord::error_rms).mean / c.velocity_scale; }},
+    {"error_max", "", "worst", "", 1.0, 3,
+     [](T t, C c) { return over_steps(t, &StepRecord::error_rms).max / c.velocity_scale; }},
+    {"missed", "", "above tolerance", "%", 100.0, 3, missed_share},
+    {"wall_x_end", "m", "wall *x*", "mm", 1e3, 4,
+     [](T t, C c) { return c.has_driven_wall ? last_of(t, &StepRecord::wall_x) : not_known; }},
+    {"wall_force_mean", "N", "mean *f*~g~", "N", 1.0, 4,
+     [](T t, C c) {
+       return c.has_driven_wall ? over_steps(t, &StepRecord::wall_force).mean : not_known;
+     }},
+    {"penetration_max", "m", "overlap", "µm", 1e6, 3,
+     [](T t, C) { return over_steps(t, &StepRecord::penetration_max).max; }},
+    {"kinetic_energy_end", "J", "kinetic energy", "J", 1.0, 3,
+     [](T t, C) { return last_of(t, &StepRecord::kinetic_energy); }},
+    {"energy_residual", "J", nullptr, "", 1.0, 3,
+     [](T t, C) { return sum_of(t, &StepRecord::energy_residual); }},
+    {"solid_fraction_end", "", "solid fraction", "", 1.0, 4,
+     [](T t, C) { return last_solid_fraction(t); }},
+    {"iterations_mean", "", "iterations", "", 1.0, 3,
+     [](T t, C) { return over_steps(t, &StepRecord::iterations).mean; }},
+    {"ms_per_step", "ms", nullptr, "", 1.0, 3, [](T t, C) { return 1e3 * mean_step_seconds(t); }},
+    {"solve_ms_per_step", "ms", "solve per step", "ms", 1.0, 3,
+     [](T t, C) { return 1e3 * over_steps(t, &StepRecord::seconds_solve).mean; }},
+    {"distance_end", "m", "distance", "µm", 1e6, 3, last_distance}};
+
+/// A backend's colour; the tightest tolerance is a whole line, looser ones have shorter dashes.
+Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& trajectory) {
+  std::vector<std::string> solvers;
+  std::vector<double> tolerances;
+  for (const Trajectory& t : comparison.trajectories) {
+    if (std::ranges::find(solvers, t.solver) == solvers.end()) solvers.push_back(t.solver);
+    if (std::ranges::find(tolerances, t.tolerance) == tolerances.end())
+      tolerances.push_back(t.tolerance);
+  }
+  std::sort(tolerances.begin(), tolerances.end());
+  const auto place = [](const auto& values, const auto& value) {
+    return static_cast<size_t>(std::ranges::find(values, value) - values.begin());
+  };
+  Curve curve = backend_curve(place(solvers, trajectory.solver), trajectory.label());
+  const size_t looseness = place(tolerances, trajectory.tolerance);
+  curve.dashed = looseness > 0;
+  curve.fineness = static_cast<int>(std::clamp<size_t>(looseness, 1, 3)) - 1;
+  curve.width = looseness == 0 ? 2.0 : 1.6;
+  curve.origins = {trajectory.label()};
+  return curve;
+}
+
+/// The line of a trajectory, beside that of the reference, or of itself where there is none.
+using LiveLine =
+    std::function<void(const Trajectory& t, const Trajectory& reference, Values& x, Values& y)>;
+
+/// One figure with a line for every trajectory.
+struct LiveFigure {
+  const char *name, *title, *y_label;
+  bool log_y;
+  bool needs_wall, needs_reference;
+  LiveLine line;
+};
+
+LiveLine column(double StepRecord::*value, double factor) {
+  return [=](const Trajectory& t, const Trajectory&, Values& x, Values& y) {
+    for (const StepRecord& s : t.steps) {
+      if (!std::isfinite(s.*value)) continue;
+      x.push_back(s.time);
+      y.push_back(factor * (s.*value));
+    }
+  };
+}
+
+void line_of_cost(const Trajectory& t, const Trajectory&, Values& x, Values& y) {
+  for (const StepRecord& s : t.steps) {
+    x.push_back(s.time);
+    y.push_back((y.empty() ? 0.0 : y.back()) + s.seconds_solve);
+  }
+}
+
+/// How far the wall is from where it is in the reference solution: the trajectories themselves
+/// coincide to the eye.
+void line_of_deviation(const Trajectory& t, const Trajectory& reference, Values& x, Values& y) {
+  for (size_t k = 0; k < std::min(t.steps.size(), reference.steps.size()); ++k) {
+    x.push_back(t.steps[k].time);
+    y.push_back(1e6 * std::abs(t.steps[k].wall_x - reference.steps[k].wall_x));
+  }
+}
+
+void line_of_distance(const Trajectory& t, const Trajectory& reference, Values& x, Values& y) {
+  y = distances(t, reference);
+  for (double& d : y) d *= 1e6;
+  x.assign(t.frame_times.begin(), t.frame_times.begin() + static_cast<std::ptrdiff_t>(y.size()));
+}
+
+std::vector<LiveFigure> figures_of(const LiveComparison& comparison) {
+  using R = StepRecord;
+  return {
+      {"live_wall", "Wall trajectory", "wall {/:Italic x}  (mm)", false, true, false,
+       column(&R::wall_x, 1e3)},
+      {"live_wall_deviation", "Deviation of the wall", "|{/:Italic x} − {/:Italic x}_{ref}|  (µm)",
+       true, true, true, line_of_deviation},
+      {"live_force", "Force on the wall", "{/:Italic f_g}  (N)", false, true, false,
+       column(&R::wall_force, 1.0)},
+      {"live_distance", "Distance from the reference", "rms distance  (µm)", true, false, true,
+       line_of_distance},
+      {"live_error", "Error of the contact law", "error, relative", true, false, false,
+       column(&R::error_rms, 1.0 / comparison.velocity_scale)},
+      {"live_penetration", "Deepest overlap", "deepest overlap  (µm)", true, false, false,
+       column(&R::penetration_max, 1e6)},
+      {"live_energy", "Kinetic energy", "kinetic energy  (J)", true, false, false,
+       column(&R::kinetic_energy, 1.0)},
+      {"live_solid_fraction", "Solid fraction", "solid fraction", false, false, false,
+       column(&R::solid_fraction, 1.0)},
+      {"live_cost", "Cost", "wall clock of the solver  (s)", false, false, false, line_of_cost}};
+}
+
+page::Table numbers_table(const LiveComparison& comparison) {
+  page::Table table{.head = {"backend, tolerance", "law", "ended"},
+                    .is_number = {false, false, false}};
+  for (const LiveNumber& number : shown_numbers)
+    if (number.head) {
+      table.head.push_back(page::marked(number.head));
+      table.is_number.push_back(true);
+    }
+  for (const Trajectory& t : comparison.trajectories) {
+    page::Text label = t.label();
+    if (&t == comparison.reference_trajectory()) label += page::Text(" (reference)", page::strong);
+    std::vector<page::Text> line{label, t.law, t.ended};
+    for (const LiveNumber& number : shown_numbers)
+      if (number.head)
+        line.push_back(page::quantity(number.factor * number.of(t, comparison), number.shown_unit,
+                                      number.digits));
+    table.rows.push_back(std::move(line));
   }
   return table;
 }
@@ -67,17 +210,71 @@ std::string origins_of(const LiveComparison& comparison) {
 
 }  // namespace
 
+std::span<const LiveNumber> live_numbers() { return shown_numbers; }
+
+std::string live_csv(const LiveComparison& comparison) {
+  CsvWriter csv;
+  for (const char* name : {"solver", "law", "tolerance", "ended", "steps"}) csv.add(name);
+  for (const LiveNumber& number : shown_numbers) csv.add(number.name);
+  csv.end_row();
+  for (const Trajectory& t : comparison.trajectories) {
+    csv.add(t.solver);
+    csv.add(t.law);
+    csv.add(t.tolerance, 6);
+    csv.add(t.ended);
+    csv.add(static_cast<long>(t.steps.size()));
+    for (const LiveNumber& number : shown_numbers) csv.add(number.of(t, comparison), 9);
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+std::string steps_csv(const Trajectory& t) {
+  CsvWriter csv;
+  for (const StepColumn& column : step_columns()) csv.add(column.name);
+  csv.end_row();
+  for (const StepRecord& step : t.steps) {
+    for (const StepColumn& column : step_columns()) csv.add(step.*column.value, 17);
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
+  const Trajectory* reference = comparison.reference_trajectory();
+  std::vector<page::Picture> pictures;
+  for (const LiveFigure& what : figures_of(comparison)) {
+    if (what.needs_reference && !reference) continue;
+    if (what.needs_wall && !comparison.has_driven_wall) continue;
+    Panel panel{.x_label = "{/:Italic t}  (s)", .y_label = what.y_label, .log_y = what.log_y};
+    for (const Trajectory& t : comparison.trajectories) {
+      Curve curve = trajectory_curve(comparison, t);
+      if (!what.needs_reference || &t != reference)
+        what.line(t, reference ? *reference : t, curve.x, curve.y);
+      if (std::none_of(curve.y.begin(), curve.y.end(),
+                       [&](double v) { return std::isfinite(v) && (!what.log_y || v > 0.0); }))
+        continue;
+      thin_out(curve.x, curve.y, 1500);
+      panel.curves.push_back(std::move(curve));
+    }
+    Figure figure{.name = what.name, .title = what.title};
+    figure.height = height_for(2 * panel.curves.size());
+    if (!panel.curves.empty()) figure.panels = {std::move(panel)};
+    pictures.push_back({figure, {page::words(std::string(what.name) + ".caption")}});
+  }
+  return pictures;
+}
+
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison) {
-  const std::vector<LiveRow> rows = live_rows(comparison);
   for (const Trajectory& t : comparison.trajectories)
     write_whole_file(folder / ("steps-" + figure_name(t.label()) + ".csv"), steps_csv(t));
-  write_whole_file(folder / "live.csv", live_csv(rows));
+  write_whole_file(folder / "live.csv", live_csv(comparison));
   page::Page page{.title = "One start, several solvers: " + comparison.scene.name};
   page.add(
       {"table",
        "Side by side",
        {page::words("live.table", {{"scale", page::quantity(comparison.velocity_scale, "m/s")}}),
-        rows_table(rows, comparison)}});
+        numbers_table(comparison)}});
   page::Section figures{"figures", "Figures"};
   figures.add(live_figures(comparison));
   page.add(figures);

@@ -1,13 +1,38 @@
 #pragma once
-// The page of a closed-loop comparison, with its tables as CSV.
+// What a closed-loop comparison shows: numbers and figures of its trajectories, a page, CSV files.
 
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "experiments/compare/live.hpp"
+#include "experiments/page/page.hpp"
 
 namespace ballast {
 
-/// Reads manifest.json of `folder`; writes live.csv (one row per trajectory), trajectories as
+/// What a trajectory came to in one number: a column of live.csv, and one of the page's table where
+/// it has a head.
+struct LiveNumber {
+  const char *name, *unit;  ///< of live.csv and `ballast bench accuracy`; SI, "" without
+  const char* head;         ///< of the page's column, in the notation of page::marked; null: none
+  const char* shown_unit;   ///< on the page
+  double factor;            ///< from `unit` to that one
+  int digits;               ///< on the page
+  /// NaN: not known, or not there (no steps, driven wall, grains or reference).
+  double (*of)(const Trajectory& trajectory, const LiveComparison& comparison);
+};
+std::span<const LiveNumber> live_numbers();
+
+/// One row for each trajectory; and every step's scalars of one, with all their digits.
+std::string live_csv(const LiveComparison& comparison);
+std::string steps_csv(const Trajectory& trajectory);
+
+/// A line for every trajectory. Figures of the wall only with a driven wall, distances only with a
+/// reference. A figure of which nothing is known has no panels.
+std::vector<page::Picture> live_figures(const LiveComparison& comparison);
+
+/// Reads manifest.json of `folder`; writes live.csv, trajectories as
 /// steps-<solver>-<tolerance>.csv, figures/*.svg and live.html there. Throws Error.
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison);
 

@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "platform/atomic_file.hpp"
+#include "experiments/measure/curve_fit.hpp"
 #include "platform/csv.hpp"
-#include "platform/error.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
-/// A finite number >= 0; anything else is NaN.
+/// NaN for what is no finite number >= 0.
 double time_of(std::string_view text) {
   const double value = parsed_number(text).value_or(-1.0);
-  return std::isfinite(value) && value >= 0.0 ? value : std::numeric_limits<double>::quiet_NaN();
+  return std::isfinite(value) && value >= 0.0 ? value : not_known;
 }
 
 }  // namespace
@@ -45,11 +43,7 @@ std::vector<ReferenceTimes> read_reference_times(const std::filesystem::path& fi
     const std::string problem = problem_stem(std::string(reader.cells()[0]));
     for (size_t k = 1; k < columns; k += 2) {
       const std::string_view cell = reader.cells()[k];
-      if (cell.empty()) {
-        times[k / 2].unsolved.insert(problem);
-        continue;
-      }
-      const double ms = time_of(cell);
+      const double ms = cell.empty() ? not_reached : time_of(cell);
       if (std::isnan(ms)) reader.fail("'" + std::string(cell) + "': expected milliseconds >= 0");
       times[k / 2].entries[problem] = {1e-3 * ms, std::string(reader.cells()[k + 1])};
     }
@@ -65,58 +59,36 @@ double ReferenceComparison::ratio(double shift, double limit, bool of_auto) cons
     a.push_back(std::min(value, limit));
     b.push_back(line.theirs);
   }
-  return a.empty() ? std::numeric_limits<double>::quiet_NaN()
-                   : shifted_geometric_ratio(a, b, shift);
+  return a.empty() ? not_known : shifted_geometric_ratio(a, b, shift);
 }
-
-namespace {
-
-bool is_ours(const std::string& solver) { return !solver.starts_with("siconos"); }
-
-/// Fills in our fastest.
-void take_fastest(const CompareTable& table, size_t c, ReferenceComparison::Line& line) {
-  line.ours = std::numeric_limits<double>::infinity();
-  for (size_t s = 0; s < table.solvers.size(); ++s) {
-    if (!is_ours(table.solvers[s]) || !(table.cells[c][s].median < line.ours)) continue;
-    line.ours = table.cells[c][s].median;
-    line.our_solver = table.solvers[s];
-  }
-}
-
-}  // namespace
 
 std::vector<ReferenceComparison> compare_with_reference(std::span<const CompareTable> tables,
                                                         std::span<const ReferenceTimes> reference) {
   std::vector<ReferenceComparison> comparisons;
   for (const CompareTable& table : tables) {
-    const auto times =
-        std::find_if(reference.begin(), reference.end(),
-                     [&](const ReferenceTimes& r) { return r.tolerance == table.tolerance; });
+    const auto times = std::ranges::find(reference, table.tolerance, &ReferenceTimes::tolerance);
     if (table.start != StartKind::cold || times == reference.end()) continue;
-    const auto automatic = std::find(table.solvers.begin(), table.solvers.end(), "auto");
-    ReferenceComparison comparison;
+    ReferenceComparison& comparison = comparisons.emplace_back();
     comparison.tolerance = table.tolerance;
     for (size_t c = 0; c < table.cases.size(); ++c) {
-      ReferenceComparison::Line line;
-      line.case_name = table.cases[c];
-      take_fastest(table, c, line);
-      const std::string stem = problem_stem(table.cases[c]);
-      const auto theirs = times->entries.find(stem);
-      if (theirs == times->entries.end()) {
-        if (std::isfinite(line.ours) && times->unsolved.contains(stem))
-          comparison.only_ours.push_back(table.cases[c]);
+      const auto theirs = times->entries.find(problem_stem(table.cases[c]));
+      if (theirs == times->entries.end()) continue;
+      ReferenceComparison::Line line{table.cases[c],         theirs->second.solver, "",
+                                     theirs->second.seconds, not_reached,           not_known};
+      for (size_t s = 0; s < table.solvers.size(); ++s) {
+        const double seconds = table.cells[c][s].median;
+        if (table.solvers[s] == "auto") line.automatic = seconds;
+        if (table.solvers[s].starts_with("siconos") || !(seconds < line.ours)) continue;
+        line.ours = seconds;
+        line.our_solver = table.solvers[s];
+      }
+      if (std::isinf(line.theirs)) {
+        if (std::isfinite(line.ours)) comparison.only_ours.push_back(line.case_name);
         continue;
       }
-      if (std::isinf(line.ours)) comparison.missing.push_back(table.cases[c]);
-      line.their_solver = theirs->second.solver;
-      line.theirs = theirs->second.seconds;
-      line.automatic = std::numeric_limits<double>::quiet_NaN();
-      if (automatic != table.solvers.end())
-        line.automatic =
-            table.cells[c][static_cast<size_t>(automatic - table.solvers.begin())].median;
+      if (std::isinf(line.ours)) comparison.missing.push_back(line.case_name);
       comparison.lines.push_back(std::move(line));
     }
-    comparisons.push_back(std::move(comparison));
   }
   return comparisons;
 }

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,12 +15,10 @@ namespace ballast {
 struct ReferenceTimes {
   double tolerance = 0.0;
   struct Entry {
-    double seconds;
-    std::string solver;
+    double seconds = not_reached;  ///< infinite: nobody solved it
+    std::string solver = {};
   };
-  std::map<std::string, Entry>
-      entries;                     ///< by problem_stem(); problems that nobody solved are not in it
-  std::set<std::string> unsolved;  ///< those
+  std::map<std::string, Entry> entries;  ///< by problem_stem()
 };
 
 /// A file's name without what formats and conversions append: "CubeH8-condensed.dat", "CubeH8.hdf5"

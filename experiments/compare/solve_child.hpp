@@ -1,13 +1,21 @@
 #pragma once
 // One attempt of a comparison in a process of its own, under limits of time and memory: what
-// crashes, hangs or eats memory becomes a row.
+// crashes, hangs or eats memory becomes a row. It goes to a tolerance in either measure, timed
+// outside the judge, with its history.
+
+#include <functional>
+#include <memory>
 
 #include "experiments/compare/compare_row.hpp"
-#include "experiments/compare/drive_solver.hpp"
+#include "solvers/seam/run_solver.hpp"
 
 namespace ballast {
 
-struct ChildLimits {
+/// Makes a backend of solver_list(), a test's own, or one that starts a program.
+using MakeSolver = std::function<std::unique_ptr<Solver>()>;
+
+struct SolveLimits {
+  int max_iterations = 1 << 30;
   double memory_MB = 4096.0;  ///< of address space, the program's own included; 0: none
   double warm_seconds =
       0.25;  ///< a solve that is shorter is repeated in the child for about so long, and the
@@ -16,14 +24,15 @@ struct ChildLimits {
 };
 
 /// Solves the case with a solver made by `make` in a forked child, judges what comes back here, and
-/// fills in what came of it in `row`; what was tried (row.measure, tolerance, start) must be in it.
-/// `drive`'s measure, tolerance and scale are the row's. Throws InvalidProblem.
-void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const DriveSettings& drive,
-                    const ChildLimits& limits, CompareRow& row);
+/// fills in what came of it in `row`; what was tried (its measure, tolerance, start and
+/// max_seconds) must be in it. A backend stops on the measure that is asked for: it looks at it
+/// wherever it evaluates its error (Budget::fclib). Throws InvalidProblem.
+void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                    CompareRow& row);
 
 /// The same without a child, for a solver that has its work done in a program under limits of its
 /// own (experiments/external).
-void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const DriveSettings& drive,
-                   const ChildLimits& limits, CompareRow& row);
+void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                   CompareRow& row);
 
 }  // namespace ballast

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "experiments/compare/case_views.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/run/manifest.hpp"
@@ -27,8 +26,6 @@ struct HandMadeComparison {
       for (const char* name : {"x1", "y2", "z3"})
         for (const char* solver : {"a", "b", "c"}) add(name, solver, tolerance);
     Manifest("compare", {"ballast compare"}, "key").write(place.path() / "manifest.json");
-    create_folder(place.path() / "views");
-    place.write(view_page_of("x1").string(), "its bodies");
     write_compare_page(place.path(), rows, {});
   }
   void add(const char* name, const char* solver, double tolerance) {
@@ -167,18 +164,13 @@ TEST_CASE("a point tells its values, and a click opens its solve with the comman
   CHECK(browser.complaints == std::vector<std::string>{});
 }
 
-TEST_CASE("a solve says where in the packing it is wrong: by a page, by a command, or not at all") {
+TEST_CASE("a solve says where in the packing it is wrong: by a command, or not at all") {
   if (is_missing()) return;
   const HandMadeComparison made;
   Browser browser(1400, 900);
   const std::string commands =
       "[...document.querySelectorAll('dialog pre')].slice(1).map((e) => e.textContent).join('|')";
-  browser.open(made.page(), "row=x1b4", "document.querySelector('dialog[open]')");
-  CHECK(browser.js("document.querySelector('dialog a.view').getAttribute('href')") ==
-        "views/x1.html#left=b");
-  CHECK(browser.js(commands) == "");
   browser.open(made.page(), "row=y2b4", "document.querySelector('dialog[open]')");
-  CHECK(browser.js("document.querySelector('dialog a.view')").is_null());
   CHECK(browser.js(commands) == "ballast view folder/y2.dat --solver b --solver auto");
   browser.open(made.page(), "row=z3b4", "document.querySelector('dialog[open]')");
   CHECK(browser.js(commands) == "");

@@ -32,7 +32,6 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"zlib.h", {"platform/deflate", "tests/"}},
     {"toml++/", {"problems/scene/"}},
     {"CLI/", {"experiments/commands/"}},
-    {"benchmark/", {"experiments/bench/kernels"}},
     {"nlohmann/", {"experiments/", "tests/"}},
     {"cholmod.h", {"solvers/parts/sparse_factor"}},
     {"umfpack.h", {"solvers/parts/sparse_factor"}},

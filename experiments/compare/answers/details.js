@@ -10,19 +10,14 @@ const facts_of = (row) => facts_table([
   row.worst ? ["worst contact", row.worst] : null,
   row.note ? ["note", row.note] : null]);
 
-/// Where in the packing the answer is wrong: the case's page in 3D, else the command for it.
-/// Nothing where the bodies are not known.
+/// The command that shows where in the packing the answer is wrong; a note where the bodies are not
+/// known.
 function view_of(row) {
-  const page = page_data.views[row.case];
-  if (page === undefined)
+  if (!page_data.viewable.includes(row.case))
     return [element("p", { class: "note" },
                     "Not to be shown in 3D: the problem does not say where its contacts are.")];
-  const words = "Where in the packing it is wrong, contact by contact";
-  if (page)
-    return [element("p", {}, element("a", { href: `${page}#left=${row.solver}`, class: "view" },
-                                     words))];
   const beside = row.solver === "auto" ? "" : " --solver auto";
-  return [element("p", {}, words + ":"),
+  return [element("p", {}, "Where in the packing it is wrong, contact by contact:"),
     command_line(`ballast view ${page_data.words[row.case]} --solver ${row.solver}${beside}` +
                  (row.start === "warm" ? " --warm" : ""))];
 }

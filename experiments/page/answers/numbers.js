@@ -24,7 +24,7 @@ function short_number(value) {
   return text.includes(".") ? text.replace(/\.?0+(?=×|$)/, "") : text;
 }
 
-/// A duration in seconds, milliseconds or microseconds (time_of of outcome_tables.cpp).
+/// A duration in seconds, milliseconds or microseconds (time_of of compare_page.cpp).
 function time_words(seconds) {
   if (!Number.isFinite(seconds)) return dash;
   const [factor, unit] = seconds < 1e-4 ? [1e6, "µs"] : seconds < 1 ? [1e3, "ms"] : [1, "s"];

@@ -10,28 +10,32 @@ using namespace ballast;
 
 TEST_CASE("More iterations cost more and err less") {
   const TemporaryFolder folder;
-  AccuracyOptions options;
-  options.live.scene = "vibrated_box_small";
-  options.live.overrides = tiny;
-  options.live.solvers = parse_solvers("pgs");
-  options.live.tolerances = {1e-8};
-  options.live.duration = 4e-3;
-  options.live.folder = folder.path();
-  options.iterations = {2, 30};
+  LiveOptions live;
+  live.scene = "vibrated_box_small";
+  live.overrides = tiny;
+  live.solvers = parse_solvers("pgs");
+  live.tolerances = {1e-8};
+  live.duration = 4e-3;
+  live.folder = folder.path();
   const Silence silence;
   std::vector<std::string> labels;
-  const auto rows = measure_accuracy(options, [&](const Trajectory& t) {
+  const LiveComparison made = measure_accuracy(live, {2, 30}, [&](const Trajectory& t) {
     labels.push_back(t.label());
     return true;
   });
-  REQUIRE(rows.size() == 3);
   CHECK(labels == std::vector<std::string>{"pgs 1e-08", "pgs 2 iterations", "pgs 30 iterations"});
-  for (const AccuracyRow& row : rows) CHECK(row.complete);
-  CHECK(rows[0].error_worst <= 1e-8);
-  CHECK(rows[0].distance == 0.0);
-  CHECK(rows[1].limit == "2 iterations");
-  CHECK(rows[1].iterations == 2.0);
-  CHECK(rows[1].error_mean > rows[2].error_mean);
-  CHECK(rows[1].distance > 0.0);
-  CHECK(value_of(accuracy_measurements(rows), "pgs, 30 iterations/iterations") == 30.0);
+  REQUIRE(made.trajectories.size() == 3);
+  for (const Trajectory& t : made.trajectories) CHECK(t.is_complete());
+  CHECK(made.reference == 0);
+  const std::vector<Measurement> all = accuracy_measurements(made);
+  CHECK(value_of(all, "pgs 1e-08/error_max") <= 1e-8);
+  CHECK(value_of(all, "pgs 1e-08/distance_end") == 0.0);
+  CHECK(value_of(all, "pgs 2 iterations/iterations_mean") == 2.0);
+  CHECK(value_of(all, "pgs 2 iterations/error_mean") >
+        value_of(all, "pgs 30 iterations/error_mean"));
+  CHECK(value_of(all, "pgs 2 iterations/distance_end") > 0.0);
+  // 2e-4 s a step: a second of them
+  CHECK(value_of(all, "pgs 30 iterations/cost of a simulated second") ==
+        Approx(5.0 * value_of(all, "pgs 30 iterations/ms_per_step")));
+  CHECK(accuracy_figure(made).panels[0].curves.at(0).x.size() == 3);
 }

@@ -12,7 +12,7 @@ using namespace ballast;
 TEST_CASE("two results are printed as a ratio table") {
   const TemporaryFolder folder;
   for (const auto& [name, value] : {std::pair("a", 10.0), std::pair("b", 5.0)})
-    write_bench_result(folder.path() / name, "step", "ballast bench step", MachineFacts{},
+    write_bench_result(folder.path() / name, "step", "ballast bench step",
                        {measurement_of("1 thread, all", "step", "ms", {value})});
   const std::string a = (folder.path() / "a" / "step.json").string(),
                     b = (folder.path() / "b" / "step.json").string();

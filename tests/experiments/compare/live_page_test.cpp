@@ -1,8 +1,9 @@
-// The page of a closed loop: well-formed, with its files beside it.
+// What a closed loop shows: its numbers against hand-made ones, its figures, its page.
 
 #include "experiments/compare/live_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/page/plot.hpp"
 #include "experiments/run/manifest.hpp"
@@ -14,6 +15,106 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
+
+namespace {
+
+double number_of(const char* name, size_t trajectory, const LiveComparison& live) {
+  for (const LiveNumber& number : live_numbers())
+    if (std::string(name) == number.name) return number.of(live.trajectories[trajectory], live);
+  FAIL("no number " << name);
+  return 0.0;
+}
+
+const page::Picture* find_figure(const std::vector<page::Picture>& figures,
+                                 const std::string& name) {
+  for (const page::Picture& figure : figures)
+    if (figure.plot.name == name && !figure.plot.panels.empty()) return &figure;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("A trajectory comes to its means, its worst and its end") {
+  LiveComparison live = hand_made_live();
+  struct Expected {
+    const char* name;
+    double value;
+  };
+  for (const auto& [name, value] : {Expected{"error_mean", 1.5e-2},  // 1.5e-4 m/s over 1e-2 m/s
+                                    {"error_max", 2e-2},
+                                    {"missed", 0.5},  // the second of two steps
+                                    {"wall_x_end", 2.003e-3},
+                                    {"wall_force_mean", 15.0},
+                                    {"penetration_max", 2e-6},
+                                    {"kinetic_energy_end", 1.0},
+                                    {"energy_residual", 0.5},
+                                    {"solid_fraction_end", 0.6},
+                                    {"iterations_mean", 15.0},
+                                    {"solve_ms_per_step", 1.5},
+                                    {"ms_per_step", 1.5},
+                                    {"distance_end", 3e-6}}) {
+    INFO(name);
+    CHECK(number_of(name, 1, live) == Approx(value));
+    CHECK(std::isnan(number_of(name, 2, live)));  // it made no step
+  }
+  CHECK(number_of("missed", 0, live) == 0.0);
+  CHECK(number_of("distance_end", 0, live) == 0.0);
+  // without a driven wall or a reference nothing is said of them
+  live.has_driven_wall = false;
+  live.reference = -1;
+  for (const char* name : {"wall_x_end", "wall_force_mean", "distance_end"})
+    CHECK(std::isnan(number_of(name, 0, live)));
+}
+
+TEST_CASE("Tables of rows and of steps have a line for each") {
+  const LiveComparison live = hand_made_live();
+  const std::string csv = live_csv(live);
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 4);
+  CHECK(csv.find("\npgs,coulomb,0.1,complete,2,0.015,0.02,0,0.002,15,") != std::string::npos);
+  const std::string steps = steps_csv(live.trajectories[0]);
+  CHECK(std::count(steps.begin(), steps.end(), '\n') == 3);
+  CHECK(std::count(steps.begin(), steps.begin() + static_cast<long>(steps.find('\n')), ',') + 1 ==
+        static_cast<long>(step_columns().size()));
+}
+
+TEST_CASE("Every trajectory with something to show is a line") {
+  const auto figures = live_figures(hand_made_live());
+  const page::Picture* wall = find_figure(figures, "live_wall");
+  REQUIRE(wall);
+  const std::vector<Curve>& curves = wall->plot.panels[0].curves;
+  REQUIRE(curves.size() == 2);  // the third made no step
+  CHECK(curves[0].title == "pgs 0.1");
+  CHECK(curves[0].y == std::vector<double>{1.0, 2.0});  // mm
+  CHECK(curves[1].ink != curves[0].ink);
+  CHECK(curves[1].fineness < curves[0].fineness);  // tighter
+  CHECK(curves[0].opacity == 1.0);
+  const page::Picture* cost = find_figure(figures, "live_cost");
+  REQUIRE(cost);
+  CHECK(cost->plot.panels[0].curves[0].y[1] == Approx(3e-3));  // summed up
+}
+
+TEST_CASE("Distances and deviations are the others' from the reference") {
+  const auto figures = live_figures(hand_made_live());
+  for (const char* name : {"live_distance", "live_wall_deviation"}) {
+    INFO(name);
+    const page::Picture* figure = find_figure(figures, name);
+    REQUIRE(figure);
+    REQUIRE(figure->plot.panels[0].curves.size() == 1);
+    const Curve& curve = figure->plot.panels[0].curves[0];
+    CHECK(curve.title == "nncg 0.015");
+    for (const double y : curve.y) CHECK(y == Approx(3.0));  // µm
+  }
+}
+
+TEST_CASE("Without wall and reference there are no figures of them") {
+  LiveComparison live = hand_made_live();
+  live.has_driven_wall = false;
+  live.reference = -1;
+  const auto figures = live_figures(live);
+  for (const char* name : {"live_wall", "live_wall_deviation", "live_force", "live_distance"})
+    CHECK(find_figure(figures, name) == nullptr);
+  CHECK(find_figure(figures, "live_error") != nullptr);
+}
 
 TEST_CASE("The page of a closed loop says who was the reference, and what others' words were") {
   const TemporaryFolder folder;

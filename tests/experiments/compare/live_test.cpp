@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "experiments/compare/compare_options.hpp"
+#include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -30,10 +31,13 @@ LiveOptions small_live(const std::filesystem::path& folder) {
 }
 
 struct Silence {
-  Silence() : old(std::cout.rdbuf(sink.rdbuf())) {}
-  ~Silence() { std::cout.rdbuf(old); }
+  Silence() : out(std::cout.rdbuf(sink.rdbuf())), err(std::cerr.rdbuf(sink.rdbuf())) {}
+  ~Silence() {
+    std::cout.rdbuf(out);
+    std::cerr.rdbuf(err);
+  }
   std::ostringstream sink;
-  std::streambuf* old;
+  std::streambuf *out, *err;
 };
 
 }  // namespace
@@ -71,4 +75,35 @@ TEST_CASE("One start under several backends and tolerances") {
   REQUIRE(again.trajectories.size() == 4);
   for (size_t k = 0; k < 4; ++k)
     CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
+  // a damaged one is made again
+  for (const auto& file : std::filesystem::directory_iterator(folder.path() / "trajectories"))
+    write_whole_file(file.path(), read_whole_file(file.path()).substr(0, 300));
+  {
+    const Silence silence;
+    again = run_live(options, [](const Trajectory&) { return true; });
+  }
+  for (size_t k = 0; k < 4; ++k) {
+    CHECK(again.trajectories[k].steps.size() == 20);
+    CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
+  }
+}
+
+TEST_CASE("Distances are rms over grains at common frames") {
+  Trajectory a, b;
+  a.positions = {Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
+  b.positions = {Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
+  b.positions[1] << 3.0, 4.0, 0.0, 0.0, 0.0, 5.0;
+  CHECK(distances(a, b) == std::vector<double>{0.0, 5.0});
+}
+
+TEST_CASE("A trajectory is called after its solver, its limit and a law that is not Coulomb's") {
+  Trajectory t;
+  t.solver = "pgs";
+  t.law = "coulomb";
+  t.tolerance = 1e-4;
+  CHECK(t.label() == "pgs 0.0001");
+  t.max_iterations = 50;
+  CHECK(t.label() == "pgs 50 iterations");
+  t.law = "convex";
+  CHECK(t.label() == "pgs 50 iterations (convex)");
 }
