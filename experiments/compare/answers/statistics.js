@@ -1,5 +1,5 @@
-// Medians, means and profiles of a selection of rows: the same as compare_table.cpp computes for all
-// cases.
+// Medians, means and profiles of a selection of rows: the same as compare_table.cpp computes for
+// all cases.
 
 /// One case by one backend, over its repeats. Times are infinite where it isn't solved.
 function cell_of(repeats) {
