@@ -174,7 +174,7 @@ page::Table stage_table(const std::vector<Case>& cases, const char* unit) {
   page::Text heads;
   for (const StageColumn& column : stage_columns)
     add_to_list(heads, page::marked(column.head), " || ");
-  page::Table table = page::words_table("cases", {{"columns", heads}});
+  page::Table table = page::words_table("case_columns", {{"columns", heads}});
   for (const Case& row : cases)
     for (const Group& group : row.groups) {
       table.rows.push_back({row.name, group.label + unit, samples_of(group)});
