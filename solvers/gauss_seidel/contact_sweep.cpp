@@ -17,7 +17,7 @@ double ContactSweep::sweep_along(SearchStep step) {
   restore(swept_);
   sweep();
   const Eigen::Index impulses = save(swept_);
-  return square_of((swept_ - before_).head(impulses));
+  return (swept_ - before_).head(impulses).squaredNorm();
 }
 
 }  // namespace ballast

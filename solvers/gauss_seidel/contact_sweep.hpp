@@ -43,10 +43,6 @@ class ContactSweep {
   virtual void allow_single(bool) {}
   virtual bool finish_in_double() { return false; }
 
- protected:
-  /// |change|^2 of the impulses of save().
-  virtual double square_of(const Eigen::VectorXd& change) const { return change.squaredNorm(); }
-
  private:
   Eigen::VectorXd swept_, before_, direction_;
 };

@@ -75,6 +75,40 @@ void sweep_records(const Record* records, Impulse* impulses, int count, Velocity
   for (int c = 0; c < count; ++c) relax(records[c], impulses[c], velocity);
 }
 
+/// x moves along its search (see SearchStep); a slip root in lane 3 is left alone.
+template <typename Vector>
+BALLAST_INLINE void move_along(SearchStep step, double* x, double* before, double* direction) {
+  Vector &b = *reinterpret_cast<Vector*>(before), &p = *reinterpret_cast<Vector*>(direction);
+  const Vector now = *reinterpret_cast<const Vector*>(x), change = now - b,
+               along = step.beta * p + step.ahead * change;
+  p = along + step.gain * change;
+  b = now + along;
+  *reinterpret_cast<Vector*>(x) = b;
+}
+
+BALLAST_FOR_EACH_CPU
+void move_bodies(SearchStep step, Velocity* x, Velocity* before, Velocity* direction, int count) {
+  for (int b = 0; b < count; ++b) move_along<Vector8>(step, x[b].w, before[b].w, direction[b].w);
+}
+
+/// Returns the square of what the sweep changed.
+BALLAST_FOR_EACH_CPU
+double sweep_records_along(SearchStep step, const Record* records, Impulse* impulses,
+                           Impulse* before, Impulse* direction, int count, Velocity* velocity) {
+  double square = 0.0;
+  for (int c = 0; c < count; ++c) {
+    Impulse& r = impulses[c];
+    const double slip = r.slip;
+    move_along<Vector4>(step, r.y, before[c].y, direction[c].y);
+    r.slip = slip;
+    relax(records[c], r, velocity);
+    const double d0 = r.y[0] - before[c].y[0], d1 = r.y[1] - before[c].y[1],
+                 d2 = r.y[2] - before[c].y[2];
+    square += d0 * d0 + d1 * d1 + d2 * d2;
+  }
+  return square;
+}
+
 /// w += G^T change.
 void push_bodies(const Record& k, const double* change, Velocity* velocity) {
   for (int s = 0; s < 2; ++s)
@@ -252,6 +286,32 @@ void ScalarSweep::sweep() {
   });
 }
 
+void ScalarSweep::start_search() {
+  impulses_before_ = impulses_;
+  impulse_direction_.assign(impulses_.size(), {});
+  velocity_before_ = velocity_;
+  velocity_direction_.assign(velocity_.size(), {});
+  part_square_.resize(part_error_.size());
+}
+
+double ScalarSweep::sweep_along(SearchStep step) {
+  move_bodies(step, velocity_.data(), velocity_before_.data(), velocity_direction_.data(),
+              static_cast<int>(velocity_.size()));
+  for_parts([&](const SweepPlan::Part& part, int number) {
+    const auto swept = [&](int begin, int end) {
+      return sweep_records_along(step, records_.data() + begin, impulses_.data() + begin,
+                                 impulses_before_.data() + begin, impulse_direction_.data() + begin,
+                                 end - begin, velocity_.data());
+    };
+    // Contacts with friction and those of one row apart, one after the other.
+    const double friction = swept(part.begin, part.friction_end);
+    part_square_[number] = friction + swept(part.friction_end, part.end);
+  });
+  double square = 0.0;
+  for (const double part : part_square_) square += part;
+  return square;
+}
+
 void ScalarSweep::sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) {
   for (const int c : contacts)
     resolve_by_variant(variant, records_[place_[c]], impulses_[place_[c]], lambda_max_[place_[c]],
@@ -292,21 +352,6 @@ void ScalarSweep::restore(const Eigen::VectorXd& state) {
     std::copy_n(x, width, v.w);
     x += width;
   }
-}
-
-/// Part by part, contacts with friction and those of one row apart.
-double ScalarSweep::square_of(const Eigen::VectorXd& change) const {
-  const double* d = change.data();
-  double sum = 0.0;
-  for (const auto* parts : {&plan_.interiors(), &plan_.interfaces()})
-    for (const SweepPlan::Part& part : *parts) {
-      double friction = 0.0, one_row = 0.0;
-      for (int i = part.begin; i < part.friction_end; ++i, d += 3)
-        friction += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-      for (int i = part.friction_end; i < part.end; ++i, ++d) one_row += *d * *d;
-      sum += friction + one_row;
-    }
-  return sum;
 }
 
 void ScalarSweep::impulse_weights(Eigen::VectorXd& weights) const {

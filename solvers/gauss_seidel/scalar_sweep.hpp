@@ -33,6 +33,9 @@ class ScalarSweep final : public ContactSweep {
   void load(const FrictionProblem& problem, const Impulses& r) override;
   void store(const FrictionProblem& problem, Impulses& r) const override;
   void sweep() override;
+  void start_search() override;
+  /// Contact by contact as the sweep passes: a small problem's sweep is shorter than its copies.
+  double sweep_along(SearchStep step) override;
   void sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) override;
   double error() override;
   Eigen::Index save(Eigen::VectorXd& state) const override;
@@ -59,7 +62,6 @@ class ScalarSweep final : public ContactSweep {
   };
 
  private:
-  double square_of(const Eigen::VectorXd& change) const override;
   /// Calls task(part, its number) for the plan's interiors, then for its interfaces; those of a
   /// kind at the same time.
   template <typename Task>
@@ -81,6 +83,10 @@ class ScalarSweep final : public ContactSweep {
   std::vector<double> lambda_max_;  ///< of W_cc [1/kg]
   std::vector<int> place_;          ///< of each contact in that order
   std::vector<RootMeanSquare> part_error_;
+  // The search: where the last sweep began, and the direction.
+  std::vector<Impulse> impulses_before_, impulse_direction_;
+  std::vector<Velocity> velocity_before_, velocity_direction_;
+  std::vector<double> part_square_;
 };
 
 }  // namespace ballast
