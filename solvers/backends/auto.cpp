@@ -86,7 +86,7 @@ class Auto final : public Solver {
   static constexpr double enough_steps = 12.0;
   static constexpr double first_steps = 40.0;  ///< of Newton's first turn
   /// Of so few a sweep is as dear as a factorisation.
-  static constexpr int few_iterations = 500;
+  static constexpr int few_iterations = 1000;
 
   Way sweeps_{make_nesterov_pgs({.returns_best = false})};
   Way burst_{make_newton_burst({.start_sweeps = 0})};
