@@ -1,5 +1,6 @@
 // Tables of cases: what was changed, each case at the values it was driven at, and what follows,
-// sample by sample. A section is a row of `case_tables` below and its words.
+// sample by sample. A section is a row of one of the lists of
+// tables below and its words.
 
 #include <algorithm>
 #include <limits>
@@ -62,105 +63,91 @@ struct CaseTable {
   bool has_changes = false;             ///< of each case beside the first
 };
 
-const std::vector<CaseTable>& case_tables() {
-  using Row = const RunRow&;
+using Row = const RunRow&;
+
+/// How the frequencies are driven, and how accurately their steps are solved.
+std::vector<CaseTable> solution_tables() {
   // one of the older rows of deposits stands under the stage that asked for it first
-  const auto is_plain = [](Row r) {
-    return is_deposit(r, true, 0.4) &&
-           (r.stage == "deposits" || (is_of_200(r) && frequency_of(r.run) == 10.0));
-  };
   const auto is_old_plain = [](Row r) {
     return is_deposit(r, true, 0.4) && is_of_200(r) &&
            (r.stage == "deposits" || frequency_of(r.run) == 10.0);
   };
+  const std::vector<Selection> accuracies{
+      {"error ≤ 1e-2 g·h", {"tight"}},
+      {"error ≤ 1e-3 g·h", {"tightest"}},
+      {"LMGC90’s rule", {"rule"}},
+      {"200 iterations a step", {"deposits", "looseness"}, is_old_plain},
+      {"the campaign’s own", {"frequency"}}};
+  const std::vector<Selection> contact_laws{
+      {"Coulomb’s law", {"laws"}, [](Row r) { return r.run.facts.solver != "sap"; }},
+      {"its convex relaxation", {"laws"}, [](Row r) { return r.run.facts.solver == "sap"; }}};
+  return {{"fig9", frequency_of, " Hz", {{"ν", {"frequency", "slowest"}}}},
+          {"tight", frequency_of, " Hz", accuracies, frequency_of, true},
+          {"laws", frequency_of, " Hz", contact_laws, nullptr, true},
+          {"reading", frequency_of, " Hz", {{"vibrated_box_paper", {"reading"}}}}};
+}
+
+/// Other packings: how they were deposited, and of what grains.
+std::vector<CaseTable> packing_tables() {
+  const auto is_plain = [](Row r) {
+    return is_deposit(r, true, 0.4) &&
+           (r.stage == "deposits" || (is_of_200(r) && frequency_of(r.run) == 10.0));
+  };
+  const auto is_usual_shape = [](Row r) {
+    return r.stage == "shapes" ? has_word(r, "base") : is_deposit(r, true, 0.4) && is_of_200(r);
+  };
+  const std::vector<Selection> deposits{
+      {"lid pressed, μ 0.4", {"deposits", "looseness"}, is_plain},
+      {"lid pressed, μ 0.8", {"deposits"}, [](Row r) { return is_deposit(r, true, 0.8); }},
+      {"lid placed, μ 0.4", {"deposits"}, [](Row r) { return is_deposit(r, false, 0.4); }},
+      {"lid placed, μ 0.8", {"deposits"}, [](Row r) { return is_deposit(r, false, 0.8); }}};
+  const std::vector<Selection> shapes{
+      {"as the campaign’s", {"shapes", "deposits"}, is_usual_shape},
+      {"angular and platy", {"shapes"}, [](Row r) { return has_word(r, "platy"); }},
+      {"spheres of 162 vertices", {"shapes"}, [](Row r) { return has_word(r, "spheres"); }},
+      {"fractions by mass", {"shapes"}, [](Row r) { return has_word(r, "mass"); }}};
+  return {{"deposits", frequency_of, " Hz", deposits, frequency_of, true},
+          {"shapes", frequency_of, " Hz", shapes, nullptr, true}};
+}
+
+/// Other boxes and other loads.
+std::vector<CaseTable> box_tables() {
   const RunMeasure length = [](const RunSummary& run) { return run.facts.length; };
   const RunMeasure aspect = [](const RunSummary& run) {
     return run.facts.length / run.facts.height;
   };
   const RunMeasure side = [](const RunSummary& run) { return std::cbrt(run.facts.grains); };
-  const RunMeasure nu = frequency_of;
-  static const std::vector<CaseTable> tables{
-      {"fig9", nu, " Hz", {{"ν", {"frequency", "slowest"}}}},
-      {"box",
-       length,
-       " m",
-       {{"5 Hz", {"box"}, [](Row r) { return frequency_of(r.run) == 5.0; }},
-        {"20 Hz", {"box"}, [](Row r) { return frequency_of(r.run) == 20.0; }}},
-       aspect},
-      {"tight",
-       nu,
-       " Hz",
-       {{"error ≤ 1e-2 g·h", {"tight"}},
-        {"error ≤ 1e-3 g·h", {"tightest"}},
-        {"LMGC90’s rule", {"rule"}},
-        {"200 iterations a step", {"deposits", "looseness"}, is_old_plain},
-        {"the campaign’s own", {"frequency"}}},
-       nu,
-       true},
-      {"deposits",
-       nu,
-       " Hz",
-       {{"lid pressed, μ 0.4", {"deposits", "looseness"}, is_plain},
-        {"lid pressed, μ 0.8", {"deposits"}, [](Row r) { return is_deposit(r, true, 0.8); }},
-        {"lid placed, μ 0.4", {"deposits"}, [](Row r) { return is_deposit(r, false, 0.4); }},
-        {"lid placed, μ 0.8", {"deposits"}, [](Row r) { return is_deposit(r, false, 0.8); }}},
-       nu,
-       true},
-      {"loads",
-       nu,
-       " Hz",
-       {{"f_max = 6 m g", {"loads"}, [](Row r) { return is_load(r, 6.0, false); }},
-        {"f_max = 12 m g", {"loads"}, [](Row r) { return is_load(r, 12.0, false); }},
-        {"f_max = 6 m g, all at half scale",
-         {"loads"},
-         [](Row r) { return is_load(r, 6.0, true); }}}},
-      {"shapes",
-       nu,
-       " Hz",
-       {{"as the campaign’s",
-         {"shapes", "deposits"},
-         [](Row r) {
-           return r.stage == "shapes" ? has_word(r, "base")
-                                      : is_deposit(r, true, 0.4) && is_of_200(r);
-         }},
-        {"angular and platy", {"shapes"}, [](Row r) { return has_word(r, "platy"); }},
-        {"spheres of 162 vertices", {"shapes"}, [](Row r) { return has_word(r, "spheres"); }},
-        {"fractions by mass", {"shapes"}, [](Row r) { return has_word(r, "mass"); }}},
-       nullptr,
-       true},
-      {"sizes",
-       grains_of,
-       "",
-       {{"similar boxes, H/L fixed",
-         {"sizes", "deposits"},
-         [](Row r) { return is_of_size(r, "similar"); }},
-        {"wider boxes, H/d fixed",
-         {"sizes", "deposits"},
-         [](Row r) { return is_of_size(r, "wide"); }}},
-       side},
-      {"laws",
-       nu,
-       " Hz",
-       {{"Coulomb’s law", {"laws"}, [](Row r) { return r.run.facts.solver != "sap"; }},
-        {"its convex relaxation", {"laws"}, [](Row r) { return r.run.facts.solver == "sap"; }}},
-       nullptr,
-       true},
-      {"sensitivity",
-       [](const RunSummary& run) { return run.facts.step; },
-       " s",
-       {{"step h", {"sensitivity"}, is_usual}}},
-      {"sensitivity",
-       [](const RunSummary& run) { return run.facts.friction; },
-       "",
-       {{"friction μ", {"sensitivity"}, [](Row r) { return r.run.facts.friction != 0.4; }}}},
-      {"sensitivity",
-       [](const RunSummary& run) { return run.facts.lid_raise; },
-       " m",
-       {{"gap under the lid",
-         {"sensitivity"},
-         [](Row r) { return r.run.facts.lid_raise != 0.01; }}}},
-      {"reading", nu, " Hz", {{"vibrated_box_paper", {"reading"}}}}};
-  return tables;
+  const std::vector<Selection> lengths{
+      {"5 Hz", {"box"}, [](Row r) { return frequency_of(r.run) == 5.0; }},
+      {"20 Hz", {"box"}, [](Row r) { return frequency_of(r.run) == 20.0; }}};
+  const std::vector<Selection> loads{
+      {"f_max = 6 m g", {"loads"}, [](Row r) { return is_load(r, 6.0, false); }},
+      {"f_max = 12 m g", {"loads"}, [](Row r) { return is_load(r, 12.0, false); }},
+      {"f_max = 6 m g, all at half scale", {"loads"}, [](Row r) { return is_load(r, 6.0, true); }}};
+  const std::vector<Selection> sizes{{"similar boxes, H/L fixed",
+                                      {"sizes", "deposits"},
+                                      [](Row r) { return is_of_size(r, "similar"); }},
+                                     {"wider boxes, H/d fixed", {"sizes", "deposits"}, [](Row r) {
+                                        return is_of_size(r, "wide");
+                                      }}};
+  return {{"box", length, " m", lengths, aspect},
+          {"loads", frequency_of, " Hz", loads},
+          {"sizes", grains_of, "", sizes, side}};
+}
+
+/// What has to be chosen, each alone.
+std::vector<CaseTable> sensitivity_tables() {
+  const RunMeasure step = [](const RunSummary& run) { return run.facts.step; };
+  const RunMeasure friction = [](const RunSummary& run) { return run.facts.friction; };
+  const RunMeasure gap = [](const RunSummary& run) { return run.facts.lid_raise; };
+  const Selection frictions{
+      "friction μ", {"sensitivity"}, [](Row r) { return r.run.facts.friction != 0.4; }},
+      gaps{"gap under the lid", {"sensitivity"}, [](Row r) {
+             return r.run.facts.lid_raise != 0.01;
+           }};
+  return {{"sensitivity", step, " s", {{"step h", {"sensitivity"}, is_usual}}},
+          {"sensitivity", friction, "", {frictions}},
+          {"sensitivity", gap, " m", {gaps}}};
 }
 
 /// A case that has rows.
@@ -303,20 +290,24 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
   return std::isfinite(fit.exponent) ? found(fit, misfit_of(fit, points).p) : Found{};
 }
 
+void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
+  std::vector<Case> cases;
+  for (const Selection& selection : what.cases)
+    if (Groups groups = data.groups(selection, what.along); !groups.empty())
+      cases.push_back({selection.name, std::move(groups)});
+  if (cases.empty()) return;
+  section.add(stage_table(cases, what.unit));
+  if (what.exponent_along) add_exponents(what, cases, section);
+  if (what.has_changes) add_changes(what, cases, section);
+}
+
 }  // namespace
 
 void add_cases(PaperData& data, PaperSection& section) {
-  for (const CaseTable& what : case_tables()) {
-    if (section.id != what.section) continue;
-    std::vector<Case> cases;
-    for (const Selection& selection : what.cases)
-      if (Groups groups = data.groups(selection, what.along); !groups.empty())
-        cases.push_back({selection.name, std::move(groups)});
-    if (cases.empty()) continue;
-    section.add(stage_table(cases, what.unit));
-    if (what.exponent_along) add_exponents(what, cases, section);
-    if (what.has_changes) add_changes(what, cases, section);
-  }
+  for (const auto& tables :
+       {solution_tables(), packing_tables(), box_tables(), sensitivity_tables()})
+    for (const CaseTable& what : tables)
+      if (section.id == what.section) add_table(data, what, section);
 }
 
 void fill_replicas(PaperData& data, PaperSection& section) {
