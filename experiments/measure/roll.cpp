@@ -87,8 +87,7 @@ std::vector<Displacement> cell_means(std::span<const Displacement> displacements
   for (size_t cell = 0; cell < cells; ++cell) {
     if (count[cell] == 0.0) continue;
     const size_t in_row = static_cast<size_t>(columns), below = cell / in_row;
-    const double column = static_cast<double>(cell - below * in_row),
-                 row = static_cast<double>(below);
+    const double column = static_cast<double>(cell % in_row), row = static_cast<double>(below);
     means.push_back({Vec3(r.x_lo + (column + 0.5) * width, 0.0, r.z_lo + (row + 0.5) * height),
                      sum[cell] / count[cell]});
   }

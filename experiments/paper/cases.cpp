@@ -1,6 +1,5 @@
 // Tables of cases: what was changed, each case at the values it was driven at, and what follows,
-// sample by sample. A section is a row of one of the lists of
-// tables below and its words.
+// sample by sample. A section is a row of one of the lists of tables below and its words.
 
 #include <algorithm>
 #include <limits>
@@ -124,12 +123,11 @@ std::vector<CaseTable> box_tables() {
       {"f_max = 6 m g", {"loads"}, [](Row r) { return is_load(r, 6.0, false); }},
       {"f_max = 12 m g", {"loads"}, [](Row r) { return is_load(r, 12.0, false); }},
       {"f_max = 6 m g, all at half scale", {"loads"}, [](Row r) { return is_load(r, 6.0, true); }}};
-  const std::vector<Selection> sizes{{"similar boxes, H/L fixed",
-                                      {"sizes", "deposits"},
-                                      [](Row r) { return is_of_size(r, "similar"); }},
-                                     {"wider boxes, H/d fixed", {"sizes", "deposits"}, [](Row r) {
-                                        return is_of_size(r, "wide");
-                                      }}};
+  const auto is_similar = [](Row r) { return is_of_size(r, "similar"); };
+  const auto is_wider = [](Row r) { return is_of_size(r, "wide"); };
+  const std::vector<Selection> sizes{
+      {"similar boxes, H/L fixed", {"sizes", "deposits"}, is_similar},
+      {"wider boxes, H/d fixed", {"sizes", "deposits"}, is_wider}};
   return {{"box", length, " m", lengths, aspect},
           {"loads", frequency_of, " Hz", loads},
           {"sizes", grains_of, "", sizes, side}};
@@ -140,14 +138,11 @@ std::vector<CaseTable> sensitivity_tables() {
   const RunMeasure step = [](const RunSummary& run) { return run.facts.step; };
   const RunMeasure friction = [](const RunSummary& run) { return run.facts.friction; };
   const RunMeasure gap = [](const RunSummary& run) { return run.facts.lid_raise; };
-  const Selection frictions{
-      "friction μ", {"sensitivity"}, [](Row r) { return r.run.facts.friction != 0.4; }},
-      gaps{"gap under the lid", {"sensitivity"}, [](Row r) {
-             return r.run.facts.lid_raise != 0.01;
-           }};
+  const auto is_other_friction = [](Row r) { return r.run.facts.friction != 0.4; };
+  const auto is_other_gap = [](Row r) { return r.run.facts.lid_raise != 0.01; };
   return {{"sensitivity", step, " s", {{"step h", {"sensitivity"}, is_usual}}},
-          {"sensitivity", friction, "", {frictions}},
-          {"sensitivity", gap, " m", {gaps}}};
+          {"sensitivity", friction, "", {{"friction μ", {"sensitivity"}, is_other_friction}}},
+          {"sensitivity", gap, " m", {{"gap under the lid", {"sensitivity"}, is_other_gap}}}};
 }
 
 /// A case that has rows.
@@ -304,8 +299,9 @@ void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
 }  // namespace
 
 void add_cases(PaperData& data, PaperSection& section) {
-  for (const auto& tables :
-       {solution_tables(), packing_tables(), box_tables(), sensitivity_tables()})
+  static const std::vector<CaseTable> kinds[] = {solution_tables(), packing_tables(), box_tables(),
+                                                 sensitivity_tables()};
+  for (const auto& tables : kinds)
     for (const CaseTable& what : tables)
       if (section.id == what.section) add_table(data, what, section);
 }

@@ -65,16 +65,19 @@ std::vector<Law> paper_laws() {
 /// C along the shape of the box, and against its theory.
 std::vector<Law> prefactor_laws() {
   using enum MarkShape;
-  const Axis aspect{[](const RunSummary&run) { return run.facts.length / run.facts.height; },
-                    "{/:Italic L}/{/:Italic H}", 1.0},
+  const RunMeasure aspect_of = [](const RunSummary& run) {
+    return run.facts.length / run.facts.height;
+  };
+  const auto is_slow = [](const RunRow& row) { return frequency_of(row.run) == 5.0; };
+  const auto is_fast = [](const RunRow& row) { return frequency_of(row.run) == 20.0; };
+  const auto is_pressed = [](const RunRow& row) {
+    return row.stage != "deposits" ||
+           (row.run.facts.lid_pressure > 0.0 && row.run.facts.deposit_friction == 0.4);
+  };
+  const Axis aspect{aspect_of, "{/:Italic L}/{/:Italic H}", 1.0},
       theory{theory_of, "{/:Italic C} by the theory, from the force as measured", 1.0};
-  const Selection slow{
-      "5 Hz", {"box"}, [](const RunRow&row) { return frequency_of(row.run) == 5.0; }},
-      fast{"20 Hz", {"box"}, [](const RunRow&row) { return frequency_of(row.run) == 20.0; }},
-      pressed{"ν", {"frequency", "slowest", "deposits", "tight", "tightest"}, [](const RunRow&row) {
-                return row.stage != "deposits" ||
-                       (row.run.facts.lid_pressure > 0.0 && row.run.facts.deposit_friction == 0.4);
-              }};
+  const Selection slow{"5 Hz", {"box"}, is_slow}, fast{"20 Hz", {"box"}, is_fast},
+      pressed{"ν", {"frequency", "slowest", "deposits", "tight", "tightest"}, is_pressed};
   // a run of several families is a point of the first
   std::vector<Family> all{{pressed, Ink::blue}};
   constexpr std::pair<Ink, MarkShape> looks[] = {
@@ -168,7 +171,8 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
 
 void add_laws(PaperData& data, PaperSection& section) {
   page::Table table = page::words_table("laws");
-  for (const auto& laws : {paper_laws(), prefactor_laws()})
+  static const std::vector<Law> kinds[] = {paper_laws(), prefactor_laws()};
+  for (const auto& laws : kinds)
     for (const Law& law : laws)
       if (section.id == law.section) add_law(data, law, table, section);
   if (!table.rows.empty()) section.text.push_back(page::words("misfit"));
