@@ -1,5 +1,5 @@
 // Backends on identical problems: rows, figures and a page; what a change did to them; several as
-// one site; the collection of captured problems.
+// one; the collection of captured problems.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@
 #include "experiments/compare/compare_diff.hpp"
 #include "experiments/compare/compare_options.hpp"
 #include "experiments/compare/compare_page.hpp"
-#include "experiments/compare/comparison_site.hpp"
 #include "experiments/compare/live_page.hpp"
 #include "experiments/compare/stored_comparison.hpp"
 #include "experiments/run/manifest.hpp"
@@ -28,28 +27,24 @@ namespace ballast {
 namespace {
 
 struct CollectOptions {
-  std::filesystem::path output = "results/collection", check;
+  std::filesystem::path output = "results/collection";
   int largest = 2400;
 };
 
 ExitCode collect(const CollectOptions& options) {
   require_own_folder(options.output, {"runs", "packings"});
-  std::vector<CollectedProblem> theirs, ours;
-  if (!options.check.empty()) theirs = read_collection(options.check);
+  std::vector<CollectedProblem> problems;
   InterruptGuard guard;
   const auto runs = collection_runs(options.largest);
   size_t done = 0;
   const auto told = [&](const CollectedRun& run) {
     std::cout << printed("%3zu/%zu  ", ++done, runs.size()) << run.name << std::endl;
   };
-  const ExitCode code = make_collection(options.output, runs, told, ours);
+  const ExitCode code = make_collection(options.output, runs, told, problems);
   if (code != ExitCode::ok) return code;
-  std::cout << summary_of(ours) << ": " << (options.output / "problems" / "manifest.csv").string()
+  std::cout << problems.size()
+            << " problems: " << (options.output / "problems" / "manifest.csv").string()
             << std::endl;
-  const std::vector<std::string> others = other_contents(ours, theirs);
-  if (!others.empty())
-    throw Error(options.check.string() + ": " + std::to_string(others.size()) +
-                " problems are others than here: " + joined(others));
   return ExitCode::ok;
 }
 
@@ -62,9 +57,7 @@ Command compare_collect_command() {
           {{"--output DIR", &options->output, "Where it is made; the same command goes on", shown},
            {"--largest", &options->largest,
             "Grains of the largest runs: 25, 80, 200, 600, 1200, 2400 and below", shown,
-            between(25, 2400)},
-           {"--check MANIFEST", &options->check,
-            "Another one's manifest.csv: exit code 1 where the contents differ"}},
+            between(25, 2400)}},
           [options] { return collect(*options); }};
 }
 
@@ -138,21 +131,16 @@ namespace {
 
 struct MergeOptions {
   std::vector<std::string> folders;
-  std::filesystem::path output = "results/site";
+  std::filesystem::path output = "results/merged";
 };
 
 ExitCode merge(const MergeOptions& options) {
-  require_own_folder(options.output, {"machines"});
+  require_own_folder(options.output, {});
   std::vector<StoredComparison> comparisons;
-  size_t rows = 0;
-  for (const std::string& folder : options.folders) {
-    comparisons.push_back(read_comparison(folder));
-    rows += comparisons.back().rows.size();
-  }
-  if (rows == 0) throw Error("compare merge: the comparisons have no rows");
-  write_comparison_site(options.output, comparisons, own_command());
+  for (const std::string& folder : options.folders) comparisons.push_back(read_comparison(folder));
+  const size_t rows = write_merged(options.output, comparisons, own_command());
   std::cout << comparisons.size() << " comparisons, " << rows
-            << " rows: " << (options.output / "index.html").string() << std::endl;
+            << " rows: " << (options.output / "compare.html").string() << std::endl;
   return ExitCode::ok;
 }
 
@@ -161,9 +149,9 @@ ExitCode merge(const MergeOptions& options) {
 Command compare_merge_command() {
   const auto options = std::make_shared<MergeOptions>();
   return {"merge",
-          "Comparisons of several machines, commits, days as one site; ratios within a machine",
+          "Comparisons of several jobs, machines, days as one; ratios within a machine",
           {{"folders", &options->folders, "Folders of comparisons", required},
-           {"--output DIR", &options->output, "Folder of the site: any web host serves it", shown}},
+           {"--output DIR", &options->output, "Folder of the page and its table", shown}},
           [options] { return merge(*options); }};
 }
 
@@ -175,7 +163,7 @@ struct CompareRequest {
   std::vector<std::string> cases, external;
   ExternalLimits program_limits;
   std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
-  std::filesystem::path output = "results/compare", reference;
+  std::filesystem::path output = "results/compare";
   CompareOptions comparison;
   bool report = true, is_quiet = false;
 };
@@ -268,8 +256,6 @@ ExitCode compare(CompareRequest& options) {
   options.comparison.folder = options.output;
   options.comparison.command = own_command();
   if (!options.live.scene.empty()) return compare_live(options);
-  std::vector<ReferenceTimes> reference;
-  if (!options.reference.empty()) reference = read_reference_times(options.reference);
   const std::vector<CompareCase> cases = compare_cases(options.cases);
   InterruptGuard guard;
   const auto told = [&](const CompareRow& row, bool was_there, size_t done, size_t count) {
@@ -277,13 +263,11 @@ ExitCode compare(CompareRequest& options) {
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
   if (InterruptGuard::requested()) return interrupted();
-  if (options.comparison.is_part) return verdict_on_cases(rows, cases.size());
-  if (options.report) write_compare_page(options.output, rows, reference);
+  if (options.report) write_compare_page(options.output, rows);
   const ExitCode code = verdict_on_cases(rows, cases.size());
   if (options.is_quiet) return code;
   std::cout << '\n'
-            << compare_summary(rows, reference) << "\nresults in " << options.output.string()
-            << "\n"
+            << compare_summary(rows) << "\nresults in " << options.output.string() << "\n"
             << (options.report ? "  compare.html  figures and tables: open it in a browser\n" : "")
             << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
             << "  manifest.json program, machine, BLAS, options" << std::endl;
@@ -324,13 +308,9 @@ Command compare_command() {
         shown, at_least(0)},
        {"--memory", &comparison.limits.memory_MB, "Address space of one child in MB; 0: no limit",
         shown, at_least(0)},
-       {"--reference FILE", &options->reference,
-        "CSV of others' times: problem,ms_1e-4,solver_1e-4,..."},
        {"--output DIR", &options->output, "Folder of the results", shown},
        {"--no-report", &options->report, "No figures and no page"},
        {"--quiet", &options->is_quiet, "Says nothing but failures"},
-       {"--part", &comparison.is_part,
-        "One of several processes that fill one folder: rows alone; being killed is a row"},
        {"--live SCENE", &live.scene,
         "Instead of cases: a scene's closed loop from one start under each backend and tolerance"},
        {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value"},

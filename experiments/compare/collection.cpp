@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "experiments/compare/compare_case.hpp"
 #include "experiments/run/run.hpp"
@@ -40,9 +39,6 @@ std::vector<CollectedScene> collected_scenes() {
           {"released", {"drive.f_max_over_weight=0", "contact.friction=0.2"}}};
 }
 
-const std::vector<std::string> manifest_columns = {"file", "content", "contacts",
-                                                   "rows", "step",    "phase"};
-
 CollectedProblem described(const fs::path& file, const std::string& name) {
   const CapturedProblem captured = read_captured(file);
   return {name,
@@ -55,7 +51,7 @@ CollectedProblem described(const fs::path& file, const std::string& name) {
 
 void write_manifest(const fs::path& file, std::span<const CollectedProblem> problems) {
   CsvWriter csv;
-  csv.add_row(manifest_columns);
+  csv.add_row(std::vector<std::string>{"file", "content", "contacts", "rows", "step", "phase"});
   for (const CollectedProblem& p : problems)
     csv.add_row(std::vector<std::string>{p.file, p.content, std::to_string(p.contacts),
                                          std::to_string(p.rows), std::to_string(p.step), p.phase});
@@ -106,46 +102,6 @@ ExitCode make_collection(const fs::path& folder, std::span<const CollectedRun> r
   }
   write_manifest(folder / "problems" / "manifest.csv", problems);
   return ExitCode::ok;
-}
-
-std::string summary_of(std::span<const CollectedProblem> problems) {
-  if (problems.empty()) return "0 problems";
-  const auto [least, most] = std::ranges::minmax(problems, {}, &CollectedProblem::contacts);
-  std::map<std::string, int> phases;
-  for (const CollectedProblem& p : problems) ++phases[p.phase];
-  std::string counts;
-  for (const auto& [phase, count] : phases)
-    counts += (counts.empty() ? "" : ", ") + std::to_string(count) + ' ' + phase;
-  return printed("%zu problems of %d to %d contacts (%s)", problems.size(), least.contacts,
-                 most.contacts, counts.c_str());
-}
-
-std::vector<CollectedProblem> read_collection(const fs::path& manifest) {
-  CsvReader csv(manifest);
-  if (!csv.next() || !std::equal(csv.cells().begin(), csv.cells().end(), manifest_columns.begin(),
-                                 manifest_columns.end()))
-    csv.fail("is no manifest of a collection: expected " + joined(manifest_columns));
-  std::vector<CollectedProblem> problems;
-  while (csv.next()) {
-    csv.require_cells(manifest_columns.size());
-    const auto text = [&](size_t k) { return std::string(csv.cells()[k]); };
-    const auto count = [&](size_t k) {
-      return static_cast<int>(csv.number(k, manifest_columns[k]));
-    };
-    problems.push_back({text(0), text(1), count(2), count(3), count(4), text(5)});
-  }
-  return problems;
-}
-
-std::vector<std::string> other_contents(std::span<const CollectedProblem> ours,
-                                        std::span<const CollectedProblem> theirs) {
-  std::map<std::string, std::string> known;
-  for (const CollectedProblem& p : theirs) known[p.file] = p.content;
-  std::vector<std::string> others;
-  for (const CollectedProblem& p : ours)
-    if (const auto found = known.find(p.file); found != known.end() && found->second != p.content)
-      others.push_back(p.file);
-  return others;
 }
 
 }  // namespace ballast

@@ -40,14 +40,4 @@ ExitCode make_collection(const std::filesystem::path& folder, std::span<const Co
                          const std::function<void(const CollectedRun&)>& told,
                          std::vector<CollectedProblem>& problems);
 
-/// "72 problems of 60 to 10200 contacts (24 active, 30 passive, 18 settling)".
-std::string summary_of(std::span<const CollectedProblem> problems);
-
-/// Reads problems/manifest.csv, this or another one's. Throws Error.
-std::vector<CollectedProblem> read_collection(const std::filesystem::path& manifest);
-
-/// Files that both have and whose contents differ.
-std::vector<std::string> other_contents(std::span<const CollectedProblem> ours,
-                                        std::span<const CollectedProblem> theirs);
-
 }  // namespace ballast

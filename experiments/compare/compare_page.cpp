@@ -7,8 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/compare/compare_figures.hpp"
+#include "experiments/compare/compare_table.hpp"
 #include "experiments/page/html.hpp"
+#include "experiments/page/plot.hpp"
 #include "experiments/run_page/report.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
@@ -33,46 +34,43 @@ page::Text time_of(double seconds) {
   return seconds < 1.0 ? page::quantity(1e3 * seconds, "ms") : page::quantity(seconds, "s");
 }
 
-/// Why a row is not solved, in a few words.
-std::string reason_of(const CompareRow& row) {
-  switch (row.verdict) {
-    case Verdict::denied:
-      return "denied";
-    case Verdict::timeout:
-      return row.reason.empty() ? "killed" : "time limit";
-    case Verdict::crashed:
-      return "crashed";
-    case Verdict::out_of_memory:
-      return "memory";
-    case Verdict::unsupported:
-      return "not taken";
-    case Verdict::no_solution:
-      return "no solution";
-    default:
-      break;
+/// Backends side by side.
+page::Table backends_table(const CompareTable& table) {
+  using S = const BackendSummary&;
+  struct Column {
+    const char* head;
+    page::Text (*text)(S);
+    bool is_number = true;
+  };
+  /// Nothing for what did not happen.
+  static constexpr auto if_any = [](long count) {
+    return count == 0 ? page::Text() : page::exact(static_cast<double>(count));
+  };
+  static const Column columns[] = {
+      {"backend", [](S s) { return page::Text(s.solver); }, false},
+      {"law", [](S s) { return page::Text(s.law); }, false},
+      {"solved",
+       [](S s) { return page::exact(s.solved) + " of " + page::exact(s.solved + s.unsolved); }},
+      {"mean time", [](S s) { return time_of(s.mean_seconds); }},
+      {"unsolved in it", [](S s) { return page::styled(if_any(s.unsolved), page::bad); }},
+      {"over fastest", [](S s) { return page::number(s.mean_ratio); }},
+      {"timeouts", [](S s) { return if_any(s.timeouts); }},
+      {"crashes", [](S s) { return if_any(s.crashes); }},
+      {"not taken", [](S s) { return if_any(s.unsupported); }},
+      {"no solution", [](S s) { return if_any(s.no_solutions); }},
+      {"claims denied", [](S s) { return page::styled(if_any(s.denied), page::bad); }},
+      {"spread", [](S s) {
+         return s.largest_spread > 0.0 ? page::quantity(100.0 * s.largest_spread, "%", 2)
+                                       : page::Text();
+       }}};
+  page::Table result;
+  for (const Column& column : columns) {
+    result.head.push_back(column.head);
+    result.is_number.push_back(column.is_number);
   }
-  std::string reason = row.reason.empty() ? "failed" : row.reason;
-  std::replace(reason.begin(), reason.end(), '_', ' ');
-  return reason;
-}
-
-/// Case by backend: the time, or why there is none and how near it came.
-page::Table matrix_table(const CompareTable& table) {
-  page::Table result{.head = {"case"}, .is_number = {false}};
-  for (const std::string& solver : table.solvers) {
-    result.head.push_back(page::Text(solver, page::code));
-    result.is_number.push_back(true);
-  }
-  for (size_t c = 0; c < table.cases.size(); ++c) {
+  for (const BackendSummary& summary : table.backends) {
     std::vector<page::Text>& line = result.rows.emplace_back();
-    line.push_back(table.cases[c]);
-    for (const CompareCell& cell : table.cells[c]) {
-      page::Text& text = line.emplace_back();
-      if (!cell.row) continue;
-      text = cell.solved ? time_of(cell.median) : page::Text(reason_of(*cell.row), page::bad);
-      if (!cell.solved && std::isfinite(cell.row->error))
-        text += " " + page::number(cell.row->error, 1);
-    }
+    for (const Column& column : columns) line.push_back(column.text(summary));
   }
   return result;
 }
@@ -103,45 +101,6 @@ page::Table failures_table(std::span<const CompareRow> rows) {
   return result;
 }
 
-page::Table ratios_table(const ReferenceComparison& comparison, double limit) {
-  page::Table ratios{
-      .head = {"shift of the mean", "our fastest over theirs", page::marked("`auto` over theirs")},
-      .is_number = {true, true, true}};
-  for (const double shift : mean_shifts)
-    ratios.rows.push_back({page::quantity(1e3 * shift, "ms"),
-                           page::number(comparison.ratio(shift, limit, false)),
-                           page::number(comparison.ratio(shift, limit, true))});
-  return ratios;
-}
-
-page::Table reference_lines(const ReferenceComparison& comparison) {
-  page::Table lines{.head = {"case", "theirs", "by", "ours", "by", "ratio",
-                             page::Text("auto", page::code), "ratio"},
-                    .is_number = {false, true, false, true, false, true, true, true}};
-  for (const ReferenceComparison::Line& line : comparison.lines) {
-    const auto ratio = [&](double ours) {
-      return line.theirs > 0.0 ? page::number(ours / line.theirs) : page::Text();
-    };
-    lines.rows.push_back({line.case_name, time_of(line.theirs), line.their_solver,
-                          time_of(line.ours), line.our_solver, ratio(line.ours),
-                          time_of(line.automatic), ratio(line.automatic)});
-  }
-  return lines;
-}
-
-void add_reference(const ReferenceComparison& comparison, double limit, page::Section& section) {
-  section.add(page::Subheading{"Tolerance " + page::exact(comparison.tolerance)});
-  section.add(ratios_table(comparison, limit));
-  section.add(page::words("reference.ratios", {{"problems", count_of(comparison.lines.size())},
-                                               {"limit", page::quantity(limit, "s")}}));
-  if (!comparison.missing.empty())
-    section.add(page::Text("Not solved by us:", page::bad) +
-                (" " + joined(comparison.missing) + "."));
-  if (!comparison.only_ours.empty())
-    section.add(page::Text("Solved by us alone: " + joined(comparison.only_ours) + "."));
-  section.add(reference_lines(comparison));
-}
-
 page::Text lede(std::span<const CompareRow> rows) {
   std::set<std::string> solvers, cases;
   for (const CompareRow& row : rows) {
@@ -166,43 +125,29 @@ page::Table options_table(const RunData& data) {
 }
 
 page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
-                        std::span<const CompareRow> tried,
-                        std::span<const ReferenceTimes> reference) {
-  const std::vector<CompareTable> tables = compare_tables(tried);
-  const double limit = limit_of(tried);
-  page::Section backends{"backends", "The backends"},
-      references{"reference", "Beside the reference"}, profiles{"profiles", "Profiles"},
-      matrix{"matrix", "Every case by every backend"};
-  matrix.add(page::words("matrix"));
+                        std::span<const CompareRow> tried) {
+  page::Section backends{"backends", "The backends"};
   backends.add(
       page::words("compare.explanation", {{"shift", page::quantity(1e3 * summary_shift, "ms", 1)},
-                                          {"limit", page::quantity(limit, "s")}}));
-  for (const CompareTable& table : tables) {
-    backends.add(page::Subheading{table.heading()});
-    backends.add(backends_table(table, limit, false));
-    matrix.add(page::Subheading{table.heading()});
-    matrix.add(matrix_table(table));
-    profiles.add(profile_figures(table));
+                                          {"limit", page::quantity(limit_of(tried), "s")}}));
+  for (const CompareTable& table : compare_tables(tried)) {
+    backends.add(page::Subheading{table.heading});
+    backends.add(backends_table(table));
   }
-  for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
-    add_reference(comparison, limit, references);
   page::Page page{.title = "Solvers of frictional contact, compared", .lede = {lede(tried)}};
-  if (!reference.empty() && !tried.empty() && tried[0].measure != Measure::fclib)
-    page.notices.items.push_back(page::words("reference.unlike"));
   page.add(backends);
-  page.add(references);
   page.add({"failures", "What must not happen", {failures_table(rows)}});
-  page.add(matrix);
-  page.add(profiles);
   // What the page makes by itself in the reader's browser.
   if (page::can_answer())
-    for (const auto& [id, heading] : {std::pair("families", "Accuracy against cost, by family"),
+    for (const auto& [id, heading] : {std::pair("matrix", "Every case by every backend"),
+                                      {"profiles", "Profiles"},
+                                      {"families", "Accuracy against cost, by family"},
                                       {"cost", "What cost depends on"},
                                       {"cases", "Case by case"},
                                       {"case-figures", "Accuracy against cost, case by case"}})
       page.add({id, heading, {page::words(id)}});
   page.add({"options", "Options", {options_table(data)}});
-  if (!tried.empty()) page.answers = comparison_answers(data, tried, limit);
+  if (!tried.empty()) page.answers = comparison_answers(data, tried);
   return page;
 }
 
@@ -225,66 +170,27 @@ std::string again(const RunData& data, const CompareRow& row) {
   return command + " --output results/again";
 }
 
-/// Least error so far: seconds and error by turns, four digits each.
+/// Least error so far: seconds, prepare included, and error by turns, four digits each.
 Json history_json(const CompareRow& row, size_t limit) {
-  StepCurve best = best_so_far(row);
-  thin_out(best.x, best.y, limit);
+  std::vector<double> seconds, errors;
+  for (const HistoryRow& point : row.history) {
+    if (!std::isfinite(point.error) || (!errors.empty() && point.error >= errors.back())) continue;
+    seconds.push_back(row.prepare_seconds + point.seconds);
+    errors.push_back(point.error);
+  }
+  thin_out(seconds, errors, limit);
   Json flat = Json::array();
-  for (size_t k = 0; k < best.x.size(); ++k)
-    for (const double value : {best.x[k], best.y[k]})
+  for (size_t k = 0; k < seconds.size(); ++k)
+    for (const double value : {seconds[k], errors[k]})
       flat.push_back(parsed_number(printed("%.4g", value)).value_or(0.0));
   return flat;
 }
 
 }  // namespace
 
-page::Table backends_table(const CompareTable& table, double limit, bool of_machines) {
-  struct Column {
-    const char* head;
-    bool is_number, of_one_machine;
-    page::Text (*text)(const BackendSummary&);
-  };
-  /// Nothing for what did not happen.
-  static constexpr auto if_any = [](long count) {
-    return count == 0 ? page::Text() : page::exact(static_cast<double>(count));
-  };
-  using S = const BackendSummary&;
-  static const Column columns[] = {
-      {"backend", false, false, [](S s) { return page::Text(s.solver); }},
-      {"law", false, false, [](S s) { return page::Text(s.law); }},
-      {"solved", true, false,
-       [](S s) { return page::exact(s.solved) + " of " + page::exact(s.solved + s.unsolved); }},
-      {"mean time", true, true, [](S s) { return time_of(s.mean_seconds); }},
-      {"unsolved in it", true, true,
-       [](S s) { return page::styled(if_any(s.unsolved), page::bad); }},
-      {"over fastest", true, false, [](S s) { return page::number(s.mean_ratio); }},
-      {"timeouts", true, false, [](S s) { return if_any(s.timeouts); }},
-      {"crashes", true, false, [](S s) { return if_any(s.crashes); }},
-      {"not taken", true, false, [](S s) { return if_any(s.unsupported); }},
-      {"no solution", true, false, [](S s) { return if_any(s.no_solutions); }},
-      {"claims denied", true, false, [](S s) { return page::styled(if_any(s.denied), page::bad); }},
-      {"spread", true, true, [](S s) {
-         return s.largest_spread > 0.0 ? page::quantity(100.0 * s.largest_spread, "%", 2)
-                                       : page::Text();
-       }}};
-  page::Table result;
-  for (const Column& column : columns) {
-    if (of_machines && column.of_one_machine) continue;
-    result.head.push_back(column.head);
-    result.is_number.push_back(column.is_number);
-  }
-  for (const BackendSummary& summary : backend_summaries(table, limit)) {
-    std::vector<page::Text>& line = result.rows.emplace_back();
-    for (const Column& column : columns)
-      if (!of_machines || !column.of_one_machine) line.push_back(column.text(summary));
-  }
-  return result;
-}
-
-page::Answers comparison_answers(const RunData& data, std::span<const CompareRow> rows,
-                                 double limit) {
+page::Answers comparison_answers(const RunData& data, std::span<const CompareRow> rows) {
   Json json = {{"measure", name_of(rows[0].measure)},
-               {"limit", limit},
+               {"limit", limit_of(rows)},
                {"shift", summary_shift},
                {"again", again(data, rows[0])}};
   // `viewable`: cases whose bodies are known
@@ -307,37 +213,26 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
   return answers;
 }
 
-std::string compare_summary(std::span<const CompareRow> rows,
-                            std::span<const ReferenceTimes> reference) {
+std::string compare_summary(std::span<const CompareRow> rows) {
   std::string text;
-  const double limit = limit_of(rows);
-  const std::vector<CompareTable> tables = compare_tables(rows);
-  for (const CompareTable& table : tables) {
-    text += table.heading() + ", " + std::to_string(table.cases.size()) + " cases\n";
-    for (const BackendSummary& s : backend_summaries(table, limit))
+  for (const CompareTable& table : compare_tables(rows)) {
+    text += table.heading + ", " + std::to_string(table.cases) + " cases\n";
+    for (const BackendSummary& s : table.backends)
       text += printed(
           "  %-16s solved %4d   mean %10.4g ms (hides %d unsolved)   over fastest %8.3g   "
           "timeouts %d, crashes %d, not taken %d, no solution %d%s\n",
           s.solver.c_str(), s.solved, 1e3 * s.mean_seconds, s.unsolved, s.mean_ratio, s.timeouts,
           s.crashes, s.unsupported, s.no_solutions, s.denied ? "   CLAIMS DENIED" : "");
   }
-  for (const ReferenceComparison& comparison : compare_with_reference(tables, reference))
-    for (const double shift : mean_shifts)
-      text += printed(
-          "reference, tolerance %g, shift %g ms: our fastest / theirs %.3g, auto / "
-          "theirs %.3g (%zu problems, %zu not solved by us)\n",
-          comparison.tolerance, 1e3 * shift, comparison.ratio(shift, limit, false),
-          comparison.ratio(shift, limit, true), comparison.lines.size(), comparison.missing.size());
   return text;
 }
 
-void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows,
-                        std::span<const ReferenceTimes> reference) {
+void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows) {
   const RunData data = read_origin(folder);
   std::vector<CompareRow> tried;
   for (const CompareRow& row : rows)
     if (row.verdict != Verdict::unreadable) tried.push_back(row);
-  write_with_origin(compare_page(data, rows, tried, reference), data, folder / "compare.html");
+  write_with_origin(compare_page(data, rows, tried), data, folder / "compare.html");
 }
 
 RunData read_origin(const fs::path& folder) {

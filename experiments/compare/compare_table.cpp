@@ -11,19 +11,19 @@
 namespace ballast {
 namespace {
 
-size_t index_of(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<size_t>(found - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
-}
+using RowList = std::vector<const CompareRow*>;
 
-CompareCell cell_of(const std::vector<const CompareRow*>& repeats) {
-  CompareCell cell;
-  if (repeats.empty()) return cell;
+/// One case by one backend, over its repeats.
+struct CompareCell {
+  const CompareRow* row;  ///< of the fastest repeat that solved it, else of the first
+  bool solved = true;     ///< in every repeat
+  double median = std::numeric_limits<double>::infinity();  ///< [s]; infinite when not solved
+  double spread = 0.0;                                      ///< (slowest - fastest)/median
+};
+
+CompareCell cell_of(const RowList& repeats) {
+  CompareCell cell{repeats.front()};
   std::vector<double> seconds;
-  cell.row = repeats.front();
-  cell.solved = true;
   for (const CompareRow* row : repeats) {
     const bool solved = row->verdict == Verdict::solved;
     cell.solved = cell.solved && solved;
@@ -38,176 +38,81 @@ CompareCell cell_of(const std::vector<const CompareRow*>& repeats) {
   return cell;
 }
 
-/// Steps up by 1/n at every finite value.
-StepCurve counted(std::vector<double> values, double first, double last) {
-  const double n = static_cast<double>(values.size());
-  std::sort(values.begin(), values.end());
-  StepCurve curve{{first}, {0.0}};
-  for (size_t k = 0; k < values.size() && values[k] <= last; ++k) {
-    const double fraction = static_cast<double>(k + 1) / n;
-    if (values[k] <= curve.x.back()) {
-      curve.y.back() = fraction;
-    } else {
-      curve.x.push_back(values[k]);
-      curve.y.push_back(fraction);
-    }
+/// A geometric mean under way; NaN for no values.
+struct ShiftedMean {
+  double logs = 0.0;
+  int count = 0;
+  void add(double value) {
+    logs += std::log(value + summary_shift);
+    ++count;
   }
-  return curve;
-}
+  double with_shift() const { return count == 0 ? std::nan("") : std::exp(logs / count); }
+};
+
+/// A backend's summary under way.
+struct Tally {
+  BackendSummary summary;
+  ShiftedMean times, beaten, fastest;
+
+  void add(const CompareCell& cell, double best, double limit) {
+    const Verdict verdict = cell.row->verdict;
+    summary.law = cell.row->law;
+    summary.solved += cell.solved;
+    summary.unsolved += !cell.solved;
+    summary.timeouts += verdict == Verdict::timeout;
+    summary.crashes += verdict == Verdict::crashed || verdict == Verdict::out_of_memory;
+    summary.unsupported += verdict == Verdict::unsupported;
+    summary.no_solutions += verdict == Verdict::no_solution;
+    summary.denied += verdict == Verdict::denied;
+    summary.largest_spread = std::max(summary.largest_spread, cell.spread);
+    times.add(std::min(cell.median, limit));
+    if (std::isinf(best)) return;
+    beaten.add(std::min(cell.median, limit));
+    fastest.add(best);
+  }
+};
 
 }  // namespace
 
-const CaseFacts& CompareTable::facts(size_t case_index) const {
-  const auto is_tried = [](const CompareCell& cell) { return cell.row != nullptr; };
-  return std::ranges::find_if(cells[case_index], is_tried)->row->facts;
-}
-
-double CompareTable::fastest(size_t case_index) const {
-  double least = not_reached;
-  for (const CompareCell& cell : cells[case_index]) least = std::min(least, cell.median);
-  return least;
-}
-
-CompareCosts CompareTable::time_ratios() const {
-  CompareCosts costs;
-  for (size_t c = 0; c < cases.size(); ++c) {
-    costs.emplace_back();
-    const double best = fastest(c);
-    for (const CompareCell& cell : cells[c])
-      costs[c].push_back(cell.solved ? (best > 0.0 ? cell.median / best : 1.0) : not_reached);
-  }
-  return costs;
-}
-
-CompareCosts CompareTable::times_per_contact() const {
-  CompareCosts costs;
-  for (size_t c = 0; c < cases.size(); ++c) {
-    costs.emplace_back();
-    for (const CompareCell& cell : cells[c])
-      costs[c].push_back(cell.median / std::max(1, facts(c).contacts));
-  }
-  return costs;
-}
-
-std::string CompareTable::heading() const {
-  return printed("Tolerance %g, %s start", tolerance, name_of(start));
-}
-
 std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
-  std::map<std::pair<StartKind, double>,
-           std::map<std::pair<size_t, size_t>, std::vector<const CompareRow*>>>
+  // by start and tolerance, then by case, then by backend
+  std::map<std::pair<StartKind, double>, std::map<std::string, std::map<std::string, RowList>>>
       groups;
-  std::vector<std::string> cases, solvers;
-  for (const CompareRow& row : rows) {
-    if (row.verdict == Verdict::unreadable) continue;
-    const size_t c = index_of(cases, row.case_name), s = index_of(solvers, row.solver);
-    groups[{row.start, -row.tolerance}][{c, s}].push_back(&row);
-  }
+  for (const CompareRow& row : rows)
+    if (row.verdict != Verdict::unreadable)
+      groups[{row.start, -row.tolerance}][row.case_name][row.solver].push_back(&row);
+  const double limit = limit_of(rows);
   std::vector<CompareTable> tables;
-  for (const auto& [what, repeats] : groups) {
-    CompareTable table{what.first, -what.second, {}, solvers, {}};
-    for (size_t c = 0; c < cases.size(); ++c) {
-      std::vector<CompareCell> line;
-      for (size_t s = 0; s < solvers.size(); ++s) {
-        const auto found = repeats.find({c, s});
-        line.push_back(
-            cell_of(found == repeats.end() ? std::vector<const CompareRow*>() : found->second));
-      }
-      // a case without a warm start is in no warm table
-      if (std::none_of(line.begin(), line.end(),
-                       [](const CompareCell& cell) { return cell.row != nullptr; }))
-        continue;
-      table.cases.push_back(cases[c]);
-      table.cells.push_back(std::move(line));
+  for (const auto& [what, cases] : groups) {
+    std::map<std::string, Tally> tallies;
+    for (const auto& [name, by_solver] : cases) {
+      std::map<std::string, CompareCell> cells;
+      for (const auto& [solver, repeats] : by_solver) cells.emplace(solver, cell_of(repeats));
+      double best = std::numeric_limits<double>::infinity();
+      for (const auto& [solver, cell] : cells) best = std::min(best, cell.median);
+      for (const auto& [solver, cell] : cells) tallies[solver].add(cell, best, limit);
     }
-    tables.push_back(std::move(table));
+    CompareTable& table = tables.emplace_back();
+    table.heading = printed("Tolerance %g, %s start", -what.second, name_of(what.first));
+    table.cases = cases.size();
+    for (auto& [solver, tally] : tallies) {
+      tally.summary.solver = solver;
+      tally.summary.mean_seconds = tally.times.with_shift() - summary_shift;
+      tally.summary.mean_ratio = tally.beaten.with_shift() / tally.fastest.with_shift();
+      table.backends.push_back(std::move(tally.summary));
+    }
+    std::stable_sort(
+        table.backends.begin(), table.backends.end(), [](const auto& a, const auto& b) {
+          return a.solved != b.solved ? a.solved > b.solved : a.mean_seconds < b.mean_seconds;
+        });
   }
   return tables;
-}
-
-CompareTable tried_by_all(const CompareTable& table) {
-  CompareTable common{table.start, table.tolerance, {}, table.solvers, {}};
-  for (size_t c = 0; c < table.cases.size(); ++c) {
-    if (!std::ranges::all_of(table.cells[c], &CompareCell::row)) continue;
-    common.cases.push_back(table.cases[c]);
-    common.cells.push_back(table.cells[c]);
-  }
-  return common;
-}
-
-double shifted_geometric_mean(std::span<const double> values, double shift) {
-  double sum = 0.0;
-  for (const double value : values) sum += std::log(value + shift);
-  return std::exp(sum / static_cast<double>(values.size())) - shift;
-}
-
-double shifted_geometric_ratio(std::span<const double> a, std::span<const double> b, double shift) {
-  double sum = 0.0;
-  for (size_t k = 0; k < a.size(); ++k) sum += std::log((a[k] + shift) / (b[k] + shift));
-  return std::exp(sum / static_cast<double>(a.size()));
-}
-
-std::vector<StepCurve> cost_profiles(const CompareCosts& costs, double first, double last) {
-  std::vector<StepCurve> curves;
-  for (size_t s = 0; !costs.empty() && s < costs[0].size(); ++s) {
-    std::vector<double> values;
-    for (const std::vector<double>& line : costs) values.push_back(line[s]);
-    curves.push_back(counted(std::move(values), first, last));
-  }
-  return curves;
-}
-
-StepCurve best_so_far(const CompareRow& row) {
-  StepCurve curve;
-  for (const HistoryRow& point : row.history) {
-    if (!std::isfinite(point.error) || (!curve.y.empty() && point.error >= curve.y.back()))
-      continue;
-    curve.x.push_back(row.prepare_seconds + point.seconds);
-    curve.y.push_back(point.error);
-  }
-  return curve;
 }
 
 double limit_of(std::span<const CompareRow> rows) {
   double limit = 0.0;
   for (const CompareRow& row : rows) limit = std::max(limit, row.max_seconds);
   return limit;
-}
-
-std::vector<BackendSummary> backend_summaries(const CompareTable& table, double limit) {
-  std::vector<BackendSummary> summaries;
-  for (size_t s = 0; s < table.solvers.size(); ++s) {
-    BackendSummary summary;
-    summary.solver = table.solvers[s];
-    std::vector<double> times, ratios_of, best;
-    for (size_t c = 0; c < table.cases.size(); ++c) {
-      const CompareCell& cell = table.cells[c][s];
-      if (!cell.row) continue;
-      summary.law = cell.row->law;
-      summary.solved += cell.solved;
-      summary.unsolved += !cell.solved;
-      summary.timeouts += cell.row->verdict == Verdict::timeout;
-      summary.crashes +=
-          cell.row->verdict == Verdict::crashed || cell.row->verdict == Verdict::out_of_memory;
-      summary.unsupported += cell.row->verdict == Verdict::unsupported;
-      summary.no_solutions += cell.row->verdict == Verdict::no_solution;
-      summary.denied += cell.row->verdict == Verdict::denied;
-      summary.largest_spread = std::max(summary.largest_spread, cell.spread);
-      times.push_back(std::min(cell.median, limit));
-      if (std::isinf(table.fastest(c))) continue;
-      ratios_of.push_back(times.back());
-      best.push_back(table.fastest(c));
-    }
-    summary.mean_seconds = shifted_geometric_mean(times, summary_shift);
-    summary.mean_ratio =
-        best.empty() ? std::nan("") : shifted_geometric_ratio(ratios_of, best, summary_shift);
-    summaries.push_back(std::move(summary));
-  }
-  std::stable_sort(
-      summaries.begin(), summaries.end(), [](const BackendSummary& a, const BackendSummary& b) {
-        return a.solved != b.solved ? a.solved > b.solved : a.mean_seconds < b.mean_seconds;
-      });
-  return summaries;
 }
 
 }  // namespace ballast

@@ -61,7 +61,6 @@ class Comparison {
              options_.solvers.size() * static_cast<size_t>(options_.repeats);
     for (int repeat = 0; repeat < options_.repeats && goes_on_; ++repeat)
       for (size_t c = 0; c < cases_.size() && goes_on_; ++c) try_case(cases_[c], repeat);
-    if (options_.is_part) return std::move(rows_);
     write_whole_file(options_.folder / "results.csv", compare_csv(rows_));
     describe(manifest);
     manifest.write(options_.folder / "manifest.json");
@@ -102,13 +101,6 @@ class Comparison {
   }
 
   void look_for_exact(LoadedCase& loaded) const {
-    // Parts of one case look once, not side by side.
-    std::optional<FileLock> lock;
-    if (options_.is_part && options_.exact_seconds > 0.0) {
-      create_folder(options_.folder / "exact");
-      lock.emplace(options_.folder / "exact" / (loaded.facts.content + ".lock"),
-                   [](double) { return !InterruptGuard::requested(); });
-    }
     const ExactSearch search{loaded.facts.velocity_scale, options_.exact_seconds,
                              options_.folder / "exact", loaded.facts.content};
     if (auto found = find_exact_answer(loaded.problem, loaded.warm_start, search))
@@ -162,30 +154,11 @@ class Comparison {
     row.start = attempt.start;
     row.repeat = repeat;
     row.facts = loaded.facts;
-    if (options_.is_part && was_killed(file, row)) return row;
     const auto solve = attempt.solver->external_key.empty() ? solve_in_child : solve_outside;
     solve(attempt.solver->make, loaded, options_.limits, row);
     // an interrupt reaches the child as well: what it left is no result
     if (!InterruptGuard::requested()) write_whole_file(file, to_json(row));
-    if (options_.is_part) fs::remove(mark_of(file));
     return row;
-  }
-
-  /// Stands beside a row while a part works on it.
-  static fs::path mark_of(const fs::path& file) { return file.string() + ".trying"; }
-
-  /// Whether a part was killed while it worked on this row, which then says so; else marks it.
-  static bool was_killed(const fs::path& file, CompareRow& row) {
-    const fs::path mark = mark_of(file);
-    if (!is_there(mark)) {
-      write_whole_file(mark, "");
-      return false;
-    }
-    row.verdict = Verdict::crashed;
-    row.note = "the process that watched over this solve was killed";
-    write_whole_file(file, to_json(row));
-    fs::remove(mark);
-    return true;
   }
 
   void describe(Manifest& manifest) const {

@@ -34,9 +34,6 @@ struct CompareOptions {
   SolveLimits limits;
   std::filesystem::path folder;  ///< rows/<key>.json, results.csv, manifest.json
   std::string command;           ///< for the manifest: how it was called
-  /// One of several processes that fill the folder: it leaves rows alone. A solve during which such
-  /// a process was killed is a row of its own (Verdict::crashed) when it is started again.
-  bool is_part = false;
 };
 
 /// Called after each attempt, old rows included; `done` of `count`. Returning false stops the

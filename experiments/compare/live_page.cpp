@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "platform/atomic_file.hpp"
@@ -208,6 +209,14 @@ std::string origins_of(const LiveComparison& comparison) {
   return data.dump();
 }
 
+/// "steps-pgs_1e-4.csv"
+std::string steps_file(const Trajectory& t) {
+  std::string name = "steps-";
+  for (const char c : t.label())
+    name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
+  return name + ".csv";
+}
+
 }  // namespace
 
 std::span<const LiveNumber> live_numbers() { return shown_numbers; }
@@ -258,7 +267,8 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
       panel.curves.push_back(std::move(curve));
     }
     Figure figure{.name = what.name, .title = what.title};
-    figure.height = height_for(2 * panel.curves.size());
+    // the key grows, the axes stay
+    figure.height = 440 + 22 * static_cast<int>(2 * panel.curves.size() / 3);
     if (!panel.curves.empty()) figure.panels = {std::move(panel)};
     pictures.push_back({figure, {page::words(std::string(what.name) + ".caption")}});
   }
@@ -267,7 +277,7 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
 
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison) {
   for (const Trajectory& t : comparison.trajectories)
-    write_whole_file(folder / ("steps-" + figure_name(t.label()) + ".csv"), steps_csv(t));
+    write_whole_file(folder / steps_file(t), steps_csv(t));
   write_whole_file(folder / "live.csv", live_csv(comparison));
   page::Page page{.title = "One start, several solvers: " + comparison.scene.name};
   page.add(

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
+#include "experiments/compare/compare_page.hpp"
 #include "experiments/run/manifest.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
@@ -30,6 +30,8 @@ class ProblemNames {
   std::set<std::string> taken_;
 };
 
+std::string machine_name(size_t place) { return "M" + std::to_string(place + 1); }
+
 }  // namespace
 
 SolveIdentity identity_of(const CompareRow& row) {
@@ -54,48 +56,52 @@ StoredComparison read_comparison(const fs::path& folder) {
   return stored;
 }
 
-std::vector<MachineRows> merged_machines(std::span<const StoredComparison> comparisons) {
-  std::vector<size_t> order(comparisons.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return comparisons[a].started < comparisons[b].started;
-  });
-  std::vector<MachineRows> machines;
-  for (const size_t k : order) {
-    const auto same = [&](const MachineRows& m) { return m.machine == comparisons[k].machine; };
-    auto found = std::find_if(machines.begin(), machines.end(), same);
-    if (found == machines.end())
-      found = machines.insert(machines.end(), {comparisons[k].machine, {}, {}});
-    found->sources.push_back(k);
-  }
+MergedComparison merged(std::vector<StoredComparison> comparisons) {
+  std::ranges::stable_sort(comparisons, {}, &StoredComparison::started);
+  MergedComparison all;
+  for (const StoredComparison& c : comparisons)
+    if (std::ranges::find(all.machines, c.machine) == all.machines.end())
+      all.machines.push_back(c.machine);
   ProblemNames names;
-  for (MachineRows& machine : machines) {
-    // The newest comparison that holds a solve has the last word.
-    std::map<SolveIdentity, size_t> newest;
-    for (const size_t k : machine.sources)
-      for (const CompareRow& row : comparisons[k].rows) newest[identity_of(row)] = k;
-    for (const size_t k : machine.sources)
-      for (const CompareRow& row : comparisons[k].rows) {
-        if (row.verdict == Verdict::unreadable || newest[identity_of(row)] != k) continue;
-        machine.rows.push_back(row);
-        machine.rows.back().case_name = names.of(row);
+  for (size_t m = 0; m < all.machines.size(); ++m) {
+    const std::string mark = all.machines.size() > 1 ? machine_name(m) : "";
+    std::map<SolveIdentity, const StoredComparison*> newest;
+    for (const StoredComparison& c : comparisons)
+      if (c.machine == all.machines[m])
+        for (const CompareRow& row : c.rows) newest[identity_of(row)] = &c;
+    for (const StoredComparison& c : comparisons) {
+      if (c.machine != all.machines[m]) continue;
+      for (CompareRow row : c.rows) {
+        if (row.verdict == Verdict::unreadable || newest[identity_of(row)] != &c) continue;
+        if (!all.rows.empty() && row.measure != all.rows.front().measure)
+          throw Error(std::string("some comparisons are of the measure ") +
+                      name_of(all.rows.front().measure) + ", others of " + name_of(row.measure) +
+                      ": their tolerances bound different things");
+        row.word = row.case_name;
+        row.case_name = (mark.empty() ? "" : mark + " · ") + names.of(row);
+        row.key = mark + row.key;
+        all.rows.push_back(std::move(row));
       }
+    }
   }
-  return machines;
+  return all;
 }
 
-std::vector<CompareRow> pooled_rows(std::span<const MachineRows> machines) {
-  std::vector<CompareRow> rows;
-  for (size_t m = 0; m < machines.size(); ++m)
-    for (CompareRow row : machines[m].rows) {
-      if (!rows.empty() && row.measure != rows.front().measure)
-        throw Error(std::string("some comparisons are of the measure ") +
-                    name_of(rows.front().measure) + ", others of " + name_of(row.measure) +
-                    ": their tolerances bound different things");
-      row.case_name = "M" + std::to_string(m + 1) + " · " + row.case_name;
-      rows.push_back(std::move(row));
-    }
-  return rows;
+size_t write_merged(const fs::path& folder, const std::vector<StoredComparison>& comparisons,
+                    const std::string& command) {
+  const MergedComparison all = merged(comparisons);
+  if (all.rows.empty()) throw Error("compare merge: the comparisons have no rows");
+  Manifest manifest("compare merge", {command}, "");
+  for (const StoredComparison& c : comparisons) {
+    const auto m = std::ranges::find(all.machines, c.machine) - all.machines.begin();
+    manifest.summary(c.folder.string(), machine_name(static_cast<size_t>(m)) + ": " + c.machine +
+                                            "; " + c.program + "; " + c.started);
+  }
+  create_folder(folder);
+  write_whole_file(folder / "results.csv", compare_csv(all.rows));
+  manifest.write(folder / "manifest.json");
+  write_compare_page(folder, all.rows);
+  return all.rows.size();
 }
 
 }  // namespace ballast

@@ -1,9 +1,8 @@
 #pragma once
 // Comparisons that are done, read back from their folders: rows, and who made them where and when;
-// and several of them as one: which rows count, and what may be said of them together.
+// and several of them as one.
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -28,21 +27,23 @@ SolveIdentity identity_of(const CompareRow& row);
 /// Reads `folder`/manifest.json and `folder`/rows. Throws Error: there are none, a damaged row.
 StoredComparison read_comparison(const std::filesystem::path& folder);
 
-/// The rows of one machine.
-struct MachineRows {
-  std::string machine;
-  std::vector<size_t> sources;   ///< places in the list of comparisons, oldest first
-  std::vector<CompareRow> rows;  ///< of each solve the newest comparison's, all its repeats
+/// Several comparisons as one.
+struct MergedComparison {
+  std::vector<std::string> machines;  ///< in the order of their first comparison
+  std::vector<CompareRow> rows;       ///< one machine after the other
 };
 
-/// One machine after the other, in the order of their first comparison. A solve is known by its
-/// identity; a problem has the name that it has in the first comparison, with a number where
-/// another one is called so. Unreadable cases are left out.
-std::vector<MachineRows> merged_machines(std::span<const StoredComparison> comparisons);
+/// Of each solve on a machine the newest comparison's rows count, all its repeats; a solve is known
+/// by its identity. A problem has the name that it has in the first comparison, with a number where
+/// another one is called so. Of several machines, a case is a problem on one of them ("M2 ·
+/// Capsules.dat"), so that a time is only ever divided by another of the same machine. Unreadable
+/// cases are left out. Throws Error: rows of two measures.
+MergedComparison merged(std::vector<StoredComparison> comparisons);
 
-/// All machines' rows for what is said as ratios alone: a case is a problem on a machine ("M2 ·
-/// Capsules.dat"), so that a time is only ever divided by another of the same machine. Rows of one
-/// measure, which must be that of all. Throws Error naming both where there are two.
-std::vector<CompareRow> pooled_rows(std::span<const MachineRows> machines);
+/// Writes results.csv, manifest.json with who made what, and compare.html of all rows; returns
+/// their number. `command`: how it was called, for the manifest. Throws Error: no rows, as
+/// merged().
+size_t write_merged(const std::filesystem::path& folder,
+                    const std::vector<StoredComparison>& comparisons, const std::string& command);
 
 }  // namespace ballast

@@ -26,7 +26,7 @@ struct HandMadeComparison {
       for (const char* name : {"x1", "y2", "z3"})
         for (const char* solver : {"a", "b", "c"}) add(name, solver, tolerance);
     Manifest("compare", {"ballast compare"}, "key").write(place.path() / "manifest.json");
-    write_compare_page(place.path(), rows, {});
+    write_compare_page(place.path(), rows);
   }
   void add(const char* name, const char* solver, double tolerance) {
     const bool is_b = solver[0] == 'b' && name[0] != 'x';

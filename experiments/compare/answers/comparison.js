@@ -5,11 +5,11 @@ const sections = [["backends", backends_view], ["matrix", matrix_view], ["profil
                   ["families", family_view], ["cost", cost_view], ["cases", cases_view],
                   ["case-figures", case_view]];
 
-/// A section's holder of what is made; what was written for all tolerances stays for print.
+/// A section's holder of what is made; tables that the program wrote stay for print.
 function holder_of(id) {
   const section = document.getElementById(id);
   if (!section) return null;
-  for (const block of section.querySelectorAll(":scope > :is(h3, .scroll, figure, .linked)"))
+  for (const block of section.querySelectorAll(":scope > :is(h3, .scroll)"))
     block.classList.add("still");
   const holder = element("div", { class: "live" });
   section.append(holder);

@@ -40,7 +40,7 @@ const chosen = {
   has: (row) => chosen.has_case(row) && !choice.has("without", row.solver),
 };
 
-/// Why a row is not solved, in a few words (reason_of of compare_page.cpp).
+/// Why a row is not solved, in a few words.
 function reason_of(row) {
   if (row.is_denied) return "denied";
   const words = { crashed: "crashed", out_of_memory: "memory", unsupported: "not taken",

@@ -1,5 +1,5 @@
-// Medians, means and profiles of a selection of rows: the same as compare_table.cpp computes for
-// all cases.
+// Medians, means and profiles of a selection of rows; medians and means are those that
+// compare_table.cpp computes of all cases.
 
 /// One case by one backend, over its repeats. Times are infinite where it isn't solved.
 function cell_of(repeats) {
@@ -72,25 +72,22 @@ function counted_steps(values, cases, first, last) {
 const decade_above = (value) => 10 ** Math.ceil(Math.log10(value) - 1e-9);
 const decade_below = (value) => 10 ** Math.floor(Math.log10(value) + 1e-9);
 
-/// Dolan and Moré: time over the fastest backend's time.
-function performance_profiles({ solvers, cases }) {
-  const ratios = solvers.map((solver, s) => cases.map(({ cells, fastest }) =>
-    !Number.isFinite(cells[s].median) ? Infinity : fastest > 0 ? cells[s].median / fastest : 1));
-  const last = Math.max(10, decade_above(Math.max(1, ...ratios.flat().filter(Number.isFinite))));
-  return { first: 1, last, curves: ratios.map((values, s) =>
-    counted_steps(values, cases.map((c) => c.cells[s].row), 1, last)) };
+/// The share of the cases that each backend solves at a cost up to x, from `first` on or from the
+/// decade below the least cost: `cost_of(median, case)`.
+function cost_profiles({ solvers, cases }, cost_of, first = null) {
+  const costs = solvers.map((solver, s) => cases.map((one) => cost_of(one.cells[s].median, one)));
+  const known = costs.flat().filter((cost) => Number.isFinite(cost) && cost > 0);
+  const start = first ?? (known.length ? decade_below(Math.min(...known)) : 1e-6);
+  const last = Math.max(10 * start, known.length ? decade_above(Math.max(...known)) : 1);
+  return { first: start, last, curves: costs.map((values, s) =>
+    counted_steps(values, cases.map((c) => c.cells[s].row), start, last)) };
 }
 
+/// Dolan and Moré: time over the fastest backend's time.
+const time_ratio = (median, { fastest }) =>
+  !Number.isFinite(median) ? Infinity : fastest > 0 ? median / fastest : 1;
 /// Moré and Wild, with time per contact as the unit of cost.
-function data_profiles({ solvers, cases }) {
-  const costs = solvers.map((solver, s) => cases.map(({ cells, row }) =>
-    cells[s].median / Math.max(1, row.contacts)));
-  const known = costs.flat().filter((cost) => Number.isFinite(cost) && cost > 0);
-  const first = known.length ? decade_below(Math.min(...known)) : 1e-6;
-  const last = Math.max(10 * first, known.length ? decade_above(Math.max(...known)) : 1);
-  return { first, last, curves: costs.map((values, s) =>
-    counted_steps(values, cases.map((c) => c.cells[s].row), first, last)) };
-}
+const time_per_contact = (median, { row }) => median / Math.max(1, row.contacts);
 
 /// Geometric mean over histories of the least error by then, at `count` times.
 function mean_history(histories, count) {

@@ -70,15 +70,19 @@ function profile_chart(selected, title, label, { first, last, curves }) {
 }
 
 function profiles_view(selected) {
-  if (!selected.cases.length) return [];
+  // what a backend did not try is no failure
+  const cases = selected.cases.filter((c) => c.cells.every((cell) => cell.row));
+  const tried = { ...selected, cases };
+  if (!cases.length) return [];
   const share = "the share of the cases that a backend solves ";
   return [
     caption("Performance profile", `(Dolan–Moré): ${share}within so many times the fastest ` +
       "backend’s time, for the cases and backends that are chosen."),
-    profile_chart(selected, "Performance profile", "time over the fastest backend’s time",
-                  performance_profiles(selected)),
+    profile_chart(tried, "Performance profile", "time over the fastest backend’s time",
+                  cost_profiles(tried, time_ratio, 1)),
     caption("Data profile", `(Moré–Wild): ${share}when so much time is given for each contact.`),
-    profile_chart(selected, "Data profile", "time per contact&nbsp; (s)", data_profiles(selected)),
+    profile_chart(tried, "Data profile", "time per contact&nbsp; (s)",
+                  cost_profiles(tried, time_per_contact)),
   ];
 }
 

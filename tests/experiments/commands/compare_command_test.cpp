@@ -43,26 +43,31 @@ TEST_CASE("a comparison leaves its table and its page, and the same command goes
   CHECK_FALSE(std::filesystem::exists(output / "compare.html"));
 }
 
-TEST_CASE(
-    "parts of a comparison fill one folder, and the whole finds them; a quiet one says nothing") {
+TEST_CASE("jobs of a comparison are merged, and a quiet one says nothing") {
   const TemporaryFolder folder;
-  std::vector<std::string> words = {
-      "compare",  "known:contacts=6,bodies=4",           "--tolerances", "1e-2", "--memory", "0",
-      "--output", (folder.path() / "compared").string(), "--solvers",    ""};
+  std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
+                                    "--tolerances", "1e-2",
+                                    "--memory",     "0",
+                                    "--quiet",      "--no-report",
+                                    "--solvers",    "",
+                                    "--output",     ""},
+                           merge = {"compare", "merge"};
   for (const char* solver : {"pgs", "nncg"}) {
-    words.back() = solver;
-    std::vector<std::string> part = words;
-    part.insert(part.end(), {"--part", "--quiet"});
-    const ProgramResult quiet = ballast_program(part);
+    words[9] = solver;
+    words[11] = (folder.path() / solver).string();
+    merge.push_back(words[11]);
+    const ProgramResult quiet = ballast_program(words);
     CHECK(quiet.status == 0);
     CHECK(quiet.output.empty());
-    CHECK_FALSE(fs::exists(folder.path() / "compared" / "compare.html"));
   }
-  words.back() = "pgs,nncg";
-  const ProgramResult whole = ballast_program(words);
-  CHECK(whole.status == 0);
-  CHECK_THAT(whole.output, Catch::Contains("2/2") && Catch::Contains("(was there)"));
-  CHECK(fs::exists(folder.path() / "compared" / "compare.html"));
+  const fs::path all = folder.path() / "all";
+  merge.insert(merge.end(), {"--output", all.string()});
+  const ProgramResult merged = ballast_program(merge);
+  CHECK(merged.status == 0);
+  CHECK_THAT(merged.output, Catch::Contains("2 comparisons, 2 rows: " + all.string()));
+  CHECK(fs::exists(all / "compare.html"));
+  merge.back() = merge[2];
+  check_failure(ballast_program(merge), ExitCode::failure, {merge[2]});
 }
 
 TEST_CASE("what became of a comparison is told, with an exit code") {
@@ -80,14 +85,6 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
   const ProgramResult same = ballast_program({"compare", "diff", before, before, "--all"});
   CHECK(same.status == 0);
   CHECK_THAT(same.output, Catch::Contains("-a0.8-s123 ") && Catch::Contains(": 2 same"));
-  const fs::path site = folder.path() / "site";
-  const ProgramResult merged =
-      ballast_program({"compare", "merge", before, other, "--output", site.string()});
-  CHECK(merged.status == 0);
-  CHECK_THAT(merged.output, Catch::Contains("2 comparisons, 4 rows: " + site.string()));
-  CHECK(fs::exists(site / "index.html"));
-  check_failure(ballast_program({"compare", "merge", before, "--output", before}),
-                ExitCode::failure, {before});
   // One row is lost by hand.
   const fs::path after = folder.path() / "after";
   fs::copy(before, after, fs::copy_options::recursive);

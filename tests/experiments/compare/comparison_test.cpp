@@ -167,32 +167,6 @@ TEST_CASE("A case that cannot be read is one row with its reason, and the others
                     [](const CompareRow& row) { return row.verdict == Verdict::solved; }));
 }
 
-TEST_CASE("A solve during which a part was killed is a row, and is not tried again") {
-  const TemporaryFolder folder;
-  CompareOptions options = options_in(folder.path(), parse_solvers("pgs"));
-  options.tolerances = {1e-4};
-  options.is_part = true;
-  const auto go_on = [](const CompareRow&, bool, size_t, size_t) { return true; };
-  const std::vector<CompareRow> first = run_comparison(one_case(), options, go_on);
-  REQUIRE(first.at(0).verdict == Verdict::solved);
-  CHECK_FALSE(fs::exists(folder.path() / "results.csv"));
-  const fs::path file = folder.path() / "rows" / (first[0].key + ".json"),
-                 mark = file.string() + ".trying";
-  CHECK_FALSE(fs::exists(mark));
-  // What kill -9 leaves in the middle of a solve.
-  fs::remove(file);
-  write_whole_file(mark, "");
-  for (int again = 0; again < 2; ++again) {
-    const CompareRow row = run_comparison(one_case(), options, go_on).at(0);
-    CHECK(row.verdict == Verdict::crashed);
-    CHECK_THAT(row.note, Catch::Contains("was killed"));
-    CHECK_FALSE(fs::exists(mark));
-  }
-  // The comparison as a whole finds it, too.
-  options.is_part = false;
-  CHECK(run_comparison(one_case(), options, go_on).at(0).verdict == Verdict::crashed);
-}
-
 TEST_CASE("A damaged row is made again") {
   const TemporaryFolder folder;
   CompareOptions options = options_in(folder.path(), parse_solvers("pgs"));

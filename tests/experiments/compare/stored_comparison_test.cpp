@@ -1,7 +1,11 @@
 #include "experiments/compare/stored_comparison.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "experiments/compare/compare_table.hpp"
 #include "experiments/run/manifest.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/compare/hand_made_row.hpp"
@@ -67,37 +71,39 @@ std::vector<StoredComparison> three_comparisons() {
 }  // namespace
 
 TEST_CASE("Of each solve on a machine the newest comparison's rows count") {
-  const auto comparisons = three_comparisons();
-  const auto machines = merged_machines(comparisons);
-  REQUIRE(machines.size() == 2);
-  CHECK(machines[0].machine == "fast");
-  CHECK(machines[0].sources == std::vector<size_t>{1, 0});
-  REQUIRE(machines[0].rows.size() == 2);
-  CHECK(machines[0].rows[0].solver == "nncg");
-  CHECK(machines[0].rows[1].solve_seconds == 2.0);
-  // A problem is what it holds: it has one name everywhere, and another one has another.
-  CHECK(machines[1].rows[0].case_name == "x");
-  CHECK(machines[1].rows[2].case_name == "x (2)");
+  const MergedComparison all = merged(three_comparisons());
+  CHECK(all.machines == std::vector<std::string>{"fast", "slow"});
+  REQUIRE(all.rows.size() == 5);
+  CHECK(all.rows[0].solver == "nncg");
+  CHECK(all.rows[1].solve_seconds == 2.0);
+  // A problem is what it holds: it has one name everywhere, and another one has another. Times are
+  // only divided within a machine: a case is of one.
+  const char* names[] = {"M1 · x", "M1 · x", "M2 · x", "M2 · x", "M2 · x (2)"};
+  for (size_t k = 0; k < 5; ++k) CHECK(all.rows[k].case_name == names[k]);
+  // pgs over nncg: 2 on the fast machine, 4 on the slow one
+  const std::vector<BackendSummary> backends = compare_tables(all.rows).at(0).backends;
+  CHECK(backends.at(0).solver == "pgs");
+  CHECK(backends[0].mean_ratio == Approx(std::cbrt(2.0 * 4.0)).epsilon(1e-3));
+  // Jobs of one machine are one comparison.
+  auto comparisons = three_comparisons();
+  comparisons.pop_back();
+  CHECK(merged(comparisons).rows[1].case_name == "x");
 }
 
-TEST_CASE("Ratios are within a machine") {
-  const auto machines = merged_machines(three_comparisons());
-  const auto pooled = pooled_rows(machines);
-  const auto tables = compare_tables(pooled);
-  REQUIRE(tables.size() == 1);
-  CHECK(tables[0].cases == std::vector<std::string>{"M1 · x", "M2 · x", "M2 · x (2)"});
-  // pgs over nncg: 2 on the fast machine, 4 on the slow one; what one backend tried is left out
-  const CompareTable common = tried_by_all(tables[0]);
-  CHECK(common.cases.size() == 2);
-  const auto profiles = cost_profiles(common.time_ratios(), 1.0, 100.0);
-  const size_t pgs = common.solvers[0] == "pgs" ? 0 : 1;
-  CHECK(profiles[pgs].x == std::vector<double>{1.0, 2.0, 4.0});
-  CHECK(profiles[pgs].y == std::vector<double>{0.0, 0.5, 1.0});
+TEST_CASE("Merged comparisons are a page and a table, and who made what is noted") {
+  const TemporaryFolder folder;
+  CHECK(write_merged(folder.path() / "all", three_comparisons(), "ballast compare merge") == 5);
+  const std::string csv = read_whole_file(folder.path() / "all/results.csv");
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 6);
+  CHECK_THAT(read_whole_file(folder.path() / "all/manifest.json"),
+             Catch::Contains("\"slow\": \"M2: slow; a; 2026-01-15\""));
+  CHECK_THAT(read_whole_file(folder.path() / "all/compare.html"), Catch::Contains("M1 · x"));
+  CHECK_THROWS_WITH(write_merged(folder.path(), {}, ""), Catch::Contains("have no rows"));
 }
 
 TEST_CASE("Two measures are not one table") {
   auto comparisons = three_comparisons();
   comparisons[2].rows[0].measure = Measure::fclib;
-  CHECK_THROWS_WITH(pooled_rows(merged_machines(comparisons)),
+  CHECK_THROWS_WITH(merged(comparisons),
                     Catch::Contains("natural_map") && Catch::Contains("fclib"));
 }
