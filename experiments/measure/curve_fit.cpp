@@ -1,142 +1,94 @@
 #include "experiments/measure/curve_fit.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <unsupported/Eigen/SpecialFunctions>
 
 namespace ballast {
 namespace {
 
+using Eigen::ArrayXd;
+
+std::vector<double> finite_of(std::span<const double> values) {
+  std::vector<double> finite;
+  for (const double value : values)
+    if (std::isfinite(value)) finite.push_back(value);
+  return finite;
+}
+
 /// The samples where both are finite.
 struct Samples {
-  std::vector<double> x, y;
+  ArrayXd x, y;
   int count() const { return static_cast<int>(x.size()); }
 };
 
 Samples finite_samples(std::span<const double> x, std::span<const double> y) {
   if (x.size() != y.size()) throw std::invalid_argument("a fit needs as many x as y");
-  Samples samples;
+  std::vector<double> both[2];
   for (size_t k = 0; k < x.size(); ++k)
     if (std::isfinite(x[k]) && std::isfinite(y[k])) {
-      samples.x.push_back(x[k]);
-      samples.y.push_back(y[k]);
+      both[0].push_back(x[k]);
+      both[1].push_back(y[k]);
     }
-  return samples;
+  const auto count = static_cast<Eigen::Index>(both[0].size());
+  return {Eigen::Map<ArrayXd>(both[0].data(), count), Eigen::Map<ArrayXd>(both[1].data(), count)};
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-/// Sum of squares about the mean.
-double total_squares(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  double sum = 0.0;
-  for (double value : values) sum += (value - mean) * (value - mean);
-  return sum;
-}
-
-double determination(double residual_squares, double total) {
+double determination(double residual_squares, const ArrayXd& y) {
+  const double total = (y - y.mean()).square().sum();
   return total > 0.0 ? 1.0 - residual_squares / total : not_known;
 }
 
-/// Minimum of a function that has one minimum in [a, b].
-template <class Function>
-double golden_section(const Function& f, double a, double b) {
-  // With ratio^2 = 1 - ratio an inner point of one interval is an inner point of the next, too.
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-  // two inner points; of each shorter interval one of them is known already
-  double c = b - ratio * (b - a), d = a + ratio * (b - a);
-  double fc = f(c), fd = f(d);
-  for (int k = 0; k < 80 && b - a > 1e-12; ++k) {
-    if (fc < fd) {
-      b = d;
-      d = c;
-      fd = fc;
-      c = b - ratio * (b - a);
-      fc = f(c);
-    } else {
-      a = c;
-      c = d;
-      fc = fd;
-      d = a + ratio * (b - a);
-      fd = f(d);
-    }
-  }
-  return 0.5 * (a + b);
+/// y = amplitude shape for a shape that has no parameter left: the best amplitude, or the one that
+/// is given, and the squared residuals about it. What a shape with one more parameter is fitted by:
+/// the least residual over that parameter.
+struct Projection {
+  double amplitude, residual;
+};
+Projection project(const ArrayXd& shape, const ArrayXd& y, double given = not_known) {
+  const double amplitude = std::isfinite(given) ? given : (shape * y).sum() / shape.square().sum();
+  return {amplitude, (y - amplitude * shape).square().sum()};
 }
+
+/// Eq. 5 with D = 1: proportional to nu up to nu_c, to 1 / nu from there on, and continuous.
+ArrayXd peaked_shape(const ArrayXd& frequency, double critical) {
+  return (frequency <= critical).select(frequency, critical * critical / frequency);
+}
+
+/// Regularised incomplete beta function I_x(a, b).
+double incomplete_beta(double a, double b, double x) { return Eigen::numext::betainc(a, b, x); }
 
 }  // namespace
 
-double ExponentialFit::at(double x) const { return amplitude * std::exp(rate * x); }
-
-LineFit fit_line(std::span<const double> x, std::span<const double> y) {
-  const Samples samples = finite_samples(x, y);
-  LineFit fit;
-  fit.samples = samples.count();
-  if (fit.samples < 2) return fit;
-  const double mean_x = mean_of(samples.x), mean_y = mean_of(samples.y);
-  // about the means: sums of large x would lose digits
-  double xx = 0.0, xy = 0.0;
-  for (int k = 0; k < fit.samples; ++k) {
-    xx += (samples.x[k] - mean_x) * (samples.x[k] - mean_x);
-    xy += (samples.x[k] - mean_x) * (samples.y[k] - mean_y);
+Statistics statistics(std::span<const double> values) {
+  Statistics result;
+  double sum = 0.0;
+  for (double value : values) {
+    if (!std::isfinite(value)) continue;
+    sum += value;
+    result.min = result.samples ? std::min(result.min, value) : value;
+    result.max = result.samples ? std::max(result.max, value) : value;
+    ++result.samples;
   }
-  if (!(xx > 0.0)) return fit;  // all x alike: no slope
-  fit.slope = xy / xx;
-  fit.offset = mean_y - fit.slope * mean_x;
-  double residual = 0.0;
-  for (int k = 0; k < fit.samples; ++k) {
-    const double miss = samples.y[k] - mean_y - fit.slope * (samples.x[k] - mean_x);
-    residual += miss * miss;
-  }
-  fit.r2 = determination(residual, total_squares(samples.y));
-  // two parameters take two degrees of freedom
-  // The slope's variance is s^2 / xx, with s^2 the residual's.
-  if (fit.samples > 2) fit.slope_error = std::sqrt(residual / (fit.samples - 2) / xx);
-  return fit;
+  if (result.samples) result.mean = sum / static_cast<double>(result.samples);
+  return result;
 }
 
-ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y) {
-  const Samples samples = finite_samples(x, y);
-  ExponentialFit fit;
-  fit.samples = samples.count();
-  if (fit.samples < 2) return fit;
-  const auto [low, high] = std::minmax_element(samples.x.begin(), samples.x.end());
-  if (!(*high > *low)) return fit;
-  // x counts from its least in units of its range, so that rates are pure numbers and nothing
-  // overflows
-  const double origin = *low, range = *high - *low;
-  // y = A exp(rate x) is linear in A: for a rate the best A follows,
-  // and the rate alone is searched.
-  const auto projected = [&](double rate) {
-    return project(samples.x, samples.y,
-                   [&](double at) { return std::exp(rate * (at - origin) / range); });
-  };
-  // Coarse scan over factors e^-20 ... e^20 across the range of x, then golden section around the
-  // best one.
-  constexpr double scan_step = 0.25;
-  constexpr int scan_half = 80;
-  int best = -scan_half;
-  double least = projected(scan_step * best).residual;
-  for (int k = -scan_half + 1; k <= scan_half; ++k) {
-    const double residual = projected(scan_step * k).residual;
-    if (residual < least) {
-      least = residual;
-      best = k;
-    }
-  }
-  const double rate = golden_section([&](double r) { return projected(r).residual; },
-                                     scan_step * (best - 1), scan_step * (best + 1));
-  // back from pure numbers to the units of x
-  const Projection found = projected(rate);
-  fit.rate = rate / range;
-  fit.amplitude = found.amplitude * std::exp(-fit.rate * origin);
-  fit.r2 = determination(found.residual, total_squares(samples.y));
-  return fit;
+double quantile_of_sorted(std::span<const double> sorted, double p) {
+  if (sorted.empty()) return not_known;
+  // By rank: p = 0 is the least, p = 1 the largest, and linear between two that follow each other.
+  const double at = p * static_cast<double>(sorted.size() - 1);
+  const size_t below = static_cast<size_t>(at), above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+double quantile(std::span<const double> values, double p) {
+  std::vector<double> sorted = finite_of(values);
+  std::sort(sorted.begin(), sorted.end());
+  return quantile_of_sorted(sorted, p);
 }
 
 std::vector<double> low_pass(std::span<const double> y, int width) {
@@ -162,34 +114,247 @@ std::vector<double> low_pass(std::span<const double> y, int width) {
   return smooth;
 }
 
-Statistics statistics(std::span<const double> values) {
-  Statistics result;
-  double sum = 0.0;
-  for (double value : values) {
-    if (!std::isfinite(value)) continue;
-    sum += value;
-    result.min = result.samples ? std::min(result.min, value) : value;
-    result.max = result.samples ? std::max(result.max, value) : value;
-    ++result.samples;
+LineFit fit_line(std::span<const double> x, std::span<const double> y) {
+  const Samples samples = finite_samples(x, y);
+  LineFit fit;
+  fit.samples = samples.count();
+  if (fit.samples < 2) return fit;
+  // about the means: sums of large x would lose digits
+  const double mean_x = samples.x.mean(), mean_y = samples.y.mean();
+  const ArrayXd dx = samples.x - mean_x, dy = samples.y - mean_y;
+  const double xx = dx.square().sum();
+  if (!(xx > 0.0)) return fit;  // all x alike: no slope
+  fit.slope = (dx * dy).sum() / xx;
+  fit.offset = mean_y - fit.slope * mean_x;
+  const double residual = (dy - fit.slope * dx).square().sum();
+  fit.r2 = determination(residual, samples.y);
+  // the slope's variance is s^2 / xx; two parameters take two degrees of freedom of s
+  if (fit.samples > 2) fit.slope_error = std::sqrt(residual / (fit.samples - 2) / xx);
+  return fit;
+}
+
+double ExponentialFit::at(double x) const { return amplitude * std::exp(rate * x); }
+
+ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y) {
+  const Samples samples = finite_samples(x, y);
+  if (samples.count() < 2) return {};
+  // x counts from its least in units of its range, so that rates are pure numbers and nothing
+  // overflows
+  const double origin = samples.x.minCoeff(), range = samples.x.maxCoeff() - origin;
+  if (!(range > 0.0)) return {};
+  const ArrayXd place = (samples.x - origin) / range;
+  const auto at = [&](double rate) { return project((rate * place).exp(), samples.y); };
+  // The amplitude follows from the rate, which alone is searched: factors e^-20 ... e^20 across the
+  // range of x, then ever finer about the best one.
+  double rate = 0.0, least = at(rate).residual;
+  int half = 80;  // steps to both sides
+  for (double step = 0.25; step > 1e-10; step *= 0.25) {
+    const double middle = rate;
+    for (int k = -half; k <= half; ++k)
+      if (const double residual = at(middle + step * k).residual; residual < least) {
+        least = residual;
+        rate = middle + step * k;
+      }
+    half = 4;
   }
-  if (result.samples) result.mean = sum / static_cast<double>(result.samples);
-  return result;
+  return {at(rate).amplitude * std::exp(-rate / range * origin), rate / range,
+          determination(least, samples.y)};
 }
 
-double quantile_of_sorted(std::span<const double> sorted, double p) {
-  if (sorted.empty()) return not_known;
-  // By rank: p = 0 is the least, p = 1 the largest, and linear between two that follow each other.
-  const double at = p * static_cast<double>(sorted.size() - 1);
-  const size_t below = static_cast<size_t>(at), above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+double student_p(double t, double degrees_of_freedom) {
+  if (!(degrees_of_freedom > 0.0) || std::isnan(t)) return not_known;
+  return incomplete_beta(0.5 * degrees_of_freedom, 0.5,
+                         degrees_of_freedom / (degrees_of_freedom + t * t));
 }
 
-double quantile(std::span<const double> values, double p) {
-  std::vector<double> sorted;
-  for (double value : values)
-    if (std::isfinite(value)) sorted.push_back(value);
-  std::sort(sorted.begin(), sorted.end());
-  return quantile_of_sorted(sorted, p);
+double student_t95(int degrees_of_freedom) {
+  if (degrees_of_freedom < 1) return std::numeric_limits<double>::infinity();
+  // p falls with t: bisection, from the normal distribution's bound up
+  double low = 1.9, high = 13.0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (student_p(middle, degrees_of_freedom) > 0.05 ? low : high) = middle;
+  }
+  return low;
+}
+
+double f_p(double ratio, double above, double below) {
+  if (!(above > 0.0) || !(below > 0.0) || std::isnan(ratio)) return not_known;
+  // beyond this many degrees of freedom nothing changes in the fourth digit
+  const double bounded = std::min(below, 1e6);
+  return incomplete_beta(0.5 * bounded, 0.5 * above,
+                         bounded / (bounded + above * std::max(ratio, 0.0)));
+}
+
+std::vector<double> holm(std::span<const double> p) {
+  std::vector<size_t> order;
+  for (size_t k = 0; k < p.size(); ++k)
+    if (std::isfinite(p[k])) order.push_back(k);
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return p[a] < p[b]; });
+  // the smallest counts as often as there are questions, the next once less, and none may become
+  // smaller than one before it
+  std::vector<double> corrected(p.size(), not_known);
+  double least = 0.0;
+  for (size_t k = 0; k < order.size(); ++k) {
+    least = std::max(least, std::min(1.0, static_cast<double>(order.size() - k) * p[order[k]]));
+    corrected[order[k]] = least;
+  }
+  return corrected;
+}
+
+double SampleMean::half_width() const { return student_t95(samples - 1) * error; }
+double SampleMean::p() const { return student_p(mean / error, samples - 1); }
+double SampleMean::deviation() const { return error * std::sqrt(static_cast<double>(samples)); }
+
+SampleMean sample_mean(std::span<const double> values) {
+  const std::vector<double> finite = finite_of(values);
+  SampleMean mean;
+  mean.samples = static_cast<int>(finite.size());
+  if (finite.empty()) return mean;
+  mean.mean = 0.0;
+  for (const double value : finite) mean.mean += value / mean.samples;
+  double squares = 0.0;
+  for (const double value : finite) squares += (value - mean.mean) * (value - mean.mean);
+  if (mean.samples > 1)
+    mean.error = std::sqrt(squares / (mean.samples - 1)) / std::sqrt(mean.samples);
+  return mean;
+}
+
+PooledError pooled_error(std::span<const std::vector<double>> groups) {
+  PooledError pooled;
+  double squares = 0.0;
+  for (const std::vector<double>& group : groups) {
+    const SampleMean mean = sample_mean(group);
+    if (mean.samples < 2) continue;
+    squares += mean.deviation() * mean.deviation() * (mean.samples - 1);
+    pooled.degrees_of_freedom += mean.samples - 1;
+  }
+  if (pooled.degrees_of_freedom > 0)
+    pooled.deviation = std::sqrt(squares / pooled.degrees_of_freedom);
+  return pooled;
+}
+
+void Points::add(double at, const SampleMean& mean) {
+  x.push_back(at);
+  y.push_back(mean.mean);
+  error.push_back(mean.error);
+  errors_from += std::max(0, mean.samples - 1);
+}
+
+void Points::add(const Points& others) {
+  x.insert(x.end(), others.x.begin(), others.x.end());
+  y.insert(y.end(), others.y.begin(), others.y.end());
+  error.insert(error.end(), others.error.begin(), others.error.end());
+  errors_from += others.errors_from;
+}
+
+double PowerFit::at(double x) const { return prefactor * std::pow(x, exponent); }
+
+PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
+  const auto logarithm = [](double value) { return value > 0.0 ? std::log(value) : not_known; };
+  std::vector<double> log_x, log_y;
+  for (const double value : x) log_x.push_back(logarithm(value));
+  for (const double value : y) log_y.push_back(logarithm(value));
+  // a power law is a line of the logarithms, and its exponent the slope
+  const LineFit line = fit_line(log_x, log_y);
+  PowerFit fit;
+  fit.samples = line.samples;
+  fit.exponent = line.slope;
+  fit.prefactor = std::exp(line.offset);
+  fit.r2 = line.r2;
+  fit.half_width = student_t95(line.samples - 2) * line.slope_error;
+  return fit;
+}
+
+Misfit misfit_of(const PowerFit& fit, const Points& points) {
+  double misses = 0.0, variances = 0.0;
+  int counted = 0;
+  for (size_t k = 0; k < points.x.size(); ++k) {
+    const double x = points.x[k], y = points.y[k];
+    if (!(x > 0.0 && y > 0.0) || !std::isfinite(points.error[k])) continue;
+    // for small errors the error of log y is the relative error of y
+    const double miss = std::log(y / fit.at(x)), relative = points.error[k] / y;
+    misses += miss * miss;
+    variances += relative * relative;
+    ++counted;
+  }
+  if (counted < 3 || !std::isfinite(misses) || !(variances > 0.0)) return {};
+  const double reduced = misses / (counted - 2) / (variances / counted);
+  // the errors come from few samples: a ratio of two variances, not chi^2 of known errors
+  return {reduced, f_p(reduced, fit.samples - 2, points.errors_from)};
+}
+
+Proportion fit_proportion(std::span<const double> x, std::span<const double> y) {
+  std::vector<double> logs;
+  for (size_t k = 0; k < std::min(x.size(), y.size()); ++k)
+    if (x[k] > 0.0 && y[k] > 0.0) logs.push_back(std::log(y[k] / x[k]));
+  // the mean of logarithms is the geometric mean; its interval is a factor
+  const SampleMean mean = sample_mean(logs);
+  const double half = mean.half_width();
+  return {std::exp(mean.mean), std::exp(mean.mean - half), std::exp(mean.mean + half),
+          std::exp(mean.deviation())};
+}
+
+double PeakedRate::at(double frequency) const {
+  return gain * peaked_shape(ArrayXd::Constant(1, frequency), critical)[0];
+}
+
+PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate,
+                           double gain) {
+  const auto [x, y] = finite_samples(frequency, rate);
+  PeakedRate fit;
+  if (x.size() < 3) return fit;
+  // Once nu_c is chosen the best gain follows (the rate is linear in it), so nu_c alone is scanned:
+  // evenly in log nu_c, between the least and the largest frequency.
+  constexpr int parts = 4000;  // 0.1 % of nu_c over two decades: finer than any interval it gives
+  const auto critical = [low = x.minCoeff(), ratio = x.maxCoeff() / x.minCoeff()](int k) {
+    return low * std::pow(ratio, static_cast<double>(k) / parts);
+  };
+  std::vector<double> residual;
+  for (int k = 0; k <= parts; ++k)
+    residual.push_back(project(peaked_shape(x, critical(k)), y, gain).residual);
+  const auto best = std::min_element(residual.begin(), residual.end());
+  fit.critical = critical(static_cast<int>(best - residual.begin()));
+  fit.gain = project(peaked_shape(x, fit.critical), y, gain).amplitude;
+  fit.r2 = determination(*best, y);
+  // where the squared residuals exceed the least by what t at 95 % allows: S(nu_c) <= S_least (1 +
+  // t^2 / (n - parameters))
+  const int freedom = static_cast<int>(x.size()) - (std::isfinite(gain) ? 1 : 2);
+  const double t = student_t95(freedom), bound = *best * (1.0 + t * t / freedom) + 1e-300;
+  fit.low = fit.high = fit.critical;
+  for (int k = 0; k <= parts; ++k)
+    if (residual[static_cast<size_t>(k)] <= bound) {
+      fit.low = std::min(fit.low, critical(k));
+      fit.high = std::max(fit.high, critical(k));
+    }
+  return fit;
+}
+
+double WeightedFit::error_at(const Eigen::VectorXd& row) const {
+  return std::sqrt(row.dot(covariance * row));
+}
+
+WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
+                         const Eigen::VectorXd& error) {
+  // every row in units of its error: then ordinary least squares, by the normal equations
+  const Eigen::VectorXd weight = error.cwiseInverse();
+  const Eigen::MatrixXd scaled = weight.asDiagonal() * design;
+  const Eigen::VectorXd target = weight.cwiseProduct(y);
+  WeightedFit fit;
+  const Eigen::Index values = design.cols();
+  const Eigen::LDLT<Eigen::MatrixXd> normal(scaled.transpose() * scaled);
+  fit.value = normal.solve(scaled.transpose() * target);
+  fit.covariance = normal.solve(Eigen::MatrixXd::Identity(values, values));
+  fit.chi2 = (target - scaled * fit.value).squaredNorm();
+  fit.degrees_of_freedom = static_cast<int>(design.rows() - values);
+  return fit;
+}
+
+Improvement improvement(const WeightedFit& less, const WeightedFit& more) {
+  const int further = less.degrees_of_freedom - more.degrees_of_freedom;
+  if (further < 1 || more.degrees_of_freedom < 1) return {};
+  const double ratio = (less.chi2 - more.chi2) / further / more.reduced();
+  return {ratio, f_p(ratio, further, more.degrees_of_freedom)};
 }
 
 }  // namespace ballast

@@ -1,6 +1,9 @@
 #pragma once
-// Least squares and smoothing of measured curves. Everything skips samples that are not finite.
+// Fits of measured curves, and what a referee asks of them: an interval, whether the law holds,
+// whether a difference is more than the scatter of the samples. Everything skips what is not
+// finite, and answers NaN where there are too few samples or there is no degree of freedom.
 
+#include <Eigen/Core>
 #include <limits>
 #include <span>
 #include <vector>
@@ -8,56 +11,6 @@
 namespace ballast {
 
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-
-/// y = offset + slope x, ordinary least squares in y.
-struct LineFit {
-  double offset = not_known, slope = not_known;
-  double slope_error =
-      not_known;          ///< standard error of the slope, from the residuals (needs 3 samples)
-  double r2 = not_known;  ///< 1 - SS_residual / SS_total; NaN when y is constant
-  int samples = 0;
-  double at(double x) const { return offset + slope * x; }
-};
-
-/// y = amplitude exp(rate x), least squares in y itself (not in log y, which would weight the small
-/// values and cannot take zeros). R^2 is in y as well, so it compares with a LineFit's.
-struct ExponentialFit {
-  double amplitude = not_known, rate = not_known;
-  double r2 = not_known;
-  int samples = 0;
-  double at(double x) const;
-};
-
-/// NaN where there are fewer than two different x.
-LineFit fit_line(std::span<const double> x, std::span<const double> y);
-ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y);
-
-/// y = amplitude shape(x) for a shape that has no parameter left: its best amplitude, and the
-/// squared residuals about it. What a shape with one more parameter is fitted by: the least
-/// residual over that parameter. Everything must be finite.
-struct Projection {
-  double amplitude = not_known, residual = not_known;
-};
-template <class Shape>
-Projection project(std::span<const double> x, std::span<const double> y, const Shape& shape) {
-  double sy = 0.0, ss = 0.0;
-  for (size_t k = 0; k < x.size(); ++k) {
-    const double s = shape(x[k]);
-    sy += s * y[k];
-    ss += s * s;
-  }
-  Projection result{sy / ss, 0.0};
-  for (size_t k = 0; k < x.size(); ++k) {
-    const double miss = y[k] - result.amplitude * shape(x[k]);
-    result.residual += miss * miss;
-  }
-  return result;
-}
-
-/// Centred low-pass without phase shift: Hann-weighted mean over `width` samples to both sides
-/// together (an odd number is made of it), weights cut and renormalised at the ends and where
-/// samples are not finite. NaN stays NaN. width <= 1: a copy.
-std::vector<double> low_pass(std::span<const double> y, int width);
 
 /// Mean, least and largest of the finite samples.
 struct Statistics {
@@ -70,8 +23,142 @@ Statistics statistics(std::span<const double> values);
 /// two nearest of `sorted`, which grows: 0.5 is the median, the mean of the middle two of an even
 /// number. NaN without samples.
 double quantile_of_sorted(std::span<const double> sorted, double p);
-
-/// The same of values in any order; those that are not finite are left out.
+/// The same of values in any order.
 double quantile(std::span<const double> values, double p);
+
+/// Centred low-pass without phase shift: Hann-weighted mean over `width` samples to both sides
+/// together (an odd number is made of it), weights cut and renormalised at the ends and where
+/// samples are not finite. NaN stays NaN. width <= 1: a copy.
+std::vector<double> low_pass(std::span<const double> y, int width);
+
+/// y = offset + slope x, ordinary least squares in y.
+struct LineFit {
+  double offset = not_known, slope = not_known;
+  double slope_error = not_known;  ///< standard error, from the residuals (needs 3 samples)
+  double r2 = not_known;           ///< 1 - SS_residual / SS_total; NaN when y is constant
+  int samples = 0;
+  double at(double x) const { return offset + slope * x; }
+};
+LineFit fit_line(std::span<const double> x, std::span<const double> y);
+
+/// y = amplitude exp(rate x), least squares in y itself (not in log y, which would weight the small
+/// values and cannot take zeros). R^2 is in y as well, so it compares with a LineFit's.
+struct ExponentialFit {
+  double amplitude = not_known, rate = not_known;
+  double r2 = not_known;
+  double at(double x) const;
+};
+ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y);
+
+/// Probability that Student's t with this many degrees of freedom is at least |t| away from 0.
+double student_p(double t, double degrees_of_freedom);
+/// Two-sided 95 % quantile of Student's t. Infinite without a degree of freedom.
+double student_t95(int degrees_of_freedom);
+/// Probability that a ratio of variances is at least this large by chance: F with these degrees of
+/// freedom above and below. With `below` unbounded it is that of chi^2/above.
+double f_p(double ratio, double above, double below);
+/// Holm's correction: each p as it must be read when all were asked together. Bounds the
+/// probability that any of them is small by chance. In the order given.
+std::vector<double> holm(std::span<const double> p);
+
+/// Mean over independent samples (seeds) with its standard error s/sqrt(n); NaN error for one
+/// sample.
+struct SampleMean {
+  double mean = not_known, error = not_known;
+  int samples = 0;
+  double half_width() const;  ///< of the 95 % confidence interval
+  double p() const;           ///< of a mean so far from zero where there is no difference
+  double deviation() const;   ///< standard deviation of one sample
+};
+SampleMean sample_mean(std::span<const double> values);
+
+/// Standard deviation of one sample, from several groups of samples that scatter alike about means
+/// of their own: known better than from any one of them.
+struct PooledError {
+  double deviation = not_known;
+  int degrees_of_freedom = 0;  ///< samples less groups
+};
+PooledError pooled_error(std::span<const std::vector<double>> groups);
+
+/// Measured points: means over samples.
+struct Points {
+  std::vector<double> x, y;
+  std::vector<double> error;  ///< standard errors of y
+  int errors_from = 0;        ///< degrees of freedom of all errors together: samples less points
+
+  void add(double at, const SampleMean& mean);
+  void add(const Points& others);
+};
+
+/// y = prefactor x^exponent by least squares of log y on log x: every point weighs the same,
+/// whatever its size.
+struct PowerFit {
+  double exponent = not_known, prefactor = not_known;
+  double half_width = not_known;  ///< of the exponent's 95 % confidence interval (needs 3 points)
+  double r2 = not_known;          ///< of the logarithms
+  int samples = 0;
+  double at(double x) const;
+};
+/// Points that are not finite and positive are left out.
+PowerFit fit_power(std::span<const double> x, std::span<const double> y);
+
+/// How far a law misses points, in their errors.
+struct Misfit {
+  double reduced = not_known;  ///< chi^2 over its degrees of freedom
+  double p = not_known;        ///< of so large a misfit where the law holds
+};
+/// Squared residuals of the logarithms in units of the points' squared relative standard errors.
+/// About 1: the law holds within the scatter. Much more: the points leave it by more than their
+/// errors, and the interval of the exponent says how well a line can be drawn, not how well it
+/// holds. The errors are pooled over the points, because an error from three samples is itself
+/// known to a factor of two. NaN with fewer than three points that have errors.
+Misfit misfit_of(const PowerFit& fit, const Points& points);
+
+/// y = C x, C the geometric mean of y/x; its 95 % interval is a factor because the points span
+/// decades.
+struct Proportion {
+  double factor = not_known;
+  double low = not_known, high = not_known;  ///< 95 % interval of the mean
+  double spread = not_known;  ///< typical factor between a point and the line: exp of the standard
+                              ///< deviation of log(y/x)
+};
+Proportion fit_proportion(std::span<const double> x, std::span<const double> y);
+
+/// Paper, Eq. 5: rate = D nu below nu_c, D nu_c^2 / nu above. D = Delta rho_max / rho_0.
+struct PeakedRate {
+  double gain = not_known;                   ///< D
+  double critical = not_known;               ///< nu_c [Hz]
+  double low = not_known, high = not_known;  ///< 95 % interval of nu_c from the profile of the
+                                             ///< squared residuals; at an end of the data: that end
+  double r2 = not_known;
+  double at(double frequency) const;
+};
+/// Least squares in the rate itself; nu_c is sought within the frequencies given. `gain`: D where
+/// it is known, so that nu_c alone is fitted as in the paper. Needs three points.
+PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate,
+                           double gain = not_known);
+
+/// Least squares of y = design * value with points of unequal errors.
+struct WeightedFit {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd covariance;  ///< of the values, from the points' errors
+  double chi2 = not_known;     ///< squared misses in units of the squared errors
+  int degrees_of_freedom = 0;  ///< points less values
+
+  double reduced() const { return chi2 / degrees_of_freedom; }
+  /// A linear combination of the values, with its standard error.
+  double at(const Eigen::VectorXd& row) const { return row.dot(value); }
+  double error_at(const Eigen::VectorXd& row) const;
+};
+/// `error`: the standard error of each y, positive. Needs as many points as values.
+WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
+                         const Eigen::VectorXd& error);
+
+/// F and its p: does `more`, which has further values, fit better than `less` by more than chance?
+/// The scale of the errors is taken from `more`'s own misses.
+struct Improvement {
+  double ratio = not_known, p = not_known;
+};
+Improvement improvement(const WeightedFit& less, const WeightedFit& more);
 
 }  // namespace ballast

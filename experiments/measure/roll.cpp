@@ -40,11 +40,6 @@ double Roll::roundness() const {
   return std::isnan(circulation) || !(strongest > 0.0) ? not_known : weakest / strongest;
 }
 
-bool Roll::goes_round() const {
-  return std::all_of(along.begin(), along.end(), [](double a) { return a > 0.0; }) ||
-         std::all_of(along.begin(), along.end(), [](double a) { return a < 0.0; });
-}
-
 Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& r, double reach) {
   std::array<double, 4> sum{}, count{};
   const auto add = [&](size_t side, bool is_near, double along) {

@@ -36,12 +36,11 @@ struct XzRectangle {
 /// (the driven wall) and z upwards: right along the top, down the right side, left along the
 /// bottom, up the left side.
 struct Roll {
-  std::array<double, 4> along{not_known, not_known, not_known,
-                              not_known};  ///< mean displacement along top, right, bottom, left [m]
-  double circulation = not_known;          ///< its integral around the rectangle [m^2]
-  bool goes_round() const;                 ///< all four have one sign
+  /// Mean displacement along top, right, bottom, left [m].
+  std::array<double, 4> along{not_known, not_known, not_known, not_known};
+  double circulation = not_known;  ///< its integral around the rectangle [m^2]
   /// The weakest side over the strongest, in the sense of the circulation: 1 all sides alike,
-  /// negative where a side goes against it.
+  /// negative where a side goes against it and the grains do not go round.
   double roundness() const;
 };
 /// Grains within `reach` of a side count for it: about a grain's size [m]. A side without a grain

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <stdexcept>
 
 #include "platform/csv.hpp"
 
@@ -24,7 +23,6 @@ const RunColumn columns[] = {
     {"grain_mass", "kg", "m, all grains", [](auto& r) { return &r.facts.grain_mass; }},
     {"grains", "1", "number", [](auto& r) { return &r.facts.grains; }},
     {"length", "m", "L of the box", [](auto& r) { return &r.facts.length; }},
-    {"width", "m", "W of the box", [](auto& r) { return &r.facts.width; }},
     {"height", "m", "H, top of the packing", [](auto& r) { return &r.facts.height; }},
     {"aspect", "1", "L/H", [](Run r) { return r.facts.length / r.facts.height; }},
     {"largest_size", "m", "largest distance centre - vertex of a grain",
@@ -35,8 +33,6 @@ const RunColumn columns[] = {
      [](auto& r) { return &r.facts.deposit_friction; }},
     {"lid_pressure", "1", "on the lid while depositing, grain weights; 0: placed",
      [](auto& r) { return &r.facts.lid_pressure; }},
-    {"start_noise", "m", "of the grains' places at the start",
-     [](auto& r) { return &r.facts.start_noise; }},
     {"step", "s", "h", [](auto& r) { return &r.facts.step; }},
     {"iterations_most", "1", "allowed to the solver per step",
      [](auto& r) { return &r.facts.iterations_most; }},
@@ -46,12 +42,10 @@ const RunColumn columns[] = {
     {"error", "g h", "rms natural map, mean over the steps that count",
      [](auto& r) { return &r.error_counted; }},
     {"penetration", "m", "deepest overlap", [](auto& r) { return &r.penetration_max; }},
-    {"seconds_per_step", "s", "wall clock, median", [](auto& r) { return &r.seconds_per_step; }},
     // the motion
     {"periods", "1", "that count", [](auto& r) { return &r.periods; }},
     {"rise", "m", "Delta x_max", [](auto& r) { return &r.rise.mean; }},
     {"speed_in", "m/s", "v_max", [](auto& r) { return &r.speed_in.mean; }},
-    {"speed_out", "m/s", "largest outward velocity", [](auto& r) { return &r.speed_out.mean; }},
     {"net", "m", "contraction per period", [](auto& r) { return &r.net_contraction; }},
     {"eq3", "m", "X, right side of Eq. 3", [](Run r) { return eq3_displacement(r.facts); }},
     {"prefactor", "1", "C = Delta x_max / X", [](auto& r) { return &r.prefactor; }},
@@ -59,20 +53,7 @@ const RunColumn columns[] = {
      [](auto& r) { return &r.contraction.size; }},
     {"first_time90", "s", "t90, when 90 % of it is reached",
      [](auto& r) { return &r.contraction.time90; }},
-    {"dissipated", "J", "per period", [](auto& r) { return &r.dissipated.mean; }},
     // the forces
-    {"law_by_place_amplitude", "N", "A of f_g = A exp(kappa xi), active",
-     [](auto& r) { return &r.law.by_place.amplitude; }},
-    {"law_by_place_rate", "1/m", "kappa", [](auto& r) { return &r.law.by_place.rate; }},
-    {"law_by_place_r2", "1", "R^2 of it", [](auto& r) { return &r.law.by_place.r2; }},
-    {"law_by_load_offset", "N", "a of f_g = a + w f, the same samples",
-     [](auto& r) { return &r.law.by_load.offset; }},
-    {"law_by_load_slope", "1", "w", [](auto& r) { return &r.law.by_load.slope; }},
-    {"law_by_load_r2", "1", "R^2 of it", [](auto& r) { return &r.law.by_load.r2; }},
-    {"passive_offset", "N", "f_g = offset + slope xi, wall moving in",
-     [](auto& r) { return &r.law.passive.offset; }},
-    {"passive_slope", "N/m", "", [](auto& r) { return &r.law.passive.slope; }},
-    {"passive_r2", "1", "", [](auto& r) { return &r.law.passive.r2; }},
     {"push", "N", "F = a/(1 - w)", [](auto& r) { return &r.law.push; }},
     {"push_over_weight", "1", "F/(m g)",
      [](Run r) { return r.law.push / (r.facts.grain_mass * r.facts.gravity); }},
@@ -82,10 +63,7 @@ const RunColumn columns[] = {
     // the jam
     {"jam_share", "1", "of the time", [](auto& r) { return &r.jammed.share; }},
     {"jam_force", "1", "mean |f_g - f|/f_max", [](auto& r) { return &r.jammed.force_mean; }},
-    {"jam_force_smooth", "1", "the same, f_g smoothed",
-     [](auto& r) { return &r.jammed.force_smooth; }},
     {"jam_speed", "m/s", "mean |v|", [](auto& r) { return &r.jammed.speed_mean; }},
-    {"jam_speed_max", "m/s", "largest |v|", [](auto& r) { return &r.jammed.speed_max; }},
     // the packing
     {"density_before", "1", "rho before the drive", [](auto& r) { return &r.compaction.initial; }},
     {"density_reference", "1", "rho_0, at 0.2 s", [](auto& r) { return &r.compaction.reference; }},
@@ -146,13 +124,6 @@ RunRow row_of(const CsvReader& reader, const std::vector<const RunColumn*>& foun
 }  // namespace
 
 std::span<const RunColumn> run_columns() { return columns; }
-
-const RunColumn& run_column(std::string_view name) {
-  const auto* column = std::ranges::find(columns, name, &RunColumn::name);
-  if (column == std::end(columns))
-    throw std::invalid_argument("no column of runs.csv is called " + std::string(name));
-  return *column;
-}
 
 std::string runs_csv(std::span<const RunRow> rows) {
   CsvWriter csv;

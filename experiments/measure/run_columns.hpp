@@ -47,8 +47,6 @@ struct RunColumn {
 };
 /// The columns of runs.csv after the texts name, stage, key, record, solver.
 std::span<const RunColumn> run_columns();
-/// Throws std::invalid_argument where there is none of this name.
-const RunColumn& run_column(std::string_view name);
 
 /// Names, then units, then one row a run.
 std::string runs_csv(std::span<const RunRow> rows);

@@ -1,13 +1,11 @@
 #include "experiments/measure/run_data.hpp"
 
 #include <cmath>
-#include <string_view>
 
 #include <nlohmann/json.hpp>
 
 #include "experiments/record/recorder.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/csv.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -17,44 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// For each field of the header the column it fills, nullptr where none.
-std::vector<const StepColumn*> match_header(const CsvReader& header,
-                                            std::vector<std::string>& notices) {
-  std::vector<const StepColumn*> columns;
-  for (std::string_view name : header.cells()) {
-    columns.push_back(nullptr);
-    for (const StepColumn& column : step_columns())
-      if (name == column.name) columns.back() = &column;
-  }
+/// One line for all columns that the record lacks, and one for each that is not finite somewhere.
+void note_gaps(const std::vector<StepRecord>& steps, std::vector<std::string>& notices) {
   std::string missing;
   for (const StepColumn& column : step_columns()) {
-    bool is_there = false;
-    for (const StepColumn* found : columns) is_there = is_there || found == &column;
-    if (is_there) continue;
-    if (std::string_view(column.name) == "time") header.fail("the column \"time\" is missing");
-    add_to_list(missing, column.name);
+    std::vector<size_t> rows;
+    for (size_t k = 0; k < steps.size(); ++k)
+      if (!std::isfinite(steps[k].*column.value)) rows.push_back(k + 1);
+    if (rows.size() == steps.size())
+      add_to_list(missing, column.name);
+    else if (!rows.empty())
+      notices.push_back(std::string(column.name) + " is not finite in " +
+                        std::to_string(rows.size()) + " of " + std::to_string(steps.size()) +
+                        " steps, first in row " + std::to_string(rows.front()) +
+                        ": these are left out.");
   }
   if (!missing.empty())
-    notices.push_back("steps.csv has no column " + missing + ": what needs it is left out.");
-  return columns;
-}
-
-/// One line per column that holds NaN or infinity although it is there.
-void note_non_finite(const std::vector<StepRecord>& steps, std::vector<std::string>& notices) {
-  for (const StepColumn& column : step_columns()) {
-    size_t count = 0, first = 0;
-    // From the end, so that `first` becomes the first such row.
-    for (size_t k = steps.size(); k-- > 0;)
-      if (!std::isfinite(steps[k].*column.value)) {
-        ++count;
-        first = k;
-      }
-    if (count == 0 || count == steps.size())
-      continue;  // all: the column is missing, which has been said
-    notices.push_back(std::string(column.name) + " is not finite in " + std::to_string(count) +
-                      " of " + std::to_string(steps.size()) + " steps, first in row " +
-                      std::to_string(first + 1) + ": these are left out.");
-  }
+    notices.push_back("The record has no column " + missing + ": what needs it is left out.");
 }
 
 void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
@@ -107,7 +84,6 @@ void add_settings(const Scene& scene, RunFacts& facts) {
   facts.seed = static_cast<int>(scene.grains->seed);
   if (!std::isfinite(facts.grains)) facts.grains = scene.grains->count;
   facts.length = scene.box.length;
-  facts.width = scene.box.width;
   facts.lid_raise = scene.drive.lid_raise;
   const double part = scene.grains->size_convention == SizeConvention::radius ? 1.0 : 0.5;
   for (const SizeClass& grains : scene.grains->distribution) {
@@ -116,7 +92,6 @@ void add_settings(const Scene& scene, RunFacts& facts) {
   }
   facts.deposit_friction = scene.deposit.friction;
   facts.lid_pressure = scene.deposit.lid_pressure_weight;
-  facts.start_noise = scene.drive.start_noise;
 }
 
 RunFacts facts_of(const RunData& data) {
@@ -170,33 +145,14 @@ double RunData::summary_number(const std::string& name) const {
   return value != summary->end() && value->is_number() ? value->get<double>() : not_known;
 }
 
-std::vector<StepRecord> read_steps_csv(const fs::path& file, std::vector<std::string>& notices) {
-  CsvReader reader(file);
-  if (!reader.next()) throw Error(file.string() + ": is empty: no record");
-  const auto columns = match_header(reader, notices);
-  // a column that the file lacks is NaN in every row
-  StepRecord unknown;
-  for (const StepColumn& column : step_columns()) unknown.*column.value = not_known;
-  std::vector<StepRecord> steps;
-  while (reader.next()) {
-    reader.require_cells(columns.size());
-    steps.push_back(unknown);
-    for (size_t c = 0; c < columns.size(); ++c)
-      if (columns[c]) steps.back().*columns[c]->value = reader.number(c, columns[c]->name);
-  }
-  if (steps.empty()) throw Error(file.string() + ": holds no step");
-  return steps;
-}
-
 RunData read_run_data(const fs::path& folder) {
   RunData data;
   data.folder = folder;
   if (!is_folder(folder)) throw Error(folder.string() + ": no such folder");
-  const fs::path csv = folder / "steps.csv";
-  data.steps = is_there(csv) ? read_steps_csv(csv, data.notices) : read_steps(folder);
+  data.steps = read_steps(folder);
   if (data.steps.empty()) throw Error(folder.string() + ": the record holds no step");
   check_times(folder, data.steps);
-  note_non_finite(data.steps, data.notices);
+  note_gaps(data.steps, data.notices);
   read_manifest(data);
   read_scene_of_run(data);
   data.facts = facts_of(data);

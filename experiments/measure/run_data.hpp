@@ -32,13 +32,8 @@ struct RunData {
   double summary_number(const std::string& name) const;
 };
 
-/// steps.csv, else record.h5 or the logs of a run still going. Throws Error naming the file when
-/// there is no record, no row, no time, or a row that cannot be read.
+/// record.h5, or the logs of a run still going. Throws Error naming the file when there is no
+/// record, no row, no time, or it cannot be read.
 RunData read_run_data(const std::filesystem::path& folder);
-
-/// steps.csv alone. Columns that are missing are NaN in every row and named in `notices`; columns
-/// not in step_columns() are skipped.
-std::vector<StepRecord> read_steps_csv(const std::filesystem::path& file,
-                                       std::vector<std::string>& notices);
 
 }  // namespace ballast

@@ -12,60 +12,25 @@ bool is_any_nonzero(std::span<const StepRecord> steps, double StepRecord::*value
   });
 }
 
-/// From the crossings of the middle between the load's extremes, two in a period.
-double frequency_of(std::span<const StepRecord> steps, double middle) {
-  double first = not_known, last = not_known;
-  int crossings = 0;
-  for (size_t k = 1; k < steps.size(); ++k) {
-    const double a = steps[k - 1].load - middle, b = steps[k].load - middle;
-    if (!(a * b < 0.0) && !(b == 0.0 && a != 0.0)) continue;
-    // Where the line through the two samples crosses the middle.
-    const double t = steps[k - 1].time + (steps[k].time - steps[k - 1].time) * a / (a - b);
-    if (crossings++ == 0) first = t;
-    last = t;
-  }
-  // Half a period lies between a crossing and the next.
-  return crossings < 2 ? not_known : 0.5 * (crossings - 1) / (last - first);
-}
-
-/// NaN when the column has no finite value at all, so that a missing column isn't reported as zero.
-double sum_of(std::span<const StepRecord> steps, double StepRecord::*value) {
-  const Statistics values = statistics(record_column(steps, value));
-  return values.samples ? values.mean * static_cast<double>(values.samples) : not_known;
-}
-
 void summarise_cost(std::span<const StepRecord> steps, RunSummary& summary) {
   for (const StepColumn& phase : step_phases()) summary.cost.push_back({phase.phase, phase.value});
-  // phases that the record lacks are left out of the sum
-  double total = 0.0;
-  bool is_known = false;
   for (PhaseCost& phase : summary.cost) {
     phase.ms_per_step = 1e3 * statistics(record_column(steps, phase.seconds)).mean;
-    if (!std::isfinite(phase.ms_per_step)) continue;
-    total += phase.ms_per_step;
-    is_known = true;
+    // phases that the record lacks are left out of the sum
+    if (std::isfinite(phase.ms_per_step))
+      summary.ms_per_step =
+          phase.ms_per_step + (std::isnan(summary.ms_per_step) ? 0.0 : summary.ms_per_step);
   }
-  if (!is_known) return;
-  summary.ms_per_step = total;
-  if (total > 0.0)
-    for (PhaseCost& phase : summary.cost) phase.share = phase.ms_per_step / total;
+  if (summary.ms_per_step > 0.0)
+    for (PhaseCost& phase : summary.cost) phase.share = phase.ms_per_step / summary.ms_per_step;
 }
 
 void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
-  const std::vector<double> rms = record_column(steps, &StepRecord::error_rms);
-  summary.error_rms = statistics(rms);
+  summary.error_rms = statistics(record_column(steps, &StepRecord::error_rms));
   summary.error_max = statistics(record_column(steps, &StepRecord::error_max));
   summary.error_mean_relative = summary.error_rms.mean / scale;
   summary.error_max_relative = summary.error_rms.max / scale;
-  summary.error_worst_contact = summary.error_max.max / scale;
-  const double tolerance = summary.facts.tolerance * scale;
-  if (summary.error_rms.samples && std::isfinite(tolerance)) {
-    const auto above =
-        std::count_if(rms.begin(), rms.end(), [&](double e) { return e > tolerance; });
-    summary.above_tolerance =
-        static_cast<double>(above) / static_cast<double>(summary.error_rms.samples);
-  }
   // A record without the column `solved` has the error alone to judge by.
   const double asked = summary.facts.tolerance * (std::isfinite(scale) ? scale : 1.0);
   for (const StepRecord& step : steps)
@@ -80,35 +45,19 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
     }
 }
 
+/// A missing term makes the balance NaN: it is not silently left out.
 EnergyBalance energy_balance(std::span<const StepRecord> steps) {
-  EnergyBalance energy;
-  energy.work_load = sum_of(steps, &StepRecord::work_load);
-  energy.work_gravity = sum_of(steps, &StepRecord::work_gravity);
-  energy.work_prescribed = sum_of(steps, &StepRecord::work_prescribed);
-  energy.dissipated = sum_of(steps, &StepRecord::dissipated);
-  energy.work_gyroscopic = sum_of(steps, &StepRecord::work_gyroscopic);
-  energy.work_correction = sum_of(steps, &StepRecord::work_correction);
-  energy.residual_recorded = sum_of(steps, &StepRecord::energy_residual);
-  energy.kinetic_first = steps.front().kinetic_energy;
-  energy.kinetic_last = steps.back().kinetic_energy;
-  // a missing term makes the balance NaN: it is not silently left out
-  // T_last - T_first = works - dissipated, summed from the second step on, as T_first is the
-  // energy at the end of the first.
-  double residual = energy.kinetic_last - energy.kinetic_first, works = 0.0;
-  energy.gained = 0.0;
-  double kinetic = 0.0;
+  // summed from the second step on, as the first kinetic energy is that after the first step
+  double residual = steps.back().kinetic_energy - steps.front().kinetic_energy, works = 0.0,
+         kinetic = 0.0, gained = 0.0;
   for (size_t k = 0; k < steps.size(); ++k) {
     kinetic = std::fmax(kinetic, steps[k].kinetic_energy);
-    energy.gained += steps[k].energy_gained;
+    gained += steps[k].energy_gained;
     const double work = steps[k].work_load + steps[k].work_gravity + steps[k].work_prescribed;
     works += std::abs(work);
     if (k > 0) residual += steps[k].dissipated - work;
   }
-  energy.work_absolute = works;
-  energy.moved = works + kinetic;
-  energy.residual = residual;
-  if (works > 0.0) energy.relative = std::abs(residual) / works;
-  return energy;
+  return {residual, works > 0.0 ? std::abs(residual) / works : not_known, gained, works + kinetic};
 }
 
 FirstContraction first_contraction(std::span<const StepRecord> steps, double frequency) {
@@ -134,16 +83,6 @@ Statistics over_periods(const std::vector<WallPeriod>& periods, double WallPerio
   return statistics(values);
 }
 
-Statistics dissipated_in(std::span<const StepRecord> steps,
-                         const std::vector<WallPeriod>& periods) {
-  std::vector<double> losses;
-  for (const WallPeriod& period : periods) {
-    losses.push_back(0.0);
-    for (size_t k = period.first; k < period.last; ++k) losses.back() += steps[k].dissipated;
-  }
-  return statistics(losses);
-}
-
 /// Mean of the judge's rms error after the transient, in units of the velocity scale.
 double error_after_transient(std::span<const StepRecord> steps, const RunFacts& facts) {
   std::vector<double> errors;
@@ -164,6 +103,23 @@ long sample_at(std::span<const StepRecord> steps, double t, double h) {
 double gain_of(std::span<const StepRecord> steps, const WallPeriod& period) {
   if (period.first == 0) return not_known;
   return steps[period.last - 1].solid_fraction - steps[period.first - 1].solid_fraction;
+}
+
+/// Eq. 4 over the whole periods within a window: (rho(t_b) - rho(t_a)) / (reference (t_b - t_a))
+/// [1/s]; NaN where there is none.
+double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
+                       double reference, const TimeWindow& window) {
+  // from the first begin of a period in the window to the last end of one
+  const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
+  // Periods begin at multiples of 1 / nu: the first one not before a, the last one not after b.
+  const double a = std::ceil((window.begin - slack) * frequency) / frequency,
+               b = std::floor((end + slack) * frequency) / frequency;
+  if (!(b > a + slack)) return not_known;
+  const long first = sample_at(steps, a, step), last = sample_at(steps, b, step);
+  if (first < 0 || last <= first) return not_known;
+  return (steps[static_cast<size_t>(last)].solid_fraction -
+          steps[static_cast<size_t>(first)].solid_fraction) /
+         (reference * (b - a));
 }
 
 Compaction compaction_of(std::span<const StepRecord> steps, std::span<const WallPeriod> periods,
@@ -192,7 +148,6 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
                     RunSummary& summary) {
   const RunFacts& facts = summary.facts;
   summary.wall = wall_cycles(steps, facts.frequency, facts.step, settings);
-  summary.loop = fit_loop(steps, summary.wall, settings);
   summary.jammed = jammed_state(steps, summary.wall, facts.f_min, facts.f_max);
   summary.contraction = first_contraction(steps, facts.frequency);
   const std::vector<WallPeriod>& periods = summary.wall.periods;
@@ -202,10 +157,9 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
   summary.net_contraction = -summary.net.mean;
   summary.speed_in = over_periods(periods, &WallPeriod::speed_in);
   summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
-  summary.dissipated = dissipated_in(steps, periods);
   summary.prefactor = summary.rise.mean / eq3_displacement(facts);
-  if (!periods.empty())
-    summary.law = force_law(steps, summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity);
+  summary.law =
+      force_law(steps, summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity, settings);
   summary.error_counted = error_after_transient(steps, facts);
 }
 
@@ -215,22 +169,6 @@ double eq3_displacement(const RunFacts& facts) {
   // Eq. 3 of the paper: m / (m + m_w) (m g / f_max) g / nu^2, m of all grains, m_w of the wall.
   const double m = facts.grain_mass, g = facts.gravity;
   return m / (m + facts.wall_mass) * m * g / facts.f_max * g / (facts.frequency * facts.frequency);
-}
-
-double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
-                       double reference, const TimeWindow& window) {
-  if (steps.empty()) return not_known;
-  // from the first begin of a period in the window to the last end of one
-  const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
-  // Periods begin at multiples of 1 / nu: the first one not before a, the last one not after b.
-  const double a = std::ceil((window.begin - slack) * frequency) / frequency,
-               b = std::floor((end + slack) * frequency) / frequency;
-  if (!(b > a + slack)) return not_known;
-  const long first = sample_at(steps, a, step), last = sample_at(steps, b, step);
-  if (first < 0 || last <= first) return not_known;
-  return (steps[static_cast<size_t>(last)].solid_fraction -
-          steps[static_cast<size_t>(first)].solid_fraction) /
-         (reference * (b - a));
 }
 
 RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
@@ -250,7 +188,6 @@ RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
     const Statistics load = statistics(record_column(steps, &StepRecord::load));
     fill(facts.f_max, load.max);
     fill(facts.f_min, load.min);
-    fill(facts.frequency, frequency_of(steps, 0.5 * (load.min + load.max)));
   }
   if (*facts.has_packing && !steps.empty())
     fill(facts.solid_fraction_initial, steps.front().solid_fraction);
@@ -274,9 +211,6 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
   summarise_cost(steps, summary);
   if (steps.empty()) return summary;
   summary.duration = steps.back().time;
-  std::vector<double> seconds;
-  for (const StepRecord& step : steps) seconds.push_back(step_seconds(step));
-  summary.seconds_per_step = quantile(seconds, 0.5);
   // what every run has: effort, errors, overlaps, energy
   summary.iterations = statistics(record_column(steps, &StepRecord::iterations));
   summary.contacts = statistics(record_column(steps, &StepRecord::contacts));

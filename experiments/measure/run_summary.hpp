@@ -28,7 +28,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/measure/force_law.hpp"
 #include "experiments/measure/roll.hpp"
 
 namespace ballast {
@@ -36,9 +35,8 @@ namespace ballast {
 /// What the record's rows don't say. Whatever is NaN is either derived by complete_facts() or the
 /// numbers that need it stay NaN.
 struct RunFacts {
-  double step = not_known;  ///< h [s]
-  double velocity_scale =
-      not_known;  ///< errors are quoted relative to this: g h, or 1 m/s without gravity [m/s]
+  double step = not_known;            ///< h [s]
+  double velocity_scale = not_known;  ///< of errors [m/s]: g h, or 1 m/s without gravity
   /// What the scene asks of the error of every step, over velocity_scale; not known where there is
   /// no scene or it asks for nothing.
   double tolerance = not_known;
@@ -51,24 +49,23 @@ struct RunFacts {
   // what was set besides, as the scene has it
   int seed = 0;  ///< of the grains: the sample
   std::string solver;
-  double iterations_most = not_known;            ///< of the solver per step
-  double grains = not_known;                     ///< number
-  double length = not_known, width = not_known;  ///< of the box: L, W [m]
-  double height = not_known;         ///< H: top of the packing before the lid is raised [m]
-  double lid_raise = not_known;      ///< [m]
-  double largest_size = not_known;   ///< largest distance of a grain's centre to a vertex [m]
-  double smallest_size = not_known;  ///< circumradius of the smallest body [m]
+  double iterations_most = not_known;  ///< of the solver per step
+  double grains = not_known;           ///< number
+  double length = not_known;           ///< L of the box [m]
+  double height = not_known;           ///< H: top of the packing before the lid is raised [m]
+  double lid_raise = not_known;        ///< [m]
+  double largest_size = not_known;     ///< largest distance of a grain's centre to a vertex [m]
+  double smallest_size = not_known;    ///< circumradius of the smallest body [m]
   double friction = not_known, deposit_friction = not_known;
   double lid_pressure = not_known;  ///< grain weights while depositing; 0: placed
-  double start_noise = not_known;   ///< [m]
 };
 
 /// X, the right side of Eq. 3 without C, m the mass of all grains [m].
 double eq3_displacement(const RunFacts& facts);
 
-/// Fills in from the record what is missing: h from the times, f_max, f_min and frequency from the
-/// load, the initial solid fraction from the first row, has_wall and has_packing from columns that
-/// are not zero. velocity_scale = gravity * step when both are known.
+/// Fills in from the record what is missing: h from the times, f_max and f_min from the load, the
+/// initial solid fraction from the first row, has_wall and has_packing from columns that are not
+/// zero. velocity_scale = gravity * step when both are known.
 RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps);
 
 /// What is asked of a run (docs: measures of the project), and what the paper says.
@@ -92,20 +89,12 @@ struct PhaseCost {
   double share = not_known;  ///< of the sum of all phases
 };
 
+/// Sums over the run [J].
 struct EnergyBalance {
-  double work_load = not_known, work_gravity = not_known,
-         work_prescribed = not_known;  ///< [J], sums over the run
-  double dissipated = not_known, work_gyroscopic = not_known, work_correction = not_known;
-  double kinetic_first = not_known,
-         kinetic_last = not_known;  ///< after the first and after the last step
-  double work_absolute =
-      not_known;  ///< sum over steps of |works together|: what the residual is compared with
-  double residual_recorded = not_known;  ///< sum of the column
-  /// The same from the other columns, after the first step: K_end - K_1 - works + dissipation.
-  double residual = not_known;
-  double relative = not_known;  ///< |residual| / work_absolute
-  double gained = not_known;    ///< given by contacts, which no law of contact does [J]
-  double moved = not_known;     ///< work_absolute, and the largest kinetic energy [J]
+  double residual = not_known;  ///< after the first step: K_end - K_1 - works + dissipation
+  double relative = not_known;  ///< |residual| over the sum of |works of a step together|
+  double gained = not_known;    ///< given by contacts, which no law of contact does
+  double moved = not_known;     ///< those works, and the largest kinetic energy
 };
 
 /// x falls at the start; least x within the first period, at least 0.3 s.
@@ -135,11 +124,6 @@ struct Compaction {
   double rate_common = not_known;    ///< Eq. 4 over common_window [1/s]
 };
 
-/// Eq. 4 over the whole periods within a window: (rho(t_b) - rho(t_a)) / (reference (t_b - t_a))
-/// [1/s]; NaN where there is none.
-double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
-                       double reference, const TimeWindow& window);
-
 struct RunSummary {
   RunFacts facts;
   long steps = 0;
@@ -149,33 +133,25 @@ struct RunSummary {
   double ms_per_step = not_known;  ///< sum of the phases
   Statistics iterations, contacts, active_contacts;
 
-  Statistics error_rms, error_max;  ///< [m/s]
-  double error_mean_relative = not_known,
-         error_max_relative = not_known;   ///< of error_rms over velocity_scale: mean, worst step
-  double error_worst_contact = not_known;  ///< of error_max over velocity_scale
-  double above_tolerance = not_known;      ///< share of steps with a relative error_rms above it
-  double error_counted = not_known;  ///< of error_rms over velocity_scale: mean over the steps
-                                     ///< after the transient
+  Statistics error_rms, error_max;                                         ///< [m/s]
+  double error_mean_relative = not_known, error_max_relative = not_known;  ///< of error_rms over
+                                                                           ///< velocity_scale
+  double error_counted = not_known;  ///< the mean one, over the steps after the transient alone
   long missed = 0;  ///< steps that the judge does not call solved, where a tolerance is asked for
-  double seconds_per_step = not_known;  ///< wall clock of the phases, median: a machine that does
-                                        ///< something else for a while does not count
 
   double penetration_max = not_known;       ///< [m] in the whole run
   double penetration_max_time = not_known;  ///< [s]
-  double penetration_mean =
-      not_known;  ///< [m] mean over steps of the mean over active contact points
+  double penetration_mean = not_known;      ///< [m] over steps and active contact points
 
   EnergyBalance energy;
 
   // with a driven wall
   WallCycles wall;
   long periods = 0;  ///< that count
-  LoopFits loop;
   JammedState jammed;
   FirstContraction contraction;
   // over the periods that count
   Statistics rise, net, speed_in, speed_out;  ///< as in WallPeriod
-  Statistics dissipated;                      ///< [J]
   double net_contraction = not_known;         ///< of a period, inwards: minus the mean of `net` [m]
   double prefactor = not_known;               ///< C of Eq. 3, m the mass of all grains
   ForceLaw law;                               ///< f_g(xi) and f_g(f) while the wall moves

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace ballast {
@@ -158,7 +159,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
     if (period.first < period.last) cycles.periods.push_back(period);
   }
   cycles.loop_last = cycles.periods.size();
-  cycles.loop_first = cycles.loop_last - std::min<size_t>(cycles.loop_last, settings.loop_periods);
+  cycles.loop_first = cycles.loop_last - std::min<size_t>(cycles.loop_last, 4);
   find_phases(steps, duration_of_period, h, settings, cycles);
   return cycles;
 }
@@ -188,6 +189,40 @@ JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cy
   state.speed_mean = speeds.mean;
   state.speed_max = speeds.max;
   return state;
+}
+
+ForceLaw force_law(std::span<const StepRecord> steps, const WallCycles& cycles, double grain_mass,
+                   double wall_mass, double gravity, const WallSettings& settings) {
+  struct Samples {
+    std::vector<double> place, force, load;
+  } active, passive;
+  // nearer to the jam than the smoothing is wide, f_g holds some of the jam's force
+  const size_t width = cycles.smoothing_samples;
+  for (const WallPeriod& period : cycles.periods)
+    for (size_t k = period.first + width; k + width < period.last; ++k) {
+      // a stroke is counted from where it began: x_before on the way out, x_after on the way back
+      const bool rises = k <= period.peak;
+      const double from = rises ? period.x_before : period.x_after, stroke = period.x_peak - from,
+                   xi = steps[k].wall_x - from;
+      if (!(xi >= settings.fit_from * stroke && xi <= settings.fit_to * stroke)) continue;
+      const WallPhase phase = rises ? WallPhase::active : WallPhase::passive;
+      const size_t towards_jam = rises ? k - width : k + width;
+      if (cycles.phase[k] != phase || cycles.phase[towards_jam] != phase) continue;
+      Samples& samples = rises ? active : passive;
+      samples.place.push_back(xi);
+      samples.force.push_back(cycles.force[k]);
+      samples.load.push_back(steps[k].load);
+    }
+  ForceLaw law{fit_exponential(active.place, active.force), fit_line(active.place, active.force),
+               fit_line(active.load, active.force), fit_line(passive.place, passive.force)};
+  const double w = law.by_load.slope;
+  if (!(w >= 0.0 && w < 1.0)) return law;
+  law.push = law.by_load.offset / (1.0 - w);
+  law.carried_mass = wall_mass * w / (1.0 - w);
+  const double part = law.push / (grain_mass * gravity);
+  law.prefactor = 9.0 / (4.0 * std::numbers::pi * std::numbers::pi) * part * part *
+                  (grain_mass + wall_mass) / (wall_mass + law.carried_mass);
+  return law;
 }
 
 }  // namespace ballast

@@ -1,5 +1,6 @@
 #pragma once
-// The driven wall's periods and phases (paper, sec. 3), found in a record of steps.
+// The driven wall (paper, sec. 3): its periods and phases, found in a record of steps, and what the
+// grains push back with in each phase.
 //
 // Which periods count: whole periods of the load (they begin with the load falling through its
 // mean, when the packing is jammed) that begin at or after 0.3 s and not in the first period. The
@@ -11,13 +12,26 @@
 // Phases. Outward velocity v is taken from the record and smoothed; v_peak is its largest magnitude
 // after the first transient.
 //   jammed   the longest unbroken stretch of |v| <= 2 % of v_peak in a period that holds a load
-//   above its mean (at the load's maximum
-//            itself a loose packing may still creep). The bound is loose on purpose:
-//            the residual velocity and f_g - f = m_w dv/dt inside are results of the solver, so
-//            they must not be what selects the samples. A turning point (v = 0 at the largest x) is
-//            not jammed: its load is low.
+//            above its mean (at the load's maximum itself a loose packing may still creep). The
+//            bound is loose on purpose: the residual velocity and f_g - f = m_w dv/dt inside are
+//            results of the solver, so they must not be what selects the samples. A turning point
+//            (v = 0 at the largest x) is not jammed: its load is low.
 //   active   v > 0 elsewhere: the packing unloads and pushes the wall out.
 //   passive  v < 0 elsewhere: the wall is pressed in.
+//
+// Two laws are fitted to the same samples of the active phase:
+//
+//   f_g = A exp(kappa xi)       xi: the wall's distance from where its stroke began; the paper's
+//   f_g = a + w f(t)            grains that rub with a constant force F and are carried along
+//
+// The second: a wall of mass m_w that carries grains of mass M with it, which push with F, has
+// (m_w + M) dv/dt = F - f, so f_g = f + m_w dv/dt = a + w f with w = M/(m_w + M), F = a/(1 - w).
+// Where f_max is far above F, Eq. 2 then gives Eq. 3 with
+//
+//   C = (9/4 pi^2) (F/(m g))^2 (m + m_w)/(m_w + M)
+//
+// because the load near its minimum is f_max (omega t)^2/4: the stroke goes from F = f at
+// t = -t_0 = -(2/omega) sqrt(F/f_max) to rest at 2 t_0, over (9/4) F t_0^2/(m_w + M).
 
 #include <span>
 #include <vector>
@@ -36,22 +50,20 @@ struct WallSettings {
   double smoothing = 4e-3;     ///< width of the low-pass on f_g and v [s], but at most 1/20 period
   double jammed_speed = 0.02;  ///< of v_peak
   double jammed_least = 0.04;  ///< of a period: what is slow for a shorter time only turns
-  double fit_from = 0.1,
-         fit_to = 0.9;  ///< part of each stroke that is fitted: without the transients at both ends
-  int loop_periods = 4;  ///< the paper's Fig. 4
+  /// Part of each stroke that is fitted: without the transients at both ends.
+  double fit_from = 0.1, fit_to = 0.9;
 };
 
 /// One whole period of the load, (begin, end], from the load's falling mean to the next.
 struct WallPeriod {
-  double begin = 0, end = 0;    ///< [s]
-  size_t first = 0, last = 0;   ///< samples [first, last)
-  double x_before = not_known;  ///< jamming position the rise starts from: running minimum [m]
-  double x_peak = not_known;    ///< [m]
-  double x_after =
-      not_known;            ///< jamming position after the peak: least x until the period's end [m]
-  size_t peak = 0;          ///< sample of x_peak
-  double rise = not_known;  ///< Delta x_max: largest rise above the running minimum [m]
-  double net = not_known;   ///< change of x over the period [m]; negative: contraction
+  double begin = 0, end = 0;     ///< [s]
+  size_t first = 0, last = 0;    ///< samples [first, last)
+  double x_before = not_known;   ///< jamming position the rise starts from: running minimum [m]
+  double x_peak = not_known;     ///< [m]
+  double x_after = not_known;    ///< jamming position after the peak: least x until the end [m]
+  size_t peak = 0;               ///< sample of x_peak
+  double rise = not_known;       ///< Delta x_max: largest rise above the running minimum [m]
+  double net = not_known;        ///< change of x over the period [m]; negative: contraction
   double speed_out = not_known;  ///< largest outward velocity [m/s]
   double speed_in = not_known;   ///< largest inward velocity, positive: the paper's v_max [m/s]
   double solid_fraction = not_known;  ///< mean over the period
@@ -65,9 +77,8 @@ struct WallCycles {
   double v_peak = not_known;            ///< [m/s]
   std::vector<WallPhase> phase;     ///< one per step; none before the end of the first transient
   std::vector<WallPeriod> periods;  ///< those that count
-  size_t loop_first = 0,
-         loop_last = 0;    ///< index range in `periods` of the last settings.loop_periods
-  int jammed_periods = 0;  ///< periods in which a jammed stretch was found
+  size_t loop_first = 0, loop_last = 0;  ///< range in `periods` of the last four: Fig. 4 shows them
+  int jammed_periods = 0;                ///< periods in which a jammed stretch was found
 };
 
 /// `frequency` of the load [Hz], `step` h [s]; both must be positive (std::invalid_argument).
@@ -87,5 +98,21 @@ struct JammedState {
 };
 JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min,
                          double f_max);
+
+/// What the grains push with over all periods that count. A stroke's samples are those between
+/// fit_from and fit_to of it, so far from the jam that the smoothing of f_g mixes nothing of it in.
+struct ForceLaw {
+  ExponentialFit active;            ///< against xi, wall moving out: [N], rate kappa [1/m]
+  LineFit active_line;              ///< the same samples with a line: does "exponential" say more?
+  LineFit by_load;                  ///< the same samples: offset a [N], slope w
+  LineFit passive;                  ///< against xi, wall moving in: [N], slope [N/m], negative
+  double push = not_known;          ///< F [N]
+  double carried_mass = not_known;  ///< M [kg]
+  double prefactor = not_known;     ///< C by the theory
+};
+/// m of all grains and m_w [kg], g [m/s^2]. `push`, `carried_mass` and `prefactor` are not known
+/// where w is not within [0, 1).
+ForceLaw force_law(std::span<const StepRecord> steps, const WallCycles& cycles, double grain_mass,
+                   double wall_mass, double gravity, const WallSettings& settings = {});
 
 }  // namespace ballast

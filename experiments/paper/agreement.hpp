@@ -12,7 +12,7 @@
 //   reported  there is no interval, or it reaches the range although the value lies far off: not
 //             decided
 
-#include "experiments/measure/fits.hpp"
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/page/text.hpp"
 
 namespace ballast {

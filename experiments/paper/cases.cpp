@@ -255,8 +255,7 @@ std::vector<double> all_of(const std::vector<const RunRow*>& rows, RunMeasure me
 page::Text scatter_words(const std::vector<double>& values) {
   const SampleMean mean = sample_mean(values);
   if (mean.samples < 2) return "–";
-  const double deviation = mean.error * std::sqrt(static_cast<double>(mean.samples));
-  return page::number(100.0 * deviation / std::abs(mean.mean), 2);
+  return page::number(100.0 * mean.deviation() / std::abs(mean.mean), 2);
 }
 
 /// One of the paper's numbers: an exponent of nu, or a measure at the paper's 5 Hz.

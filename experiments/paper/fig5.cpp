@@ -12,16 +12,16 @@ namespace ballast {
 namespace {
 
 WallModel model_of(const RunSummary& s) {
-  return {.active = s.loop.active,
-          .passive = s.loop.passive,
+  return {.active = s.law.active,
+          .passive = s.law.passive,
           .contraction = std::max(0.0, -s.net.mean),
           .wall_mass = s.facts.wall_mass,
           .load = {s.facts.f_min, s.facts.f_max, s.facts.frequency}};
 }
 
 bool can_be_modelled(const RunSummary& s) {
-  return !s.wall.periods.empty() && std::isfinite(s.loop.active.rate) &&
-         std::isfinite(s.loop.passive.slope) && std::isfinite(s.facts.wall_mass);
+  return !s.wall.periods.empty() && std::isfinite(s.law.active.rate) &&
+         std::isfinite(s.law.passive.slope) && std::isfinite(s.facts.wall_mass);
 }
 
 /// The last period: x from the jamming position against time, and f_g smoothed against v; the

@@ -72,12 +72,12 @@ page::Table branch_table(const std::vector<MotionRun>& runs) {
   for (size_t k = 0; k < runs.size(); ++k) {
     const RunSummary& s = runs[k].summary;
     const double weight = s.facts.grain_mass * s.facts.gravity;
-    table.rows.push_back({std::to_string(k + 1), page::number(s.loop.active.amplitude / weight),
-                          page::number(std::exp(s.loop.active.rate * s.rise.mean)),
-                          page::number(s.loop.active.r2), page::number(s.loop.active_line.r2),
-                          page::number(s.loop.passive.offset / weight),
-                          page::number(1e-3 * s.loop.passive.slope / weight),
-                          page::number(s.loop.passive.r2), page::number(s.jammed.force_mean, 2),
+    table.rows.push_back({std::to_string(k + 1), page::number(s.law.active.amplitude / weight),
+                          page::number(std::exp(s.law.active.rate * s.rise.mean)),
+                          page::number(s.law.active.r2), page::number(s.law.active_line.r2),
+                          page::number(s.law.passive.offset / weight),
+                          page::number(1e-3 * s.law.passive.slope / weight),
+                          page::number(s.law.passive.r2), page::number(s.jammed.force_mean, 2),
                           page::number(1e3 * s.jammed.speed_mean, 2) + ", " +
                               page::number(1e3 * s.jammed.speed_max, 2)});
   }
@@ -87,11 +87,11 @@ page::Table branch_table(const std::vector<MotionRun>& runs) {
 /// How f_g grows in the last tenth of the way in, over how it does in the middle of it: 1 for a
 /// line.
 double end_steepness(const MotionRun& run) {
-  WallSettings last_tenth;
-  last_tenth.fit_from = 0.0;
-  last_tenth.fit_to = 0.1;
-  return fit_loop(run.data.steps, run.summary.wall, last_tenth).passive.slope /
-         run.summary.loop.passive.slope;
+  const RunFacts& facts = run.summary.facts;
+  const ForceLaw last_tenth =
+      force_law(run.data.steps, run.summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity,
+                {.fit_from = 0.0, .fit_to = 0.1});
+  return last_tenth.passive.slope / run.summary.law.passive.slope;
 }
 
 /// A law describes a branch when it leaves at most a tenth of its variance.
@@ -152,10 +152,9 @@ void fill_motion(PaperData& data, PaperSection& section) {
 
 void fill_forces(PaperData& data, PaperSection& section) {
   const std::vector<MotionRun> runs = read_motion(data);
-  if (runs.empty() || runs.front().summary.wall.loop_first >= runs.front().summary.wall.loop_last)
-    return;
-  const SampleMean active = mean_over(runs, [](const auto&s) { return s.loop.active.r2; }),
-                   passive = mean_over(runs, [](const auto&s) { return s.loop.passive.r2; }),
+  if (runs.empty() || runs.front().summary.wall.periods.empty()) return;
+  const SampleMean active = mean_over(runs, [](const auto&s) { return s.law.active.r2; }),
+                   passive = mean_over(runs, [](const auto&s) { return s.law.passive.r2; }),
                    jam = mean_over(runs, [](const auto&s) { return s.jammed.force_mean; }),
                    smooth = mean_over(runs, [](const auto&s) { return s.jammed.force_smooth; }),
                    creep = mean_over(runs, [](const auto&s) { return 1e3 * s.jammed.speed_mean; });

@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-#include "experiments/measure/fits.hpp"
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/run_columns.hpp"
 #include "experiments/measure/run_data.hpp"
 #include "experiments/paper/campaign.hpp"

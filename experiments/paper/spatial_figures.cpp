@@ -265,7 +265,7 @@ void fill_velocities(PaperData& data, PaperSection& section) {
   double closed = 0.0;
   for (const RunRow* row : data.rows({"", {"motion"}})) {
     round.push_back(row->run.roll.roundness());
-    closed += row->run.roll.goes_round();
+    closed += round.back() > 0.0;
   }
   const SampleMean roundness = sample_mean(round);
   page::Values words{{"wall", page::number(1e3 * field.wall)},

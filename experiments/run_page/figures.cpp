@@ -65,21 +65,21 @@ Curve fit_curve(const RunSummary& summary, double factor) {
   };
   for (size_t p = summary.wall.loop_first; p < summary.wall.loop_last; ++p) {
     const WallPeriod& period = summary.wall.periods[p];
-    add(period.x_before, period.x_peak - period.x_before, summary.loop.active);
-    add(period.x_after, period.x_peak - period.x_after, summary.loop.passive);
+    add(period.x_before, period.x_peak - period.x_before, summary.law.active);
+    add(period.x_after, period.x_peak - period.x_after, summary.law.passive);
   }
   return curve;
 }
 
-page::Text fit_caption(const LoopFits& loop) {
+page::Text fit_caption(const ForceLaw& law) {
   return page::words("run.fig04.fits",
-                     {{"amplitude", page::quantity(loop.active.amplitude, "N")},
-                      {"length", page::quantity(1e3 / loop.active.rate, "mm")},
-                      {"active", page::number(loop.active.r2)},
-                      {"line", page::number(loop.active_line.r2)},
-                      {"offset", page::quantity(loop.passive.offset, "N")},
-                      {"slope", page::quantity(-1e-3 * loop.passive.slope, "N/mm")},
-                      {"passive", page::number(loop.passive.r2)}});
+                     {{"amplitude", page::quantity(law.active.amplitude, "N")},
+                      {"length", page::quantity(1e3 / law.active.rate, "mm")},
+                      {"active", page::number(law.active.r2)},
+                      {"line", page::number(law.active_line.r2)},
+                      {"offset", page::quantity(law.passive.offset, "N")},
+                      {"slope", page::quantity(-1e-3 * law.passive.slope, "N/mm")},
+                      {"passive", page::number(law.passive.r2)}});
 }
 
 /// One quantity of the wall at all steps, and at the jammed ones, on a logarithmic axis.
@@ -288,7 +288,7 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   const WallCycles& cycles = summary.wall;
   const ForceUnit unit = force_unit(summary.facts.f_max);
   const bool has_fits =
-      std::isfinite(summary.loop.active.r2) && std::isfinite(summary.loop.passive.r2);
+      std::isfinite(summary.law.active.r2) && std::isfinite(summary.law.passive.r2);
   Panel panel{.x_label = "{/:Italic x}  (mm)",
               .y_label = std::string("{/:Italic f}_g  (") + unit.name + ")",
               .y_min = 0.0};
@@ -320,7 +320,7 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
       "run.fig04.paper",
       {{"periods", page::exact(static_cast<double>(cycles.loop_last - cycles.loop_first))},
        {"smoothing", page::exact_quantity(1e3 * cycles.smoothing, "ms")}});
-  if (has_fits) caption += fit_caption(summary.loop);
+  if (has_fits) caption += fit_caption(summary.law);
   if (std::abs(summary.net.mean) > 0.05 * summary.rise.mean)
     caption += page::words("run.fig04.side_by_side");
   return run_picture("fig04", 580, {panel}, caption);

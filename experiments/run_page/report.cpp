@@ -82,9 +82,12 @@ void add_accuracy(const RunSummary& summary, Results& results) {
             tolerance, "", 1.0);
     bounded("the same: worst step", summary.error_max_relative, tolerance, "", 1.0);
     results.plain("worst contact of all steps, over *gh*",
-                  page::number(summary.error_worst_contact));
-    results.plain("steps with an error above the tolerance",
-                  page::quantity(100.0 * summary.above_tolerance, "%"));
+                  page::number(summary.error_max.max / summary.facts.velocity_scale));
+    if (tolerance > 0.0)
+      results.plain("steps that missed the tolerance",
+                    page::quantity(100.0 * static_cast<double>(summary.missed) /
+                                       static_cast<double>(summary.steps),
+                                   "%"));
   } else {
     results.plain("error, rms over contacts: mean of the steps",
                   page::quantity(summary.error_rms.mean, "m/s"));
@@ -130,11 +133,11 @@ void add_wall(const RunSummary& summary, Results& results) {
   results.compared("*C* of Eq. 3, *m* the mass of all grains", page::number(summary.prefactor),
                    "~\u00a0" + page::number(paper::prefactor, 1));
   results.plain("exponential fit, active: *R*², length",
-                page::number(summary.loop.active.r2) + ", " +
-                    page::quantity(1e3 / summary.loop.active.rate, "mm"));
+                page::number(summary.law.active.r2) + ", " +
+                    page::quantity(1e3 / summary.law.active.rate, "mm"));
   results.plain("linear fit, passive: *R*², slope",
-                page::number(summary.loop.passive.r2) + ", " +
-                    page::quantity(1e-3 * summary.loop.passive.slope, "N/mm"));
+                page::number(summary.law.passive.r2) + ", " +
+                    page::quantity(1e-3 * summary.law.passive.slope, "N/mm"));
 }
 
 void add_compaction(const RunSummary& summary, Results& results) {

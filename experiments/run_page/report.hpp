@@ -10,7 +10,7 @@
 
 namespace ballast {
 
-/// Reads steps.csv (or the record) and manifest.json of `folder`; writes figures/*.svg and
+/// Reads the record and manifest.json of `folder`; writes figures/*.svg and
 /// report.html, each beside and renamed. Without gnuplot the page says so and has the table alone.
 /// Throws Error when there is no record.
 void write_report(const std::filesystem::path& folder);

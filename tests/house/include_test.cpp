@@ -27,6 +27,7 @@ const std::vector<std::pair<std::string, Words>> law = {
 /// Beginning of a third-party header -> beginnings of the paths that may include it.
 const std::vector<std::pair<std::string, Words>> third_party = {
     {"Eigen/", {"geometry/", "problems/", "solvers/", "experiments/", "tests/"}},
+    {"unsupported/Eigen/", {"experiments/measure/"}},
     {"libqhull_r/", {"geometry/shape/convex_hull"}},
     {"hdf5.h", {"platform/hdf5", "tests/"}},
     {"zlib.h", {"platform/deflate", "tests/"}},

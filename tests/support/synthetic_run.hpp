@@ -3,10 +3,9 @@
 // law like that of the paper's Fig. 4, so that its fits, phases and gains are known. Nothing here
 // is a result.
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -15,6 +14,7 @@
 #include "experiments/measure/run_summary.hpp"
 #include "experiments/step/step_record.hpp"
 #include "platform/random.hpp"
+#include "platform/row_log.hpp"
 
 namespace ballast {
 
@@ -168,28 +168,18 @@ inline std::vector<StepRecord> synthetic_slide() {
   return steps;
 }
 
-/// As the recorder writes it; columns named in `without` are left out.
-inline void write_steps_csv(const std::filesystem::path& file, const std::vector<StepRecord>& steps,
-                            const std::vector<std::string>& without = {}) {
-  std::ofstream out(file);
-  const auto is_written = [&](const StepColumn& column) {
-    for (const std::string& name : without)
-      if (name == column.name) return false;
-    return true;
-  };
-  const auto write_row = [&](const auto& cell) {
-    std::string line;
+/// As the log of a run still going; columns named in `without` are not known in any row.
+inline void write_rows(const std::filesystem::path& folder, const std::vector<StepRecord>& steps,
+                       const std::vector<std::string>& without = {}) {
+  std::filesystem::create_directories(folder / "log");
+  RowWriter log(folder / "log" / "steps.bin", {"", 0, step_columns().size()});
+  for (const StepRecord& step : steps) {
+    std::vector<double> row;
     for (const StepColumn& column : step_columns())
-      if (is_written(column)) line.append(line.empty() ? "" : ",").append(cell(column));
-    out << line << '\n';
-  };
-  write_row([](const StepColumn& column) { return std::string(column.name); });
-  for (const StepRecord& step : steps)
-    write_row([&](const StepColumn& column) {
-      char text[40];
-      std::snprintf(text, sizeof text, "%.17g", step.*column.value);
-      return std::string(text);
-    });
+      row.push_back(std::ranges::count(without, column.name) ? not_known : step.*column.value);
+    log.append(row);
+  }
+  log.flush();
 }
 
 }  // namespace ballast

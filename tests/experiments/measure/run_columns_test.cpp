@@ -74,8 +74,6 @@ TEST_CASE("a row that was written is read back, column by column") {
     if (std::isfinite(written)) CHECK(read == Approx(written).epsilon(1e-8));
   }
   CHECK(row.run.compaction.relative_gain == Approx(was.run.compaction.relative_gain).epsilon(1e-6));
-  CHECK(run_column("rise").value(row.run) == row.run.rise.mean);
-  CHECK_THROWS_AS(run_column("risen"), std::invalid_argument);
 }
 
 TEST_CASE("a table that is no runs.csv is refused by its file, line and column") {

@@ -13,9 +13,9 @@
 #include "experiments/paper/sections.hpp"
 #include "experiments/run/manifest.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/hdf5_file.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
-#include "tests/support/synthetic_run.hpp"
 
 namespace ballast {
 
@@ -66,8 +66,13 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
   const auto file = find_scene(run.scene);
   const Scene scene = read_scene(file, run.overrides);
   std::ofstream(folder / "scene.toml") << resolved_scene_text(file, run.overrides);
-  std::ofstream(folder / "record.h5") << "not read";
-  write_steps_csv(folder / "steps.csv", scaled_record(scene, law));
+  std::ofstream(folder / "steps.csv") << "not read";
+  const std::vector<StepRecord> steps = scaled_record(scene, law);
+  Hdf5Writer record(folder / "record.h5", Hdf5Storage::plain);
+  record.add_group("steps");
+  for (const StepColumn& column : step_columns())
+    record.add(std::string("steps/") + column.name, record_column(steps, column.value));
+  record.commit();
   Manifest manifest(scene.name, run.overrides, run_key(run));
   const double g = scene.gravity.norm();
   manifest.summary("grains", scene.grains->count);

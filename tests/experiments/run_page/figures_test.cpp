@@ -71,7 +71,7 @@ TEST_CASE("captions say the run's own numbers") {
 
 TEST_CASE("without fits the caption doesn't speak of them") {
   BoxRun box = box_run();
-  box.summary.loop.active.r2 = not_known;
+  box.summary.law.active.r2 = not_known;
   const page::Picture picture = figure_4(box.data, box.summary);
   CHECK(picture.plot.panels.at(0).curves.size() == 4);
   CHECK_THAT(plain_words(picture.caption.at(0)), !Contains("Dashed"));

@@ -54,7 +54,7 @@ std::string page_of(const TemporaryFolder& folder) {
 }
 
 void write_box(const TemporaryFolder& folder, const std::vector<std::string>& without = {}) {
-  write_steps_csv(folder.path() / "steps.csv", synthetic_box(), without);
+  write_rows(folder.path(), synthetic_box(), without);
   folder.write("manifest.json", manifest_of_box().dump());
 }
 
@@ -94,13 +94,13 @@ TEST_CASE("a missed bound is marked") {
   const TemporaryFolder folder;
   auto steps = synthetic_box();
   for (StepRecord& step : steps) step.penetration_max += 1e-3;
-  write_steps_csv(folder.path() / "steps.csv", steps);
+  write_rows(folder.path(), steps);
   CHECK_THAT(page_of(folder), Contains("✗ missed"));
 }
 
 TEST_CASE("names from files are escaped") {
   const TemporaryFolder folder;
-  write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
+  write_rows(folder.path(), synthetic_slide());
   auto manifest = manifest_of_box();
   const std::string hostile = "<script>alert('x')</script>\"&";
   manifest["scene"] = hostile;
@@ -119,7 +119,7 @@ TEST_CASE("names from files are escaped") {
 
 TEST_CASE("a sliding cube has no wall and no packing on its page") {
   const TemporaryFolder folder;
-  write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
+  write_rows(folder.path(), synthetic_slide());
   const std::string page = page_of(folder);
   for (const char* name : {"error", "effort", "energy"})
     CHECK_THAT(page, Contains("<figure id=\"" + std::string(name) + "\">"));
@@ -140,7 +140,7 @@ TEST_CASE("every column but time may be missing, one by one") {
         "PATH", empty.path().string());  // the numbers alone: no figures, 26 times faster
     INFO(column.name);
     const std::string page = page_of(folder);
-    CHECK_THAT(page, Contains("steps.csv has no column " + std::string(column.name)));
+    CHECK_THAT(page, Contains("The record has no column " + std::string(column.name)));
     CHECK(nesting_fault(page) == "");
     CHECK_THAT(page, !Contains(">nan") && !Contains(">inf"));
   }
@@ -158,9 +158,13 @@ TEST_CASE("figures that lack their column are named, the others are drawn") {
 
 TEST_CASE("only the time: still a page") {
   const TemporaryFolder folder;
-  folder.write("steps.csv", "time\n0.1\n0.2\n0.3\n");
+  std::vector<StepRecord> steps(3);
+  for (int k = 0; k < 3; ++k) steps[k].time = 0.1 * (k + 1);
+  std::vector<std::string> others;
+  for (const StepColumn& column : step_columns().subspan(1)) others.push_back(column.name);
+  write_rows(folder.path(), steps, others);
   const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("steps.csv has no column wall_x, wall_v"));
+  CHECK_THAT(page, Contains("The record has no column wall_x, wall_v"));
   CHECK(nesting_fault(page) == "");
 }
 
@@ -170,14 +174,15 @@ TEST_CASE("NaN, infinity and one single step") {
   steps[100].error_rms = NAN;
   steps[2000].wall_force = INFINITY;
   steps[3000].solid_fraction = NAN;
-  write_steps_csv(folder.path() / "steps.csv", steps);
+  folder.write("manifest.json", manifest_of_box().dump());
+  write_rows(folder.path(), steps);
   const std::string page = page_of(folder);
   CHECK_THAT(page, Contains("error_rms is not finite in 1 of 5000 steps, first in row 101"));
   CHECK_THAT(page, Contains("wall_force is not finite in 1 of 5000 steps, first in row 2001"));
   CHECK_THAT(page, Contains("<figure id=\"fig04\">"));
   steps.resize(1);
   steps[0] = synthetic_box()[0];
-  write_steps_csv(folder.path() / "steps.csv", steps);
+  write_rows(folder.path(), steps);
   CHECK(nesting_fault(page_of(folder)) == "");
 }
 
@@ -185,27 +190,20 @@ TEST_CASE("no record, no report: the error names the file and the place") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(write_report(folder.path()), Error);
   CHECK_THROWS_WITH(write_report(folder.path() / "nowhere"), Contains("nowhere: no such folder"));
-  folder.write("steps.csv", "");
-  CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv: is empty"));
-  folder.write("steps.csv", "time,wall_x\n");
-  CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv: holds no step"));
-  folder.write("steps.csv", "wall_x,wall_v\n1,2\n");
-  CHECK_THROWS_WITH(write_report(folder.path()), Contains("the column \"time\" is missing"));
-  folder.write("steps.csv", "time,wall_x\n1,2\n2,abc\n");
-  CHECK_THROWS_WITH(write_report(folder.path()),
-                    Contains("steps.csv:3: wall_x is not a number: \"abc\""));
-  folder.write("steps.csv", "time,wall_x\n1,2\n2\n");
-  CHECK_THROWS_WITH(write_report(folder.path()), Contains("steps.csv:3: 1 fields, expected 2"));
-  folder.write("steps.csv", "time,wall_x\n1,2\n1,2\n");
+  write_rows(folder.path(), {});
+  CHECK_THROWS_WITH(write_report(folder.path()), Contains("holds no step"));
+  std::vector<StepRecord> steps(2);
+  write_rows(folder.path(), steps);
   CHECK_THROWS_WITH(write_report(folder.path()), Contains("finite and growing in row 2"));
-  folder.write("steps.csv", "time,wall_x\nnan,2\n");
+  steps[0].time = not_known;
+  write_rows(folder.path(), steps);
   CHECK_THROWS_WITH(write_report(folder.path()), Contains("finite and growing in row 1"));
   CHECK_FALSE(fs::exists(folder.path() / "report.html"));
 }
 
 TEST_CASE("broken manifests and scenes are noticed, not fatal") {
   const TemporaryFolder folder;
-  write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
+  write_rows(folder.path(), synthetic_slide());
   folder.write(
       "manifest.json",
       GENERATE(
@@ -255,7 +253,7 @@ TEST_CASE("a failing gnuplot costs its figures, not the page") {
 
 TEST_CASE("an unwritable folder is an error that names the page") {
   const TemporaryFolder folder, empty;
-  write_steps_csv(folder.path() / "steps.csv", synthetic_slide());
+  write_rows(folder.path(), synthetic_slide());
   fs::create_directory(folder.path() / "report.html");
   const EnvironmentGuard guard("PATH", empty.path().string());
   CHECK_THROWS_WITH(write_report(folder.path()), Contains("report.html"));
