@@ -2,7 +2,8 @@
 
 #include <set>
 
-#include "experiments/run/run_folder.hpp"
+#include <fnmatch.h>
+
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -19,8 +20,7 @@ void check_name(const std::string& name, const std::string& what, const std::str
                          "\": expected letters, digits, _, -, . and =");
 }
 
-}  // namespace
-
+/// Names that can be names, each once, and runs that are valid scenes.
 void validate(const Plan& plan, const std::string& origin) {
   check_name(plan.name, "name", origin);
   std::set<std::string> names;
@@ -36,6 +36,8 @@ void validate(const Plan& plan, const std::string& origin) {
     }
   }
 }
+
+}  // namespace
 
 void write_plan(const Plan& plan, const fs::path& file) {
   toml::array runs;
@@ -55,13 +57,12 @@ std::string run_key(const PlannedRun& run) {
   return resolve_scene(find_scene(run.scene), run.overrides).key;
 }
 
-fs::path folder_of(const fs::path& results, const PlannedRun& run) {
-  return results / "runs" / run_key(run);
-}
-
-bool is_finished(const fs::path& results, const PlannedRun& run) {
-  const std::string key = run_key(run);
-  return RunFolder(results / "runs" / key).is_finished(key);
+std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {
+  std::vector<PlannedRun> runs;
+  for (const PlannedRun& run : plan.runs)
+    if (pattern.empty() || fnmatch(pattern.c_str(), run.name.c_str(), 0) == 0) runs.push_back(run);
+  if (runs.empty()) throw SceneFileError("plan " + plan.name + ": no run is named like " + pattern);
+  return runs;
 }
 
 // A plan's file: runs one by one, and grids, which are all combinations of lists of values. See
@@ -222,32 +223,27 @@ PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
   return run;
 }
 
-size_t text_size(const PlannedRun& run) {
-  size_t size = run.name.size() + run.scene.size();
-  for (const std::string& text : run.overrides) size += text.size();
-  return size;
-}
-
-/// Each run is small enough and they are not too many, before any of them is looked at closer.
-void check_size(const Plan& plan, const fs::path& file) {
+/// Runs are few and small enough, before any of them is looked at closer.
+void check_size(const std::vector<PlannedRun>& runs, const fs::path& file) {
   size_t text = 0;
-  for (const PlannedRun& run : plan.runs) text += text_size(run);
-  const bool is_much = text > most_text;
-  if (!is_much && plan.runs.size() <= most_runs) return;
-  throw SceneFileError(file.string() + ": more than " +
-                       (is_much ? std::to_string(most_text >> 20) + " MB of names and overrides"
-                                : std::to_string(most_runs) + " runs") +
-                       ": expected several smaller plans");
+  for (const PlannedRun& run : runs) {
+    text += run.name.size() + run.scene.size();
+    for (const std::string& set : run.overrides) text += set.size();
+  }
+  const auto fail = [&](const std::string& what) {
+    throw SceneFileError(file.string() + ": more than " + what +
+                         ": expected several smaller plans");
+  };
+  if (text > most_text) fail(std::to_string(most_text >> 20) + " MB of names and overrides");
+  if (runs.size() > most_runs) fail(std::to_string(most_runs) + " runs");
 }
 
-/// All members, the last key changing fastest; they end at the first that is too much.
-void expand(const Grid& grid, std::vector<PlannedRun>& runs) {
+/// All members, the last key changing fastest: counts like an odometer.
+void expand(const Grid& grid, const fs::path& file, std::vector<PlannedRun>& runs) {
   std::vector<size_t> chosen(grid.axes.size(), 0);
-  size_t text = 0;
-  // counts like an odometer
-  while (runs.size() <= most_runs && text <= most_text) {
+  for (;;) {
     runs.push_back(member(grid, chosen));
-    text += text_size(runs.back());
+    if (runs.size() % 256 == 0) check_size(runs, file);
     size_t a = chosen.size();
     while (a > 0 && ++chosen[a - 1] == grid.axes[a - 1].values.size()) chosen[--a] = 0;
     if (a == 0) return;
@@ -277,11 +273,11 @@ Plan read_plan(const fs::path& file) {
   for (size_t k = 0; k < grids.size(); ++k) {
     const Grid grid = read_grid(grids[k], *raw["grid"][k].as_table(), file, base);
     if (grid.base.scene.empty()) grids[k].text("scene");
-    expand(grid, plan.runs);
+    expand(grid, file, plan.runs);
   }
   if (plan.runs.empty())
     throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[grid]]");
-  check_size(plan, file);
+  check_size(plan.runs, file);
   validate(plan, file.string());
   return plan;
 }

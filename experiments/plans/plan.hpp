@@ -28,17 +28,11 @@ Plan read_plan(const std::filesystem::path& file);
 /// when it cannot be written.
 void write_plan(const Plan& plan, const std::filesystem::path& file);
 
-/// Throws SceneFileError "<origin>: ..." when a name cannot be one or stands twice, or a run is no
-/// valid scene.
-void validate(const Plan& plan, const std::string& origin);
-
 /// Key of the resolved scene: the same for runs that compute the same. Throws SceneFileError.
 std::string run_key(const PlannedRun& run);
 
-/// Where the run's results are: <results>/runs/<key>. Its packing: <results>/packings.
-std::filesystem::path folder_of(const std::filesystem::path& results, const PlannedRun& run);
-
-/// Finished: every step is there and the records are closed.
-bool is_finished(const std::filesystem::path& results, const PlannedRun& run);
+/// The runs of the plan that a shell's pattern names; all of them where it is empty. Throws
+/// SceneFileError when there are none.
+std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern);
 
 }  // namespace ballast

@@ -7,18 +7,15 @@
 #include <memory>
 #include <set>
 
-#include <fnmatch.h>
 #include <unistd.h>
 
 #include "experiments/box/packing_cache.hpp"
-#include "experiments/plans/results_index.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
-#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 
@@ -90,26 +87,23 @@ bool is_finished(const fs::path& folder, const std::string& key) {
 }
 
 Task run_task(const fs::path& results, const ResolvedRun& run) {
-  Task task;
-  task.title = run.run.name;
-  task.key = run.key;
-  task.folder = run_folder(results, run);
-  task.log = results / "logs" / (run.key + ".log");
-  task.arguments = run_arguments(results, run);
-  task.steps = run.steps;
-  task.work = run.work;
+  Task task{.title = run.run.name,
+            .key = run.key,
+            .folder = run_folder(results, run),
+            .log = results / "logs" / (run.key + ".log"),
+            .arguments = run_arguments(results, run),
+            .steps = run.steps,
+            .work = run.work};
   if (is_finished(task.folder, run.key)) task.state = TaskState::finished;
   return task;
 }
 
 Task deposit_task(const fs::path& results, const ResolvedRun& run) {
-  Task task;
-  task.title = "packing of " + run.run.name;
-  task.key = run.packing;
-  task.log = results / "logs" / ("packing-" + run.packing + ".log");
-  task.arguments = deposit_arguments(results, run);
-  task.work = run.packing_work;
-  return task;
+  return {.title = "packing of " + run.run.name,
+          .key = run.packing,
+          .log = results / "logs" / ("packing-" + run.packing + ".log"),
+          .arguments = deposit_arguments(results, run),
+          .work = run.packing_work};
 }
 
 void sort_by_work(std::vector<Task>& tasks) {
@@ -120,12 +114,9 @@ void sort_by_work(std::vector<Task>& tasks) {
 }  // namespace
 
 std::vector<Task> make_tasks(const fs::path& results, const std::vector<ResolvedRun>& runs) {
-  // A packing that several runs need is deposited once. Of deposits and of drives the longest come
-  // first, so that no long one is left for the end.
   std::vector<Task> drives, tasks;
-  std::map<std::string, Task> deposits;           // by packing
-  std::map<std::string, std::string> packing_of;  // run -> packing
-  std::set<std::string> seen;                     // two names may be one run
+  std::map<std::string, std::string> packing_of;  // of a run that waits for it
+  std::set<std::string> seen;  // two names may be one run, and several runs have one packing
   for (const ResolvedRun& run : runs) {
     if (!seen.insert(run.key).second) continue;
     drives.push_back(run_task(results, run));
@@ -133,23 +124,21 @@ std::vector<Task> make_tasks(const fs::path& results, const std::vector<Resolved
                                !is_there(packing_file(packing_folder(results), run.packing));
     if (!needs_packing) continue;
     packing_of[run.key] = run.packing;
-    deposits.emplace(run.packing, deposit_task(results, run));
+    if (seen.insert(run.packing).second) tasks.push_back(deposit_task(results, run));
   }
-  // the deposits in their final order first: runs refer to them by their place
-  for (auto& [key, task] : deposits) tasks.push_back(std::move(task));
+  // of deposits and of drives the longest come first, so that no long one is left for the end
   sort_by_work(tasks);
-  std::map<std::string, int> place;  // of a deposit
-  for (size_t k = 0; k < tasks.size(); ++k) place[tasks[k].key] = static_cast<int>(k);
   sort_by_work(drives);
+  const size_t deposits = tasks.size();
   for (Task& task : drives) {
-    if (const auto found = packing_of.find(task.key); found != packing_of.end())
-      task.deposit = place.at(found->second);
+    if (const auto packing = packing_of.find(task.key); packing != packing_of.end())
+      for (size_t k = 0; k < deposits; ++k)
+        if (tasks[k].key == packing->second) task.deposit = static_cast<int>(k);
     tasks.push_back(std::move(task));
   }
   return tasks;
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 /// Starts tasks in their order while processes are free, and looks at them two hundred times a
@@ -285,19 +274,10 @@ ExitCode conclude(const std::vector<Task>& tasks, size_t before, ExitCode stoppe
 
 }  // namespace
 
-std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {
-  std::vector<PlannedRun> runs;
-  for (const PlannedRun& run : plan.runs)
-    if (pattern.empty() || fnmatch(pattern.c_str(), run.name.c_str(), 0) == 0) runs.push_back(run);
-  if (runs.empty()) throw SceneFileError("plan " + plan.name + ": no run is named like " + pattern);
-  return runs;
-}
-
 ExitCode run_plan(const Plan& plan, const PlanOptions& options) {
-  validate(plan, "plan " + plan.name);
   // everything that can be wrong with the plan is found before anything is written
   const std::vector<ResolvedRun> all = resolve(plan);
-  const std::vector<ResolvedRun> chosen = resolve(Plan{plan.name, select(plan, options.only)});
+  const std::vector<ResolvedRun> chosen = resolve({plan.name, select(plan, options.only)});
   const InterruptGuard guard;
   for (const char* name : {"runs", "packings", "logs"}) create_folder(options.results / name);
   const FileLock lock(options.results / "plan.lock", briefly);

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/plans/plan.hpp"
 #include "experiments/plans/resolved_run.hpp"
 #include "platform/error.hpp"
 #include "platform/status_line.hpp"
@@ -15,10 +14,10 @@ namespace ballast {
 enum class TaskState { waiting, running, finished, failed, stopped };
 
 struct Task {
-  std::string title;  ///< for the user: the run's name, or whose packing it is
-  std::string key;    ///< of the run or the packing
-  std::filesystem::path folder,
-      log;  ///< the run's folder, empty for a deposit; what the process prints
+  std::string title;                   ///< for the user: the run's name, or whose packing it is
+  std::string key;                     ///< of the run or the packing
+  std::filesystem::path folder;        ///< of the run; empty for a deposit
+  std::filesystem::path log;           ///< what the process prints
   std::vector<std::string> arguments;  ///< of the ballast program
   long steps = 0;                      ///< of a run
   double work = 0.0;                   ///< see ResolvedRun
@@ -52,16 +51,13 @@ struct PlanOptions {
 ///   <results>/runs/<key>/      the runs
 ///   <results>/packings/        packings, each deposited once
 ///   <results>/logs/            what the processes printed: <key>.log, packing-<key>.log
-///   <results>/plans/, index.csv   see results_index.hpp
+///   <results>/plans/, index.csv   see resolved_run.hpp
 ///
 /// ok: all are finished. failure: some failed, or SIGINT or SIGTERM: all are stopped with
 /// checkpoints. time_limit: as that, after max_seconds. The same call goes on. Killed (-9), its
 /// children die with it, and the same call goes on at the last checkpoints. Throws SceneFileError,
 /// and Error when another plan is run in the folder or it cannot be written.
 ExitCode run_plan(const Plan& plan, const PlanOptions& options);
-
-/// The runs of the plan that a shell's pattern names. Throws SceneFileError when there are none.
-std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern);
 
 /// How far a plan is, on one line.
 class PlanProgress {

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/plans/resolved_run.hpp"
-#include "experiments/plans/results_index.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -45,8 +44,8 @@ Json jobs_json(const std::vector<ResolvedRun>& runs, const fs::path& results,
           {"runs", jobs}};
 }
 
-}  // namespace
-
+/// The slurm/ alone; makes the folder. Throws Error for a path that shells and Snakemake would take
+/// apart.
 void write_slurm_profile(const fs::path& folder) {
   const bool is_plain =
       folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") == std::string::npos;
@@ -62,6 +61,8 @@ void write_slurm_profile(const fs::path& folder) {
   fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                   fs::perm_options::add);
 }
+
+}  // namespace
 
 void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::path& program,
                      const fs::path& folder_given) {

@@ -21,8 +21,4 @@ namespace ballast {
 void write_snakemake(const Plan& plan, const std::filesystem::path& results,
                      const std::filesystem::path& program, const std::filesystem::path& folder);
 
-/// Of these the slurm/ alone; makes the folder. Throws Error for a path that shells and Snakemake
-/// would take apart.
-void write_slurm_profile(const std::filesystem::path& folder);
-
 }  // namespace ballast

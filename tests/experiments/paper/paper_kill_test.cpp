@@ -10,8 +10,8 @@
 #include "platform/clock.hpp"
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
+#include "tests/experiments/plans/small_plan.hpp"
 #include "tests/support/killed_program.hpp"
-#include "tests/support/same_bits.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;

@@ -16,6 +16,7 @@
 #include "platform/hdf5_file.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/experiments/plans/small_plan.hpp"
 
 namespace ballast {
 

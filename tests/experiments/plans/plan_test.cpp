@@ -1,5 +1,8 @@
-#include "experiments/plans/plan.hpp"
+// What a plan's file says, what is wrong with it, and by what its runs are known.
 
+#include <algorithm>
+
+#include "experiments/plans/plan.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
@@ -11,11 +14,137 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string error_of(const std::string& text) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("plan.toml", text);
+  try {
+    read_plan(file);
+  } catch (const SceneFileError& error) {
+    CHECK_THAT(error.what(), Catch::StartsWith(file.string()));
+    CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    return error.what();
+  }
+  FAIL("was taken: " << text);
+  return "";
+}
+
 PlannedRun run_with(std::vector<std::string> overrides) {
   return {"run", "vibrated_box_small", std::move(overrides)};
 }
 
 }  // namespace
+
+TEST_CASE("a plan lists its runs and multiplies its grids") {
+  const TemporaryFolder folder;
+  const Plan plan = read_plan(folder.write("two.toml", R"(
+scene = "vibrated_box_small"
+set = ["solver.max_iterations=300"]
+
+[[run]]
+name = "reference"
+set = ["drive.frequency=10"]
+
+[[run]]
+name = "slope"
+scene = "incline"
+set = ["solver.max_iterations=20"]
+
+[[grid]]
+name = "nu"
+set = ["scene.duration=0.2"]
+vary."drive.frequency" = [1, 2.5]
+vary.solver.name = ["nncg", "pgs"]
+[[grid.where]]
+when."drive.frequency" = [1.0]
+set = ["scene.duration=1"]
+)"));
+  CHECK(plan.name == "two");
+  REQUIRE(plan.runs.size() == 6);
+  CHECK(plan.runs[0].overrides ==
+        std::vector<std::string>{"solver.max_iterations=300", "drive.frequency=10"});
+  CHECK(plan.runs[1].scene == "incline");
+  CHECK(plan.runs[2].name == "nu-drive.frequency=1-solver.name=nncg");
+  CHECK(plan.runs[2].overrides ==
+        std::vector<std::string>{"solver.max_iterations=300", "scene.duration=0.2",
+                                 "drive.frequency=1", "solver.name=\"nncg\"", "scene.duration=1"});
+  CHECK(plan.runs[5].name == "nu-drive.frequency=2.5-solver.name=pgs");
+  CHECK(plan.runs[5].overrides.back() == "solver.name=\"pgs\"");
+  CHECK(select(plan, "nu-*name=pgs").size() == 2);
+  CHECK(select(plan, "").size() == 6);
+  CHECK_THROWS_AS(select(plan, "mu-*"), SceneFileError);
+
+  write_plan(plan, folder.path() / "again.toml");
+  const Plan again = read_plan(folder.path() / "again.toml");
+  CHECK(again.name == plan.name);
+  REQUIRE(again.runs.size() == plan.runs.size());
+  for (size_t k = 0; k < plan.runs.size(); ++k) {
+    CHECK(again.runs[k].name == plan.runs[k].name);
+    CHECK(again.runs[k].overrides == plan.runs[k].overrides);
+    CHECK(run_key(again.runs[k]) == run_key(plan.runs[k]));
+  }
+}
+
+TEST_CASE("a scene's file is looked for beside the plan") {
+  const TemporaryFolder folder;
+  fs::copy_file(find_scene("incline"), folder.path() / "mine.toml");
+  const Plan plan =
+      read_plan(folder.write("plan.toml", "scene = \"mine.toml\"\n[[run]]\nname = \"a\"\n"));
+  CHECK(fs::equivalent(find_scene(plan.runs[0].scene), folder.path() / "mine.toml"));
+}
+
+TEST_CASE("what is wrong with a plan is said with file, key and value") {
+  const std::string head = "scene = \"vibrated_box_small\"\n",
+                    run = head + "[[run]]\nname = \"a\"\n",
+                    grid = head + "[[grid]]\nname = \"s\"\n",
+                    varied = grid + "vary.\"drive.frequency\" = [1, 2]\n[[grid.where]]\n";
+  const std::string longer_than_any_file(5000, 'n');
+  const std::vector<std::pair<std::string, std::string>> table = {
+      {"[[run", "not valid TOML"},
+      {head, "no runs in it"},
+      {"[[run]]\nname = \"a\"\n", "run.0.scene is missing"},
+      {head + "[[run]]\nscene = \"incline\"\n", "run.0.name is missing"},
+      {head + "[[runs]]\nname = \"a\"\n", "did you mean \"run\"?"},
+      {head + "[[run]]\nname = \"a b\"\n", "\"a b\""},
+      {head + "[[run]]\nname = \"-x\"\n", "run.name = \"-x\""},
+      {"name = \"a/b\"\n" + run, "name = \"a/b\""},
+      {run + "[[run]]\nname = \"a\"\n", "stands twice"},
+      {run + "set = [\"drive.frequency=-1\"]\n", "run a: "},
+      {run + "set = [\"drive.frequency=-1\"]\n", "drive.frequency = -1"},
+      {run + "set = \"drive.frequency=1\"\n", "list of texts"},
+      {"scene = \"nowhere\"\n[[run]]\nname = \"a\"\n", "no scene of this name"},
+      {"scene = \"" + longer_than_any_file + "\"\n[[run]]\nname = \"a\"\n",
+       "no scene of this name"},
+      {grid, "nothing varied"},
+      {grid + "vary = 3\n", "grid.0.vary = 3"},
+      {grid + "vary.\"drive.frequency\" = []\n", "no values"},
+      {grid + "vary.\"drive.frequence\" = [1]\n", "drive.frequence = 1"},
+      // \r within quotes is a key's letter: control characters stay out of the message
+      {"scene = \"incline\"\n[[grid]]\nname = \"nu\"\nvary.\"contact.\\riction\" = [0.1]\n",
+       "contact.?iction"},
+      {varied, "no condition"},
+      {varied + "when.\"grains.seed\" = 1\n", "grains.seed is not varied"},
+      {varied + "when.\"drive.frequency\" = 3\n", "never is 3"},
+      {varied + "when.\"drive.frequency\" = 1\nsett = []\n", "did you mean \"set\"?"}};
+  for (const auto& [text, message] : table) CHECK_THAT(error_of(text), Catch::Contains(message));
+}
+
+TEST_CASE("a plan that is too much to look at is refused before its runs are") {
+  const std::string head = "scene = \"vibrated_box_small\"\n";
+  std::string numbers = "1";
+  for (int k = 2; k <= 101; ++k) numbers += ", " + std::to_string(k);
+  const auto grid = [](const std::string& name, const std::string& varied) {
+    return "[[grid]]\nname = \"" + name + "\"\nvary.\"drive.frequency\" = [" + varied + "]\n";
+  };
+  const std::string seeds = "vary.\"grains.seed\" = [" + numbers + "]\n";
+  CHECK_THAT(error_of(head + grid("a", numbers) + seeds), Catch::Contains("more than 10000 runs"));
+  // two grids that are small enough each
+  const std::string half =
+      "vary.\"grains.seed\" = [" + numbers.substr(0, numbers.find(", 61")) + "]\n";
+  CHECK_THAT(error_of(head + grid("a", numbers) + half + grid("b", numbers) + half),
+             Catch::Contains("more than 10000 runs"));
+  const std::string wide = "set = [\"scene.name=" + std::string(8000, 'x') + "\"]\n";
+  CHECK_THAT(error_of(head + wide + grid("a", numbers) + half), Catch::Contains("more than 32 MB"));
+}
 
 TEST_CASE("a run is known by what it computes") {
   const std::string key = run_key(run_with({}));
@@ -29,8 +158,6 @@ TEST_CASE("a run is known by what it computes") {
   PlannedRun renamed = run_with({});
   renamed.name = "another";
   CHECK(run_key(renamed) == key);
-  CHECK(folder_of("r", renamed) == fs::path("r/runs") / key);
-  CHECK_FALSE(is_finished("/nowhere", renamed));
 }
 
 TEST_CASE("an edited mesh makes another run of the same words") {
@@ -42,24 +169,4 @@ TEST_CASE("an edited mesh makes another run of the same words") {
   CHECK(run_key(run) == key);
   write_mesh(mesh, make_box(Vec3(1, 1, 2.5)));
   CHECK(run_key(run) != key);
-}
-
-TEST_CASE("a plan is checked: names that are names, each once, runs that are scenes") {
-  const auto error_of = [](const Plan& plan) -> std::string {
-    try {
-      validate(plan, "here");
-    } catch (const SceneFileError& error) {
-      CHECK_THAT(error.what(), Catch::StartsWith("here: "));
-      return error.what();
-    }
-    return "";
-  };
-  PlannedRun run = run_with({});
-  CHECK(error_of({"plan", {run}}).empty());
-  CHECK_THAT(error_of({"a/b", {run}}), Catch::Contains("name = \"a/b\""));
-  CHECK_THAT(error_of({"plan", {run, run}}), Catch::Contains("stands twice"));
-  run.name = "-x";
-  CHECK_THAT(error_of({"plan", {run}}), Catch::Contains("run.name = \"-x\""));
-  run = run_with({"drive.frequency=-1"});
-  CHECK_THAT(error_of({"plan", {run}}), Catch::Contains("run run: "));
 }

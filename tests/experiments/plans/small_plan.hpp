@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/plans/plan.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "tests/support/same_bits.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,6 +24,14 @@ name = "nu"
 vary."drive.frequency" = [20, 50]
 vary."grains.seed" = [1, 2]
 )";
+
+inline std::filesystem::path folder_of(const std::filesystem::path& results,
+                                       const PlannedRun& run) {
+  return results / "runs" / run_key(run);
+}
+inline bool is_finished(const std::filesystem::path& results, const PlannedRun& run) {
+  return RunFolder(folder_of(results, run)).is_finished(run_key(run));
+}
 
 /// The bits of every run of a plan.
 inline std::vector<std::string> bits_of(const Plan& plan, const std::filesystem::path& results) {
