@@ -32,9 +32,6 @@ class BodyMatrix {
   bool solve(const std::vector<Eigen::Matrix3d>& gain, const Eigen::VectorXd& b,
              Eigen::VectorXd& x);
 
-  /// Of a factorisation (FrontLu::operations).
-  double operations() const { return fronts_.operations(); }
-
  private:
   /// A block: its first entry among the matrix's values, and entries from one of its columns to the
   /// next. height 0: no such block.

@@ -62,7 +62,6 @@ class ConeProgram {
   Eigen::VectorXd to_rows(const Eigen::VectorXd& x) const;
   Eigen::VectorXd from_rows(const Eigen::VectorXd& r) const;
   const MovingContacts& moving() const { return moving_; }
-  double velocity_unit() const { return velocity_unit_; }
 
  private:
   Eigen::VectorXd linear_term(const Eigen::VectorXd& x) const;

@@ -19,16 +19,6 @@ Matrix3d modified_velocity_jacobian(const Vector3d& u, double mu) {
   return a;
 }
 
-/// With x = r - rho u~ and G the derivative of P_K at x: F = r - P_K(x), dF/dr
-/// = 1 - G, dF/du = rho G du~/du.
-ContactLinearisation natural_map_linearised(const Vector3d& r, const Vector3d& u, double mu,
-                                            double rho) {
-  const Vector3d x = r - rho * modified_velocity(u, mu);
-  const Matrix3d g = project_cone_jacobian(x, mu);
-  return {r - project_cone(x, mu), Matrix3d::Identity() - g,
-          rho * g * modified_velocity_jacobian(u, mu)};
-}
-
 ContactLinearisation alart_curnier_linearised(const Vector3d& r, const Vector3d& u, double mu,
                                               double rho) {
   const Vector3d x = r - rho * u;
@@ -113,21 +103,8 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
 
 ContactLinearisation linearise(ContactEquation equation, const Vector3d& r, const Vector3d& u,
                                double mu, double rho) {
-  switch (equation) {
-    case ContactEquation::natural_map:
-      return natural_map_linearised(r, u, mu, rho);
-    case ContactEquation::alart_curnier:
-      return alart_curnier_linearised(r, u, mu, rho);
-    case ContactEquation::fischer_burmeister:
-      return fischer_burmeister_linearised(r, u, mu, rho);
-  }
-  return {};
-}
-
-Vector3d contact_equation(ContactEquation equation, const Vector3d& r, const Vector3d& u, double mu,
-                          double rho) {
-  if (equation == ContactEquation::natural_map) return natural_map(r, u, mu, rho);
-  return linearise(equation, r, u, mu, rho).f;
+  return equation == ContactEquation::alart_curnier ? alart_curnier_linearised(r, u, mu, rho)
+                                                    : fischer_burmeister_linearised(r, u, mu, rho);
 }
 
 }  // namespace ballast

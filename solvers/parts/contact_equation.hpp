@@ -2,7 +2,7 @@
 // Coulomb's law at one contact as a nonsmooth equation F(r, u) = 0, with an element of its
 // generalised Jacobian.
 //
-// All three vanish exactly where (u, r) obeys Signorini-Coulomb, for every rho > 0 [kg]; F is an
+// Both vanish exactly where (u, r) obeys Signorini-Coulomb, for every rho > 0 [kg]; F is an
 // impulse [N s].
 
 #include <Eigen/Dense>
@@ -10,7 +10,6 @@
 namespace ballast {
 
 enum class ContactEquation {
-  natural_map,    ///< r - P_K(r - rho (u + mu |u_T| n))                (De Saxce 1998)
   alart_curnier,  ///< normal: half-line; tangential: disc of radius mu (r_N - rho u_N)+   (Alart,
                   ///< Curnier 1991)
   fischer_burmeister  ///< x + y - (x^2 + y^2)^(1/2) in the Jordan algebra of Lorentz's cone
@@ -23,12 +22,8 @@ struct ContactLinearisation {
   Eigen::Matrix3d by_u;  ///< dF/du [kg]
 };
 
-/// F alone: for a line search. One-row contacts are padded with zeros; mu = 0 is the half-line, r_T
-/// = 0.
-Eigen::Vector3d contact_equation(ContactEquation equation, const Eigen::Vector3d& r,
-                                 const Eigen::Vector3d& u, double mu, double rho);
-
-/// F and its derivatives (exact wherever F is differentiable).
+/// F and its derivatives (exact wherever F is differentiable). One-row contacts are padded with
+/// zeros; mu = 0 is the half-line, r_T = 0.
 ContactLinearisation linearise(ContactEquation equation, const Eigen::Vector3d& r,
                                const Eigen::Vector3d& u, double mu, double rho);
 

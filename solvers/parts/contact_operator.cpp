@@ -12,7 +12,7 @@ void ContactOperator::prepare(const FrictionProblem& problem) {
   delassus_diagonal(problem, roots_, diagonal_);
   rho_.resize(diagonal_.size());
   for (std::size_t c = 0; c < rho_.size(); ++c) {
-    const double lambda_max = ballast::largest_eigenvalue(diagonal_[c]);
+    const double lambda_max = largest_eigenvalue(diagonal_[c]);
     rho_[c] = lambda_max > 0.0 ? 1.0 / lambda_max : 0.0;
   }
 }
@@ -81,9 +81,24 @@ double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const
 }
 
 double gradient_step(ContactOperator& w) {
-  const double lambda = largest_eigenvalue(w, [&w](Eigen::VectorXd& x) {
+  const auto divide = [&w](Eigen::VectorXd& x) {
     for (int c = 0; c < w.contact_count(); ++c) w.put(x, c, w.rho()[c] * w.at(x, c));
-  });
+  };
+  const int rows = w.problem().row_count();
+  Eigen::VectorXd x(rows), y(rows);
+  for (int i = 0; i < rows; ++i)
+    x[i] = 1.0 + 0.5 * ((i * 7919) % 17) / 17.0 - (i % 3 == 1 ? 2.0 : 0.0);
+  divide(x);
+  double lambda = 0.0;
+  for (int k = 0; k < 30; ++k) {
+    const double norm = x.norm();
+    if (!(norm > 0.0)) break;
+    x /= norm;
+    w.multiply(x, y);
+    divide(y);
+    lambda = y.norm();
+    x.swap(y);
+  }
   return lambda > 0.0 ? 1.0 / lambda : 1.0;
 }
 

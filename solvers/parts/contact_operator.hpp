@@ -72,31 +72,9 @@ class ContactOperator {
   Eigen::VectorXd v_;
 };
 
-/// lambda_max of D^-1 W by power iteration from a fixed start. `divide(x)` is x := D^-1 x with D
-/// symmetric positive definite, contact by contact. From below: some per cent short after 30
-/// products.
-template <typename Divide>
-double largest_eigenvalue(ContactOperator& w, const Divide& divide, int products = 30) {
-  const int rows = w.problem().row_count();
-  Eigen::VectorXd x(rows), y(rows);
-  for (int i = 0; i < rows; ++i)
-    x[i] = 1.0 + 0.5 * ((i * 7919) % 17) / 17.0 - (i % 3 == 1 ? 2.0 : 0.0);
-  divide(x);
-  double eigenvalue = 0.0;
-  for (int k = 0; k < products; ++k) {
-    const double norm = x.norm();
-    if (!(norm > 0.0)) return eigenvalue;
-    x /= norm;
-    w.multiply(x, y);
-    divide(y);
-    eigenvalue = y.norm();
-    x.swap(y);
-  }
-  return eigenvalue;
-}
-
-/// The step of a projected gradient along rho_c u_c: 1 / lambda_max with D_c = I / rho_c; 1 where W
-/// is zero.
+/// The step of a projected gradient along rho_c u_c: 1 / lambda_max(D^-1 W) with D_c = I / rho_c,
+/// by 30 products of a power iteration from a fixed start, which end some per cent below
+/// lambda_max; 1 where W is zero.
 double gradient_step(ContactOperator& w);
 
 }  // namespace ballast

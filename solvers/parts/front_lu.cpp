@@ -261,10 +261,4 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   for (int i = 0; i < unknowns; ++i) x[i] = work_[tree_.place[i]];
 }
 
-double FrontLu::operations() const {
-  double sum = 0.0;
-  for (const Front& front : tree_.fronts) sum += operations_of(front);
-  return sum;
-}
-
 }  // namespace ballast

@@ -32,8 +32,6 @@ class FrontLu {
   /// x = A^-1 b. `x` may be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
-  /// What a factorisation costs: multiplications and additions in dense blocks.
-  double operations() const;
   const FrontTree& tree() const { return tree_; }
 
  private:

@@ -99,10 +99,7 @@ bool NewtonSystem::solve_sparse(const FrictionProblem& problem,
 }
 
 void NewtonSystem::prepare(const ContactOperator& w) {
-  operations_ = 0.0;
-  if (!w.problem().has_dynamics) return;
-  matrix_.prepare(w.problem());
-  operations_ = matrix_.operations();
+  if (w.problem().has_dynamics) matrix_.prepare(w.problem());
 }
 
 bool NewtonSystem::solve_bodies(const ContactOperator& w,
@@ -142,7 +139,6 @@ bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLine
   const double square = static_cast<double>(pressed_rows_) * pressed_rows_;
   const bool is_full = static_cast<double>(pressed_entries_) > nearly_full * square;
   const bool is_dense = pressed_rows_ <= few_rows || (is_full && pressed_rows_ <= most_dense_rows);
-  operations_ = is_dense ? square * pressed_rows_ / 3.0 : 0.0;
   return is_dense ? solve_dense(problem, linear, dr) : solve_sparse(problem, linear, dr);
 }
 
@@ -185,7 +181,7 @@ double NewtonStep::residual_of(const Impulses& r, const Eigen::VectorXd& u) cons
     if (!(w_.rho()[c] > 0.0)) continue;
     const double rho = rho_factor_ * w_.rho()[c];
     const Eigen::Vector3d missed =
-        contact_equation(equation_, w_.at(r, c), proximal_velocity(r, u, c), w_.friction(c), rho);
+        linearise(equation_, w_.at(r, c), proximal_velocity(r, u, c), w_.friction(c), rho).f;
     mean.add_square(missed.squaredNorm() / (rho * rho));
   }
   return mean.value();

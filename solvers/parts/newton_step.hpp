@@ -35,9 +35,6 @@ class NewtonSystem {
 
   /// FrontLu::use_team
   void use_team(WorkerTeam* team) { matrix_.use_team(team); }
-  /// Of a factorisation over bodies (FrontLu::operations); of the last dense one of a stored W:
-  /// multiplications with their additions. 0: it was a sparse one, or there was none.
-  double operations() const { return operations_; }
 
  private:
   bool solve_bodies(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
@@ -49,7 +46,6 @@ class NewtonSystem {
   bool solve_sparse(const FrictionProblem& problem, const std::vector<ContactLinearisation>& linear,
                     Impulses& dr);
 
-  double operations_ = 0.0;
   // The dynamics form:
   std::vector<Eigen::Matrix3d> gain_;    ///< E = B^-1 by_u per contact
   std::vector<Eigen::Vector3d> source_;  ///< B^-1 f
@@ -84,8 +80,6 @@ class NewtonStep {
   /// tenth, so that flat places can be left, and taken whole with `halvings` = 0.
   bool newton(int halvings);
 
-  /// Of one factorisation (NewtonSystem::operations).
-  double operations() const { return system_.operations(); }
   /// rms over contacts of |F_c| / rho_c [m/s].
   double residual() const { return residual_of(r_, u_); }
   /// The judge's error of the iterate [m/s].
@@ -98,7 +92,7 @@ class NewtonStep {
 
   ContactOperator w_;
   NewtonSystem system_;
-  ContactEquation equation_ = ContactEquation::natural_map;
+  ContactEquation equation_ = ContactEquation::alart_curnier;
   double rho_factor_ = 1.0;
   std::vector<double> alpha_;
   std::vector<ContactLinearisation> linear_;

@@ -50,7 +50,6 @@ class RegularNewton {
   const UnitMassContacts& contacts() const { return contacts_; }
   /// FrontLu::use_team
   void use_team(WorkerTeam* team) { matrix_.use_team(team); }
-  double operations() const { return matrix_.operations(); }
 
   /// The iterate with x from r.
   NewtonIterate iterate(const Impulses& r) const;

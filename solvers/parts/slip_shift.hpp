@@ -10,10 +10,34 @@
 
 #include <vector>
 
-#include "solvers/parts/anderson.hpp"
 #include "solvers/parts/contact_operator.hpp"
 
 namespace ballast {
+
+/// Anderson acceleration of a fixed point x = G(x). Walker, Ni 2011, "Anderson acceleration for
+/// fixed-point iterations" (type II: the combination of past steps whose residuals cancel best).
+/// Remembers differences of the last `memory` pairs (G(x), G(x) - x). Storage is kept between uses.
+class Anderson {
+ public:
+  void reset(int memory);
+  void forget() {
+    count_ = 0;
+    primed_ = false;
+  }
+
+  /// x := the accelerated next iterate, given x and its image G(x). The first call after forget()
+  /// gives x := G(x).
+  void step(Eigen::VectorXd& x, const Eigen::VectorXd& image);
+
+ private:
+  Eigen::VectorXd combine() const;
+
+  int memory_ = 0, count_ = 0, next_ = 0;
+  bool primed_ = false;
+  Eigen::VectorXd last_image_, last_residual_, residual_;
+  std::vector<Eigen::VectorXd> image_steps_, residual_steps_;
+  Eigen::MatrixXd gram_;
+};
 
 /// s, one value [m/s] >= 0 per contact; 0 for contacts without friction.
 class SlipShift {

@@ -24,6 +24,5 @@ std::vector<int> dissection_order(const BlockGraph&) { decline(); }
 void FrontLu::analyse(const SparseColumns&, const std::vector<int>&) { decline(); }
 bool FrontLu::factor(const SparseColumns&) { decline(); }
 void FrontLu::solve(const Eigen::VectorXd&, Eigen::VectorXd&) { decline(); }
-double FrontLu::operations() const { decline(); }
 
 }  // namespace ballast

@@ -15,23 +15,15 @@ TEST_CASE("every entry is complete and its name unique") {
     CAPTURE(entry.name);
     CHECK(names.insert(entry.name).second);
     CHECK(std::string(entry.description).size() > 10);
-    if (entry.make)
-      CHECK(make_solver(entry.name) != nullptr);
-    else
-      CHECK_THROWS_AS(make_solver(entry.name), MissingSolver);
+    if (entry.make) CHECK(make_solver(entry.name) != nullptr);
     CHECK(&find_solver(entry.name) == &entry);
   }
   CHECK(names.count("pgs") == 1);
 }
 
 TEST_CASE("an unknown name is answered with those there are") {
-  try {
-    make_solver("pgz");
-    FAIL("no exception");
-  } catch (const UnknownSolver& error) {
-    CHECK(std::string(error.what()).find("pgz") != std::string::npos);
-    CHECK(std::string(error.what()).find("pgs") != std::string::npos);
-  }
+  CHECK_THROWS_AS(make_solver("pgz"), UnknownSolver);
+  CHECK_THROWS_WITH(make_solver("pgz"), Catch::Contains("pgz") && Catch::Contains("pgs"));
 }
 
 TEST_CASE("a backend is missing exactly where its library is, and says what to install") {
@@ -40,8 +32,9 @@ TEST_CASE("a backend is missing exactly where its library is, and says what to i
     const bool needs = entry.needs.is_built_in != nullptr;
     CHECK(needs == (std::string(entry.needs.package).size() > 0));
     CHECK((entry.make != nullptr) == (!needs || entry.needs.is_built_in()));
-    if (!entry.make)
-      CHECK_THROWS_WITH(make_solver(entry.name), Catch::Contains(entry.needs.package));
+    if (entry.make) continue;
+    CHECK_THROWS_AS(make_solver(entry.name), MissingSolver);
+    CHECK_THROWS_WITH(make_solver(entry.name), Catch::Contains(entry.needs.package));
   }
   CHECK((find_solver("auto").make != nullptr) == has_sparse_factors());
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "platform/random.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
@@ -20,6 +21,21 @@ FrictionProblem sliding_block(double angle) {
   problem.delassus.w.setIdentity();
   problem.delassus.q = Eigen::Vector3d(-0.1, std::cos(angle), std::sin(angle));
   return problem;
+}
+
+LemkeState run(Lemke& lemke, const Eigen::MatrixXd& m, const Eigen::VectorXd& q, int& pivots) {
+  lemke.begin(m, q);
+  for (pivots = 0; lemke.state() == LemkeState::running; ++pivots) {
+    REQUIRE(pivots < 10000);
+    lemke.pivot();
+  }
+  return lemke.state();
+}
+
+Eigen::MatrixXd random_matrix(int rows, int columns, Random& random) {
+  Eigen::MatrixXd x(rows, columns);
+  for (double& entry : x.reshaped()) entry = random.uniform(-1, 1);
+  return x;
 }
 
 }  // namespace
@@ -45,15 +61,12 @@ TEST_CASE("pyramid: along one of its directions it is Coulomb's law, between the
 TEST_CASE(
     "pyramid: its own law is solved on rank-deficient problems, and more sides come nearer to the "
     "cone") {
+  const FrictionProblem deficient =
+      make_known_solution({.bodies = 8, .contacts = 30, .friction_min = 0.3}).problem;
   double last = 1e30;
   for (const int sides : {4, 8, 16}) {
-    KnownSolutionSettings settings;
-    settings.contacts = 30;
-    settings.bodies = 8;
-    settings.friction_min = 0.3;
     const auto solver = make_pyramid_lemke({.sides = sides});
-    const SolverRun run =
-        SolverRunner().run(*solver, make_known_solution(settings).problem, {}, Budget{});
+    const SolverRun run = SolverRunner().run(*solver, deficient, {}, Budget{});
     CAPTURE(sides, run.solved.iterations, run.solved.own_residual, run.error.natural_map_rms);
     CHECK(run.solved.own_residual < 1e-9);
     CHECK(run.solved.reason == StopReason::stalled);
@@ -63,15 +76,44 @@ TEST_CASE(
 }
 
 TEST_CASE("pyramid: a problem too large is declined by name") {
-  KnownSolutionSettings settings;
-  settings.bodies = 200;
-  settings.contacts = 200;
-  settings.friction_min = 0.1;
-  try {
-    make_pyramid_lemke()->prepare(make_known_solution(settings).problem);
-    FAIL("no exception");
-  } catch (const UnsupportedProblem& error) {
-    CHECK(std::string(error.what()).find("pyramid_lemke") != std::string::npos);
-    CHECK(std::string(error.what()).find("1000") != std::string::npos);
-  }
+  const FrictionProblem large =
+      make_known_solution({.bodies = 200, .contacts = 200, .friction_min = 0.1}).problem;
+  CHECK_THROWS_WITH(make_pyramid_lemke()->prepare(large),
+                    Catch::Contains("pyramid_lemke") && Catch::Contains("1000"));
+}
+
+TEST_CASE("lemke: positive semidefinite problems of any rank, degenerate ones too") {
+  Random random(3);
+  int pivots = 0;
+  for (const int n : {1, 2, 5, 20, 60})
+    for (const int rank : {0, 1, n / 2, n})
+      for (const bool degenerate : {false, true}) {
+        CAPTURE(n, rank, degenerate);
+        const Eigen::MatrixXd root = random_matrix(n, rank, random);
+        Eigen::MatrixXd m = root * root.transpose();
+        const Eigen::MatrixXd other = random_matrix(n, n, random);
+        m += other - other.transpose();  // monotone, not symmetric
+        // Feasible by construction: w = m z + q >= 0 at a chosen z >= 0.
+        Eigen::VectorXd z = random_matrix(n, 1, random).cwiseMax(0.0),
+                        w = random_matrix(n, 1, random).cwiseMax(0.0);
+        if (degenerate) {
+          m = m.array().round();
+          z.setZero();
+          w = w.array().round();
+          w[0] = 0.0;
+        }
+        const Eigen::VectorXd q = w - m * z;
+        Lemke lemke;
+        REQUIRE(run(lemke, m, q, pivots) == LemkeState::solved);
+        const Eigen::VectorXd x = lemke.solution();
+        CHECK(x.minCoeff() >= 0.0);
+        CHECK(x.cwiseMin(m * x + q).lpNorm<Eigen::Infinity>() < 1e-8);
+      }
+}
+
+TEST_CASE("lemke: a problem without solution ends in a ray") {
+  Lemke lemke;
+  int pivots = 0;
+  CHECK(run(lemke, Eigen::MatrixXd::Zero(2, 2), Eigen::Vector2d(-1, 1), pivots) == LemkeState::ray);
+  CHECK(pivots < 5);
 }

@@ -57,3 +57,23 @@ TEST_CASE("convex solves with improved s reach Coulomb's law") {
   CHECK(outer < 60);
   CHECK(contact_error(known.problem, r).natural_map_rms < 1e-9);
 }
+
+TEST_CASE("a linear fixed point of n unknowns is found in n + 1 combinations") {
+  constexpr int n = 5;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    a(i, i) = 0.5 + 0.1 * i;  // plain iterations contract by 0.9
+    if (i > 0) a(i, i - 1) = 0.3;
+  }
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1.0, 2.0);
+  const Eigen::VectorXd exact = (Eigen::MatrixXd::Identity(n, n) - a).partialPivLu().solve(b);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+  Anderson mixing;
+  mixing.reset(n);
+  for (int k = 0; k < n + 2; ++k) mixing.step(x, a * x + b);
+  CHECK((x - exact).norm() < 1e-4 * exact.norm());
+  mixing.forget();
+  const Eigen::VectorXd image = a * x + b;
+  mixing.step(x, image);
+  CHECK(x == image);  // nothing remembered: the plain step
+}
