@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,8 @@ class GaussSeidel final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     // The cost of looking at the error stays below about 15 %.
     Iteration iteration(budget, {4, 1.25});
-    order_.begin(variant_, variant_.plain() ? 0 : problem.contact_count());
+    order_.resize(variant_.plain() ? 0 : problem.contact_count());
+    std::iota(order_.begin(), order_.end(), 0);
     allow_single(*sweep_, budget);
     const auto load = [&] { sweep_->load(problem, r); };
     load();
@@ -33,7 +35,7 @@ class GaussSeidel final : public Solver {
       if (variant_.plain())
         sweep_->sweep();
       else
-        sweep_->sweep_by(variant_, order_.next());
+        sweep_->sweep_by(variant_, order_);
       if (iteration.error_due())
         iteration.evaluated(swept_error(*sweep_, problem, iteration, r, load), r);
     }
@@ -42,7 +44,7 @@ class GaussSeidel final : public Solver {
 
  private:
   SweepVariant variant_;
-  ContactOrder order_;
+  std::vector<int> order_;  ///< of the variants
   AnySweep sweep_;
 };
 

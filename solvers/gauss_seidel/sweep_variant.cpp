@@ -1,8 +1,6 @@
 #include "solvers/gauss_seidel/sweep_variant.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
 
 #include "problems/algebra/friction_cone.hpp"
 
@@ -83,24 +81,6 @@ void solve_exactly(const PrincipalContact& contact, const double* u, double* y, 
 }
 
 }  // namespace
-
-void ContactOrder::begin(const SweepVariant& variant, int contacts) {
-  order_ = variant.order;
-  random_ = SplitMix64(variant.seed);
-  contacts_.resize(contacts);
-  std::iota(contacts_.begin(), contacts_.end(), 0);
-  first_ = true;
-}
-
-const std::vector<int>& ContactOrder::next() {
-  if (order_ == SweepOrder::symmetric && !first_) std::reverse(contacts_.begin(), contacts_.end());
-  // Fisher-Yates: every order is equally likely.
-  if (order_ == SweepOrder::random)
-    for (int i = static_cast<int>(contacts_.size()) - 1; i > 0; --i)
-      std::swap(contacts_[i], contacts_[random_.below(i + 1)]);
-  first_ = false;
-  return contacts_;
-}
 
 void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& contact,
                         double lambda_max, const double* u, double* y, double& slip) {

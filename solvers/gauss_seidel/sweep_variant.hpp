@@ -1,11 +1,7 @@
 #pragma once
-// Other ways to sweep than the plain one, for comparison: how one contact is solved, relaxation,
-// order. The plain sweep has its own fast loop and never comes here.
+// Other ways to sweep than the plain one, for comparison: how one contact is solved, and
+// relaxation. The plain sweep has its own fast loop and never comes here.
 
-#include <cstdint>
-#include <vector>
-
-#include "platform/random.hpp"
 #include "solvers/parts/one_contact.hpp"
 
 namespace ballast {
@@ -18,35 +14,11 @@ enum class LocalRule {
                ///< solution
 };
 
-enum class SweepOrder {
-  forward,
-  symmetric,  ///< forward, then backward, by turns
-  random      ///< shuffled before every sweep
-};
-
 struct SweepVariant {
   LocalRule rule = LocalRule::exact;
-  SweepOrder order = SweepOrder::forward;
   double relaxation = 1.0;  ///< in (0, 2): of each contact's change, projected back onto the cone
-  std::uint64_t seed = 1;   ///< of SweepOrder::random
 
-  bool plain() const {
-    return rule == LocalRule::exact && order == SweepOrder::forward && relaxation == 1.0;
-  }
-};
-
-/// In which order the contacts come. The same for the same seed.
-class ContactOrder {
- public:
-  void begin(const SweepVariant& variant, int contacts);
-  /// For the next sweep.
-  const std::vector<int>& next();
-
- private:
-  SweepOrder order_ = SweepOrder::forward;
-  SplitMix64 random_{1};
-  std::vector<int> contacts_;
-  bool first_ = true;
+  bool plain() const { return rule == LocalRule::exact && relaxation == 1.0; }
 };
 
 /// One contact while all others are held. y = (r_N + c . r_T, r_T): in, the impulse; out, the next

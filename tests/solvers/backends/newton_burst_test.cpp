@@ -12,12 +12,11 @@ using namespace ballast;
 namespace {
 
 FrictionProblem deficient(std::uint64_t seed) {
-  KnownSolutionSettings settings;
-  settings.bodies = 20;
-  settings.contacts = 120;  // 360 rows on 120 unknowns
-  settings.seed = seed;
-  settings.mass_ratio = seed % 2 ? 1.0 : 100.0;
-  return make_known_solution(settings).problem;
+  return make_known_solution({.bodies = 20,
+                              .contacts = 120,  // 360 rows on 120 unknowns
+                              .mass_ratio = seed % 2 ? 1.0 : 100.0,
+                              .seed = seed})
+      .problem;
 }
 
 }  // namespace
@@ -45,10 +44,7 @@ TEST_CASE("without sweeps worth the name Newton's steps carry the solve", "[fact
 }
 
 TEST_CASE("where sweeps are enough it is nesterov_pgs, bit for bit", "[factors]") {
-  KnownSolutionSettings settings;
-  settings.bodies = 60;
-  settings.contacts = 90;
-  const FrictionProblem problem = make_known_solution(settings).problem;
+  const FrictionProblem problem = make_known_solution({.bodies = 60, .contacts = 90}).problem;
   const Budget budget{.tolerance = 1e-3, .max_iterations = 5000};
   const auto sweeps = make_nesterov_pgs(), solver = make_newton_burst();
   const SolverRun by_sweeps = SolverRunner().run(*sweeps, problem, {}, budget);

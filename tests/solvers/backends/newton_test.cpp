@@ -10,12 +10,10 @@ TEST_CASE("the proximal Newton solves rank-deficient problems of unequal masses,
           "[factors]") {
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    KnownSolutionSettings settings;
-    settings.bodies = 20;
-    settings.contacts = 120;  // 360 rows on 120 unknowns
-    settings.seed = seed;
-    settings.mass_ratio = seed % 2 ? 1.0 : 100.0;
-    const KnownSolution known = make_known_solution(settings);
+    const KnownSolution known = make_known_solution({.bodies = 20,
+                                                     .contacts = 120,  // 360 rows on 120 unknowns
+                                                     .mass_ratio = seed % 2 ? 1.0 : 100.0,
+                                                     .seed = seed});
     const auto solver = make_proximal_newton();
     const SolverRun run =
         SolverRunner().run(*solver, known.problem, {},
@@ -29,10 +27,7 @@ TEST_CASE("the proximal Newton solves rank-deficient problems of unequal masses,
 }
 
 TEST_CASE("the proximal Newton sweeps a warm start as well, and never loses it", "[factors]") {
-  KnownSolutionSettings settings;
-  settings.bodies = 60;
-  settings.contacts = 90;
-  const KnownSolution known = make_known_solution(settings);
+  const KnownSolution known = make_known_solution({.bodies = 60, .contacts = 90});
   const Budget budget{.tolerance = 1e-6, .max_iterations = 50};
   for (const bool accelerated : {false, true}) {
     const auto solver = make_proximal_newton({.start_sweeps = 2000, .accelerated = accelerated});

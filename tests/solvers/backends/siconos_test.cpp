@@ -17,11 +17,7 @@ using namespace ballast;
 namespace {
 
 FrictionProblem small_problem() {
-  KnownSolutionSettings settings;
-  settings.bodies = 12;
-  settings.contacts = 20;
-  settings.seed = 5;
-  return make_known_solution(settings).problem;
+  return make_known_solution({.bodies = 12, .contacts = 20, .seed = 5}).problem;
 }
 
 SolverRun solved_to(const FrictionProblem& problem, SiconosMethod method, double tolerance) {

@@ -1,6 +1,5 @@
 #include "solvers/gauss_seidel/sweep_variant.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "problems/algebra/friction_cone.hpp"
@@ -99,24 +98,4 @@ TEST_CASE("a solution is what no variant leaves") {
     sweep->store(known.problem, r);
     CHECK((r - known.r).norm() <= 1e-9 * known.r.norm());
   }
-}
-
-TEST_CASE(
-    "orders: every contact once, backward after forward, shuffled the same for the same seed") {
-  ContactOrder order, again;
-  order.begin({.order = SweepOrder::symmetric}, 5);
-  CHECK(order.next() == std::vector<int>{0, 1, 2, 3, 4});
-  CHECK(order.next() == std::vector<int>{4, 3, 2, 1, 0});
-  CHECK(order.next() == std::vector<int>{0, 1, 2, 3, 4});
-
-  const SweepVariant random{.order = SweepOrder::random, .seed = 3};
-  order.begin(random, 50);
-  again.begin(random, 50);
-  const std::vector<int> first = order.next();
-  CHECK(first == again.next());
-  const std::vector<int> second = order.next();
-  CHECK(second != first);
-  std::vector<int> sorted = second;
-  std::sort(sorted.begin(), sorted.end());
-  for (int c = 0; c < 50; ++c) CHECK(sorted[c] == c);
 }

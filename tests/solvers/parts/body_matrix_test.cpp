@@ -133,11 +133,9 @@ TEST_CASE("with unit masses it is solved like a dense one", "[factors]") {
   for (const int bodies : {1, 5, 30})
     for (const double stiffness : {1.0, 1e5}) {
       CAPTURE(bodies, stiffness);
-      KnownSolutionSettings settings;
-      settings.bodies = bodies;
-      settings.contacts = 3 * bodies;
-      settings.mass_ratio = 10.0;
-      const FrictionProblem problem = make_known_solution(settings).problem;
+      const FrictionProblem problem =
+          make_known_solution({.bodies = bodies, .contacts = 3 * bodies, .mass_ratio = 10.0})
+              .problem;
       contacts.prepare(problem);
       matrix.prepare(contacts);
       const std::vector<Eigen::Matrix3d> gains =

@@ -71,11 +71,7 @@ void check_solves(const FrictionProblem& problem, const Eigen::MatrixXd& w,
 }
 
 FrictionProblem stored_pile(int contacts, double redundancy) {
-  PileSettings settings;
-  settings.contacts = contacts;
-  settings.redundancy = redundancy;
-  settings.is_stored = true;
-  return make_pile(settings);
+  return make_pile({.contacts = contacts, .redundancy = redundancy, .is_stored = true});
 }
 
 }  // namespace

@@ -16,11 +16,7 @@ using Eigen::Vector3d;
 namespace {
 
 KnownSolution some_solution(int bodies, int contacts) {
-  KnownSolutionSettings settings;
-  settings.bodies = bodies;
-  settings.contacts = contacts;
-  settings.friction_min = 0.2;
-  return make_known_solution(settings);
+  return make_known_solution({.bodies = bodies, .contacts = contacts, .friction_min = 0.2});
 }
 
 Vector3d random_vector(Random& random) {
