@@ -4,7 +4,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "experiments/box/packing_cache.hpp"
+#include "experiments/box/packing.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "problems/scene/scene_file.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/box/deposit.hpp"
+#include "experiments/box/packing.hpp"
 
 namespace ballast {
 

@@ -22,10 +22,9 @@ namespace {
 
 struct ExportOptions {
   std::filesystem::path source, output;
-  std::optional<ExportFormat> format;  ///< without one the output's suffix says it
-  std::optional<double> time;          ///< [s]
+  std::optional<double> time;  ///< [s]
   bool all = false;
-  std::string format_word, time_word, view_word, frames_word;
+  std::string time_word, view_word, frames_word;
   std::optional<std::pair<size_t, size_t>> frames;  ///< of pictures: numbers of the first and last
   StillOptions still;
 };
@@ -38,11 +37,6 @@ std::optional<double> parsed_time(const std::string& word) {
   return time;
 }
 
-std::optional<ExportFormat> parsed_format(const std::string& word) {
-  if (word.empty() || word == "png") return std::nullopt;
-  return export_format(word);
-}
-
 /// "35" or "20:40".
 std::optional<std::pair<size_t, size_t>> parsed_frames(const std::string& word) {
   if (word.empty()) return std::nullopt;
@@ -53,22 +47,18 @@ std::optional<std::pair<size_t, size_t>> parsed_frames(const std::string& word) 
   return std::pair(static_cast<size_t>(*first), static_cast<size_t>(*last));
 }
 
-MotionState state_of(const PoseFrame& frame) {
-  return {frame.time, frame.step, frame.pose, frame.velocity, frame.spin};
-}
-
-std::vector<PoseFrame> frames_of(const std::filesystem::path& folder) {
-  std::vector<PoseFrame> frames = read_poses(folder);
+std::vector<MotionState> frames_of(const std::filesystem::path& folder) {
+  std::vector<MotionState> frames = read_poses(folder);
   if (frames.empty()) throw Error(folder.string() + ": no poses are stored there");
   return frames;
 }
 
 /// The stored frame nearest in time.
-size_t frame_at(const std::vector<PoseFrame>& frames, double time) {
-  const auto nearest =
-      std::min_element(frames.begin(), frames.end(), [&](const PoseFrame& a, const PoseFrame& b) {
-        return std::abs(a.time - time) < std::abs(b.time - time);
-      });
+size_t frame_at(const std::vector<MotionState>& frames, double time) {
+  const auto nearest = std::min_element(frames.begin(), frames.end(),
+                                        [&](const MotionState& a, const MotionState& b) {
+                                          return std::abs(a.time - time) < std::abs(b.time - time);
+                                        });
   return static_cast<size_t>(nearest - frames.begin());
 }
 
@@ -79,14 +69,12 @@ void require_bodies(const ExportOptions& options, const MechanicalSystem& system
 }
 
 /// Every stored frame as a file of its own.
-ExitCode export_all(const ExportOptions& options, const MechanicalSystem& system,
-                    ExportFormat format) {
-  std::vector<MotionState> states;
-  for (const PoseFrame& frame : frames_of(options.source)) {
-    require_bodies(options, system, frame.pose.size());
-    states.push_back(state_of(frame));
-  }
-  export_series(system, states, format, options.output);
+ExitCode export_all(const ExportOptions& options, const MechanicalSystem& system) {
+  const std::vector<MotionState> states = frames_of(options.source);
+  require_bodies(options, system, states.front().pose.size());
+  std::optional<RecordForces> forces;
+  if (const auto record = options.source / "record.h5"; is_there(record)) forces.emplace(record);
+  export_series(system, states, forces ? &*forces : nullptr, options.output);
   std::cout << series_file(options.output, states.front().step).string() << " to "
             << series_file(options.output, states.back().step).filename().string() << ": "
             << states.size() << " states from " << states.front().time << " s to "
@@ -101,7 +89,7 @@ ExitCode export_picture(const ExportOptions& options) {
   if (options.still.with_chains && !view->contacts)
     throw Error(options.source.string() +
                 ": no forces are stored there (--set record.forces=true)");
-  const std::vector<PoseFrame>& frames = view->frames;
+  const std::vector<MotionState>& frames = view->frames;
   const size_t one = frame_at(frames, options.time.value_or(frames.back().time));
   const auto [first, last] = options.frames.value_or(std::pair(one, one));
   if (last >= frames.size())
@@ -116,11 +104,7 @@ ExitCode export_picture(const ExportOptions& options) {
 }
 
 ExitCode export_run(const ExportOptions& options) {
-  if (options.format_word == "png" ||
-      (options.format_word.empty() && options.output.extension() == ".png"))
-    return export_picture(options);
-  const ExportFormat format =
-      options.format ? *options.format : export_format_of_suffix(options.output);
+  if (options.output.extension() == ".png") return export_picture(options);
   if (!is_there(options.source))
     throw Error(options.source.string() + ": no such run folder or checkpoint");
   const bool from_folder = is_folder(options.source);
@@ -130,13 +114,13 @@ ExitCode export_run(const ExportOptions& options) {
       from_folder ? options.source : std::filesystem::absolute(options.source).parent_path();
   MotionState state;
   const MechanicalSystem system = recorded_system(folder, state);
-  if (options.all) return export_all(options, system, format);
+  if (options.all) return export_all(options, system);
   if (!from_folder)
     state = read_checkpoint(options.source).state;
   else if (options.time)
-    state = state_of(frames_of(folder)[frame_at(frames_of(folder), *options.time)]);
+    state = frames_of(folder)[frame_at(frames_of(folder), *options.time)];
   require_bodies(options, system, state.pose.size());
-  export_state(system, state, format, options.output);
+  export_state(system, state, options.output);
   std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step
             << '\n';
   return ExitCode::ok;
@@ -150,26 +134,22 @@ Command export_command() {
       "export",
       "Writes one state of a run, or all, for other programs",
       {{"source", &options->source, "A run's folder, or a checkpoint in it", required},
-       {"--format FORMAT", &options->format_word,
-        "obj: grains as meshes; text: a table of bodies; vtp: ParaView; engines: two files for "
-        "other engines' benches; png: a picture (default: what the suffix .obj, .txt, .vtp or "
-        ".png says)",
-        into(options->format, parsed_format)},
-       {"--output FILE", &options->output, "The file to write", required},
+       {"--output FILE", &options->output,
+        "The file to write: .obj, grains as meshes; .vtp, for ParaView; .png, a picture", required},
        {"--time S", &options->time_word, "The stored frame nearest to this time [s]",
         into(options->time, parsed_time)},
        {"--frames N", &options->frames_word,
-        "png: number of the stored frame (the last); FIRST:LAST: a picture that moves",
+        ".png: number of the stored frame (the last); FIRST:LAST: a picture that moves",
         into(options->frames, parsed_frames)},
-       {"--view FROM", &options->view_word, "png: home, x, -x, y, -y, z, or YAW,PITCH in degrees",
+       {"--view FROM", &options->view_word, ".png: home, x, -x, y, -y, z, or YAW,PITCH in degrees",
         parsed([options](const std::string& word) { set_view(options->still, word); })},
        {"--chains", &options->still.with_chains,
-        "png: force chains, bodies as glass; needs a run with record.forces"},
+        ".png: force chains, bodies as glass; needs a run with record.forces"},
        {"--width PIXELS", &options->still.width, "png", between(16, 8000), shown},
        {"--height PIXELS", &options->still.height, "png", between(16, 8000), shown},
        {"--all", &options->all,
-        "Every stored frame: FILE with _<step> before its suffix; with vtp also FILE.pvd, "
-        "which ParaView opens as one series",
+        "Every stored frame: FILE with _<step> before its suffix; with .vtp also the .pvd that "
+        "ParaView opens as one series, and the contacts of a run with record.forces",
         excludes("--time")}},
       [options] { return export_run(*options); }};
 }

@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "experiments/box/packing_cache.hpp"
+#include "experiments/box/packing.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "experiments/plans/plan_runner.hpp"

@@ -1,11 +1,11 @@
 #include "experiments/export/state_export.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "experiments/export/vtp_file.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/deflate.hpp"
 #include "platform/error.hpp"
+#include "platform/pack.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -13,31 +13,6 @@ namespace ballast {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::pair<const char*, ExportFormat> format_names[] = {
-    {"obj", ExportFormat::obj},
-    {"text", ExportFormat::text},
-    {"vtp", ExportFormat::vtp},
-    {"engines", ExportFormat::engines}};
-
-/// Blanks would split a name into columns.
-std::string one_word(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return c <= ' '; }, '_');
-  return name.empty() ? "_" : name;
-}
-
-Vec3 world_spin(const MotionState& state, size_t body) {
-  return state.pose[body].rotation * state.spin[body];
-}
-
-void print_vector(AtomicFile& file, const Vec3& value) {
-  file.print(" %.17g %.17g %.17g", value.x(), value.y(), value.z());
-}
-
-void print_rotation(AtomicFile& file, const Quat& q) {
-  file.print(" %.17g %.17g %.17g %.17g", q.w(), q.x(), q.y(), q.z());
-}
 
 /// Wavefront OBJ: polygons stay polygons.
 void export_obj(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
@@ -47,11 +22,13 @@ void export_obj(const MechanicalSystem& system, const MotionState& state, const 
   int first = 1;  // OBJ counts vertices from 1, through the whole file
   for (int b = 0; b < system.grain_count; ++b) {
     const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
-    file.print("o %s\n", one_word(system.bodies[b].name).c_str());
+    std::string name = system.bodies[b].name;  // blanks would split it
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return c <= ' '; }, '_');
+    file.print("o %s\n", name.c_str());
     for (const Vec3& vertex : shape.vertices()) {
-      file.write("v");
-      print_vector(file, state.pose[b] * vertex);
-      file.write("\n");
+      const Vec3 place = state.pose[b] * vertex;
+      file.print("v %.17g %.17g %.17g\n", place.x(), place.y(), place.z());
     }
     for (int f = 0; f < shape.face_count(); ++f) {
       file.write("f");
@@ -63,127 +40,127 @@ void export_obj(const MechanicalSystem& system, const MotionState& state, const 
   file.commit();
 }
 
-/// Columns of fixed width, so that a reader can line them up and a program can split at blanks.
-void export_text(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
+/// Inline binary: the count of bytes (UInt64) and the bytes, as one base64 stream.
+template <class Number>
+void write_array(AtomicFile& file, const char* name, const std::vector<Number>& values,
+                 int components = 1) {
+  Packer packer;
+  packer.number(std::uint64_t{values.size() * sizeof(Number)});
+  packer.fixed(values);
+  file.print("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">",
+             std::is_same_v<Number, float> ? "Float32" : "Int32", name, components);
+  file.write(base64(packer.bytes()));
+  file.write("</DataArray>\n");
+}
+
+template <class Vector>
+void append(std::vector<float>& values, const Vector& vector) {
+  for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(vector[k]));
+}
+
+/// Polygons or single points by their vertices, of which `offsets` says where each one ends.
+struct VtpCells {
+  std::vector<float> points;
+  std::vector<std::int32_t> connectivity, offsets;
+};
+
+/// `element`: "Polys" or "Verts"; `write_data` writes the arrays that belong to them.
+template <class WriteData>
+void write_vtp(const fs::path& path, double time, const std::string& element, const VtpCells& cells,
+               WriteData&& write_data) {
   AtomicFile file(path);
   file.print(
-      "# ballast: %zu bodies at t = %.17g s, step %ld; SI units, world frame; q: body frame "
-      "(principal axes) to "
-      "world\n",
-      system.bodies.size(), state.time, state.step);
-  file.print("%-16s", "name");
-  for (const char* column :
-       {"mass", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"})
-    file.print(" %24s", column);
-  file.write("\n");
-  for (size_t b = 0; b < system.bodies.size(); ++b) {
-    const RigidBody& body = system.bodies[b];
-    const Pose& pose = state.pose[b];
-    const Vec3 &v = state.velocity[b], w = world_spin(state, b);
-    const Quat& q = pose.rotation;
-    file.print("%-16s", one_word(body.name).c_str());
-    for (const double value :
-         {body.mass, pose.position.x(), pose.position.y(), pose.position.z(), q.w(), q.x(), q.y(),
-          q.z(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()})
-      file.print(" %24.17g", value);
-    file.write("\n");
-  }
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n"
+      "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+      "format=\"ascii\">%.17g</DataArray></FieldData>\n",
+      time);
+  const size_t count = cells.offsets.size();
+  file.print(
+      "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"0\" "
+      "NumberOfStrips=\"0\" NumberOfPolys=\"%zu\">\n",
+      cells.points.size() / 3, element == "Verts" ? count : 0, element == "Polys" ? count : 0);
+  write_data(file);
+  file.write("<Points>\n");
+  write_array(file, "Points", cells.points, 3);
+  file.print("</Points>\n<%s>\n", element.c_str());
+  write_array(file, "connectivity", cells.connectivity);
+  write_array(file, "offsets", cells.offsets);
+  file.print("</%s>\n</Piece>\n</PolyData>\n</VTKFile>\n", element.c_str());
   file.commit();
 }
 
-/// The square box of the engines' format: side L, and where its floor's centre lies in our world.
-struct EngineBox {
-  double side = 0.0;
-  Vec3 centre = Vec3::Zero();
-};
-
-EngineBox engine_box(const MechanicalSystem& system, const MotionState& state,
-                     const fs::path& path) {
-  const double unset = std::nan("");
-  double lo[3] = {unset, unset, unset}, hi[3] = {unset, unset, unset};
-  // a wall whose normal points along an axis is the box's lower side there, against it the upper
-  for (size_t b = 0; b < system.bodies.size(); ++b) {
-    if (!system.bodies[b].is_wall()) continue;
-    const Vec3 normal = state.pose[b].rotation * system.bodies[b].shape.plane.normal;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (normal[axis] > 1.0 - 1e-12) lo[axis] = state.pose[b].position[axis];
-      if (normal[axis] < -1.0 + 1e-12) hi[axis] = state.pose[b].position[axis];
+void write_grains_vtp(const MechanicalSystem& system, const MotionState& state,
+                      const fs::path& path) {
+  VtpCells cells;
+  std::vector<float> mass, speed, velocity;
+  std::vector<std::int32_t> grain;
+  // cell data stand once for each face: all faces of a grain carry the grain's
+  for (int b = 0; b < system.grain_count; ++b) {
+    const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
+    const auto first = static_cast<std::int32_t>(cells.points.size() / 3);
+    for (const Vec3& vertex : shape.vertices()) append(cells.points, state.pose[b] * vertex);
+    for (int f = 0; f < shape.face_count(); ++f) {
+      for (const int v : shape.face(f)) cells.connectivity.push_back(first + v);
+      cells.offsets.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
+      grain.push_back(b);
+      mass.push_back(static_cast<float>(system.bodies[b].mass));
+      speed.push_back(static_cast<float>(state.velocity[b].norm()));
+      append(velocity, state.velocity[b]);
     }
   }
-  const double width_x = hi[0] - lo[0], width_y = hi[1] - lo[1];
-  if (!(width_x > 0.0 && width_y > 0.0) || std::isnan(lo[2]))
-    throw Error(path.string() +
-                ": cannot write as 'engines': the system has no floor and four upright walls");
-  const double side = std::max(width_x, width_y);
-  if (std::abs(width_x - width_y) > 0.01 * side)
-    throw Error(path.string() + ": cannot write as 'engines': the box is " +
-                std::to_string(width_x) + " m by " + std::to_string(width_y) +
-                " m, that format has square ones only");
-  return {side, Vec3(0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]), lo[2])};
+  write_vtp(path, state.time, "Polys", cells, [&](AtomicFile& file) {
+    file.write("<CellData Scalars=\"speed\" Vectors=\"velocity\">\n");
+    write_array(file, "grain", grain);
+    write_array(file, "mass", mass);
+    write_array(file, "speed", speed);
+    write_array(file, "velocity", velocity, 3);
+    file.write("</CellData>\n");
+  });
 }
 
-/// One grain of the scene: the counts, the constants, the pose, then its shape as triangles.
-void write_engine_grain(AtomicFile& file, const RigidBody& body, const Pose& pose,
-                        const Vec3& centre) {
-  const Polyhedron& shape = *body.shape.polyhedron;
-  // A polygon of n corners is a fan of n - 2 triangles.
-  size_t triangles = 0;
-  for (int f = 0; f < shape.face_count(); ++f) triangles += shape.face(f).size() - 2;
-  file.print("%d %zu %.17g %.17g", shape.vertex_count(), triangles, shape.circumradius(),
-             body.mass);
-  print_vector(file, body.inertia);
-  print_vector(file, pose.position - centre);
-  print_rotation(file, pose.rotation);
-  file.write("\n");
-  for (const Vec3& v : shape.vertices()) file.print("%.17g %.17g %.17g\n", v.x(), v.y(), v.z());
-  for (int f = 0; f < shape.face_count(); ++f) {
-    const auto loop = shape.face(f);
-    for (size_t k = 2; k < loop.size(); ++k)
-      file.print("%d %d %d\n", loop[0], loop[k - 1], loop[k]);
+/// Each contact is a cell of one point.
+void write_contacts_vtp(const std::vector<FrameContact>& contacts, double time,
+                        const fs::path& path) {
+  VtpCells cells;
+  std::vector<float> force, normal_force;
+  for (const FrameContact& contact : contacts) {
+    append(cells.points, contact.position);
+    append(force, contact.force);
+    append(normal_force, contact.force.dot(contact.normal) * contact.normal);
+    cells.connectivity.push_back(static_cast<std::int32_t>(cells.offsets.size()));
+    cells.offsets.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
   }
+  write_vtp(path, time, "Verts", cells, [&](AtomicFile& file) {
+    file.write("<PointData Vectors=\"normal_force\">\n");
+    write_array(file, "force", force, 3);
+    write_array(file, "normal_force", normal_force, 3);
+    file.write("</PointData>\n");
+  });
 }
 
-void export_engines(const MechanicalSystem& system, const MotionState& state,
-                    const fs::path& path) {
-  const EngineBox box = engine_box(system, state, path);
-  double volume = 0.0;
-  for (int b = 0; b < system.grain_count; ++b) volume += system.bodies[b].volume;
-  AtomicFile scene(path), motion(path.string() + ".state");
-  // A line for all: number of grains, side of the box, friction, density; then grain by grain.
-  scene.print("%d %.17g %.17g %.17g\n", system.grain_count, box.side, system.friction,
-              system.mass_of_grains() / volume);
-  for (int b = 0; b < system.grain_count; ++b) {
-    write_engine_grain(scene, system.bodies[b], state.pose[b], box.centre);
-    const Vec3 position = state.pose[b].position - box.centre;
-    motion.print("%.17g %.17g %.17g", position.x(), position.y(), position.z());
-    print_rotation(motion, state.pose[b].rotation);
-    print_vector(motion, state.velocity[b]);
-    print_vector(motion, world_spin(state, b));
-    motion.write("\n");
-  }
-  scene.commit();
-  motion.commit();
+/// A .pvd beside the files of a series: it names them with their times [s].
+void write_pvd(const fs::path& series, std::span<const MotionState> states) {
+  AtomicFile file(fs::path(series).replace_extension(".pvd"));
+  file.write(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n");
+  for (const MotionState& state : states)
+    file.print("<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s\"/>\n", state.time,
+               series_file(series, state.step).filename().c_str());
+  file.write("</Collection>\n</VTKFile>\n");
+  file.commit();
 }
 
 }  // namespace
 
-ExportFormat export_format(const std::string& name) {
-  std::vector<std::string> names;
-  for (const auto& [known, format] : format_names) {
-    if (name == known) return format;
-    names.emplace_back(known);
-  }
-  throw Error("no export format '" + name + "'" + did_you_mean(name, names) + ": there are " +
-              joined(names));
-}
-
-ExportFormat export_format_of_suffix(const fs::path& file) {
+void export_state(const MechanicalSystem& system, const MotionState& state, const fs::path& file) {
   const std::string suffix = file.extension().string();
-  if (suffix == ".obj") return ExportFormat::obj;
-  if (suffix == ".txt") return ExportFormat::text;
-  if (suffix == ".vtp") return ExportFormat::vtp;
+  if (suffix == ".obj") return export_obj(system, state, file);
+  if (suffix == ".vtp") return write_grains_vtp(system, state, file);
   throw Error(file.string() + ": the suffix '" + suffix +
-              "' says no format: give .obj, .txt or .vtp, or --format");
+              "' says no format: give .obj, .vtp or, for a picture, .png");
 }
 
 fs::path series_file(const fs::path& file, long step) {
@@ -192,29 +169,17 @@ fs::path series_file(const fs::path& file, long step) {
 }
 
 void export_series(const MechanicalSystem& system, std::span<const MotionState> states,
-                   ExportFormat format, const fs::path& file) {
+                   const RecordForces* forces, const fs::path& file) {
   if (file.has_parent_path()) create_folder(file.parent_path());
-  std::vector<std::pair<double, std::string>> frames;
-  for (const MotionState& state : states) {
-    const fs::path frame = series_file(file, state.step);
-    export_state(system, state, format, frame);
-    frames.emplace_back(state.time, frame.filename().string());
-  }
-  if (format == ExportFormat::vtp) write_pvd(fs::path(file).replace_extension(".pvd"), frames);
-}
-
-void export_state(const MechanicalSystem& system, const MotionState& state, ExportFormat format,
-                  const fs::path& file) {
-  switch (format) {
-    case ExportFormat::obj:
-      return export_obj(system, state, file);
-    case ExportFormat::text:
-      return export_text(system, state, file);
-    case ExportFormat::vtp:
-      return write_grains_vtp(file, system, state);
-    case ExportFormat::engines:
-      return export_engines(system, state, file);
-  }
+  for (const MotionState& state : states)
+    export_state(system, state, series_file(file, state.step));
+  if (file.extension() != ".vtp") return;
+  write_pvd(file, states);
+  if (!forces || forces->frame_count() != states.size()) return;
+  const fs::path contacts = file.parent_path() / (file.stem().string() + "_contacts.vtp");
+  for (size_t k = 0; k < states.size(); ++k)
+    write_contacts_vtp(forces->of_frame(k), states[k].time, series_file(contacts, states[k].step));
+  write_pvd(contacts, states);
 }
 
 }  // namespace ballast

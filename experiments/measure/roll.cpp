@@ -10,11 +10,11 @@ bool is_between(double x, double lo, double hi) { return x >= lo && x <= hi; }
 
 }  // namespace
 
-std::vector<Displacement> period_displacements(std::span<const PoseFrame> frames,
+std::vector<Displacement> period_displacements(std::span<const MotionState> frames,
                                                std::span<const WallPeriod> periods, double h,
                                                size_t grains) {
   const auto frame_at = [&](double time) {
-    return std::find_if(frames.begin(), frames.end(), [&](const PoseFrame& frame) {
+    return std::find_if(frames.begin(), frames.end(), [&](const MotionState& frame) {
       return std::abs(frame.time - time) < 0.6 * h;
     });
   };

@@ -23,7 +23,7 @@ struct Displacement {
 };
 /// Of the first `grains` bodies over the periods that count, where a frame is stored at both ends
 /// (to a step of `h` [s]).
-std::vector<Displacement> period_displacements(std::span<const PoseFrame> frames,
+std::vector<Displacement> period_displacements(std::span<const MotionState> frames,
                                                std::span<const WallPeriod> periods, double h,
                                                size_t grains);
 

@@ -194,7 +194,7 @@ RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
   return facts;
 }
 
-Roll roll_of_periods(std::span<const PoseFrame> frames, const RunSummary& summary) {
+Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summary) {
   const RunFacts& facts = summary.facts;
   if (!(facts.grains > 0.0)) return {};
   const double length = facts.length, top = facts.height;

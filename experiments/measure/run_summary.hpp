@@ -163,7 +163,7 @@ struct RunSummary {
 
 /// Around the middle half of the box, of a summary's periods. Not known where the facts lack the
 /// box, or no frame stands at a period's ends.
-Roll roll_of_periods(std::span<const PoseFrame> frames, const RunSummary& summary);
+Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summary);
 
 RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts,
                      const WallSettings& settings = {});

@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-#include "experiments/box/packing_cache.hpp"
+#include "experiments/box/packing.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "experiments/step/step_memory.hpp"
+#include "experiments/step/step_record.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {

@@ -28,28 +28,53 @@
 #include <string>
 #include <vector>
 
-#include "experiments/step/step_memory.hpp"
 #include "experiments/step/step_record.hpp"
-#include "geometry/shape/pose.hpp"
 #include "platform/hdf5_file.hpp"
 #include "platform/row_log.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 
-/// One stored frame.
-struct PoseFrame {
-  double time = 0.0;
-  long step = 0;
-  std::vector<Pose> pose;
-  std::vector<Vec3> velocity, spin;  ///< world frame, body frame
+/// One quantity of a log's rows, which becomes one dataset: readers mostly want one quantity over
+/// all rows.
+struct RowPart {
+  std::string name;
+  Hdf5Shape shape = {};  ///< of the part; {}: one number
+  const char *unit = "", *description = "";
+  Hdf5Number number = Hdf5Number::float64;
+  size_t begin = 0;  ///< first of its numbers in a row: RowLayout says it
+
+  size_t size() const;  ///< how many numbers
 };
 
-/// One frame as a row of a log: step, time, then positions, rotations (w x y z), velocities and
-/// spins of all bodies.
-size_t pose_row_size(size_t bodies);
+/// What the rows of a log are, and the group of record.h5 that is made of them.
+struct RowLayout {
+  /// `leading`: numbers before the first part, which are in the log alone.
+  RowLayout(std::string group, std::vector<RowPart> parts, size_t leading = 0);
+
+  std::string group;
+  std::vector<RowPart> parts;
+  size_t row_size;
+};
+
+/// One row per step: the columns of step_columns().
+RowLayout steps_layout();
+/// One row per stored frame: step, time, then positions, rotations (w x y z), velocities and spins
+/// of all bodies.
+RowLayout poses_layout(size_t bodies);
+/// One row per contact of a stored frame: step, time, bodies a and b, position, normal, gap, force
+/// on b. Only where the scene asks for them (record.forces): they are several times as much as the
+/// poses.
+RowLayout contacts_layout();
+
 void pack_pose_row(const MotionState& state, std::vector<double>& row);
-PoseFrame unpack_pose_row(std::span<const double> row);
+MotionState unpack_pose_row(std::span<const double> row);
+
+/// The layout's group with a dataset (rows, shape) for each part, its unit and description as
+/// attributes. All safe rows are read, from the first; no more than a megabyte of them is in
+/// memory. `see` is called with each. Throws Error.
+void add_rows(Hdf5Writer& file, RowReader& rows, const RowLayout& layout,
+              const std::function<void(std::span<const double> row)>& see = {});
 
 /// The logs are read from their first row; all their rows must be safe. `forces`: null where none
 /// were asked for. Throws Error.
@@ -58,46 +83,12 @@ void write_record_file(const std::filesystem::path& file, const MechanicalSystem
                        const std::string& scene_text, const std::string& manifest_text);
 
 std::vector<StepRecord> read_record_steps(const std::filesystem::path& file);
-std::vector<PoseFrame> read_record_poses(const std::filesystem::path& file);
+std::vector<MotionState> read_record_poses(const std::filesystem::path& file);
 
 /// Which generation of bits the results belong to: within one, the same scene gives the same bits.
 /// Raised by one when a change is meant to give other bits; tests/golden is then made anew.
 /// record.h5 names it.
 inline constexpr int bits_generation = 9;
-
-// From a log of rows, which a run that may be killed writes, to datasets of the finished record.
-
-/// The same numbers of every row, which become one dataset: readers mostly want one quantity over
-/// all rows.
-struct RowPart {
-  std::string dataset;
-  size_t begin = 0;      ///< first of the numbers in a row
-  Hdf5Shape shape = {};  ///< of the part; {}: one number
-  const char *unit = "", *description = "";
-  Hdf5Number number = Hdf5Number::float64;
-};
-
-/// Adds a dataset (rows, shape) for each part, with its unit and description as attributes. All
-/// safe rows are read, from the first; no more than a megabyte of them is in memory. `see` is
-/// called with each. Throws Error.
-void add_row_parts(Hdf5Writer& file, RowReader& rows, std::span<const RowPart> parts,
-                   const std::function<void(std::span<const double> row)>& see = {});
-
-// The contact forces of stored frames: a log while a run lives, the group /contacts of record.h5
-// when it ends. Only where the scene asks for them (record.forces): they are several times as much
-// as the poses.
-
-/// One contact of one frame as a row of the log: step, time, bodies a and b, position, normal, gap,
-/// force on b.
-inline constexpr size_t force_row_size = 14;
-
-/// `h`: the step's length, by which an impulse is a force [s].
-void pack_force_row(const MotionState& state, const ContactPoint& contact, const Vec3& impulse,
-                    double h, std::vector<double>& row);
-
-/// The group /contacts: the rows of the log frame by frame. `frame_steps`: the steps of the stored
-/// frames in their order; a frame may have no contact. Throws Error.
-void add_forces(Hdf5Writer& file, RowReader& rows, std::span<const std::int64_t> frame_steps);
 
 /// A contact of a stored frame, for looking at: single precision.
 struct FrameContact {

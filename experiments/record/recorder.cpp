@@ -1,7 +1,5 @@
 #include "experiments/record/recorder.hpp"
 
-#include <optional>
-
 #include "experiments/record/record_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
@@ -41,23 +39,12 @@ std::uint64_t system_key(const MechanicalSystem& system) {
   return hash;
 }
 
-/// The log of steps belongs to this system and has these columns: another program's or another
-/// scene's log is then refused, not misread.
-RowLogHeader steps_header(const MechanicalSystem& system) {
-  RowLogHeader header{"steps", system_key(system), step_columns().size()};
-  for (const StepColumn& column : step_columns()) header.text += std::string(" ") + column.name;
+/// A log belongs to one system and has its columns: another program's or another scene's log is
+/// then refused, not misread.
+RowLogHeader header_of(const RowLayout& layout, const MechanicalSystem& system) {
+  RowLogHeader header{layout.group, system_key(system), layout.row_size};
+  for (const RowPart& part : layout.parts) header.text += ' ' + part.name;
   return header;
-}
-
-RowLogHeader poses_header(const MechanicalSystem& system) {
-  const size_t bodies = system.bodies.size();
-  return {"poses " + std::to_string(bodies) + " bodies: step time position rotation velocity spin",
-          system_key(system), pose_row_size(bodies)};
-}
-
-RowLogHeader forces_header(const MechanicalSystem& system) {
-  return {"forces: step time body_a body_b position normal gap force", system_key(system),
-          force_row_size};
 }
 
 /// Opens a log that is to be continued: of this system, with these columns.
@@ -70,24 +57,22 @@ RowReader open_log(const fs::path& file, const RowLogHeader& expected) {
   return reader;
 }
 
-/// Row k is step k + 1.
-RowWriter continue_steps(const fs::path& file, const RowLogHeader& header, long last_step) {
+/// Begins a log, or cuts one back to the checkpoint of `last_step`: what follows it will be made
+/// again. A row of the steps is a step; rows of frames and contacts begin with theirs.
+RowWriter begin_or_continue(const fs::path& file, const RowLayout& layout,
+                            const MechanicalSystem& system, long last_step) {
+  const RowLogHeader header = header_of(layout, system);
+  if (last_step == 0) return RowWriter(file, header);
   RowReader reader = open_log(file, header);
-  for (long k = 0; k < last_step; ++k)
-    if (reader.next().empty())
-      throw Error(file.string() + ": has " + std::to_string(k) +
-                  " steps, the checkpoint is at step " + std::to_string(last_step));
-  return RowWriter(file, reader, last_step);
-}
-
-/// Keeps the rows up to the checkpoint, of frames or of their contacts: those after it will be made
-/// again.
-RowWriter continue_frames(const fs::path& file, const RowLogHeader& header, long last_step) {
-  RowReader reader = open_log(file, header);
+  const bool is_steps = layout.group == "steps";
   long kept = 0;
-  for (auto row = reader.next(); !row.empty() && row[0] <= static_cast<double>(last_step);
-       row = reader.next())
+  for (auto row = reader.next(); !row.empty(); row = reader.next()) {
+    if (is_steps ? kept == last_step : row[0] > static_cast<double>(last_step)) break;
     ++kept;
+  }
+  if (is_steps && kept < last_step)
+    throw Error(file.string() + ": has " + std::to_string(kept) +
+                " steps, the checkpoint is at step " + std::to_string(last_step));
   return RowWriter(file, reader, kept);
 }
 
@@ -107,79 +92,62 @@ void write_table(const fs::path& target, RowReader& rows) {
   file.commit();
 }
 
-/// A record of earlier steps is not one of this run any more.
-void remove_stale(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error) throw Error(file.string() + ": cannot remove: " + error.message());
-}
-
 }  // namespace
-
-struct Recorder::Impl {
-  fs::path folder;
-  const MechanicalSystem& system;
-  std::optional<RowWriter> steps, poses, forces;
-  std::vector<double> row;
-};
 
 Recorder::Recorder(const fs::path& folder, const MechanicalSystem& system, long last_step,
                    bool with_forces)
-    : impl_(new Impl{folder, system, {}, {}, {}, {}}) {
+    : folder_(folder), system_(system) {
   create_folder(folder / "log");
-  const RowLogHeader of_steps = steps_header(system), of_poses = poses_header(system);
-  // a resumed run cuts its logs back to the checkpoint; a fresh one begins them anew
-  if (last_step > 0) {
-    impl_->steps.emplace(continue_steps(steps_log(folder), of_steps, last_step));
-    impl_->poses.emplace(continue_frames(poses_log(folder), of_poses, last_step));
-  } else {
-    impl_->steps.emplace(steps_log(folder), of_steps);
-    impl_->poses.emplace(poses_log(folder), of_poses);
+  steps_.emplace(begin_or_continue(steps_log(folder), steps_layout(), system, last_step));
+  poses_.emplace(
+      begin_or_continue(poses_log(folder), poses_layout(system.bodies.size()), system, last_step));
+  if (with_forces)
+    forces_.emplace(begin_or_continue(forces_log(folder), contacts_layout(), system, last_step));
+  // A record of earlier steps is not one of this run any more.
+  for (const fs::path& file : {record_file(folder), steps_table(folder)}) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw Error(file.string() + ": cannot remove: " + error.message());
   }
-  if (with_forces && last_step > 0)
-    impl_->forces.emplace(continue_frames(forces_log(folder), forces_header(system), last_step));
-  else if (with_forces)
-    impl_->forces.emplace(forces_log(folder), forces_header(system));
-  remove_stale(record_file(folder));
-  remove_stale(steps_table(folder));
 }
 
-Recorder::~Recorder() = default;
-
 void Recorder::add_step(const StepRecord& record) {
-  impl_->row.clear();
-  for (const StepColumn& column : step_columns()) impl_->row.push_back(record.*column.value);
-  impl_->steps->append(impl_->row);
+  row_.clear();
+  for (const StepColumn& column : step_columns()) row_.push_back(record.*column.value);
+  steps_->append(row_);
 }
 
 void Recorder::add_poses(const MotionState& state) {
-  pack_pose_row(state, impl_->row);
-  impl_->poses->append(impl_->row);
+  pack_pose_row(state, row_);
+  poses_->append(row_);
 }
 
 void Recorder::add_forces(const MotionState& state, const StepMemory& memory, double h) {
   // What is there before the first step belongs to no step of this run.
-  if (!impl_->forces || state.step == 0) return;
+  if (!forces_ || state.step == 0) return;
   for (size_t c = 0; c < memory.contacts.size(); ++c) {
-    pack_force_row(state, memory.contacts[c], memory.impulses[c], h, impl_->row);
-    impl_->forces->append(impl_->row);
+    const ContactPoint& contact = memory.contacts[c];
+    const Vec3 &p = contact.position, &n = contact.normal, force = memory.impulses[c] / h;
+    row_ = {static_cast<double>(state.step), state.time};
+    row_.insert(row_.end(),
+                {static_cast<double>(contact.body_a), static_cast<double>(contact.body_b), p.x(),
+                 p.y(), p.z(), n.x(), n.y(), n.z(), contact.gap, force.x(), force.y(), force.z()});
+    forces_->append(row_);
   }
 }
 
 void Recorder::flush() {
-  impl_->steps->flush();
-  impl_->poses->flush();
-  if (impl_->forces) impl_->forces->flush();
+  for (std::optional<RowWriter>* log : {&steps_, &poses_, &forces_})
+    if (*log) (*log)->flush();
 }
 
 void Recorder::finish(const std::string& scene_text, const std::string& manifest_text) {
   flush();
-  const fs::path& folder = impl_->folder;
-  RowReader steps(steps_log(folder)), poses(poses_log(folder));
-  write_table(steps_table(folder), steps);
+  RowReader steps(steps_log(folder_)), poses(poses_log(folder_));
+  write_table(steps_table(folder_), steps);
   std::optional<RowReader> forces;
-  if (impl_->forces) forces.emplace(forces_log(folder));
-  write_record_file(record_file(folder), impl_->system, steps, poses, forces ? &*forces : nullptr,
+  if (forces_) forces.emplace(forces_log(folder_));
+  write_record_file(record_file(folder_), system_, steps, poses, forces ? &*forces : nullptr,
                     scene_text, manifest_text);
 }
 
@@ -196,17 +164,17 @@ std::vector<StepRecord> read_steps(const fs::path& folder) {
   return steps;
 }
 
-std::vector<PoseFrame> read_poses(const fs::path& folder) {
+std::vector<MotionState> read_poses(const fs::path& folder) {
   if (is_there(record_file(folder))) return read_record_poses(record_file(folder));
   RowReader rows(poses_log(folder));
-  std::vector<PoseFrame> frames;
+  std::vector<MotionState> frames;
   for (auto row = rows.next(); !row.empty(); row = rows.next())
     frames.push_back(unpack_pose_row(row));
   return frames;
 }
 
 void require_same_bodies(const fs::path& folder, const MechanicalSystem& system) {
-  if (is_there(steps_log(folder))) open_log(steps_log(folder), steps_header(system));
+  if (is_there(steps_log(folder))) open_log(steps_log(folder), header_of(steps_layout(), system));
 }
 
 }  // namespace ballast

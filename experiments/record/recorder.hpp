@@ -2,14 +2,11 @@
 // The record of a run: append-only raw logs while it lives, one HDF5 file and one CSV when it ends.
 
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/record/record_file.hpp"
-#include "experiments/step/step_memory.hpp"
-#include "experiments/step/step_record.hpp"
-#include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 
@@ -26,7 +23,6 @@ class Recorder {
   /// another system or other columns.
   Recorder(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step,
            bool with_forces = false);
-  ~Recorder();
 
   /// One call per step: row k is step k + 1.
   void add_step(const StepRecord& row);
@@ -42,14 +38,16 @@ class Recorder {
   void finish(const std::string& scene_text, const std::string& manifest_text);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::filesystem::path folder_;
+  const MechanicalSystem& system_;
+  std::optional<RowWriter> steps_, poses_, forces_;
+  std::vector<double> row_;
 };
 
 /// Reads back what a recorder wrote: record.h5, or where there is none the raw logs of a run still
 /// going. Throws Error.
 std::vector<StepRecord> read_steps(const std::filesystem::path& folder);
-std::vector<PoseFrame> read_poses(const std::filesystem::path& folder);
+std::vector<MotionState> read_poses(const std::filesystem::path& folder);
 
 /// Throws Error where the folder's log was begun with other bodies than these: a mesh file that the
 /// scene names has changed meanwhile. Without a log there is nothing to compare.

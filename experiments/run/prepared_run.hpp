@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "experiments/box/packing_cache.hpp"
+#include "experiments/box/packing.hpp"
 #include "experiments/run/manifest.hpp"
 #include "problems/mechanics/solid_fraction.hpp"
 

@@ -6,7 +6,6 @@
 
 #include <sys/resource.h>
 
-#include "experiments/export/vtp_file.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/capture.hpp"
 #include "experiments/run/prepared_run.hpp"
@@ -53,7 +52,6 @@ class Drive {
         pose_every_(steps_between(scene_.record.pose_rate, h_)),
         state_every_(steps_between(scene_.record.state_rate, h_)),
         progress_(order.telling) {
-    if (scene_.record.paraview) paraview_.emplace(order.folder.path(), run.system, run.state.step);
     if (!order.capture.empty())
       capture_.emplace(CaptureSettings::parse(order.capture), order.folder.capture(), h_,
                        scene_.gravity.norm());
@@ -110,7 +108,6 @@ class Drive {
   void store_poses() {
     recorder_.add_poses(run_.state);
     recorder_.add_forces(run_.state, run_.memory, h_);
-    if (paraview_) paraview_->add(run_.state, run_.memory.contacts, run_.memory.impulses, h_);
   }
 
   Checkpoint checkpoint() const { return {key_, "drive", run_.state, run_.memory, {}}; }
@@ -128,7 +125,6 @@ class Drive {
   TimeStepper stepper_;
   Recorder& recorder_;
   long pose_every_, state_every_;
-  std::optional<ParaviewSeries> paraview_;
   std::optional<StepCapture> capture_;
   Progress progress_;
 };

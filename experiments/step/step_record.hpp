@@ -1,5 +1,6 @@
 #pragma once
-// What every step leaves behind: one row of named scalars. The table of columns is the one source
+// What every step leaves behind: one row of named scalars, and what the next step begins with. The
+// table of columns is the one source
 // of names, units and descriptions for CSV, HDF5 and the pages; it also says which columns are wall
 // clock of a phase of the step. A new column is a member here, a row in the table, and the place
 // where it is measured.
@@ -7,6 +8,8 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "geometry/contact/contact_detector.hpp"
 
 namespace ballast {
 
@@ -52,5 +55,12 @@ double step_seconds(const StepRecord& step);
 /// One entry per step, times `factor` (from SI to what a figure shows).
 std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value,
                                   double factor = 1.0);
+
+/// Warm start and contacts of the last step: with the MotionState, all that the next step depends
+/// on.
+struct StepMemory {
+  std::vector<ContactPoint> contacts;  ///< sorted by (body_a, body_b, feature)
+  std::vector<Vec3> impulses;          ///< on body b, world frame [N s]
+};
 
 }  // namespace ballast

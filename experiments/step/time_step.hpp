@@ -16,7 +16,6 @@
 
 #include "experiments/step/impact_law.hpp"
 #include "experiments/step/overlap_correction.hpp"
-#include "experiments/step/step_memory.hpp"
 #include "experiments/step/step_record.hpp"
 #include "geometry/contact/contact_detector.hpp"
 #include "problems/mechanics/assemble.hpp"

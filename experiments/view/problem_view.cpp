@@ -204,13 +204,13 @@ std::optional<ViewData> view_in_run(const fs::path& folder, const CapturedProble
   MotionState state;
   view.system = recorded_system(folder, state);
   view.friction = view.system.friction;
-  const std::vector<PoseFrame> frames = read_poses(folder);
+  const std::vector<MotionState> frames = read_poses(folder);
   for (const std::vector<int>* ids : {&captured.id_a, &captured.id_b})
     for (const int id : *ids)
       if (id < 0 || static_cast<size_t>(id) >= view.system.bodies.size()) return std::nullopt;
   if (frames.empty()) return std::nullopt;
-  view.frames = {
-      *std::min_element(frames.begin(), frames.end(), [&](const PoseFrame& a, const PoseFrame& b) {
+  view.frames = {*std::min_element(
+      frames.begin(), frames.end(), [&](const MotionState& a, const MotionState& b) {
         return std::abs(a.time - captured.time) < std::abs(b.time - captured.time);
       })};
   view.contacts = [contacts = contacts_of(captured)](size_t) { return contacts; };

@@ -101,7 +101,7 @@ void scan(const Lens& lens, const std::vector<Vec3>& corners, Visit&& visit) {
 
 /// Calls use(grain, outward normal, corners) for every face of every grain.
 template <class Use>
-void for_faces(const ViewData& view, const PoseFrame& frame, Use&& use) {
+void for_faces(const ViewData& view, const MotionState& frame, Use&& use) {
   for (int g = 0; g < view.system.grain_count; ++g) {
     const Pose& pose = frame.pose[static_cast<size_t>(g)];
     const Polyhedron& shape = *view.system.bodies[static_cast<size_t>(g)].shape.polyhedron;
@@ -119,7 +119,7 @@ void for_faces(const ViewData& view, const PoseFrame& frame, Use&& use) {
 Box box_of(const ViewData& view) {
   Box grains;
   double largest = 0.0;
-  for (const PoseFrame& frame : view.frames)
+  for (const MotionState& frame : view.frames)
     for (int g = 0; g < view.system.grain_count; ++g) {
       const auto b = static_cast<size_t>(g);
       const double reach = view.system.bodies[b].shape.polyhedron->circumradius();
@@ -135,7 +135,7 @@ Box box_of(const ViewData& view) {
           (view.frames[0].pose[b].rotation * view.system.bodies[b].shape.plane.normal)[k];
       if (std::abs(side) < 0.999) continue;
       std::vector<double> places;
-      for (const PoseFrame& frame : view.frames) places.push_back(frame.pose[b].position[k]);
+      for (const MotionState& frame : view.frames) places.push_back(frame.pose[b].position[k]);
       // a lid far above what it closes is not part of the picture
       const auto [low, high] = std::minmax_element(places.begin(), places.end());
       if (side > 0.0)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "experiments/box/packing_cache.hpp"
+#include "experiments/box/packing.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
 #include "geometry/shape/mass_properties.hpp"

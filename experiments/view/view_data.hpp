@@ -38,8 +38,8 @@ struct ViewErrors {
 struct ViewData {
   std::string title;
   MechanicalSystem system;
-  bool has_shapes = true;         ///< false: bodies are drawn about what is known of them
-  std::vector<PoseFrame> frames;  ///< at least one
+  bool has_shapes = true;           ///< false: bodies are drawn about what is known of them
+  std::vector<MotionState> frames;  ///< at least one
   /// Those with a force of a frame, by its number; empty: none are known. A run's are read when
   /// they are asked for.
   std::function<std::vector<FrameContact>(size_t frame)> contacts;

@@ -148,7 +148,7 @@ void pack_poses(const ViewData& view, const std::vector<size_t>& chosen, Json& h
   std::vector<Quat> before(grains, Quat::Identity());
   head["times"] = head["steps"] = Json::array();
   for (const size_t f : chosen) {
-    const PoseFrame& frame = view.frames[f];
+    const MotionState& frame = view.frames[f];
     head["times"].push_back(frame.time);
     head["steps"].push_back(frame.step);
     for (size_t g = 0; g < grains; ++g) {
@@ -198,7 +198,7 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
   Bytes mobilised;
   head["contact_frames"] = head["contact_counts"] = Json::array();
   for (const size_t k : thinned(chosen.size(), stride)) {
-    const PoseFrame& frame = view.frames[chosen[k]];
+    const MotionState& frame = view.frames[chosen[k]];
     const std::vector<FrameContact> contacts = view.contacts(chosen[k]);
     // before its first step a run knows no forces: those of the next frame stand for them
     if (frame.step == 0 && contacts.empty()) continue;

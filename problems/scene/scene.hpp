@@ -164,7 +164,6 @@ struct RecordSpec {
   double state_rate =
       0.0;  ///< whole states (with contacts and impulses) kept per simulated second; 0: none
   double checkpoint_seconds = 20;  ///< wall clock between checkpoints
-  bool paraview = false;           ///< .vtp + .pvd beside the record, at pose_rate
   bool forces = false;             ///< contact forces in the record, at pose_rate
 };
 

@@ -94,7 +94,6 @@ SceneKeys record_keys(RecordSpec& s) {
        "([records.md](records.md)); 0: none"},
       {"checkpoint_seconds", &s.checkpoint_seconds, in(positive, "s"),
        "wall clock between checkpoints"},
-      {"paraview", &s.paraview, anything, "`.vtp` and `.pvd` beside the record"},
       {"forces", &s.forces, anything,
        "the contacts of every stored frame, with their forces, in `record.h5`: several times as "
        "much as the poses",

@@ -32,7 +32,7 @@ struct DrivenBox {
 
   const TemporaryFolder place;
   std::filesystem::path folder;
-  std::vector<PoseFrame> frames;
+  std::vector<MotionState> frames;
   std::vector<StepRecord> steps;
 };
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/box/deposit.hpp"
+#include "experiments/box/packing.hpp"
 #include "experiments/record/record_file.hpp"
 #include "experiments/step/time_step.hpp"
 #include "geometry/shape/grain_shapes.hpp"

@@ -73,7 +73,6 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"check", elsewhere}, "notes.txt: unknown kind of file"},
       {{"check", "mesh.obj", "--scale", "0"}, "--scale"},
       {{"export", folder.path().string()}, "--output"},
-      {{"export", folder.path().string(), "--output", "a", "--format", "gif"}, "gif"},
       {{"export", folder.path().string(), "--output", "a", "--time", "noon"}, "noon"},
       {{"export", folder.path().string(), "--output", "a", "--time", "1", "--all"}, "--all"},
       {{"scenes", "incline", "cradle"}, "cradle"},

@@ -2,16 +2,12 @@
 
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
+#include "platform/text.hpp"
+#include "tests/experiments/export/xml_sample.hpp"
 #include "tests/support/sample_run.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
-
-TEST_CASE("formats are found by name") {
-  CHECK(export_format("engines") == ExportFormat::engines);
-  CHECK_THAT(run_error([] { export_format("OBJ"); }),
-             Contains("'OBJ'") && Contains("obj, text, vtp, engines"));
-}
 
 TEST_CASE("obj: a grain comes back as a mesh, in its place") {
   const TemporaryFolder folder;
@@ -19,7 +15,7 @@ TEST_CASE("obj: a grain comes back as a mesh, in its place") {
   MotionState state = sample_state(system, 3);
   system.bodies.erase(system.bodies.begin() + 1, system.bodies.begin() + 3);
   system.grain_count = 1;
-  export_state(system, state, ExportFormat::obj, folder.path() / "grain.obj");
+  export_state(system, state, folder.path() / "grain.obj");
   const PrincipalShape read = to_principal_frame(read_mesh(folder.path() / "grain.obj"));
   CHECK(read.volume == Approx(system.bodies[0].volume).epsilon(1e-12));
   CHECK((read.pose.position - state.pose[0].position).norm() < 1e-14);
@@ -31,7 +27,7 @@ TEST_CASE("obj: every grain is an object of its own vertices") {
   const TemporaryFolder folder;
   const MechanicalSystem system = sample_system();
   const MotionState state = sample_state(system, 3);
-  export_state(system, state, ExportFormat::obj, folder.path() / "all.obj");
+  export_state(system, state, folder.path() / "all.obj");
   std::istringstream lines(file_bytes(folder.path() / "all.obj"));
   std::vector<std::string> objects;
   std::vector<Vec3> vertices;
@@ -61,120 +57,115 @@ TEST_CASE("obj: every grain is an object of its own vertices") {
   }
 }
 
-TEST_CASE("text: one row per body, full precision, spin in the world frame") {
+TEST_CASE("vtp: well-formed, with the faces of all grains") {
   const TemporaryFolder folder;
   const MechanicalSystem system = sample_system();
   const MotionState state = sample_state(system, 3);
-  export_state(system, state, ExportFormat::text, folder.path() / "state.txt");
-  std::istringstream lines(file_bytes(folder.path() / "state.txt"));
-  std::string line, name;
-  REQUIRE((std::getline(lines, line) && line[0] == '#'));
-  REQUIRE((std::getline(lines, line) && line.rfind("name ", 0) == 0));
-  for (size_t b = 0; b < system.bodies.size(); ++b) {
-    REQUIRE(std::getline(lines, line));
-    std::istringstream words(line);
-    double mass, x[13];
-    REQUIRE((words >> name >> mass));
-    for (double& value : x) REQUIRE((words >> value));
-    CHECK_FALSE(words >> name);
-    CHECK(mass == system.bodies[b].mass);
-    CHECK(Vec3(x) == state.pose[b].position);
-    CHECK(x[3] == state.pose[b].rotation.w());
-    CHECK(Vec3(x + 4) == state.pose[b].rotation.vec());
-    CHECK(Vec3(x + 7) == state.velocity[b]);
-    const Quat q(x[3], x[4], x[5], x[6]);
-    CHECK((q.conjugate() * Vec3(x + 10) - state.spin[b]).norm() < 1e-14);
-  }
-  CHECK_FALSE(std::getline(lines, line));
-}
-
-TEST_CASE("engines: what the benches' own reader would read") {
-  const TemporaryFolder folder;
-  MechanicalSystem system = sample_system();
-  MotionState state = sample_state(system, 3);
-  const fs::path file = folder.path() / "scene.txt";
-  export_state(system, state, ExportFormat::engines, file);
-  std::istringstream scene(file_bytes(file)), motion(file_bytes(file.string() + ".state"));
-  int count;
-  double side, mu, density;
-  REQUIRE((scene >> count >> side >> mu >> density));
-  CHECK((count == 3 && side == 0.6 && mu == 0.4 && density == Approx(2700.0).epsilon(1e-14)));
-  for (int b = 0; b < count; ++b) {
-    int vertex_count, face_count;
-    double r, mass, head[10], row[13];
-    REQUIRE((scene >> vertex_count >> face_count >> r >> mass));
-    for (double& value : head) REQUIRE((scene >> value));
-    const RigidBody& body = system.bodies[b];
-    CHECK((mass == body.mass && r == body.shape.polyhedron->circumradius() &&
-           Vec3(head) == body.inertia));
-    std::vector<Vec3> vertices(vertex_count);
-    for (Vec3& vertex : vertices) REQUIRE((scene >> vertex[0] >> vertex[1] >> vertex[2]));
-    double volume = 0.0;
-    for (int f = 0; f < face_count; ++f) {
-      int i, j, k;
-      REQUIRE((scene >> i >> j >> k));
-      volume += vertices.at(i).dot(vertices.at(j).cross(vertices.at(k))) / 6.0;
+  const fs::path file = folder.path() / "state.vtp";
+  export_state(system, state, file);
+  const auto elements = parse_xml(file_bytes(file));
+  const auto points = vtk_array<float>(elements, "Points"),
+             speed = vtk_array<float>(elements, "speed"),
+             velocity = vtk_array<float>(elements, "velocity"),
+             mass = vtk_array<float>(elements, "mass");
+  const auto connectivity = vtk_array<std::int32_t>(elements, "connectivity"),
+             offsets = vtk_array<std::int32_t>(elements, "offsets"),
+             grain = vtk_array<std::int32_t>(elements, "grain");
+  size_t point = 0, face = 0;
+  std::int32_t begin = 0;
+  for (int b = 0; b < 3; ++b) {
+    const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
+    for (int f = 0; f < shape.face_count(); ++f, ++face) {
+      CHECK((grain.at(face) == b && mass.at(face) == static_cast<float>(system.bodies[b].mass)));
+      CHECK(speed.at(face) == static_cast<float>(state.velocity[b].norm()));
+      CHECK(velocity.at(3 * face + 2) == static_cast<float>(state.velocity[b].z()));
+      REQUIRE(offsets.at(face) - begin == static_cast<std::int32_t>(shape.face(f).size()));
+      for (const int v : shape.face(f))
+        CHECK(connectivity.at(begin++) == static_cast<std::int32_t>(point) + v);
     }
-    CHECK(volume == Approx(body.volume).epsilon(1e-12));
-    for (double& value : row) REQUIRE((motion >> value));
-    for (int k = 0; k < 7; ++k) CHECK(row[k] == head[3 + k]);
-    CHECK((Vec3(row) + Vec3(0.3, 0.3, 0.0) - state.pose[b].position).norm() < 1e-15);
-    CHECK(Vec3(row + 7) == state.velocity[b]);
-    CHECK(Vec3(row + 10) == state.pose[b].rotation * state.spin[b]);
+    for (const Vec3& vertex : shape.vertices()) {
+      const Vec3 expected = state.pose[b] * vertex;
+      for (int k = 0; k < 3; ++k)
+        CHECK(points.at(3 * point + k) == static_cast<float>(expected[k]));
+      ++point;
+    }
   }
-  std::string rest;
-  CHECK_FALSE((scene >> rest || motion >> rest));
-
-  state.pose[6].position.x() = 0.58;  // the driven wall
-  CHECK_THAT(run_error([&] { export_state(system, state, ExportFormat::engines, file); }),
-             Contains("square"));
-  system.bodies.pop_back();
-  CHECK_THAT(run_error([&] { export_state(system, state, ExportFormat::engines, file); }),
-             Contains("four upright walls"));
+  CHECK((points.size() == 3 * point && offsets.size() == face &&
+         connectivity.size() == static_cast<size_t>(begin)));
+  for (const XmlElement& element : elements) {
+    if (element.name != "Piece") continue;
+    CHECK(element.attributes.at("NumberOfPoints") == std::to_string(point));
+    CHECK(element.attributes.at("NumberOfPolys") == std::to_string(face));
+  }
+  CHECK_THAT(file_bytes(file), Contains(printed("\"ascii\">%.17g<", state.time)));
 }
 
-TEST_CASE("a file that cannot be written is an error that names it") {
+TEST_CASE(
+    "a file that cannot be written, and a suffix that says no format, are errors that name it") {
   const MechanicalSystem system = sample_system();
   const MotionState state = sample_state(system, 3);
-  for (const ExportFormat format :
-       {ExportFormat::obj, ExportFormat::text, ExportFormat::vtp, ExportFormat::engines}) {
+  for (const char* name : {"out.obj", "out.vtp"}) {
     const TemporaryFolder folder;
-    const fs::path file = folder.path() / "out";
+    const fs::path file = folder.path() / name;
     fs::create_symlink("/dev/full", file.string() + ".tmp");
-    CHECK_THAT(run_error([&] { export_state(system, state, format, file); }),
+    CHECK_THAT(run_error([&] { export_state(system, state, file); }),
                Contains(file.string()) && Contains("No space left"));
     CHECK(fs::is_empty(folder.path()));
-    const fs::path nowhere = folder.path() / "no" / "out";
-    CHECK_THAT(run_error([&] { export_state(system, state, format, nowhere); }),
+    const fs::path nowhere = folder.path() / "no" / name;
+    CHECK_THAT(run_error([&] { export_state(system, state, nowhere); }),
                Contains(nowhere.string()));
   }
+  for (const char* name : {"b", "b.txt", "obj"})
+    CHECK_THAT(run_error([&] { export_state(system, state, name); }),
+               Contains(name) && Contains("says no format"));
 }
 
-TEST_CASE("a suffix says the format, and a slip of the finger is recognised") {
-  CHECK(export_format_of_suffix("a/b.obj") == ExportFormat::obj);
-  CHECK(export_format_of_suffix("b.vtp") == ExportFormat::vtp);
-  CHECK(export_format_of_suffix("b.txt") == ExportFormat::text);
-  for (const char* name : {"b", "b.png", "obj"})
-    CHECK_THAT(run_error([&] { export_format_of_suffix(name); }), Contains("says no format"));
-  CHECK_THAT(run_error([] { export_format("vpt"); }), Contains("did you mean \"vtp\"?"));
-}
-
-TEST_CASE("a whole series: a file for each state, and for ParaView a list with their times") {
+TEST_CASE("a series: files for ParaView with their times, and the contacts of a record") {
   const TemporaryFolder folder;
   const MechanicalSystem system = sample_system();
   const std::vector<MotionState> states{sample_state(system, 0), sample_state(system, 50)};
+  StepMemory memory;
+  for (int c = 0; c < 3; ++c) {
+    memory.contacts.push_back({c, c + 1, 7, Vec3::UnitZ(), Vec3(c, 2, 3), -1e-6});
+    memory.impulses.push_back(2e-4 * Vec3(0.5, 0, 3.0 + c));
+  }
+  Recorder recorder(folder.path(), system, 0, true);
+  for (const MotionState& state : states) {
+    recorder.add_poses(state);
+    recorder.add_forces(state, memory, 2e-4);
+  }
+  recorder.finish("", "");
+  const RecordForces forces(folder.path() / "record.h5");
   const fs::path series = folder.path() / "series";
-  export_series(system, states, ExportFormat::vtp, series / "grains.vtp");
+  export_series(system, states, &forces, series / "grains.vtp");
   for (const MotionState& state : states) {
     const fs::path alone = folder.path() / "alone.vtp";
-    export_state(system, state, ExportFormat::vtp, alone);
+    export_state(system, state, alone);
     CHECK((file_bytes(series_file(series / "grains.vtp", state.step)) == file_bytes(alone)));
   }
   CHECK(series_file("a/grains.vtp", 50) == fs::path("a/grains_00000050.vtp"));
-  const std::string list = file_bytes(series / "grains.pvd");
-  CHECK_THAT(list, Contains("timestep=\"0\" part=\"0\" file=\"grains_00000000.vtp\"") &&
-                       Contains("file=\"grains_00000050.vtp\""));
-  export_series(system, states, ExportFormat::text, series / "state.txt");
-  CHECK(fs::exists(series / "state_00000050.txt"));
+  CHECK_THAT(file_bytes(series / "grains.pvd"),
+             Contains("timestep=\"0\" part=\"0\" file=\"grains_00000000.vtp\"") &&
+                 Contains("file=\"grains_00000050.vtp\""));
+  CHECK_THAT(file_bytes(series / "grains_contacts.pvd"),
+             Contains("timestep=\"0.01\" part=\"0\" file=\"grains_contacts_00000050.vtp\""));
+  // before the first step there are none
+  for (const int count : {0, 3}) {
+    const fs::path file = series_file(series / "grains_contacts.vtp", count == 0 ? 0 : 50);
+    const auto elements = parse_xml(file_bytes(file));
+    const auto points = vtk_array<float>(elements, "Points"),
+               force = vtk_array<float>(elements, "force"),
+               normal_force = vtk_array<float>(elements, "normal_force");
+    REQUIRE((points.size() == 3u * count && force.size() == 3u * count));
+    CHECK(vtk_array<std::int32_t>(elements, "offsets").size() == static_cast<size_t>(count));
+    for (int c = 0; c < count; ++c) {
+      CHECK((points[3 * c] == c && points[3 * c + 2] == 3));
+      CHECK(Eigen::Vector3f(force.data() + 3 * c).isApprox(Eigen::Vector3f(0.5f, 0, 3.0f + c)));
+      CHECK(Eigen::Vector3f(normal_force.data() + 3 * c).isApprox(Eigen::Vector3f(0, 0, 3.0f + c)));
+    }
+  }
+
+  export_series(system, states, nullptr, series / "state.obj");
+  CHECK(fs::exists(series / "state_00000050.obj"));
   CHECK_FALSE(fs::exists(series / "state.pvd"));
 }

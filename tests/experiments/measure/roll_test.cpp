@@ -70,7 +70,7 @@ TEST_CASE("the field's cells hold the means of their grains; cells without grain
 }
 
 TEST_CASE("displacements of whole periods are taken between the frames at their ends") {
-  std::vector<PoseFrame> frames(4);
+  std::vector<MotionState> frames(4);
   for (int k = 0; k < 4; ++k) {
     frames[k].time = 0.1 * k;
     frames[k].pose.resize(2);

@@ -289,7 +289,7 @@ TEST_CASE("the roll of whole periods needs frames at their ends and the box") {
   summary.wall.periods.resize(1);
   summary.wall.periods[0].begin = 0.2;
   summary.wall.periods[0].end = 0.4;
-  std::vector<PoseFrame> frames(2);
+  std::vector<MotionState> frames(2);
   for (int f = 0; f < 2; ++f) {
     frames[f].time = 0.2 + 0.2 * f;
     for (int k = 0; k < 25; ++k) {

@@ -1,29 +1,11 @@
 #include "experiments/record/record_file.hpp"
 
-#include <cmath>
-
 #include "platform/hdf5_file.hpp"
 #include "tests/support/hdf5_attribute.hpp"
 #include "tests/support/sample_record.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
-
-TEST_CASE("a frame is a row of numbers that comes back to the last bit") {
-  const MotionState state = sample_state(sample_system(), 17);
-  const size_t bodies = state.pose.size();
-  std::vector<double> row;
-  pack_pose_row(state, row);
-  REQUIRE(row.size() == pose_row_size(bodies));
-  const PoseFrame frame = unpack_pose_row(row);
-  CHECK(frame.step == 17);
-  CHECK(same_bits(frame.time, state.time));
-  CHECK(same_bits(frame.pose, state.pose));
-  CHECK(same_bits(frame.velocity, state.velocity));
-  CHECK(same_bits(frame.spin, state.spin));
-  CHECK(row[2] == state.pose[0].position.x());
-  CHECK(row[2 + 3 * bodies] == state.pose[0].rotation.w());
-}
 
 TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest") {
   const TemporaryFolder folder;
@@ -77,21 +59,6 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
   }
 }
 
-TEST_CASE("columns that an older record lacks are not known, and the others are read") {
-  const TemporaryFolder folder;
-  const fs::path path = folder.path() / "record.h5";
-  Hdf5Writer file(path, Hdf5Storage::compressed);
-  file.add_group("steps");
-  file.add("steps/time", std::vector<double>{0.5, 1.0});
-  file.add("steps/wall_x", std::vector<double>{2.0, 3.0});
-  file.commit();
-  const std::vector<StepRecord> steps = read_record_steps(path);
-  REQUIRE(steps.size() == 2);
-  CHECK(steps[1].wall_x == 3.0);
-  CHECK(std::isnan(steps[1].solved));
-  CHECK(std::isnan(steps[0].energy_gained));
-}
-
 TEST_CASE("a broken record.h5 is an error that names it") {
   const TemporaryFolder folder;
   const MechanicalSystem system = sample_system();
@@ -109,4 +76,60 @@ TEST_CASE("a broken record.h5 is an error that names it") {
   }
   put_bytes(file, whole);
   check_record(folder.path(), system, 300);
+}
+
+TEST_CASE("bodies, walls and shapes come back from the record with their bits") {
+  OpenRecord open(5);
+  open.recorder.finish("", "");
+  const MechanicalSystem& system = open.system;
+  const MechanicalSystem read = read_record_system(open.path() / "record.h5");
+  CHECK(read.grain_count == system.grain_count);
+  REQUIRE(read.bodies.size() == system.bodies.size());
+  REQUIRE(read.shapes.size() == system.shapes.size());
+  for (size_t b = 0; b < read.bodies.size(); ++b) {
+    const RigidBody &body = read.bodies[b], &expected = system.bodies[b];
+    CHECK(body.name == expected.name);
+    CHECK(same_bits(body.mass, expected.mass));
+    CHECK(same_bits(body.volume, expected.volume));
+    CHECK(same_bits(body.inertia, expected.inertia));
+    REQUIRE(body.is_wall() == expected.is_wall());
+    if (body.is_wall()) {
+      CHECK(same_bits(body.shape.plane.normal, expected.shape.plane.normal));
+      continue;
+    }
+    const Polyhedron &shape = *body.shape.polyhedron, &known = *expected.shape.polyhedron;
+    REQUIRE(shape.vertex_count() == known.vertex_count());
+    for (int v = 0; v < shape.vertex_count(); ++v)
+      CHECK(same_bits(shape.vertex(v), known.vertex(v)));
+    CHECK(shape.face_count() == known.face_count());
+  }
+  CHECK(read.bodies[1].shape.polyhedron == read.bodies[2].shape.polyhedron);
+}
+
+TEST_CASE("a record whose datasets do not fit together is refused") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "record.h5";
+  Hdf5Writer writer(file, Hdf5Storage::plain);
+  writer.add_group("bodies");
+  writer.add("bodies/name", std::vector<std::string>{"a", "b"});
+  for (const char* name : {"mass", "volume"})
+    writer.add(std::string("bodies/") + name, std::vector<double>{1.0});
+  for (const char* name : {"inertia", "wall_normal"})
+    writer.add(std::string("bodies/") + name, std::vector<double>(6, 1.0));
+  writer.add("bodies/shape", std::vector<std::int32_t>{0, 0});
+  writer.commit();
+  CHECK_THAT(run_error([&] { read_record_system(file); }), Contains("/bodies do not fit together"));
+  CHECK_THAT(run_error([&] { read_record_system(folder.path() / "none.h5"); }),
+             Contains("no such file"));
+}
+
+TEST_CASE("a log of other bodies is found out") {
+  const TemporaryFolder folder;
+  MechanicalSystem system = sample_system();
+  require_same_bodies(folder.path(), system);  // nothing to compare with
+  { Recorder recorder(folder.path(), system, 0); }
+  require_same_bodies(folder.path(), system);
+  system.bodies[0].mass *= 2.0;
+  CHECK_THAT(run_error([&] { require_same_bodies(folder.path(), system); }),
+             Contains("belongs to another system of bodies"));
 }

@@ -24,37 +24,34 @@ void write_log(const fs::path& path, long rows, size_t row_size) {
 
 }  // namespace
 
-TEST_CASE("parts of rows become datasets, more rows than are gathered at once") {
+TEST_CASE("quantities of rows become datasets, more rows than are gathered at once") {
   const TemporaryFolder folder;
   const fs::path log = folder.path() / "rows", record = folder.path() / "a.h5";
-  constexpr long rows = 50000;  // of 40 bytes: two megabytes
-  write_log(log, rows, 5);
+  constexpr long rows = 50000;  // of 48 bytes: more than two megabytes
+  write_log(log, rows, 6);
   RowReader reader(log);
   Hdf5Writer writer(record, Hdf5Storage::compressed);
-  const RowPart parts[] = {{"pair", 1, {2}, "m", "two"},
-                           {"last", 4, {}, "1", "one", Hdf5Number::int32},
-                           {"square", 1, {2, 2}, "1", "four"}};
+  const RowLayout layout(
+      "all", {{"square", {2, 2}, "m", "four"}, {"last", {}, "1", "one", Hdf5Number::int32}}, 1);
   long seen = 0;
   bool in_order = true;
   reader.next();  // it begins with the first row wherever the reader was
-  add_row_parts(writer, reader, parts, [&](std::span<const double> row) {
+  add_rows(writer, reader, layout, [&](std::span<const double> row) {
     in_order = in_order && row[0] == static_cast<double>(10 * seen++);
   });
   writer.commit();
   CHECK((seen == rows && in_order));
   const Hdf5Reader file(record);
-  CHECK(file.shape("pair") == Hdf5Shape{rows, 2});
-  CHECK(file.shape("last") == Hdf5Shape{rows});
-  CHECK(file.shape("square") == Hdf5Shape{rows, 2, 2});
-  CHECK(hdf5_attribute(record, "pair", "unit") == "m");
-  CHECK(hdf5_attribute(record, "last", "description") == "one");
-  const std::vector<double> pair = file.read_doubles("pair"), square = file.read_doubles("square");
-  const std::vector<int> last = file.read_ints("last");
+  CHECK(file.shape("all/last") == Hdf5Shape{rows});
+  CHECK(file.shape("all/square") == Hdf5Shape{rows, 2, 2});
+  CHECK(hdf5_attribute(record, "all/square", "unit") == "m");
+  CHECK(hdf5_attribute(record, "all/last", "description") == "one");
+  const std::vector<double> square = file.read_doubles("all/square");
+  const std::vector<int> last = file.read_ints("all/last");
   bool fits = true;
   for (size_t k = 0; k < rows; ++k) {
     const double first = 10.0 * static_cast<double>(k);
-    fits = fits && pair[2 * k] == first + 1 && pair[2 * k + 1] == first + 2;
-    fits = fits && last[k] == static_cast<int>(first) + 4;
+    fits = fits && last[k] == static_cast<int>(first) + 5;
     for (size_t i = 0; i < 4; ++i)
       fits = fits && square[4 * k + i] == first + 1 + static_cast<double>(i);
   }
@@ -68,9 +65,9 @@ TEST_CASE("rows that are longer than what is gathered, and none at all") {
     write_log(log, rows, 200000);
     RowReader reader(log);
     Hdf5Writer writer(record, Hdf5Storage::compressed);
-    add_row_parts(writer, reader, std::vector<RowPart>{{"all", 0, {100000, 2}, "", ""}});
+    add_rows(writer, reader, RowLayout("rows", {{"all", {100000, 2}}}));
     writer.commit();
-    const std::vector<double> all = Hdf5Reader(record).read_doubles("all");
+    const std::vector<double> all = Hdf5Reader(record).read_doubles("rows/all");
     REQUIRE(all.size() == static_cast<size_t>(rows) * 200000);
     if (rows > 0) CHECK(all.back() == 20.0 + 199999.0);
   }

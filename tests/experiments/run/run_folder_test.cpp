@@ -38,8 +38,7 @@ TEST_CASE("a fresh run refuses a folder with a run; overwriting clears what a ru
                                       "checkpoint.bin",
                                       "figures/cost.svg",
                                       "states/step_00000050.bin",
-                                      "capture/step_0000050.hdf5",
-                                      "paraview/grains_00000000.vtp"};
+                                      "capture/step_0000050.hdf5"};
   const std::vector<fs::path> users{"notes.txt", "log/mine.bin", "figures/mine.svg",
                                     "figures/mine.gnuplot", "states/picked.bin"};
   for (const auto& files : {written, users})

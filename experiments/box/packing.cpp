@@ -1,4 +1,8 @@
-#include "experiments/box/deposit.hpp"
+#include "experiments/box/packing.hpp"
+
+#include <cmath>
+#include <iostream>
+#include <limits>
 
 #include "experiments/step/time_step.hpp"
 #include "platform/atomic_file.hpp"
@@ -7,15 +11,18 @@
 #include "platform/random.hpp"
 
 namespace ballast {
+
+namespace fs = std::filesystem;
+
 namespace {
 
-void save(const std::filesystem::path& file, const std::string& key, const std::string& phase,
+void save(const fs::path& file, const std::string& key, const std::string& phase,
           const Packing& packing) {
   write_checkpoint(file, {key, phase, packing.state, packing.memory, packing.deposit});
 }
 
 /// False when the file is of other settings, or of another phase than a deposit's.
-bool load(const std::filesystem::path& file, const std::string& key, std::string& phase,
+bool load(const fs::path& file, const std::string& key, std::string& phase,
           Packing& packing) {
   Checkpoint found = read_checkpoint(file);
   if (found.key != key || !found.deposit) return false;
@@ -40,7 +47,7 @@ StepSettings stage_settings(const Scene& scene, BoxStage stage) {
 
 class Depositor {
  public:
-  Depositor(const Scene& scene, const Rain& rain, const std::filesystem::path& part,
+  Depositor(const Scene& scene, const Rain& rain, const fs::path& part,
             const DepositProgress& progress, Packing& packing)
       : scene_(scene),
         rain_(rain),
@@ -59,7 +66,7 @@ class Depositor {
     if (!continue_part()) start();
     if (stage_ == BoxStage::rain && !rain_to_rest()) return false;
     if (stage_ == BoxStage::press && !press()) return false;
-    if (!steps(scene_.deposit.settle_time, [](double, double) { return false; })) return false;
+    if (!steps(scene_.deposit.settle_time)) return false;
     packing_.deposit.rest_velocity = rms_velocity_;
     return true;
   }
@@ -86,14 +93,8 @@ class Depositor {
   }
 
   bool rain_to_rest() {
-    // nothing rests before the highest grain has fallen
-    const double fall = std::sqrt(2.0 * rain_.height / deposit_gravity(scene_).norm());
-    bool rests = false;
-    const auto stop = [&](double time, double velocity) {
-      return rests = time > fall && velocity < scene_.deposit.rest_velocity;
-    };
-    if (!steps(scene_.deposit.max_time, stop)) return false;
-    if (!rests)
+    if (!steps(scene_.deposit.max_time)) return false;
+    if (!rests())
       throw Error("deposit: after deposit.max_time = " + std::to_string(scene_.deposit.max_time) +
                   " s the grains still move at " + std::to_string(rms_velocity_) +
                   " m/s rms: raise deposit.max_time or deposit.rest_velocity");
@@ -107,8 +108,14 @@ class Depositor {
     return true;
   }
 
+  bool rests() const {
+    // nothing rests before the highest grain has fallen
+    const double fall = std::sqrt(2.0 * rain_.height / deposit_gravity(scene_).norm());
+    return packing_.state.time > fall && rms_velocity_ < scene_.deposit.rest_velocity;
+  }
+
   bool press() {
-    if (!steps(scene_.deposit.lid_time, [](double, double) { return false; })) return false;
+    if (!steps(scene_.deposit.lid_time)) return false;
     // Pressed down, the lid itself says how high the packing is; then it is raised.
     packing_.deposit.top = packing_.state.pose[rain_.grains.size() + wall_lid].position.z();
     place_lid(packing_.deposit.top + scene_.drive.lid_raise);
@@ -124,10 +131,8 @@ class Depositor {
     packing_.state.velocity[lid].setZero();
   }
 
-  /// Steps the current stage for at most `duration`, or until stop(time, rms velocity). False:
-  /// interrupted.
-  template <class Stop>
-  bool steps(double duration, Stop&& stop) {
+  /// Steps the current stage for `duration`, the rain until it rests. False: interrupted.
+  bool steps(double duration) {
     const MechanicalSystem system = box_system(scene_, rain_, stage_, packing_.deposit.lid);
     const StepSettings settings = stage_settings(scene_, stage_);
     TimeStepper stepper(system, settings, -1);
@@ -141,7 +146,7 @@ class Depositor {
       const bool goes_on = progress_(stage_, packing_.state.time, rms_velocity_, record);
       // The state that ends a stage is never saved within it: who went on from there would make
       // another step.
-      if (stop(packing_.state.time, rms_velocity_)) break;
+      if (stage_ == BoxStage::rain && rests()) break;
       // A checkpoint now and then, and one when it is to stop: the same call goes on there.
       if (!goes_on || since_saved.seconds() > scene_.record.checkpoint_seconds) {
         save(part_, key_, name_of(stage_), packing_);
@@ -154,7 +159,7 @@ class Depositor {
 
   const Scene& scene_;
   const Rain& rain_;
-  const std::filesystem::path& part_;
+  const fs::path& part_;
   const DepositProgress& progress_;
   Packing& packing_;
   BoxStage stage_ = BoxStage::rain;
@@ -164,18 +169,18 @@ class Depositor {
 
 }  // namespace
 
-bool deposit(const Scene& scene, const Rain& rain, const std::filesystem::path& part,
+bool deposit(const Scene& scene, const Rain& rain, const fs::path& part,
              const DepositProgress& progress, Packing& packing) {
   packing = Packing{};
   return Depositor(scene, rain, part, progress, packing).run();
 }
 
-void write_packing(const std::filesystem::path& file, const std::string& key,
+void write_packing(const fs::path& file, const std::string& key,
                    const Packing& packing) {
   save(file, key, "packing", packing);
 }
 
-bool read_packing(const std::filesystem::path& file, const std::string& key, Packing& packing) {
+bool read_packing(const fs::path& file, const std::string& key, Packing& packing) {
   if (!is_there(file)) return false;
   std::string phase;
   if (!load(file, key, phase, packing) || phase != "packing")
@@ -194,6 +199,71 @@ MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packin
       for (double& place : state.pose[b].position) place += random.uniform(-noise, noise);
   }
   return box_system(scene, rain, BoxStage::drive, packing.deposit.lid);
+}
+
+namespace {
+
+void say(Telling telling, const std::string& words) {
+  if (telling == Telling::reader) std::cout << words << std::endl;
+}
+
+bool find_packing(const fs::path& file, const std::string& key, Telling telling, Packing& packing) {
+  if (!read_packing(file, key, packing)) return false;
+  say(telling, "packing from the cache: " + file.string());
+  return true;
+}
+
+/// deposit() with a line that says how far it is. When the rain will rest nobody knows.
+bool deposit_visibly(const Scene& scene, const Rain& rain, const fs::path& part,
+                     const PackingOrder& order, Packing& packing) {
+  Progress progress(order.telling);
+  BoxStage last = BoxStage::rain;
+  const double end[] = {std::numeric_limits<double>::quiet_NaN(), scene.deposit.lid_time,
+                        scene.deposit.settle_time};
+  const auto show = [&](BoxStage stage, double time, double velocity, const StepRecord& record) {
+    if (stage != last) progress.restart();
+    last = stage;
+    progress.show(name_of(stage), time, end[static_cast<int>(stage)], record, velocity);
+    return order.goes_on();
+  };
+  const bool is_done = deposit(scene, rain, part, show, packing);
+  progress.finish();
+  return is_done;
+}
+
+}  // namespace
+
+fs::path packing_file(const fs::path& cache, const std::string& key) {
+  return (cache / ("packing-" + key + ".bin")).lexically_normal();
+}
+
+bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order, Packing& packing,
+                  double& deposit_seconds) {
+  const std::string key = packing_key(scene);
+  const fs::path file = packing_file(order.cache, key), part = file.string() + ".part";
+  // without the lock: a packing that is there is whole
+  if (!order.anew && find_packing(file, key, order.telling, packing)) return true;
+  create_folder(order.cache);
+  // one process deposits, the others wait for it
+  const FileLock lock(file.string() + ".lock", [&](double waited) {
+    if (waited == 0.0) say(order.telling, "waiting for the packing that another run deposits");
+    return order.goes_on();
+  });
+  if (!lock.is_held()) return false;
+  if (order.anew) {
+    fs::remove(file);
+    fs::remove(part);
+  }
+  if (find_packing(file, key, order.telling, packing))
+    return true;  // made by whoever held the lock
+  say(order.telling, "depositing " + std::to_string(rain.grains.size()) + " grains (kept in " +
+                         file.string() + ")");
+  const Stopwatch watch;
+  if (!deposit_visibly(scene, rain, part, order, packing)) return false;
+  write_packing(file, key, packing);
+  fs::remove(part);
+  deposit_seconds = watch.seconds();
+  return true;
 }
 
 }  // namespace ballast

@@ -1,12 +1,13 @@
 #pragma once
-// The deposit of a packing: rain to rest, lid down, lid up, settle; and packings as files.
+// Packings: the deposit (rain to rest, lid down, lid up, settle), and the folder where they are
+// kept. Each is made once, also by processes that want it at the same time.
 
 #include <filesystem>
 #include <functional>
 
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"
-#include "experiments/step/step_record.hpp"
+#include "experiments/record/progress.hpp"
 
 namespace ballast {
 
@@ -37,5 +38,23 @@ bool read_packing(const std::filesystem::path& file, const std::string& key, Pac
 /// The driven system and its initial state: time and step counted from the start of the drive.
 MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packing& packing,
                               MotionState& state);
+
+/// The packing of this key (packing_key of a scene) in the folder where packings are kept.
+std::filesystem::path packing_file(const std::filesystem::path& cache, const std::string& key);
+
+struct PackingOrder {
+  std::filesystem::path cache;    ///< the folder; made if it isn't there
+  bool anew = false;              ///< deposit again even if it is there
+  std::function<bool()> goes_on;  ///< asked once per step, and while waiting; false stops, to be
+                                  ///< continued another time
+  Telling telling = Telling::reader;
+};
+
+/// The scene's packing from the cache; where it is missing it is deposited, or waited for when
+/// another process is depositing it. Says on stdout which, on stderr how far. False: stopped.
+/// `deposit_seconds`: set when this process deposited [s of wall clock]. Throws Error: it does
+/// not come to rest, the file is broken or cannot be written.
+bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order, Packing& packing,
+                  double& deposit_seconds);
 
 }  // namespace ballast
