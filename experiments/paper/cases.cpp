@@ -159,7 +159,7 @@ page::Table stage_table(const std::vector<Case>& cases, const char* unit) {
   page::Table table = page::words_table("case_columns", {{"columns", heads}});
   for (const Case& row : cases)
     for (const Group& group : row.groups) {
-      table.rows.push_back({row.name, group.label + unit, samples_of(group)});
+      table.rows.push_back({row.name, group.label + unit, std::to_string(group.samples.size())});
       for (const StageColumn& column : stage_columns)
         table.rows.back().push_back(words_of(group.mean(column.value), column.factor));
     }

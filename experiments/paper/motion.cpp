@@ -1,6 +1,9 @@
 #include "experiments/paper/motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <stdexcept>
 
 #include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run_folder.hpp"
@@ -11,7 +14,82 @@ namespace {
 /// Below this part of its largest speed a moving wall is neither active nor passive yet.
 constexpr double slow_part = 0.2;
 
+bool is_between_grains(const MechanicalSystem& system, const PairForce& pair) {
+  return pair.body_a < system.grain_count && pair.body_b < system.grain_count;
+}
+
 }  // namespace
+
+std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
+                                   std::span<const Vec3> impulses, double h) {
+  if (contacts.size() != impulses.size())
+    throw std::invalid_argument("pair forces need as many impulses as contacts");
+  std::vector<PairForce> pairs;
+  for (size_t k = 0; k < contacts.size();) {
+    const ContactPoint& first = contacts[k];
+    // the points of one pair stand together: contacts are sorted by (a, b)
+    PairForce pair{first.body_a, first.body_b, first.normal, Vec3::Zero(), Vec3::Zero()};
+    double weight = 0.0;
+    for (; k < contacts.size() && contacts[k].body_a == first.body_a &&
+           contacts[k].body_b == first.body_b;
+         ++k) {
+      const Vec3 force = impulses[k] / h;
+      const double normal = std::max(0.0, force.dot(contacts[k].normal));
+      pair.force += force;
+      pair.position += normal * contacts[k].position;
+      weight += normal;
+    }
+    if (!(weight > 0.0)) continue;  // no compression: no contact of the field
+    pair.position /= weight;
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state,
+                   std::span<const PairForce> pairs, double volume) {
+  Mat3 sum = Mat3::Zero();
+  // a wall has no centre: its branch vector ends at the contact
+  const auto place = [&](int body, const Vec3& contact) -> Vec3 {
+    return body < system.grain_count ? state.pose[static_cast<size_t>(body)].position : contact;
+  };
+  // The Love-Weber formula: force times branch vector, from the centre of a to that of b.
+  for (const PairForce& pair : pairs)
+    sum += pair.force *
+           (place(pair.body_b, pair.position) - place(pair.body_a, pair.position)).transpose();
+  return 0.5 * (sum + sum.transpose()) / volume;
+}
+
+double major_inclination(const Mat3& tensor) {
+  // Mohr's circle: the direction of the larger principal value within the plane
+  const double angle = 0.5 * std::atan2(tensor(0, 2) + tensor(2, 0),
+                                        tensor(0, 0) - tensor(2, 2));  // in (-90, 90] degrees
+  return std::abs(angle) * 180.0 / std::numbers::pi;
+}
+
+Vec3 wall_place(const MechanicalSystem& system, const MotionState& state, BoxWall wall) {
+  return state.pose[static_cast<size_t>(system.grain_count) + static_cast<size_t>(wall)].position;
+}
+
+double box_volume(const MechanicalSystem& system, const MotionState& state) {
+  const auto wall = [&](BoxWall which) { return wall_place(system, state, which); };
+  return (wall(wall_x_max).x() - wall(wall_x_min).x()) *
+         (wall(wall_y_max).y() - wall(wall_y_min).y()) *
+         (wall(wall_lid).z() - wall(wall_floor).z());
+}
+
+std::vector<double> relative_normal_forces(const MechanicalSystem& system,
+                                           std::span<const PairForce> pairs) {
+  std::vector<double> forces;
+  double sum = 0.0;
+  for (const PairForce& pair : pairs)
+    if (is_between_grains(system, pair)) {
+      forces.push_back(pair.normal_force());
+      sum += forces.back();
+    }
+  for (double& force : forces) force *= static_cast<double>(forces.size()) / sum;
+  return forces;
+}
 
 std::vector<PairForce> StoredState::pairs() const {
   return pair_forces(at.memory.contacts, at.memory.impulses, step);

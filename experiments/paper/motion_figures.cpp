@@ -1,6 +1,8 @@
-// Figs. 3, 4 and 12: the wall at 5 Hz, the force on it, and the solid fraction.
+// Figs. 3, 4 and 12: the wall at 5 Hz, the force on it, and the solid fraction; Fig. 8: its phase
+// portraits at 5 and 10 Hz, raw and scaled by nu^-2 and nu^-1.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "experiments/paper/motion.hpp"
@@ -117,6 +119,77 @@ void add_gain_line(const MotionRun& run, Panel& panel) {
       {begin, run.data.steps.back().time, false}, "Δρ_1 a period, sample 1", Ink::black));
 }
 
+constexpr int orbit_phases = 200;  // of a period, at which orbits are compared
+constexpr double portrait_frequencies[] = {5.0, 10.0};
+
+/// The mean orbit over the periods that count: displacement from the period's first jamming
+/// position [m], velocity [m/s].
+struct Orbit {
+  std::vector<double> x = std::vector<double>(orbit_phases, 0.0), v = x;
+  int periods = 0;
+};
+
+Orbit mean_orbit(const RunData& data) {
+  const RunFacts& facts = data.facts;
+  const WallCycles cycles = wall_cycles(data.steps, facts.frequency, facts.step);
+  Orbit orbit;
+  orbit.periods = static_cast<int>(cycles.periods.size());
+  for (const WallPeriod& period : cycles.periods)
+    for (size_t k = 0; k < orbit_phases; ++k) {
+      // the same phase of the load in every period, whatever its number of steps
+      const size_t sample = period.first + k * (period.last - period.first) / orbit_phases;
+      orbit.x[k] += (data.steps[sample].wall_x - period.x_before) / orbit.periods;
+      orbit.v[k] += cycles.velocity[sample] / orbit.periods;
+    }
+  return orbit;
+}
+
+/// Orbits at the two frequencies.
+using Portrait = std::array<Orbit, 2>;
+
+/// Where x goes with nu^-2 and v with nu^-1 these are one.
+Portrait collapsed(Portrait orbits) {
+  for (size_t k = 0; k < 2; ++k) {
+    const double nu = portrait_frequencies[k];
+    for (double& x : orbits[k].x) x *= nu * nu;
+    for (double& v : orbits[k].v) v *= nu;
+  }
+  return orbits;
+}
+
+/// rms over orbit_phases of the distance, each axis in units of the mean range of the two.
+double distance(const Portrait& orbits) {
+  const auto& [a, b] = orbits;
+  const auto range_of = [](const std::vector<double>& values) {
+    const Statistics all = statistics(values);
+    return all.max - all.min;
+  };
+  const double x_range = 0.5 * (range_of(a.x) + range_of(b.x)),
+               v_range = 0.5 * (range_of(a.v) + range_of(b.v));
+  double sum = 0.0;
+  for (size_t k = 0; k < orbit_phases; ++k)
+    sum += (std::pow((a.x[k] - b.x[k]) / x_range, 2) + std::pow((a.v[k] - b.v[k]) / v_range, 2)) /
+           orbit_phases;
+  return std::sqrt(sum);
+}
+
+/// Both orbits in mm and mm/s. They are open: a period ends further in than it began.
+Panel portrait_panel(const Portrait& orbits, const std::string& x_label,
+                     const std::string& v_label) {
+  Panel panel{.x_label = x_label, .y_label = v_label};
+  for (size_t k = 0; k < 2; ++k) {
+    Curve curve{.x = orbits[k].x,
+                .y = orbits[k].v,
+                .title = plot_label(page::number(portrait_frequencies[k], 2) + " Hz"),
+                .ink = k == 0 ? Ink::blue : Ink::vermilion,
+                .dashed = k == 1};
+    for (double& x : curve.x) x *= 1e3;
+    for (double& v : curve.y) v *= 1e3;
+    panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
 }  // namespace
 
 void fill_motion(PaperData& data, PaperSection& section) {
@@ -214,6 +287,42 @@ void fill_density(PaperData& data, PaperSection& section) {
   section.claim("fig12.jump", words, PaperRange::about(0.02, 0.01), found(jump));
   section.claim("fig12.gain", words, PaperRange::at_least(0.0), found(gain));
   section.claim("fig12.constant", words, PaperRange::about(0.0, 0.3), found(trend));
+}
+
+void fill_portraits(PaperData& data, PaperSection& section) {
+  std::vector<double> raw, scaled;
+  Portrait shown;
+  const std::vector<RunData> fast = data.records("frequency", portrait_frequencies[1]);
+  for (const RunData& slow : data.records("frequency", portrait_frequencies[0])) {
+    const auto same = std::ranges::find_if(
+        fast, [&](const RunData& other) { return other.facts.seed == slow.facts.seed; });
+    if (same == fast.end()) continue;
+    const Portrait seen{mean_orbit(slow), mean_orbit(*same)};
+    if (seen[0].periods == 0 || seen[1].periods == 0) continue;
+    if (raw.empty()) shown = seen;
+    raw.push_back(distance(seen));
+    scaled.push_back(distance(collapsed(seen)));
+  }
+  if (raw.empty()) {
+    section.notes.push_back("PARTIAL: the records at 5 and 10 Hz are not both there.");
+    return;
+  }
+  const SampleMean after = sample_mean(scaled);
+  const page::Values words{{"samples", std::to_string(raw.size())},
+                           {"slow", std::to_string(shown[0].periods)},
+                           {"fast", std::to_string(shown[1].periods)},
+                           {"raw", words_of(sample_mean(raw))},
+                           {"scaled", words_of(after)}};
+  section.draw(
+      "fig8",
+      {.height = 860,
+       .panels = {portrait_panel(shown, "{/:Italic x} − {/:Italic x}_{jam}  (mm)",
+                                 "{/:Italic v}  (mm/s)"),
+                  portrait_panel(collapsed(shown),
+                                 "({/:Italic x} − {/:Italic x}_{jam}) {/:Italic ν}^2  (mm/s^2)",
+                                 "{/:Italic v ν}  (mm/s^2)")}},
+      words);
+  section.claim("fig8.collapse", words, PaperRange::at_most(0.1), found(after));
 }
 
 }  // namespace ballast

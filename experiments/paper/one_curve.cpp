@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "experiments/paper/sections.hpp"
-
 namespace ballast {
 namespace {
 

@@ -3,7 +3,7 @@
 // m_w through its right side X alone, and linearly. The first half, the grouping, is tested apart
 // from the second: ln Delta x_max as a polynomial of ln X.
 
-#include "experiments/paper/section.hpp"
+#include "experiments/paper/sections.hpp"
 
 namespace ballast {
 

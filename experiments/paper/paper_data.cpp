@@ -3,13 +3,34 @@
 #include <algorithm>
 #include <set>
 
+#include <unistd.h>
+
 #include "experiments/record/record_file.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
+
+namespace fs = std::filesystem;
+
+std::string campaign_plan();  // campaign.toml
+
 namespace {
+
+constexpr const char* usual_scene = "vibrated_box";
+
+/// A plan is a file, so that its scenes have a place.
+Plan built_in_plan() {
+  const fs::path file =
+      fs::temp_directory_path() / ("ballast-campaign-" + std::to_string(getpid()) + ".toml");
+  write_whole_file(file, campaign_plan());
+  const Plan plan = read_plan(file);
+  fs::remove(file);
+  return plan;
+}
 
 /// Measured values of what was set, from records and from files of nine digits, are the same.
 double rounded(double value) { return parsed_number(printed("%.6g", value)).value_or(value); }
@@ -21,6 +42,24 @@ bool takes(const Selection& selection, const RunRow& row) {
 }
 
 }  // namespace
+
+std::vector<CampaignRun> read_campaign(const CampaignSettings& settings) {
+  Plan plan = settings.plan.empty() ? built_in_plan() : read_plan(settings.plan);
+  for (PlannedRun& run : plan.runs) {
+    if (!settings.scene.empty() && run.scene == usual_scene) run.scene = settings.scene;
+    run.overrides.insert(run.overrides.end(), settings.overrides.begin(), settings.overrides.end());
+  }
+  if (!settings.only.empty()) plan.runs = select(plan, settings.only);
+  std::vector<CampaignRun> runs;
+  for (const PlannedRun& run : plan.runs) {
+    const ResolvedScene scene = resolve_scene(find_scene(run.scene), run.overrides);
+    if (!scene.scene.grains)
+      throw SceneFileError(run.scene + ": has no [grains], expected a vibrated box");
+    runs.push_back({run, run.name.substr(0, run.name.find_first_of("-.")), scene.key,
+                    scene.scene.step_count()});
+  }
+  return runs;
+}
 
 double frequency_of(const RunSummary& run) { return run.facts.frequency; }
 double grains_of(const RunSummary& run) { return run.facts.grains; }

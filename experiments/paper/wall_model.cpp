@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/paper/motion.hpp"
+#include "experiments/run_page/figures.hpp"
+
 namespace ballast {
 namespace {
 
@@ -41,6 +44,50 @@ ModelPhase released(const WallModel& model, ModelPhase phase, double x, double l
   return can_go_out ? ModelPhase::out : ModelPhase::turning;
 }
 
+WallModel model_of(const RunSummary& s) {
+  return {.active = s.law.active,
+          .passive = s.law.passive,
+          .contraction = std::max(0.0, -s.net.mean),
+          .wall_mass = s.facts.wall_mass,
+          .load = {s.facts.f_min, s.facts.f_max, s.facts.frequency}};
+}
+
+bool can_be_modelled(const RunSummary& s) {
+  return !s.wall.periods.empty() && std::isfinite(s.law.active.rate) &&
+         std::isfinite(s.law.passive.slope) && std::isfinite(s.facts.wall_mass);
+}
+
+/// The last period: x from the jamming position against time, and f_g smoothed against v; the
+/// simulation's and the model's. Axes in s, mm, mm/s, kN or N.
+Figure draw(const MotionRun& run, const ModelMotion& model) {
+  const ForceUnit unit = force_unit(run.summary.facts.f_max);
+  const WallPeriod& period = run.summary.wall.periods.back();
+  std::vector<double> time, x, model_x;
+  Curve loop{.title = "simulation"},
+      model_loop{.title = "model", .ink = Ink::black, .dashed = true};
+  for (size_t k = period.first; k < period.last; ++k) {
+    time.push_back(run.data.steps[k].time - period.begin);
+    x.push_back(1e3 * (run.data.steps[k].wall_x - period.x_before));
+    loop.x.push_back(1e3 * run.summary.wall.velocity[k]);
+    loop.y.push_back(unit.factor * run.summary.wall.force[k]);
+  }
+  for (const double at : model.x) model_x.push_back(1e3 * at);
+  // every twentieth of the model's many steps draws the same line
+  for (size_t k = 0; k < model.v.size(); k += 20) {
+    model_loop.x.push_back(1e3 * model.v[k]);
+    model_loop.y.push_back(unit.factor * model.force[k]);
+  }
+  Curve motion = line_of(model.time, model_x, "model", Ink::black, 2.0);
+  motion.dashed = true;
+  return {.height = 760,
+          .panels = {{.x_label = "{/:Italic t} in the period  (s)",
+                      .y_label = "{/:Italic x} − {/:Italic x}_{jam}  (mm)",
+                      .curves = {line_of(time, x, "simulation", Ink::blue, 2.0), motion}},
+                     {.x_label = "{/:Italic v}  (mm/s)",
+                      .y_label = std::string("{/:Italic f}_g  (") + unit.name + ")",
+                      .curves = {loop, model_loop}}}};
+}
+
 }  // namespace
 
 ModelMotion integrate(const WallModel& model, int parts) {
@@ -75,6 +122,34 @@ ModelMotion integrate(const WallModel& model, int parts) {
     }
   }
   return motion;
+}
+
+void fill_model(PaperData& data, PaperSection& section) {
+  const std::vector<MotionRun> runs = read_motion(data);
+  page::Table table = page::words_table("fig5.table");
+  std::vector<double> rises, speeds;
+  Figure drawn;
+  for (size_t k = 0; k < runs.size(); ++k) {
+    const RunSummary& s = runs[k].summary;
+    if (!can_be_modelled(s)) continue;  // a run too short for the fits
+    const ModelMotion model = integrate(model_of(s));
+    rises.push_back(model.rise / s.rise.mean - 1.0);
+    speeds.push_back(model.speed_in / s.speed_in.mean - 1.0);
+    table.rows.push_back({std::to_string(k + 1), page::number(1e3 * s.rise.mean),
+                          page::number(1e3 * model.rise), page::percent(rises.back()),
+                          page::number(1e3 * s.speed_in.mean), page::number(1e3 * model.speed_in),
+                          page::percent(speeds.back())});
+    if (drawn.panels.empty()) drawn = draw(runs[k], model);
+  }
+  if (rises.empty()) return;
+  const SampleMean rise = sample_mean(rises), speed = sample_mean(speeds);
+  const page::Values words{{"sample", table.rows.front().front()},
+                           {"rise", page::percent(rise.mean)},
+                           {"speed", page::percent(speed.mean)}};
+  section.draw("fig5", drawn, words);
+  section.add(table);
+  section.claim("fig5.rise", words, PaperRange::about(0.0, 0.15), found(rise));
+  section.claim("fig5.speed", words, PaperRange::at_most(0.0), found(speed));
 }
 
 }  // namespace ballast

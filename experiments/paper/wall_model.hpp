@@ -1,6 +1,6 @@
 #pragma once
-// The paper's phenomenological model: the wall's equation (Eq. 2) with f_g(x) from the fits of Fig.
-// 4, integrated over one period.
+// Fig. 5: the paper's phenomenological model, the wall's equation (Eq. 2) with f_g(x) from the fits
+// of Fig. 4, integrated over one period.
 
 #include <vector>
 
@@ -29,8 +29,7 @@ struct ModelMotion {
 
 /// m_w dv/dt = f_g - f(t) by Heun's rule, `parts` steps a period: out while f_g = active(x), in
 /// while f_g = passive; at rest while f lies between the two; jammed (f_g = f) where it started or
-/// came back to. Begins jammed at the
-/// period's begin.
+/// came back to. Begins jammed.
 ModelMotion integrate(const WallModel& model, int parts = 20000);
 
 }  // namespace ballast

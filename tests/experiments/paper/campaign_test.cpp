@@ -1,7 +1,7 @@
 // The campaign: everything that is to be varied is there, paired by seed, and says what its stages'
 // names say.
 
-#include "experiments/paper/campaign.hpp"
+#include "experiments/paper/paper_data.hpp"
 
 #include <functional>
 #include <map>

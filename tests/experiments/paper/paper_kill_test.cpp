@@ -4,7 +4,7 @@
 #include <map>
 #include <sstream>
 
-#include "experiments/paper/campaign.hpp"
+#include "experiments/paper/paper_data.hpp"
 #include "experiments/run/run.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"

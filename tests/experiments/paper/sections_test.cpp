@@ -1,4 +1,4 @@
-#include "experiments/paper/section.hpp"
+#include "experiments/paper/sections.hpp"
 
 #include "tests/catch.hpp"
 

@@ -1,6 +1,6 @@
 // Stress and forces against answers that can be written down.
 
-#include "experiments/paper/grain_fields.hpp"
+#include "experiments/paper/motion.hpp"
 
 #include <cmath>
 #include <numbers>
