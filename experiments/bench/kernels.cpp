@@ -21,8 +21,7 @@ struct StepWork {
   ContactJudge judge;
   Eigen::VectorXd v_free;
   FrictionProblem problem;
-  Impulses rows, warm;
-  std::vector<Vec3> world;
+  Impulses warm;
 
   StepWork(const DepositedBox& box, int steps)
       : start(driven_start(box)),
@@ -33,7 +32,6 @@ struct StepWork {
     stepper.warm_start(warm);
     assembler.pack(start.state, v_free);
     assemble();
-    assembler.to_world(rows = stepper.impulses(), stepper.contacts(), world);
   }
   void assemble() {
     const double end = start.state.time + settings.h;
@@ -56,15 +54,12 @@ struct DetectionWork {
 
 struct SweepWork {
   const FrictionProblem problem;
-  const Impulses start;
-  Impulses end;
   AnySweep sweep;
 
-  SweepWork(const StepWork& step, bool in_single)
-      : problem(step.stepper.problem()), start(step.warm), end(start.size()) {
+  SweepWork(const StepWork& step, bool in_single) : problem(step.stepper.problem()) {
     sweep.prepare(problem);
     sweep->allow_single(in_single);
-    sweep->load(problem, start);
+    sweep->load(problem, step.warm);
     sweep->start_search();
   }
 };
@@ -103,11 +98,7 @@ std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
     kernels.push_back({group, name, "ns/contact", contacts, std::move(call)});
   };
   add("problem", "assembly", [step] { step->assemble(); });
-  add("problem", "validation", [step] { step->problem.validate(); });
-  add("problem", "judge", [step] { step->judge.judge(step->problem, step->rows); });
-  add("problem", "rows to world",
-      [step] { step->assembler.to_world(step->rows, step->stepper.contacts(), step->world); });
-  add("problem", "world to rows", [step] { step->assembler.to_rows(step->world, step->rows); });
+  add("problem", "judge", [step] { step->judge.judge(step->problem, step->stepper.impulses()); });
   for (const bool in_single : {false, true}) {
     const auto work = std::make_shared<SweepWork>(*step, in_single);
     const std::string how = in_single ? " in float lanes" : "";
@@ -115,10 +106,6 @@ std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
     // What an iteration of nncg does between two looks at the error.
     add("sweep", "sweep along a search" + how, [work] { work->sweep->sweep_along({0.1, 1.0}); });
     add("sweep", "error" + how, [work] { work->sweep->error(); });
-    if (in_single) break;
-    add("sweep", "prepare", [work] { work->sweep.prepare(work->problem); });
-    add("sweep", "load", [work] { work->sweep->load(work->problem, work->start); });
-    add("sweep", "store", [work] { work->sweep->store(work->problem, work->end); });
   }
   return kernels;
 }

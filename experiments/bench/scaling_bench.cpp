@@ -80,7 +80,6 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
   add("sweep per contact", "ns/contact", {1e9 * sweep / std::max(1.0, contacts)});
   const Budget budget{.tolerance = options.tolerance * settings.velocity_scale(),
                       .max_iterations = options.max_iterations};
-  if (options.cold_start) warm.setZero();
   WorkerTeam team;
   team.resize(point.threads);
   for (const std::string& name : options.solvers) {

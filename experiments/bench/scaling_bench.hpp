@@ -19,8 +19,6 @@ struct ScalingOptions {
   double tolerance = 1e-2;      ///< [g h] for the iterations needed
   int max_iterations = 300;
   std::vector<std::string> solvers{"pgs", "nncg"};
-  bool cold_start =
-      false;  ///< those begin from no impulses: every load must find its way through the packing
   double max_seconds = 3600.0;  ///< wall clock of one packing
 };
 

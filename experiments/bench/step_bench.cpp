@@ -58,20 +58,8 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
   for (const StepQuantity& quantity : quantities(scale)) {
     std::vector<double> values;
     for (const BenchStep* step : steps) values.push_back(quantity.value(*step));
-    const double worst = *std::max_element(values.begin(), values.end());
     to.push_back(measurement_of(group, quantity.name, quantity.unit, std::move(values)));
-    if (quantity.name == "error rms")
-      to.push_back(measurement_of(group, "error rms, worst step", quantity.unit, {worst}));
   }
-  // of means: what an iteration costs, everything of the solver counted
-  double solve = 0.0, visits = 0.0;
-  for (const BenchStep* step : steps) {
-    solve += step->record.seconds_solve;
-    visits += step->record.iterations * step->record.contacts;
-  }
-  if (visits > 0.0)
-    to.push_back(
-        measurement_of(group, "solve per iteration and contact", "ns", {1e9 * solve / visits}));
 }
 
 }  // namespace

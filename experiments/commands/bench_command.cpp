@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "experiments/bench/accuracy_bench.hpp"
-#include "experiments/bench/captured_bench.hpp"
 #include "experiments/bench/kernels.hpp"
 #include "experiments/bench/scaling_bench.hpp"
 #include "experiments/bench/step_bench.hpp"
@@ -135,9 +134,7 @@ ExitCode bench_accuracy(const AccuracyRequest& request) {
 struct CapturedRequest : BenchRequest {
   std::vector<std::string> files;
   std::string solvers_text = "nesterov_pgs,newton_burst",
-              tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6", starts_text = "warm",
-              within_text = "0.25,1,5";
-  std::vector<double> within;
+              tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6", starts_text = "warm";
   CompareOptions comparison;
 };
 
@@ -155,7 +152,7 @@ ExitCode bench_captured(const CapturedRequest& request) {
   };
   const auto rows = run_comparison(compare_cases(request.files), options, said);
   const Figure figure = captured_figure(rows);
-  return finish(request, "captured", captured_measurements(rows, request.within),
+  return finish(request, "captured", captured_measurements(rows),
                 figure.panels.empty() ? nullptr : &figure);
 }
 
@@ -211,7 +208,6 @@ Command scaling_command() {
        {"--solvers", &request->solvers_text, "Whose iterations are counted", shown,
         into(scaling.solvers, solver_names)},
        {"--tolerance", &scaling.tolerance, "To this error [g h]", shown, above(0)},
-       {"--cold", &scaling.cold_start, "From no impulses, not from the last step's"},
        {"--max-iterations", &scaling.max_iterations, "At most so many", shown,
         between(1, most_count)}});
 }
@@ -248,8 +244,6 @@ Command captured_command() {
         into(captured.tolerances, parse_tolerances)},
        {"--starts", &request->starts_text, "cold, warm or cold,warm", shown,
         into(captured.starts, parse_starts)},
-       {"--within", &request->within_text, "Solves within so many seconds are counted", shown,
-        into(request->within, parse_tolerances)},
        {"--max-seconds", &captured.max_seconds, "Of one solve", shown, above(0)},
        {"--exact-seconds", &captured.exact_seconds,
         "Spent on a solution at 1e-9 of each problem, from which distances are measured; 0: "

@@ -323,7 +323,7 @@ void answer_file(const std::filesystem::path& problem, const std::filesystem::pa
 
 /// Until standard input ends.
 ExitCode serve(const AnswerOptions& options) {
-  std::cout << "ready bodies" << std::endl;  // these alone are read where they are known
+  std::cout << "ready" << std::endl;
   for (std::string line; std::getline(std::cin, line);) {
     try {
       const std::vector<std::string> files = split(line, '\t');

@@ -28,34 +28,19 @@ const std::vector<std::string> common_overrides = {
     "drive.wall_mass_over_grains=0.1", "scene.duration=0.062",
     "solver.max_iterations=400",       "record.forces=false"};
 
-struct CollectedScene {
-  const char* name;
-  std::vector<std::string> overrides;
-};
+const CollectedRun scenes[] = {{"shaken", {"drive.frequency=20", "drive.f_max_over_weight=1"}},
+                               {"pressed", {"drive.f_min_over_weight=3", "contact.friction=1"}},
+                               {"released", {"drive.f_max_over_weight=0", "contact.friction=0.2"}}};
 
-std::vector<CollectedScene> collected_scenes() {
-  return {{"shaken", {"drive.frequency=20", "drive.f_max_over_weight=1"}},
-          {"pressed", {"drive.f_min_over_weight=3", "contact.friction=1"}},
-          {"released", {"drive.f_max_over_weight=0", "contact.friction=0.2"}}};
-}
-
-CollectedProblem described(const fs::path& file, const std::string& name) {
+/// The line of the manifest for a problem that is called `name` there.
+std::vector<std::string> described(const fs::path& file, const std::string& name) {
   const CapturedProblem captured = read_captured(file);
   return {name,
           content_of(captured.problem, captured.start, captured.velocity_scale()),
-          captured.problem.contact_count(),
-          captured.problem.row_count(),
-          captured.step,
+          std::to_string(captured.problem.contact_count()),
+          std::to_string(captured.problem.row_count()),
+          std::to_string(captured.step),
           captured.step == settling_step ? "settling" : captured.phase};
-}
-
-void write_manifest(const fs::path& file, std::span<const CollectedProblem> problems) {
-  CsvWriter csv;
-  csv.add_row(std::vector<std::string>{"file", "content", "contacts", "rows", "step", "phase"});
-  for (const CollectedProblem& p : problems)
-    csv.add_row(std::vector<std::string>{p.file, p.content, std::to_string(p.contacts),
-                                         std::to_string(p.rows), std::to_string(p.step), p.phase});
-  write_whole_file(file, csv.take());
 }
 
 }  // namespace
@@ -66,8 +51,8 @@ std::vector<CollectedRun> collection_runs(int most_grains) {
     if (grains > most_grains) continue;
     // The paper's section scaled with the number of grains, but no narrower than four of them.
     const double width = std::max(0.22, 0.54 * std::cbrt(grains / 1200.0));
-    for (const CollectedScene& scene : collected_scenes()) {
-      CollectedRun run{printed("%s-%d", scene.name, grains),
+    for (const CollectedRun& scene : scenes) {
+      CollectedRun run{scene.name + "-" + std::to_string(grains),
                        {printed("grains.count=%d", grains), printed("box.length=%.3g", width),
                         printed("box.width=%.3g", width)}};
       run.overrides.insert(run.overrides.end(), common_overrides.begin(), common_overrides.end());
@@ -79,9 +64,10 @@ std::vector<CollectedRun> collection_runs(int most_grains) {
 }
 
 ExitCode make_collection(const fs::path& folder, std::span<const CollectedRun> runs,
-                         const std::function<void(const CollectedRun&)>& told,
-                         std::vector<CollectedProblem>& problems) {
-  problems.clear();
+                         const std::function<void(const CollectedRun&)>& told) {
+  CsvWriter manifest;
+  manifest.add_row(
+      std::vector<std::string>{"file", "content", "contacts", "rows", "step", "phase"});
   for (const CollectedRun& wanted : runs) {
     told(wanted);
     RunOptions options;
@@ -97,10 +83,10 @@ ExitCode make_collection(const fs::path& folder, std::span<const CollectedRun> r
     for (const FoundProblem& found : find_problems((options.output / "capture").string())) {
       const std::string name = wanted.name + '/' + found.name.string();
       write_whole_file(folder / "problems" / name, read_whole_file(found.file));
-      problems.push_back(described(found.file, name));
+      manifest.add_row(described(found.file, name));
     }
   }
-  write_manifest(folder / "problems" / "manifest.csv", problems);
+  write_whole_file(folder / "problems" / "manifest.csv", manifest.take());
   return ExitCode::ok;
 }
 

@@ -25,19 +25,12 @@ struct CollectedRun {
 /// packing, whose grains have just fallen.
 std::vector<CollectedRun> collection_runs(int most_grains);
 
-/// One line of manifest.csv.
-struct CollectedProblem {
-  std::string file;     ///< in the folder of the problems
-  std::string content;  ///< key of problem, start and scale: CaseFacts::content
-  int contacts = 0, rows = 0, step = 0;
-  std::string phase;  ///< "settling", then that of the driven wall: passive, active, jammed
-};
-
 /// Makes what is missing of `folder`: packings/, runs/<name>, problems/<name>/step_*.hdf5 and
-/// problems/manifest.csv. `told` is called before each run. The code is that of the first run that
-/// did not come to its end, of which nothing is lost. Throws Error.
+/// problems/manifest.csv, a line for each file: content (CaseFacts::content), contacts, rows, step,
+/// and the phase: "settling", then that of the driven wall. `told` is called before each run. The
+/// code is that of the first run that did not come to its end, of which nothing is lost. Throws
+/// Error.
 ExitCode make_collection(const std::filesystem::path& folder, std::span<const CollectedRun> runs,
-                         const std::function<void(const CollectedRun&)>& told,
-                         std::vector<CollectedProblem>& problems);
+                         const std::function<void(const CollectedRun&)>& told);
 
 }  // namespace ballast

@@ -84,8 +84,6 @@ LoadedCase load_captured(const fs::path& file) {
   loaded.problem = captured->problem;
   loaded.warm_start = captured->start;
   loaded.facts = case_facts(loaded.problem, loaded.warm_start, captured->velocity_scale());
-  loaded.h = captured->h;
-  loaded.phase = captured->phase;
   loaded.describe_contact = [captured](int c) {
     if (c < 0) return std::string();
     const size_t k = static_cast<size_t>(c);

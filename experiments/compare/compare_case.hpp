@@ -27,9 +27,7 @@ struct LoadedCase {
   FrictionProblem problem;
   Impulses warm_start;  ///< empty: the case has none
   CaseFacts facts;
-  double h = 0.0;     ///< the step of a captured problem [s]; 0: it is none
-  std::string phase;  ///< of its motion
-  Impulses exact;     ///< a solution at 1e-9, where one was looked for and found
+  Impulses exact;  ///< a solution at 1e-9, where one was looked for and found
   /// Where a contact is, for who looks for the worst one: "contact 12", with bodies and gap where
   /// they are known.
   std::function<std::string(int)> describe_contact;

@@ -47,7 +47,6 @@ void for_columns(Row& row, F&& f) {
   f("solve_seconds", row.solve_seconds, "");
   f("startup_seconds", row.startup_seconds,
     "making the solver, processes, a foreign library's form: in no other");
-  f("first_seconds", row.first_seconds, "of the child's first run");
   f("runs", row.runs, "solves in the child");
   f("iterations", row.iterations, "");
   f("natural_map_rms", row.natural_map_rms, "[m/s]");
@@ -55,7 +54,6 @@ void for_columns(Row& row, F&& f) {
   f("fclib", row.fclib, "what Siconos prints");
   f("cone_violation", row.cone_violation, "[N s]");
   f("min_normal_velocity", row.min_normal_velocity, "[m/s]");
-  f("own_residual", row.own_residual, "the backend's own: no evidence");
   f("worst", row.worst, "contact of natural_map_max");
   f("velocity_distance", row.distance.velocity,
     "of bodies, from a solution at 1e-9, over the velocity scale; nan: none");

@@ -50,12 +50,10 @@ struct CompareRow {
   std::string note;    ///< why it failed
   int iterations = 0;
   int runs = 0;  ///< solves in the child, of which the fastest is timed here
-  double own_residual = 0.0;
   double prepare_seconds = 0.0, solve_seconds = 0.0;
   /// In none of the others: making the solver, starting processes, bringing the problem into a
   /// foreign library's form and judging its answers on the way.
   double startup_seconds = 0.0;
-  double first_seconds = 0.0;  ///< prepare and solve of the child's first run: caches cold
   double peak_memory_MB = 0.0;
   std::vector<HistoryRow> history;
 

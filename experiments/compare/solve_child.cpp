@@ -62,7 +62,6 @@ void take_run(SolverRun&& run, double velocity_scale, Account& account) {
   row.note = run.failure;
   if (run.failure == std::bad_alloc().what()) row.verdict = Verdict::out_of_memory;
   row.iterations = run.solved.iterations;
-  row.own_residual = run.solved.own_residual;
   row.prepare_seconds = run.prepare_seconds;
   row.solve_seconds = run.solve_seconds;
   row.history.clear();
@@ -83,10 +82,7 @@ void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const So
     SolverRun run = drive(*solver, loaded, limits, row);
     const double seconds = run.prepare_seconds + run.solve_seconds;
     // What is loaded and started once is seen in the first run alone.
-    if (row.runs == 0) {
-      row.first_seconds = seconds;
-      row.startup_seconds = making + run.startup_seconds;
-    }
+    if (row.runs == 0) row.startup_seconds = making + run.startup_seconds;
     if (row.runs == 0 || seconds < row.seconds())
       take_run(std::move(run), loaded.facts.velocity_scale, account);
     ++row.runs;

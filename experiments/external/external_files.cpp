@@ -85,15 +85,7 @@ bool ExternalAnswer::set_status(int status) {
   return true;
 }
 
-AskedForms asked_forms_of(const std::string& name) {
-  constexpr const char* names[] = {"both", "bodies", "delassus"};
-  for (std::size_t k = 0; k < std::size(names); ++k)
-    if (name == names[k]) return static_cast<AskedForms>(k);
-  throw std::invalid_argument("'" + name + "': expected one of " + joined(names));
-}
-
-void write_request(const std::filesystem::path& path, const ExternalRequest& request,
-                   AskedForms forms) {
+void write_request(const std::filesystem::path& path, const ExternalRequest& request) {
   const auto add = [&](Hdf5Writer& file) {
     file.add_group("/ballast_request");
     add_number(file, asked + "protocol", external_protocol);
@@ -104,8 +96,7 @@ void write_request(const std::filesystem::path& path, const ExternalRequest& req
     add_number(file, asked + "max_seconds", request.max_seconds);
     file.add(asked + "start", as_vector(three_rows(request.problem, request.start)));
   };
-  const StoredForms stored[] = {StoredForms::both, StoredForms::as_known, StoredForms::delassus};
-  write_problem(path, request.problem, stored[static_cast<int>(forms)], add);
+  write_problem(path, request.problem, StoredForms::both, add);
 }
 
 ExternalRequest read_request(const std::filesystem::path& path) {

@@ -13,11 +13,6 @@ namespace ballast {
 /// Written into both files. Another one is refused.
 constexpr int external_protocol = 1;
 
-/// Which forms of the problem a program reads; the other one need not be written.
-enum class AskedForms { both, bodies, delassus };
-/// "both", "bodies", "delassus". Throws std::invalid_argument.
-AskedForms asked_forms_of(const std::string& name);
-
 struct ExternalRequest {
   FrictionProblem problem;
   Impulses start;                ///< rows as in the problem
@@ -45,8 +40,7 @@ struct ExternalAnswer {
 
 /// The problem in the forms W, q and, where it has one, M, H; where only W is known, in that. Throw
 /// Error naming the file.
-void write_request(const std::filesystem::path& file, const ExternalRequest& request,
-                   AskedForms forms = AskedForms::both);
+void write_request(const std::filesystem::path& file, const ExternalRequest& request);
 /// In the dynamics form where the file has it; contacts without friction have three rows.
 ExternalRequest read_request(const std::filesystem::path& file);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <new>
@@ -25,21 +24,12 @@ namespace ballast {
 namespace fs = std::filesystem;
 namespace {
 
-/// In memory where there is room, because files there cost no wait for a disk; TMPDIR decides.
-fs::path place_for_files() {
-  constexpr std::uintmax_t room = std::uintmax_t{1} << 30;  // bytes
-  const fs::path memory = "/dev/shm";
-  std::error_code error;
-  const bool has_room =
-      access(memory.c_str(), W_OK) == 0 && fs::space(memory, error).available > room;
-  return has_room && !getenv("TMPDIR") ? memory : fs::temp_directory_path();
-}
-
-/// A folder of our own that goes with this object.
+/// A folder of our own that goes with this object. TMPDIR decides where: in memory files cost no
+/// wait for a disk.
 class WorkFolder {
  public:
   WorkFolder() {
-    std::string name = (place_for_files() / "ballast-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / "ballast-XXXXXX").string();
     if (!mkdtemp(name.data())) throw Error(name + ": cannot be made: " + std::strerror(errno));
     path_ = name;
   }
@@ -67,7 +57,7 @@ class ExternalProgram {
                    answer = folder_.path() / ("answer" + number + ".hdf5");
     request.id = count_;
     if (command_.is_served) see_to_served();
-    write_request(problem, request, forms_);
+    write_request(problem, request);
     // Backends look at the clock between iterations: some grace before it is killed.
     const double seconds = 1.25 * request.max_seconds + 2.0;
     if (command_.is_served)
@@ -102,17 +92,15 @@ class ExternalProgram {
     if (program.status() != 0) lost(program);
   }
 
-  /// The process that is kept, ready. "ready bodies" says which forms it reads.
+  /// The process that is kept, ready.
   void see_to_served() {
     if (served_) return;
     served_ = std::make_unique<SupervisedProgram>(
         command_.command, std::vector<std::string>{"--serve"}, limits_of_program());
     const std::string said = await("ready", limits_.startup_seconds);
-    if (said.starts_with("failed")) {
-      served_.reset();
-      throw Error(command_.name + ": " + said);
-    }
-    forms_ = said == "ready" ? command_.forms : asked_forms_of(said.substr(said.find(' ') + 1));
+    if (said == "ready") return;
+    served_.reset();
+    throw Error(command_.name + ": " + said);
   }
 
   /// One line for it.
@@ -122,20 +110,15 @@ class ExternalProgram {
     if (reply != "done") throw Error(command_.name + ": " + reply);
   }
 
-  /// Whether a line is this word, with what "ready" may tell, or begins with "failed".
-  static bool is_reply(const std::string& line, const std::string& word) {
-    return line == word || line.starts_with("failed") ||
-           (word == "ready" && (line == "ready bodies" || line == "ready delassus"));
-  }
-
-  /// The next line that is a reply; others are the program's own business.
+  /// The next line that is this word or begins with "failed"; others are the program's own
+  /// business.
   std::string await(const std::string& word, double seconds) {
     const Stopwatch watch;
     for (std::string line;;) {
       const double left = seconds - watch.seconds();
       const auto heard = served_->read_line(line, left);
       if (heard == SupervisedProgram::Heard::line) {
-        if (is_reply(line, word)) return line;
+        if (line == word || line.starts_with("failed")) return line;
         if (left > 0.0) continue;
       }
       // The next request finds a new one.
@@ -160,7 +143,6 @@ class ExternalProgram {
   const ExternalCommand command_;
   const ExternalLimits limits_;
   const WorkFolder folder_;
-  AskedForms forms_ = command_.forms;
   int count_ = 0;
   std::unique_ptr<SupervisedProgram> served_;
 };
@@ -218,7 +200,6 @@ std::function<std::unique_ptr<Solver>()> external_solver(const ExternalCommand& 
 
 // Which programs solve: the words of the command line, and lists in TOML.
 
-namespace fs = std::filesystem;
 namespace {
 
 /// Commands of a list start in the folder of the list.
@@ -233,14 +214,6 @@ std::vector<ExternalCommand> read_list(const fs::path& file) {
     command.name = entry.text("name");
     command.command = entry.text("command");
     entry.read("serve", {}, false, &command.is_served);
-    std::string forms = "both";
-    entry.read("forms", {}, false, &forms);
-    try {
-      command.forms = asked_forms_of(forms);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(file.string() + ": " + command.name +
-                                  ": forms = " + error.what());
-    }
     command.folder = folder.string();
     entry.finish();
     commands.push_back(std::move(command));
@@ -277,8 +250,6 @@ std::vector<ExternalCommand> external_commands(const std::vector<std::string>& w
 
 std::string key_of(const ExternalCommand& command) {
   std::string known = command.command + '|' + command.folder + (command.is_served ? "|served" : "");
-  if (command.forms != AskedForms::both)
-    known += "|forms " + std::to_string(static_cast<int>(command.forms));
   std::istringstream words(command.command);
   for (std::string word; words >> word;) {
     std::erase_if(word, [](char c) { return c == '\'' || c == '"'; });

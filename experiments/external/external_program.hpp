@@ -15,7 +15,6 @@ struct ExternalCommand {
   std::string name, command;
   bool is_served = false;  ///< one process for all problems, which is told them line by line
   std::string folder;      ///< where it starts; empty: here
-  AskedForms forms = AskedForms::both;  ///< that it reads; a served program may say so itself
 };
 
 struct ExternalLimits {

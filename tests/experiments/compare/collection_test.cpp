@@ -1,5 +1,6 @@
 #include "experiments/compare/collection.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "experiments/compare/compare_case.hpp"
@@ -23,28 +24,25 @@ TEST_CASE("A collection that is made twice holds the same problems, and its mani
   CollectedRun run = collection_runs(25)[1];
   // Quicker to deposit than what is collected.
   run.overrides.emplace_back("grains.count=6");
-  std::vector<CollectedProblem> first, second;
-  const auto make = [&](const char* name, std::vector<CollectedProblem>& problems) {
-    return make_collection(
-        folder.path() / name, std::vector{run}, [](const auto&) {}, problems);
+  const auto make = [&](const char* name) {
+    return make_collection(folder.path() / name, std::vector{run}, [](const auto&) {});
   };
-  REQUIRE(make("a", first) == ExitCode::ok);
-  REQUIRE(make("b", second) == ExitCode::ok);
-  REQUIRE(first.size() == 4);
-  CHECK(first[0].file == "pressed-25/step_0000010.hdf5");
-  CHECK(first[0].phase == "settling");
-  CHECK(first[3].file == "pressed-25/step_0000285.hdf5");
-  CHECK(first[3].phase == "passive");
-  CHECK(first[0].contacts > 0);
-  const std::string manifest = read_whole_file(folder.path() / "a/problems/manifest.csv");
-  CHECK(read_whole_file(folder.path() / "b/problems/manifest.csv") == manifest);
+  const auto manifest_of = [&](const std::string& name) {
+    return read_whole_file(folder.path() / name / "problems/manifest.csv");
+  };
+  REQUIRE(make("a") == ExitCode::ok);
+  REQUIRE(make("b") == ExitCode::ok);
+  const std::string manifest = manifest_of("a");
+  CHECK(manifest_of("b") == manifest);
+  CHECK(std::count(manifest.begin(), manifest.end(), '\n') == 5);
   CHECK_THAT(manifest, Catch::StartsWith("file,content,contacts,rows,step,phase\n") &&
-                           Catch::Contains(first[3].file + "," + first[3].content + ","));
+                           Catch::Contains(",10,settling\n") && Catch::EndsWith(",285,passive\n"));
   // What a comparison calls its content.
   const auto cases = compare_cases({(folder.path() / "a/problems").string()});
   REQUIRE(cases.size() == 4);
-  CHECK(cases[0].load().facts.content == first[0].content);
+  CHECK_THAT(manifest, Catch::Contains("pressed-25/step_0000010.hdf5," +
+                                       cases[0].load().facts.content + ","));
   // The same command goes on where all is there.
-  CHECK(make("a", second) == ExitCode::ok);
-  CHECK(second.size() == 4);
+  CHECK(make("a") == ExitCode::ok);
+  CHECK(manifest_of("a") == manifest);
 }

@@ -12,8 +12,7 @@ TEST_CASE("Programs are named on the command line and in lists") {
   const TemporaryFolder folder;
   const auto list = folder.write("list.toml",
                                  "[[external]]\nname = \"a\"\ncommand = \"a.py --fast=1\"\n"
-                                 "[[external]]\nname = \"b\"\ncommand = \"b\"\nserve = true\n"
-                                 "forms = \"delassus\"\n");
+                                 "[[external]]\nname = \"b\"\ncommand = \"b\"\nserve = true\n");
   const auto commands = external_commands({"c=python3 'x y.py' k=v", list.string()});
   REQUIRE(commands.size() == 3);
   CHECK(commands[0].name == "c");
@@ -23,8 +22,6 @@ TEST_CASE("Programs are named on the command line and in lists") {
   CHECK_FALSE(commands[1].is_served);
   CHECK(commands[1].folder == folder.path());
   CHECK(commands[2].is_served);
-  CHECK(commands[1].forms == AskedForms::both);
-  CHECK(commands[2].forms == AskedForms::delassus);
 }
 
 TEST_CASE("What is wrong with the words is said") {
@@ -38,10 +35,6 @@ TEST_CASE("What is wrong with the words is said") {
   const auto typo =
       folder.write("typo.toml", "[[external]]\nname = \"a\"\ncommand = \"b\"\nserved = true\n");
   CHECK_THROWS_AS(external_commands({typo}), SceneFileError);
-  const auto other =
-      folder.write("other.toml", "[[external]]\nname = \"a\"\ncommand = \"b\"\nforms = \"W\"\n");
-  CHECK_THROWS_WITH(external_commands({other}),
-                    Contains("other.toml: a: forms = 'W': expected one of both, bodies, delassus"));
 }
 
 TEST_CASE("An edited script has another key") {

@@ -51,27 +51,6 @@ struct Asked {
 
 }  // namespace
 
-TEST_CASE("A request holds the forms that are asked for, and is the same problem in each") {
-  const Asked a;
-  const double error = contact_error(a.known.problem, 2.0 * a.known.r).natural_map_max;
-  for (const AskedForms forms : {AskedForms::both, AskedForms::bodies, AskedForms::delassus}) {
-    write_request(a.file, a.request, forms);
-    const Hdf5Reader file(a.file);
-    CHECK(file.has("/fclib_local") == (forms != AskedForms::bodies));
-    CHECK(file.has("/fclib_global") == (forms != AskedForms::delassus));
-    const ExternalRequest read = read_request(a.file);
-    CHECK(read.problem.has_dynamics == (forms != AskedForms::delassus));
-    const Impulses wide = 2.0 * three_rows(a.known.problem, a.known.r);
-    CHECK(contact_error(read.problem, wide).natural_map_max == Approx(error));
-  }
-  // Where only W is known, it is what bodies' readers get.
-  Asked stored;
-  stored.request.problem = to_friction_problem(condensed(a.known.problem));
-  stored.request.start = three_rows(a.known.problem, a.known.r);
-  write_request(stored.file, stored.request, AskedForms::bodies);
-  CHECK_FALSE(read_request(stored.file).problem.has_dynamics);
-}
-
 TEST_CASE("A request comes back as the same problem, in both forms") {
   const Asked a;
   REQUIRE(a.known.problem.row_count() < 3 * a.known.problem.contact_count());
@@ -83,10 +62,17 @@ TEST_CASE("A request comes back as the same problem, in both forms") {
   CHECK(read.id == 5);
   CHECK(read.problem.has_dynamics);
   CHECK(contact_error(read.problem, read.start).natural_map_max < 1e-12);
-  // W, for who does not want M and H.
-  const Hdf5Reader file(a.file);
-  CHECK(file.has("/fclib_global/H"));
-  CHECK(file.shape("/fclib_local/vectors/q")[0] == 36);
+  {  // W, for who does not want M and H.
+    const Hdf5Reader file(a.file);
+    CHECK(file.has("/fclib_global/H"));
+    CHECK(file.shape("/fclib_local/vectors/q")[0] == 36);
+  }
+  // Where only W is known, it is what bodies' readers get.
+  Asked stored;
+  stored.request.problem = to_friction_problem(condensed(a.known.problem));
+  stored.request.start = three_rows(a.known.problem, a.known.r);
+  write_request(stored.file, stored.request);
+  CHECK_FALSE(read_request(stored.file).problem.has_dynamics);
 }
 
 TEST_CASE("An answer comes back with the rows of the problem") {
