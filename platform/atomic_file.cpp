@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdarg>
 #include <cstring>
@@ -111,47 +110,12 @@ void AtomicFile::print(const char* format, ...) {
   if (written < 0) throw_file_error(name_, "write");
 }
 
-void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
-  if (neighbour_.empty()) {
-    gathered_.resize(std::max<size_t>(gathered_.size(), offset + bytes.size()));
-    bytes.copy(gathered_.data() + offset, bytes.size());
-    return;
-  }
-  errno = 0;
-  while (!bytes.empty()) {
-    const ssize_t count =
-        pwrite(fileno(file_), bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (count <= 0) throw_file_error(name_, "write");
-    offset += static_cast<std::uint64_t>(count);
-    bytes.remove_prefix(static_cast<size_t>(count));
-  }
-}
-
-void AtomicFile::read_at(std::uint64_t offset, std::span<char> bytes) const {
-  std::ranges::fill(bytes, '\0');
-  if (neighbour_.empty()) {
-    if (offset < gathered_.size()) gathered_.copy(bytes.data(), bytes.size(), offset);
-    return;
-  }
-  errno = 0;
-  ssize_t count = 1;
-  for (; !bytes.empty() && count > 0; bytes = bytes.subspan(static_cast<size_t>(count))) {
-    count = pread(fileno(file_), bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (count < 0) throw_file_error(name_, "read");
-    offset += static_cast<std::uint64_t>(count);
-  }
-}
-
-void AtomicFile::set_length(std::uint64_t bytes) {
-  errno = 0;
-  if (neighbour_.empty())
-    gathered_.resize(bytes);
-  else if (ftruncate(fileno(file_), static_cast<off_t>(bytes)) != 0)
-    throw_file_error(name_, "write");
+int AtomicFile::descriptor() const {
+  if (neighbour_.empty()) throw Error(name_.string() + ": cannot write: not a regular file");
+  return fileno(file_);
 }
 
 void AtomicFile::commit() {
-  write(gathered_);
   // The bytes are on the disk before the name points to them, and the name before commit() returns.
   sync_to_disk(file_, name_);
   close();

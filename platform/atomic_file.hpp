@@ -1,12 +1,10 @@
 #pragma once
 // Files and folders: whole or not at all, what a name leads to, one worker at a time.
 
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,13 +26,9 @@ class AtomicFile {
   void write(std::string_view text) { write(text.data(), text.size()); }
   void print(const char* format, ...) __attribute__((format(printf, 2, 3)));
 
-  /// For what is not written from its beginning to its end, instead of write(). Where there is no
-  /// going back, as in a pipe, the bytes are gathered in memory until commit().
-  void write_at(std::uint64_t offset, std::string_view bytes);
-  /// What stands there; zeros behind the end.
-  void read_at(std::uint64_t offset, std::span<char> bytes) const;
-  /// Cuts the end off, or appends zeros.
-  void set_length(std::uint64_t bytes);
+  /// For what is not written from its beginning to its end, instead of write(): of the neighbour.
+  /// Throws Error where the target itself is written, as a pipe is: there is no going back in it.
+  int descriptor() const;
 
   void commit();
 
@@ -44,7 +38,6 @@ class AtomicFile {
   std::filesystem::path target_;     // what it leads to
   std::filesystem::path neighbour_;  // empty: the target itself is written
   std::FILE* file_ = nullptr;
-  std::string gathered_;  // where there is no going back
 };
 
 /// Writes all of `text` through an AtomicFile.

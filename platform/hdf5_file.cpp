@@ -1,8 +1,10 @@
 #include "platform/hdf5_file.hpp"
 
 #include <hdf5.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <functional>
 #include <limits>
@@ -20,27 +22,50 @@ namespace ballast {
 /// every write went well; the first failure is kept and thrown to whoever asks.
 class Hdf5Disk {
  public:
-  explicit Hdf5Disk(const std::filesystem::path& target) : file(target) {}
+  explicit Hdf5Disk(const std::filesystem::path& target) : target_(target), file_(target) {}
 
   /// Throws the Error with which a write failed.
   void require_written() const {
     if (failure_) std::rethrow_exception(failure_);
   }
   /// After a failure nothing is attempted any more but reading.
-  template <class Work>
-  herr_t attempt(const Work& work) {
+  void write(haddr_t offset, std::string_view bytes) {
+    for (ssize_t count; !bytes.empty() && !failure_; bytes.remove_prefix(count)) {
+      errno = 0;
+      count = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+      if (count <= 0) return note("write");
+      offset += count;
+    }
+  }
+  /// What stands there; zeros behind the end.
+  void read(haddr_t offset, std::span<char> bytes) {
+    std::ranges::fill(bytes, '\0');
+    for (ssize_t count; !bytes.empty(); bytes = bytes.subspan(count)) {
+      errno = 0;
+      count = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+      if (count < 0) note("read");
+      if (count <= 0) return;
+      offset += count;
+    }
+  }
+  void set_length(haddr_t bytes) {
+    errno = 0;
+    if (ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0) note("write");
+  }
+  void commit() { file_.commit(); }
+
+ private:
+  void note(const char* action) {
     try {
-      work();
+      throw_file_error(target_, action);
     } catch (...) {
       if (!failure_) failure_ = std::current_exception();
     }
-    return 0;
   }
-  bool has_failed() const { return failure_ != nullptr; }
 
-  AtomicFile file;
-
- private:
+  const std::filesystem::path target_;
+  AtomicFile file_;
+  const int descriptor_ = file_.descriptor();
   std::exception_ptr failure_;
 };
 
@@ -101,20 +126,17 @@ const OpenFile& of(const H5FD_t* file) { return *static_cast<const OpenFile*>(fi
 
 herr_t write_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size,
                   const void* buffer) {
-  Hdf5Disk& disk = *of(file).disk;
   of(file).length = std::max<haddr_t>(of(file).length, offset + size);
-  if (disk.has_failed()) return 0;
-  return disk.attempt([&] {
-    disk.file.write_at(offset, {static_cast<const char*>(buffer), size});
-  });
+  of(file).disk->write(offset, {static_cast<const char*>(buffer), size});
+  return 0;
 }
 
 /// The file ends where the last address was given away.
 herr_t end_file(H5FD_t* file, hid_t, hbool_t) {
   OpenFile& open = of(file);
-  const bool has_changed = open.length != open.given;
+  if (open.length != open.given) open.disk->set_length(open.given);
   open.length = open.given;
-  return has_changed ? open.disk->attempt([&] { open.disk->file.set_length(open.given); }) : 0;
+  return 0;
 }
 
 hid_t register_driver() {
@@ -145,9 +167,8 @@ hid_t register_driver() {
   };
   driver.get_eof = [](const H5FD_t* file, H5FD_mem_t) { return of(file).length; };
   driver.read = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size, void* buffer) {
-    return of(file).disk->attempt([&] {
-      of(file).disk->file.read_at(offset, {static_cast<char*>(buffer), size});
-    });
+    of(file).disk->read(offset, {static_cast<char*>(buffer), size});
+    return 0;
   };
   driver.write = write_file;
   driver.truncate = end_file;
@@ -440,7 +461,7 @@ void Hdf5Writer::commit() {
   // Closing makes HDF5 write its last metadata.
   check(file_.close(), "finish the file");
   disk_->require_written();
-  disk_->file.commit();
+  disk_->commit();
 }
 
 }  // namespace ballast

@@ -10,7 +10,75 @@ double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const Clipped
   return 0.5 * (q.position - p.position).cross(r.position - p.position).norm();
 }
 
+/// Side k of the reference face meets an edge of the incident face, or one of the face's own sides
+/// at their common corner.
+std::uint64_t crossing_key(int reference, std::span<const CollisionShape::Corner> corners, int k,
+                           int edge) {
+  const int own_edge = corners[k].edge;
+  if (edge >= 0) return edges_key(reference, own_edge, edge);
+  const int other_side = ~edge, count = static_cast<int>(corners.size());
+  int corner = -1;
+  if ((other_side + 1) % count == k) corner = corners[k].vertex;
+  if ((k + 1) % count == other_side) corner = corners[other_side].vertex;
+  if (corner < 0) return feature_key(PointKind::sides, own_edge, corners[other_side].edge);
+  return vertex_key(reference, corner);
+}
+
 }  // namespace
+
+std::span<ClippedPoint> FaceClipper::clip(const PairFrame& pair, int reference,
+                                          const FaceView& face, const FaceView& incident,
+                                          double thickness, const Vec3* direction) {
+  polygon_.clear();
+  for (const CollisionShape::Corner& corner : incident.corners)
+    polygon_.push_back({pair.other[reference] * corner.position, 0.0,
+                        vertex_key(1 - reference, corner.vertex), corner.edge});
+  const size_t count = face.sides.size();
+  for (size_t k = 0; k < count && !polygon_.empty(); ++k) {
+    CollisionShape::Side side = face.sides[k];
+    if (direction) {
+      const Vec3& from = face.corners[k].position;
+      const Vec3 along = face.corners[k + 1 < count ? k + 1 : 0].position - from;
+      side.outward = along.cross(*direction).normalized();
+      side.offset = side.outward.dot(from);
+    }
+    clip_by_side(reference, face, static_cast<int>(k), side, thickness);
+  }
+  return polygon_;
+}
+
+void FaceClipper::clip_by_side(int reference, const FaceView& face, int k,
+                               const CollisionShape::Side& side, double thickness) {
+  distance_.clear();
+  bool all_inside = true;
+  for (const ClippedPoint& p : polygon_) {
+    distance_.push_back(side.outward.dot(p.position) - side.offset);
+    all_inside &= distance_.back() <= thickness;
+  }
+  if (all_inside) return;
+  clipped_.clear();
+  for (size_t i = 0; i < polygon_.size(); ++i) {
+    const size_t next = i + 1 < polygon_.size() ? i + 1 : 0;
+    const ClippedPoint& p = polygon_[i];
+    const double here = distance_[i], there = distance_[next];
+    if (here <= thickness) {
+      clipped_.push_back(p);
+      // A corner in the plane whose edge leaves: the polygon goes on along the side.
+      if (here >= -thickness && there > thickness) clipped_.back().next_edge = ~k;
+    }
+    const bool leaves = here < -thickness && there > thickness,
+               enters = here > thickness && there < -thickness;
+    if (!leaves && !enters) continue;
+    ClippedPoint crossing;
+    crossing.position =
+        p.position + (polygon_[next].position - p.position) * (here / (here - there));
+    crossing.height = 0.0;
+    crossing.key = crossing_key(reference, face.corners, k, p.next_edge);
+    crossing.next_edge = leaves ? ~k : p.next_edge;
+    clipped_.push_back(crossing);
+  }
+  polygon_.swap(clipped_);
+}
 
 /// All other vertices are at least `clearance` higher and at most a diameter away from the support
 /// vertex, so that the body rises from it with at least the slope clearance / diameter.
@@ -136,8 +204,8 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
                                  &incident = reference == 0 ? edges.beside_b : edges.beside_a;
   const Vec3 direction =
       reference == 0 ? axis.direction : Vec3(-(pair.other[1].rotation * axis.direction));
-  const std::span<ClippedPoint> corners = clipper_.clip_along(
-      pair, reference, face, incident, direction, clipping_thickness(pair.size()));
+  const std::span<ClippedPoint> corners =
+      clipper_.clip(pair, reference, face, incident, clipping_thickness(pair.size()), &direction);
   set_heights(corners, face.face, direction);
   bool has_crossing = false;
   for (ClippedPoint p : corners) {

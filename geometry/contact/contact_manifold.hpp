@@ -28,6 +28,39 @@ struct EdgeOnEdge {
   CollisionShape::FaceView beside_a, beside_b;
 };
 
+// ---- a face of one body clipped by the sides of a face of the other
+
+/// Sutherland-Hodgman, with names for the corners. Holds scratch memory; one per thread.
+class FaceClipper {
+ public:
+  /// Room for every polygon of ordinary grains: buffers change places while clipping, so each must
+  /// be large enough at once.
+  FaceClipper() {
+    polygon_.reserve(room);
+    clipped_.reserve(room);
+    distance_.reserve(room);
+  }
+
+  using FaceView = CollisionShape::FaceView;
+
+  /// The part of face `incident` of body 1 - `reference` that lies within the prism on face `face`
+  /// of body `reference`, counter-clockwise seen from the incident body's outside. The prism lies
+  /// along the face's normal, or along `direction`, a unit vector in the reference body's frame.
+  /// Corners up to `thickness` [m] outside a side count as inside and stay where they are. Valid
+  /// until the next call.
+  std::span<ClippedPoint> clip(const PairFrame& pair, int reference, const FaceView& face,
+                               const FaceView& incident, double thickness,
+                               const Vec3* direction = nullptr);
+
+ private:
+  static constexpr size_t room = 128;
+  void clip_by_side(int reference, const FaceView& face, int k, const CollisionShape::Side& side,
+                    double thickness);
+
+  std::vector<ClippedPoint> polygon_, clipped_;
+  std::vector<double> distance_;
+};
+
 // ---- one point only
 //
 // Most manifolds are one vertex over a face or two edges across, and their place is known from the

@@ -47,7 +47,7 @@
 // heights misses some at the rim.
 
 #include "geometry/contact/contact_point.hpp"
-#include "geometry/contact/face_clipping.hpp"
+#include "geometry/contact/separating_axis.hpp"
 
 namespace ballast {
 
@@ -70,6 +70,15 @@ inline Vec3 contact_normal(const Mat3& rotation, const Plane& plane) {
 }
 
 // ---- the places, with their heights along the axis' direction
+
+/// A corner of a clipped polygon.
+struct ClippedPoint {
+  Vec3 position;  ///< in the reference body's frame [m]
+  double height;  ///< over the reference face [m]; set by the contact rule (contact_normal.hpp)
+  std::uint64_t key;
+  int next_edge;  ///< runs to the next corner: an edge e of the incident body, or ~k for side k of
+                  ///< the reference face
+};
 
 /// Of a place x on the other body over a reference face, in that face's frame [m].
 inline double height_over_face(const CollisionShape::Face& face, const Vec3& x) {

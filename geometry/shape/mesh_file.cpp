@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,6 +56,13 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
+/// In either case; `keyword`: in small letters.
+bool is_same_word(std::string_view word, std::string_view keyword) {
+  return std::ranges::equal(word, keyword, [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+  });
+}
+
 /// At most 40 characters of a word, unprintable ones as '?', for quoting in a message.
 std::string quoted(std::string_view word) {
   std::string result(1, '\'');
@@ -69,8 +76,9 @@ std::string quoted(std::string_view word) {
 template <class Number>
 bool parse(std::string_view word, Number& number) {
   if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() && !word.empty();
+  const std::optional<Number> value = parsed<Number>(word);
+  number = value.value_or(Number());
+  return value.has_value();
 }
 
 /// A coordinate: a finite number.
@@ -214,17 +222,11 @@ class TextReader {
     const std::string_view found = word();
     if (found.empty())
       place_.fail("the file ends where '" + std::string(keyword) + "' should stand");
-    if (!same(found, keyword))
+    if (!is_same_word(found, keyword))
       place_.fail("expected '" + std::string(keyword) + "', found " + quoted(found));
   }
   double coordinate() { return parse_coordinate(word(), place_); }
   const Place& place() const { return place_; }
-
-  static bool same(std::string_view word, std::string_view keyword) {
-    return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
-      return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
-    });
-  }
 
  private:
   Place place_;
@@ -258,13 +260,13 @@ Soup read_text(const std::filesystem::path& file, std::string_view content) {
   Soup soup;
   TextReader reader(file, content);
   for (std::string_view word = reader.word(); !word.empty(); word = reader.word()) {
-    if (!TextReader::same(word, "solid"))
+    if (!is_same_word(word, "solid"))
       reader.place().fail("expected 'solid', found " + quoted(word));
     reader.skip_line();
-    for (word = reader.word(); TextReader::same(word, "facet"); word = reader.word())
+    for (word = reader.word(); is_same_word(word, "facet"); word = reader.word())
       read_facet(reader, soup);
     if (word.empty()) reader.place().fail("the file ends where 'facet' or 'endsolid' should stand");
-    if (!TextReader::same(word, "endsolid"))
+    if (!is_same_word(word, "endsolid"))
       reader.place().fail("expected 'facet' or 'endsolid', found " + quoted(word));
     reader.skip_line();
   }
@@ -289,7 +291,7 @@ RawMesh read_stl(const std::filesystem::path& file, std::string_view content) {
   // a binary header may start with "solid" too; text holds no zero byte
   const bool has_zero = content.find('\0') != std::string_view::npos;
   std::string_view start = content;
-  const bool is_text = !has_zero && TextReader::same(next_word(start), "solid");
+  const bool is_text = !has_zero && is_same_word(next_word(start), "solid");
   const Soup soup = is_text ? read_text(file, content) : read_binary(file, content);
 
   // Every triangle brings its own corners: those that are the same become one vertex, numbered in
@@ -332,18 +334,13 @@ double file_tolerance(const RawMesh& mesh) {
   return std::clamp(16.0 * rounding, six_digits, most);
 }
 
-enum class Format { obj, stl };
-
-Format format_of(const std::filesystem::path& file) {
-  std::string suffix = file.extension().string();
-  for (char& c : suffix)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  if (suffix == ".obj") return Format::obj;
-  if (suffix == ".stl") return Format::stl;
-  Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read");
-}
-
-std::string content_of(const std::filesystem::path& file) {
+RawMesh read_raw(const std::filesystem::path& file, double scale) {
+  if (!(scale > 0.0 && std::isfinite(scale)))
+    Place{file}.fail("the scale must be positive and finite");
+  const std::string suffix = file.extension().string();
+  const bool is_obj = is_same_word(suffix, ".obj");
+  if (!is_obj && !is_same_word(suffix, ".stl"))
+    Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read");
   std::string content;
   try {
     content = read_whole_file(file);
@@ -351,15 +348,7 @@ std::string content_of(const std::filesystem::path& file) {
     throw MeshFileError(error.what());
   }
   if (content.empty()) Place{file}.fail("the file is empty");
-  return content;
-}
-
-RawMesh read_raw(const std::filesystem::path& file, double scale) {
-  if (!(scale > 0.0 && std::isfinite(scale)))
-    Place{file}.fail("the scale must be positive and finite");
-  const Format format = format_of(file);
-  const std::string content = content_of(file);
-  RawMesh mesh = format == Format::obj ? read_obj(file, content) : read_stl(file, content);
+  RawMesh mesh = is_obj ? read_obj(file, content) : read_stl(file, content);
   if (mesh.vertices.empty()) Place{file}.fail("the file has no vertices");
   for (Vec3& p : mesh.vertices) p *= scale;
   return mesh;

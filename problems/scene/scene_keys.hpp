@@ -1,7 +1,7 @@
 #pragma once
 // The keys of a scene file, each once: name, where its value is kept, type, unit, range, default
-// and meaning. Scenes are read and validated by these tables, and a test compares docs/manual/scenes.md
-// with them. The type and the default are those of what keeps the value.
+// and meaning. Scenes are read and validated by these tables; a test compares them with
+// docs/manual/scenes.md. The type and the default are those of what keeps the value.
 
 #include <vector>
 

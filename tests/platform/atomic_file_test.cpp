@@ -14,7 +14,6 @@
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
-#include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -151,37 +150,6 @@ TEST_CASE("a pipe is written as it is, and stays one") {
   CHECK_FALSE(fs::exists(pipe.string() + ".tmp"));
 }
 
-TEST_CASE("a file can be written here and there, a pipe too") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "file", pipe = folder.path() / "pipe";
-  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  std::string got;
-  std::thread reader([&] {
-    std::ifstream in(pipe);
-    std::getline(in, got, '\n');
-  });
-  for (const fs::path& target : {file, pipe}) {
-    AtomicFile out(target);
-    out.write_at(6, "world");
-    out.write_at(0, "hello ");
-    std::string bytes(7, 'x');
-    out.read_at(6, bytes);
-    CHECK(bytes == std::string("world\0\0", 7));
-    out.read_at(100, bytes);
-    CHECK(bytes == std::string(7, '\0'));
-    out.write_at(20, "cut off");
-    out.set_length(3);
-    out.set_length(5);
-    out.commit();
-  }
-  reader.join();
-  CHECK(got == std::string("hel\0\0", 5));
-  CHECK(read_whole_file(file) == got);
-  AtomicFile out(folder.path() / "large");
-  const FileSizeLimit limit(8);
-  CHECK(complaint([&] { out.write_at(0, "ten letters"); }).ends_with("write: File too large"));
-}
-
 TEST_CASE("an open descriptor's file is written in place, not replaced") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("file", "old"), name = folder.path() / "stdout";
@@ -243,15 +211,11 @@ TEST_CASE("what a name leads to, links followed") {
   CHECK((is_there(link) && is_file(link)));
   CHECK((is_there(folder.path()) && is_folder(folder.path()) && !is_file(folder.path())));
   CHECK((is_there(pipe) && !is_file(pipe) && !is_folder(pipe)));
-  CHECK_FALSE((is_there(missing) || is_file(missing) || is_folder(missing)));
-}
-
-TEST_CASE("a name that the system refuses leads to nothing") {
-  const std::string longer_than_any(5000, 'n');
-  REQUIRE_THROWS(std::filesystem::exists(longer_than_any));
-  CHECK_FALSE(is_there(longer_than_any));
-  CHECK_FALSE(is_file(longer_than_any));
-  CHECK_FALSE(is_folder(longer_than_any));
+  // A name that the system refuses leads to nothing.
+  const fs::path longer_than_any(std::string(5000, 'n'));
+  REQUIRE_THROWS(fs::exists(longer_than_any));
+  for (const fs::path& none : {missing, longer_than_any})
+    CHECK_FALSE((is_there(none) || is_file(none) || is_folder(none)));
 }
 
 namespace {
@@ -278,39 +242,21 @@ class Holder {
 
 }  // namespace
 
-TEST_CASE("a free lock is had at once, and its file goes with it") {
+TEST_CASE("one holder at a time, who is named to the others; the lock's file goes with it") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "lock";
   for (int k = 0; k < 2; ++k) {
-    const FileLock lock(file, at_once);
-    CHECK(lock.is_held());
+    const FileLock mine(file, at_once);
+    CHECK(mine.is_held());
+    CHECK_FALSE(FileLock(file, at_once).is_held());
     CHECK(fs::exists(file));
   }
   CHECK_FALSE(fs::exists(file));
-}
-
-TEST_CASE("one holder at a time, who is named to the others") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "lock";
-  const Holder other(file);
+  Holder other(file);
   const FileLock lock(file, at_once);
   CHECK_FALSE(lock.is_held());
   CHECK(lock.holder() == read_whole_file(file));
-}
-
-TEST_CASE("a lock that was not had leaves the holder's file alone") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "lock";
-  const FileLock mine(file, at_once);
-  { const FileLock second(file, at_once); }
-  CHECK(fs::exists(file));
-  CHECK_FALSE(FileLock(file, at_once).is_held());
-}
-
-TEST_CASE("the lock of a killed process is free, although its file is still there") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "lock";
-  Holder other(file);
+  // The lock of a killed process is free, although its file is still there.
   other.die();
   CHECK(fs::exists(file));
   CHECK(FileLock(file, at_once).is_held());
@@ -332,11 +278,7 @@ TEST_CASE("patience is asked with the seconds waited, and waiting ends when the 
   CHECK(waited[2] == Approx(0.1));
   CHECK(briefly(2.9));
   CHECK_FALSE(briefly(3.0));
-}
-
-TEST_CASE("a lock in a folder that is not there is an error with its name") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "absent" / "lock";
-  CHECK_THROWS_WITH(FileLock(file, at_once),
-                    file.string() + ": cannot make the lock: No such file or directory");
+  CHECK_THROWS_WITH(FileLock(folder.path() / "absent" / "lock", at_once),
+                    (folder.path() / "absent" / "lock").string() +
+                        ": cannot make the lock: No such file or directory");
 }

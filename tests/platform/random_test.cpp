@@ -24,13 +24,6 @@ TEST_CASE("xoshiro256++ seeded by splitmix64 gives the numbers that other librar
     CHECK(random.next() == expected);
 }
 
-TEST_CASE("one seed, one sequence") {
-  Random random(5), same(5), other(6);
-  const std::uint64_t first = random.next();
-  CHECK(first == same.next());
-  CHECK(first != other.next());
-}
-
 TEST_CASE("uniform and normal numbers have the moments they should have") {
   Random random(5);
   const int n = 200000;

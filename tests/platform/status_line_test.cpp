@@ -33,10 +33,6 @@ TEST_CASE("elsewhere each line is a line, and quiet is quiet") {
   std::ostringstream nothing;
   StatusLine(StatusLine::Style::quiet, nothing).write("one");
   CHECK(nothing.str().empty());
-}
-
-TEST_CASE("a line on a terminal comes more often") {
-  std::ostringstream out;
   CHECK(StatusLine(StatusLine::Style::bar, out).interval() <
         0.1 * StatusLine(StatusLine::Style::lines, out).interval());
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "platform/error.hpp"
@@ -47,6 +48,12 @@ TEST_CASE("a number is all of a text, or it is none") {
     CAPTURE(text);
     CHECK_FALSE(parsed_number(text));
   }
+  CHECK(parsed<long>("-12") == -12);
+  CHECK(parsed<double>("1e-4") == 1e-4);
+  for (const char* text : {"", " 1", "1 ", "1.5", "1x", "9223372036854775808"}) {
+    CAPTURE(text);
+    CHECK_FALSE(parsed<long>(text));
+  }
 }
 
 TEST_CASE("durations are told in two units") {
@@ -76,30 +83,20 @@ TEST_CASE("a plain text is letters, digits and what else was said") {
   }
 }
 
-TEST_CASE("what is parsed is all of a text, without blanks") {
-  CHECK(parsed<long>("-12") == -12);
-  CHECK(parsed<double>("1e-4") == 1e-4);
-  for (const char* text : {"", " 1", "1 ", "1.5", "1x", "9223372036854775808"}) {
-    CAPTURE(text);
-    CHECK_FALSE(parsed<long>(text));
-  }
-}
-
-TEST_CASE("the distance of two words is what has to be typed again") {
-  CHECK(edit_distance("", "") == 0);
-  CHECK(edit_distance("run", "run") == 0);
-  CHECK(edit_distance("rnu", "run") == 2);
-  CHECK(edit_distance("kitten", "sitting") == 3);
-  CHECK(edit_distance("", "abc") == 3);
-  CHECK(edit_distance("abc", "") == 3);
-}
-
 TEST_CASE("a slip of the finger is recognised, another word is not") {
+  for (const auto& [a, b, distance] : {std::tuple("", "", 0u),
+                                       {"run", "run", 0u},
+                                       {"rnu", "run", 2u},
+                                       {"kitten", "sitting", 3u},
+                                       {"", "abc", 3u},
+                                       {"abc", "", 3u}})
+    CHECK(edit_distance(a, b) == distance);
   const std::vector<std::string> words{"run", "solve", "compare", "vibrated_box_small"};
-  CHECK(nearest_word("rnu", words) == "run");
-  CHECK(nearest_word("compere", words) == "compare");
-  CHECK(nearest_word("vibratedboxsmal", words) == "vibrated_box_small");
-  CHECK(nearest_word("frobnicate", words).empty());
+  for (const auto& [word, meant] : {std::pair("rnu", "run"),
+                                    {"compere", "compare"},
+                                    {"frobnicate", ""},
+                                    {"vibratedboxsmal", "vibrated_box_small"}})
+    CHECK(nearest_word(word, words) == meant);
   CHECK(nearest_word("x", std::vector<std::string>{}).empty());
   CHECK(did_you_mean("slove", words) == ", did you mean \"solve\"?");
   CHECK(did_you_mean("frobnicate", words).empty());

@@ -91,10 +91,7 @@ TEST_CASE("coplanar triangles become one face") {
   const Polyhedron upright = triangulated_box(Vec3(0.01, 0.02, 0.03));
   std::vector<Vec3> vertices;
   for (const Vec3& p : upright.vertices()) vertices.push_back(rotation * p);
-  std::vector<std::vector<int>> faces;
-  for (int f = 0; f < upright.face_count(); ++f)
-    faces.emplace_back(upright.face(f).begin(), upright.face(f).end());
-  CHECK(CollisionShape(Polyhedron(vertices, faces)).faces().count() == 6);
+  CHECK(CollisionShape(upright.with_vertices(vertices)).faces().count() == 6);
 
   // bent along the diagonal by more than the threshold: stays two
   vertices.assign(upright.vertices().begin(), upright.vertices().end());
@@ -106,10 +103,7 @@ TEST_CASE("the ball lies inside also when the origin does not") {
   std::vector<Vec3> far;
   const Polyhedron box = make_box(Vec3(1, 1, 1));
   for (const Vec3& p : box.vertices()) far.push_back(p + Vec3(5, 0, 0));
-  std::vector<std::vector<int>> faces;
-  for (int f = 0; f < box.face_count(); ++f)
-    faces.emplace_back(box.face(f).begin(), box.face(f).end());
-  const CollisionShape shape(Polyhedron(far, faces));
+  const CollisionShape shape(box.with_vertices(far));
   CHECK(shape.bounds().ball_radius == Approx(0.5));
   CHECK(shape.bounds().ball_centre.isApprox(Vec3(5, 0, 0)));
 }

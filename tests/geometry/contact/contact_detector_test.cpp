@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -13,6 +14,25 @@
 
 using namespace ballast;
 using namespace ballast::testing;
+
+namespace {
+
+/// Sorted, unique, with unit normals from a to b, and within reach.
+void check_list(const std::vector<ContactPoint>& contacts, const Packing& packing) {
+  bool fits = true;
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const ContactPoint &c = contacts[i], &before = contacts[i > 0 ? i - 1 : 0];
+    fits &= i == 0 || std::tie(before.body_a, before.body_b, before.feature) <
+                          std::tie(c.body_a, c.body_b, c.feature);
+    fits &= std::abs(c.normal.norm() - 1.0) <= 1e-14;
+    fits &= c.body_a < c.body_b || !packing.shapes[c.body_a].polyhedron;
+    fits &= packing.shapes[c.body_b].polyhedron != nullptr;
+    fits &= c.gap <= packing.reach[c.body_a] + packing.reach[c.body_b];
+  }
+  CHECK(fits);
+}
+
+}  // namespace
 
 TEST_CASE("contacts depend on poses and reaches only: with and without cache, bit by bit") {
   for (double step : {1e-6, 1e-5, 1e-4, 1e-3}) {
@@ -41,6 +61,7 @@ TEST_CASE("contacts depend on poses and reaches only: with and without cache, bi
           FAIL_CHECK("newborn at step " << k << " of size " << step);
       }
       CHECK(contacts.size() > 50);
+      check_list(contacts, packing);
     }
     if (step < 5e-5) CHECK(proved > 5 * searched);  // the cache is worth something
   }
@@ -131,29 +152,6 @@ TEST_CASE("planes: every vertex within reach, by definition") {
                     [&](const ContactPoint& c) { return !packing.shapes[c.body_a].polyhedron; });
   CHECK(static_cast<size_t>(with_plane) == expected);
   CHECK(expected > 50);
-}
-
-TEST_CASE("contacts are sorted, unique, with unit normals from a to b") {
-  Packing packing(80, 0.25, 4);
-  ContactDetector detector(packing.shapes, {});
-  std::vector<ContactPoint> contacts;
-  for (int k = 0; k < 20; ++k) {
-    packing.move(0.01);
-    detector.detect(packing.poses, packing.reach, contacts);
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      const ContactPoint& c = contacts[i];
-      if (i > 0) {
-        const ContactPoint& before = contacts[i - 1];
-        CHECK(std::tie(before.body_a, before.body_b, before.feature) <
-              std::tie(c.body_a, c.body_b, c.feature));
-      }
-      CHECK(c.normal.norm() == Approx(1.0).epsilon(1e-14));
-      const bool plane = !packing.shapes[c.body_a].polyhedron;
-      CHECK((plane || c.body_a < c.body_b));
-      CHECK(packing.shapes[c.body_b].polyhedron);
-      CHECK(c.gap <= packing.reach[c.body_a] + packing.reach[c.body_b]);
-    }
-  }
 }
 
 TEST_CASE("the whole scene moved rigidly has its contacts moved with it") {
@@ -260,4 +258,121 @@ TEST_CASE("a box on a plane stands on four corners") {
   poses[0].position.z() = 0.025 + 1.1e-6;
   detector.detect(poses, std::vector<double>{1e-6, 0.0}, contacts);
   CHECK(contacts.empty());
+}
+
+namespace {
+
+std::vector<ContactPoint> random_contacts(Random& random, int pairs, int features) {
+  std::vector<ContactPoint> contacts;
+  std::set<std::tuple<int, int, std::uint64_t>> used;
+  for (int i = 0; i < 3 * pairs; ++i) {
+    const int a = random.below(pairs), b = a + 1 + random.below(2);
+    const std::uint64_t feature = static_cast<std::uint64_t>(random.below(features))
+                                  << (random.below(2) ? 0 : 40);
+    if (!used.emplace(a, b, feature).second) continue;
+    contacts.push_back({a, b, feature, random_direction(random), random_direction(random), 0.0});
+  }
+  std::sort(contacts.begin(), contacts.end(), [](const ContactPoint& p, const ContactPoint& q) {
+    return std::tie(p.body_a, p.body_b, p.feature) < std::tie(q.body_a, q.body_b, q.feature);
+  });
+  return contacts;
+}
+
+bool same_pair(const ContactPoint& p, const ContactPoint& q) {
+  return p.body_a == q.body_a && p.body_b == q.body_b;
+}
+
+/// The header's words, point by point.
+std::vector<Vec3> carried_by_definition(const std::vector<ContactPoint>& old_contacts,
+                                        const std::vector<Vec3>& impulses,
+                                        const std::vector<ContactPoint>& new_contacts) {
+  std::vector<Vec3> carried(new_contacts.size(), Vec3::Zero());
+  const auto matched = [](const ContactPoint& p, const std::vector<ContactPoint>& list) {
+    return std::any_of(list.begin(), list.end(), [&](const ContactPoint& q) {
+      return same_pair(p, q) && p.feature == q.feature;
+    });
+  };
+  for (size_t i = 0; i < old_contacts.size(); ++i) {
+    int target = -1;
+    bool target_free = false;
+    for (size_t j = 0; j < new_contacts.size(); ++j) {
+      if (!same_pair(old_contacts[i], new_contacts[j])) continue;
+      if (old_contacts[i].feature == new_contacts[j].feature) {
+        target = static_cast<int>(j);
+        break;
+      }
+      const bool is_free = !matched(new_contacts[j], old_contacts);
+      const auto distance = [&](int k) {
+        return (new_contacts[k].position - old_contacts[i].position).norm();
+      };
+      if (target < 0 || (is_free && !target_free) ||
+          (is_free == target_free && distance(static_cast<int>(j)) < distance(target))) {
+        target = static_cast<int>(j);
+        target_free = is_free;
+      }
+    }
+    if (target >= 0) carried[target] += impulses[i];
+  }
+  return carried;
+}
+
+std::vector<Vec3> random_impulses(Random& random, size_t count) {
+  std::vector<Vec3> impulses;
+  for (size_t i = 0; i < count; ++i) impulses.push_back(random_direction(random));
+  return impulses;
+}
+
+}  // namespace
+
+TEST_CASE("impulses are carried as the definition says") {
+  Random random(1);
+  std::vector<Vec3> carried;
+  int moved = 0;
+  for (int run = 0; run < 400; ++run) {
+    const auto old_contacts = random_contacts(random, 1 + random.below(12), 2 + random.below(6));
+    const auto new_contacts = random_contacts(random, 1 + random.below(12), 2 + random.below(6));
+    const auto impulses = random_impulses(random, old_contacts.size());
+    carry_impulses(old_contacts, impulses, new_contacts, carried);
+    const auto expected = carried_by_definition(old_contacts, impulses, new_contacts);
+    REQUIRE(carried.size() == expected.size());
+    for (size_t i = 0; i < carried.size(); ++i) {
+      CHECK((carried[i] - expected[i]).norm() <= 1e-14);
+      moved += carried[i] != Vec3::Zero();
+    }
+  }
+  CHECK(moved > 1000);
+}
+
+TEST_CASE("same contacts, same impulses, bit by bit; nothing to nothing") {
+  Random random(3);
+  const auto contacts = random_contacts(random, 50, 9);
+  const auto impulses = random_impulses(random, contacts.size());
+  std::vector<Vec3> carried(7, Vec3::Constant(NAN));
+  carry_impulses(contacts, impulses, contacts, carried);
+  REQUIRE(carried.size() == contacts.size());
+  for (size_t i = 0; i < carried.size(); ++i) CHECK(carried[i] == impulses[i]);
+  carry_impulses({}, {}, contacts, carried);
+  for (const Vec3& r : carried) CHECK(r == Vec3::Zero());
+  carry_impulses(contacts, impulses, {}, carried);
+  CHECK(carried.empty());
+}
+
+TEST_CASE("a renamed point hands over to its nearest newcomer") {
+  const Vec3 n = Vec3::UnitZ();
+  const std::vector<ContactPoint> old_contacts{{0, 1, 10, n, Vec3(0, 0, 0), 0.0},
+                                               {0, 1, 11, n, Vec3(1, 0, 0), 0.0}};
+  const std::vector<ContactPoint> new_contacts{
+      {0, 1, 10, n, Vec3(1.1, 0, 0), 0.0},  // nearest, but known by name
+      {0, 1, 20, n, Vec3(5, 0, 0), 0.0},
+      {0, 1, 21, n, Vec3(1.2, 0, 0), 0.0}};
+  std::vector<Vec3> carried;
+  carry_impulses(old_contacts, std::vector<Vec3>{Vec3(1, 0, 0), Vec3(0, 2, 0)}, new_contacts,
+                 carried);
+  CHECK(carried[0] == Vec3(1, 0, 0));
+  CHECK(carried[1] == Vec3::Zero());
+  CHECK(carried[2] == Vec3(0, 2, 0));
+  // all new points are known: the nearest of them takes it
+  carry_impulses(old_contacts, std::vector<Vec3>{Vec3(1, 0, 0), Vec3(0, 2, 0)},
+                 std::span(new_contacts).first(1), carried);
+  CHECK(carried[0] == Vec3(1, 2, 0));
 }

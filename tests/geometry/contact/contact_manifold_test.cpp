@@ -13,27 +13,6 @@ using namespace ballast::testing;
 
 namespace {
 
-constexpr int every_point = 1000;  // max_points: no reduction
-
-struct Found {
-  SeparatingAxis axis;
-  Vec3 normal;
-  std::vector<ManifoldPoint> points;
-};
-
-Found find(const ShapePair& pair, double alert, int max_points) {
-  const std::vector<CollisionShape> shapes{*pair.shape[0], *pair.shape[1]};
-  AxisSearch search(shapes);
-  ContactManifold manifold;
-  Found found;
-  AxisFeature hint;
-  if (is_separated(search.find(pair, alert, hint, found.axis))) return found;
-  found.normal = contact_normal(pair, found.axis);
-  const auto points = manifold.points(pair, found.axis, alert, max_points);
-  found.points.assign(points.begin(), points.end());
-  return found;
-}
-
 /// Signed distance of a point of a's frame to the surface of body `which`, by its faces' planes
 /// (negative inside).
 double height_over(const ShapePair& pair, int which, const Vec3& in_a) {
@@ -79,7 +58,7 @@ TEST_CASE(
       const PairCase c = random_case(placement, random);
       const ShapePair pair = c.pair();
       const double alert = random.below(2) == 0 ? 0.0 : std::pow(10.0, -random.uniform(2.0, 7.0));
-      const Found found = find(pair, alert, every_point);
+      const Contact found = contact_of(pair, alert);
       if (found.axis.separation > alert || found.points.empty()) {
         if (!found.points.empty() || found.axis.separation <= 0.0) {
           AxisFeature hint;
@@ -141,7 +120,7 @@ TEST_CASE("swapping the bodies mirrors the manifold") {
     const Placement placement = placements[i % std::size(placements)];
     const PairCase c = random_case(placement, random);
     const ShapePair pair = c.pair(), swapped(*pair.shape[1], *pair.shape[0], c.b_in_a.inverse());
-    const Found found = find(pair, 1e-4, every_point), other = find(swapped, 1e-4, every_point);
+    const Contact found = contact_of(pair, 1e-4), other = contact_of(swapped, 1e-4);
     if (found.points.empty() != other.points.empty())
       FAIL_CHECK("case " << i << ": one of them is empty");
     if (found.points.empty()) continue;
@@ -182,7 +161,7 @@ TEST_CASE("stacked boxes stand on their corners, triangulated or not") {
       for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(0.05, 0.02, 0), Vec3(0.1, -0.08, 0)}) {
         const Mat3 rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
         const ShapePair pair(box, box, {rotation, shift + Vec3(0, 0, 0.2 - 1e-5)});
-        const Found found = find(pair, 1e-6, 4);
+        const Contact found = contact_of(pair, 1e-6, 4);
         REQUIRE(found.points.size() == 4);
         CHECK(found.normal.isApprox(Vec3::UnitZ(), 1e-12));
         // the upper box's centre of mass is above the points' hull
@@ -219,11 +198,11 @@ TEST_CASE("reduction keeps the deepest point and most of the area") {
                           .toRotationMatrix();
     const Vec3 shift(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), 0.03 - 1e-5);
     const ShapePair pair(shapes[0], shapes[0], {turn, shift});
-    const Found all = find(pair, 1e-4, every_point);
+    const Contact all = contact_of(pair, 1e-4);
     REQUIRE(all.points.size() >= 8);
     double before = 0.0;
     for (int max_points = 1; max_points <= 8; ++max_points) {
-      const Found few = find(pair, 1e-4, max_points);
+      const Contact few = contact_of(pair, 1e-4, max_points);
       REQUIRE(static_cast<int>(few.points.size()) == max_points);
       double least = 1e300;
       std::vector<Vec3> corners, all_corners;
@@ -310,9 +289,9 @@ TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their cr
     const CollisionShape::FaceTable beside_a = face_table(*pair.shape[0], meeting.face_a),
                                     beside_b = face_table(*pair.shape[1], meeting.face_b);
     const auto corners =
-        clipper.clip_along(pair, reference, reference == 0 ? beside_a.view() : beside_b.view(),
-                           reference == 0 ? beside_b.view() : beside_a.view(), direction,
-                           clipping_thickness(c.size()));
+        clipper.clip(pair, reference, reference == 0 ? beside_a.view() : beside_b.view(),
+                     reference == 0 ? beside_b.view() : beside_a.view(),
+                     clipping_thickness(c.size()), &direction);
     set_heights(corners, pair.shape[reference]->face(face), direction);
     const auto crossing = feature_key(PointKind::edges, feature.a, feature.b);
     int others = 0;

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/contact/axis_search.hpp"
-#include "geometry/contact/contact_manifold.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/contact/detection_support.hpp"
 #include "tests/geometry/shape/support_vertex.hpp"
@@ -17,26 +15,6 @@ using namespace ballast;
 using namespace ballast::testing;
 
 namespace {
-
-struct Contact {
-  SeparatingAxis axis;
-  Vec3 normal;
-  std::vector<ManifoldPoint> points;
-};
-
-/// Empty when the bodies are more than `alert` apart.
-Contact contact_of(const ShapePair& pair, double alert) {
-  const std::vector<CollisionShape> shapes{*pair.shape[0], *pair.shape[1]};
-  AxisSearch search(shapes);
-  ContactManifold manifold;
-  Contact contact;
-  AxisFeature hint;
-  if (is_separated(search.find(pair, alert, hint, contact.axis))) return contact;
-  contact.normal = contact_normal(pair, contact.axis);
-  const auto points = manifold.points(pair, contact.axis, alert, 1000);
-  contact.points.assign(points.begin(), points.end());
-  return contact;
-}
 
 /// Two places, one on each body, in a's frame.
 struct Closest {

@@ -41,34 +41,6 @@ TEST_CASE("detection in parts finds the same contacts, bit by bit, and counts th
   }
 }
 
-TEST_CASE("two parts, one after the other, append the contacts of all bodies in order") {
-  Packing packing(60, 0.25, 8);
-  const DetectionSettings settings;
-  ContactDetector whole(packing.shapes, settings);
-  DetectedBodies bodies(packing.shapes);
-  std::vector<BroadPhase::Body> list;
-  for (int i = 0; i < bodies.count(); ++i)
-    list.push_back({bodies.shape(i), packing.shapes[i].fixed});
-  BroadPhase broad_phase(list, 0.005);
-  DetectionPart first(bodies, settings), second(bodies, settings);
-  bodies.take(packing.poses, packing.reach);
-  broad_phase.update(packing.poses, bodies.rotations, bodies.reach);
-  const int cut = 25;
-  first.take_range(0, cut, broad_phase.first(cut));
-  second.take_range(cut, bodies.count(), broad_phase.pairs().size() - broad_phase.first(cut));
-  std::vector<ContactPoint> expected, contacts;
-  whole.detect(packing.poses, packing.reach, expected);
-  first.detect(broad_phase, contacts);
-  const size_t of_first = contacts.size();
-  second.detect(broad_phase, contacts);
-  CHECK(contacts.size() == expected.size());
-  CHECK(same_bits(contacts, expected));
-  CHECK(of_first > 20);
-  CHECK(contacts.size() > of_first + 20);
-  for (size_t i = 0; i < contacts.size(); ++i) CHECK((contacts[i].body_a < cut) == (i < of_first));
-  CHECK(first.counters().manifolds + second.counters().manifolds == whole.counters().manifolds);
-}
-
 TEST_CASE("bodies of one polyhedron share its tables; planes have none") {
   const Polyhedron small = make_box(Vec3(1, 1, 1)), large = make_box(Vec3(2, 2, 2));
   const DetectedBodies bodies(

@@ -118,6 +118,19 @@ const std::vector<CollisionShape>& collision_pool() {
   return pool;
 }
 
+Contact contact_of(const ShapePair& pair, double alert, int max_points) {
+  const std::vector<CollisionShape> shapes{*pair.shape[0], *pair.shape[1]};
+  AxisSearch search(shapes);
+  ContactManifold manifold;
+  Contact contact;
+  AxisFeature hint;
+  if (is_separated(search.find(pair, alert, hint, contact.axis))) return contact;
+  contact.normal = contact_normal(pair, contact.axis);
+  const auto points = manifold.points(pair, contact.axis, alert, max_points);
+  contact.points.assign(points.begin(), points.end());
+  return contact;
+}
+
 Polyhedron prism(int sides, double radius, double height) {
   std::vector<Vec3> vertices;
   std::vector<int> bottom, top;
@@ -187,23 +200,9 @@ BruteForce brute_force(const Polyhedron& a, const Polyhedron& b, const RelativeP
 }
 
 std::string name(Placement placement) {
-  switch (placement) {
-    case Placement::near_touching:
-      return "near touching";
-    case Placement::deep:
-      return "deep";
-    case Placement::parallel_faces:
-      return "parallel faces";
-    case Placement::parallel_edges:
-      return "parallel edges";
-    case Placement::offset_copy:
-      return "offset copy";
-    case Placement::inside:
-      return "inside";
-    case Placement::apart:
-      return "apart";
-  }
-  return "";
+  constexpr const char* names[] = {"near touching", "deep",   "parallel faces", "parallel edges",
+                                   "offset copy",   "inside", "apart"};
+  return names[static_cast<int>(placement)];
 }
 
 double random_scale(Random& random, double low, double high) {

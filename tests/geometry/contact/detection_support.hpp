@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/contact/separating_axis.hpp"
+#include "geometry/contact/contact_manifold.hpp"
 #include "geometry/shape/pose.hpp"
 
 namespace ballast::testing {
@@ -20,6 +20,15 @@ CollisionShape::FaceTable face_table(const CollisionShape& shape, int face);
 Polyhedron prism(int sides, double radius, double height);
 /// A box whose sides are split into two triangles each.
 Polyhedron triangulated_box(const Vec3& size);
+
+/// A pair's best axis, and its normal and points; without points when the bodies are more than
+/// `alert` apart.
+struct Contact {
+  SeparatingAxis axis;
+  Vec3 normal;
+  std::vector<ManifoldPoint> points;
+};
+Contact contact_of(const ShapePair& pair, double alert, int max_points = 1000);
 
 /// Separation of two polyhedra by all face normals and all cross products of edges (but parallel
 /// ones), each with the full support functions of both.

@@ -1,9 +1,8 @@
-#include "geometry/contact/face_clipping.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "geometry/contact/contact_manifold.hpp"
 #include "tests/catch.hpp"
 #include "tests/geometry/contact/detection_support.hpp"
 

@@ -152,16 +152,3 @@ TEST_CASE("the pieces of a partition sum to the whole") {
     CHECK(sum == Approx(grain.volume).epsilon(1e-11));
   }
 }
-
-TEST_CASE("a used workspace gives the same bits as a new one") {
-  BoxClipper used;
-  Random random(14);
-  for (int trial = 0; trial < 30; ++trial) {
-    const PrincipalShape grain = make_grain({}, 1.0, 900 + trial);
-    const Pose pose{uniform_point(random, -1, 1), random_rotation(random)};
-    const Vec3 lo = uniform_point(random, -1, 0), hi = uniform_point(random, 0, 1);
-    BoxClipper fresh;
-    CHECK(used.volume(grain.shape, pose, lo, hi, grain.volume) ==
-          fresh.volume(grain.shape, pose, lo, hi, grain.volume));
-  }
-}

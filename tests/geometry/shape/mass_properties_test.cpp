@@ -14,9 +14,7 @@ namespace {
 Polyhedron moved_copy(const Polyhedron& p, const Pose& pose, double scale = 1.0) {
   std::vector<Vec3> vertices;
   for (const Vec3& x : p.vertices()) vertices.push_back(pose * Vec3(scale * x));
-  std::vector<std::vector<int>> faces;
-  for (int f = 0; f < p.face_count(); ++f) faces.emplace_back(p.face(f).begin(), p.face(f).end());
-  return Polyhedron(vertices, faces);
+  return p.with_vertices(vertices);
 }
 
 /// The part of a convex polyhedron with normal.x <= offset: hull of the vertices there and of the
