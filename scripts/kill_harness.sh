@@ -57,10 +57,12 @@ begin() {
   esac
 }
 
-# columns FILE PATTERN: a table without the columns whose names match.
+# columns FILE PATTERN: a table without the columns whose names match. A comma within quotation marks
+# separates nothing.
 columns() {
-  awk -F, -v drop="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) keep[i] = $i !~ drop }
-    { line = ""; for (i = 1; i <= NF; ++i) if (keep[i]) line = line "," $i; print line }' "$1"
+  sed -E ':a; s/^(([^"]*"[^"]*")*[^"]*"[^",]*),/\1;/; ta' "$1" |
+    awk -F, -v drop="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) keep[i] = $i !~ drop }
+      { line = ""; for (i = 1; i <= NF; ++i) if (keep[i]) line = line "," $i; print line }'
 }
 
 # bits ACTIVITY FOLDER: what must be the same, as one line for each thing.

@@ -22,8 +22,7 @@ void save(const fs::path& file, const std::string& key, const std::string& phase
 }
 
 /// False when the file is of other settings, or of another phase than a deposit's.
-bool load(const fs::path& file, const std::string& key, std::string& phase,
-          Packing& packing) {
+bool load(const fs::path& file, const std::string& key, std::string& phase, Packing& packing) {
   Checkpoint found = read_checkpoint(file);
   if (found.key != key || !found.deposit) return false;
   phase = found.phase;
@@ -175,8 +174,7 @@ bool deposit(const Scene& scene, const Rain& rain, const fs::path& part,
   return Depositor(scene, rain, part, progress, packing).run();
 }
 
-void write_packing(const fs::path& file, const std::string& key,
-                   const Packing& packing) {
+void write_packing(const fs::path& file, const std::string& key, const Packing& packing) {
   save(file, key, "packing", packing);
 }
 
