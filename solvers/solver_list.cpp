@@ -5,18 +5,7 @@
 #include <vector>
 
 #include "platform/text.hpp"
-#include "solvers/backends/admm.hpp"
-#include "solvers/backends/apgd.hpp"
-#include "solvers/backends/auto.hpp"
-#include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/backends/interior_point.hpp"
-#include "solvers/backends/ipopt.hpp"
-#include "solvers/backends/newton.hpp"
-#include "solvers/backends/newton_burst.hpp"
-#include "solvers/backends/nlopt.hpp"
-#include "solvers/backends/pyramid_lemke.hpp"
-#include "solvers/backends/sap.hpp"
-#include "solvers/backends/siconos.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/parts/sparse_factor.hpp"
 
 namespace ballast {
@@ -37,9 +26,6 @@ constexpr SolverEntry rows[] = {
     {"pgs_projection",
      "pgs, each contact by one projection (De Saxce, Feng 1998): the cheapest local solver",
      ContactLaw::coulomb, [] { return make_gauss_seidel({.rule = LocalRule::projection}); }},
-    {"pgs_newton",
-     "pgs, each contact by Newton on Alart-Curnier's function (1991): LMGC90's local solver",
-     ContactLaw::coulomb, [] { return make_gauss_seidel({.rule = LocalRule::newton}); }},
     {"psor", "pgs over-relaxed by 1.3: what a relaxation is worth", ContactLaw::coulomb,
      [] { return make_gauss_seidel({.relaxation = 1.3}); }},
     {"nncg",
@@ -90,7 +76,7 @@ constexpr SolverEntry rows[] = {
      ContactLaw::pyramid,
      [] { return make_pyramid_lemke(); },
      {},
-     PyramidLemkeSettings{}.limit()},
+     pyramid_lemke_limit},
     {"siconos_nsgs", "Siconos: nonsmooth Gauss-Seidel, hybrid local Newton", ContactLaw::coulomb,
      [] { return make_siconos(SiconosMethod::nsgs); }, siconos},
     {"siconos_nsgs_full", "Siconos: nonsmooth Gauss-Seidel, its true error after every sweep",

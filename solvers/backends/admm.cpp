@@ -1,10 +1,9 @@
-#include "solvers/backends/admm.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "solvers/backends/backends.hpp"
 #include "solvers/parts/shifted_delassus.hpp"
 #include "solvers/parts/slip_shift.hpp"
 #include "solvers/seam/iteration.hpp"
@@ -57,23 +56,22 @@ class Admm final : public Solver {
   /// P for every contact, and the one factorisation that serves until it changes.
   bool set_penalty(double penalty) {
     penalty_ = penalty;
-    sigma_.resize(w_.contact_count());
     for (int c = 0; c < w_.contact_count(); ++c) {
       const double rho =
           w_.rho()[c] > 0.0 ? w_.rho()[c] : 1.0;  // where nothing moves, anything will do
-      sigma_[c] = rho / penalty * Eigen::Matrix3d::Identity();
+      system_.sigma[c] = rho / penalty * Eigen::Matrix3d::Identity();
+      system_.shift[c] = 1.0 / sigma(c) * Eigen::Matrix3d::Identity();
     }
-    shift_blocks_.resize(sigma_.size());
-    for (std::size_t c = 0; c < sigma_.size(); ++c)
-      shift_blocks_[c] = 1.0 / sigma_[c](0, 0) * Eigen::Matrix3d::Identity();
-    return system_.factor(shift_blocks_, sigma_);
+    return system_.factor();
   }
+
+  double sigma(int c) const { return system_.sigma[c](0, 0); }  ///< P^-1
 
   /// One iteration of the formulas above; what x and r differ, and what r moved, on the way.
   void alternate(Impulses& r) {
     // The right-hand side P r - y - q - s n.
     for (int c = 0; c < w_.contact_count(); ++c) {
-      Eigen::Vector3d b = w_.at(r, c) / sigma_[c](0, 0) - w_.at(y_, c) - w_.at(q_, c);
+      Eigen::Vector3d b = w_.at(r, c) / sigma(c) - w_.at(y_, c) - w_.at(q_, c);
       b[0] -= shift_[c];
       w_.put(right_, c, b);
     }
@@ -81,15 +79,15 @@ class Admm final : public Solver {
     split_ = moved_ = 0.0;
     for (int c = 0; c < w_.contact_count(); ++c) {
       if (!(w_.rho()[c] > 0.0)) continue;
-      const double sigma = sigma_[c](0, 0), lambda_max = 1.0 / w_.rho()[c];
+      const double lambda_max = 1.0 / w_.rho()[c];
       const Eigen::Vector3d before = w_.at(r, c), x = w_.at(x_, c), y = w_.at(y_, c);
       // a > 1 goes beyond x (over-relaxation).
       const Eigen::Vector3d relaxed = before + relaxation * (x - before);
-      const Eigen::Vector3d after = project_cone(relaxed + sigma * y, w_.friction(c));
+      const Eigen::Vector3d after = project_cone(relaxed + sigma(c) * y, w_.friction(c));
       w_.put(r, c, after);
-      w_.put(y_, c, y + (relaxed - after) / sigma);
+      w_.put(y_, c, y + (relaxed - after) / sigma(c));
       split_ += (x - after).squaredNorm() * lambda_max * lambda_max;
-      moved_ += (after - before).squaredNorm() / (sigma * sigma);
+      moved_ += (after - before).squaredNorm() / (sigma(c) * sigma(c));
     }
   }
 
@@ -133,7 +131,6 @@ class Admm final : public Solver {
   ContactOperator w_;
   ShiftedDelassus system_;
   SlipShift shift_;
-  std::vector<Eigen::Matrix3d> sigma_, shift_blocks_;  ///< P^-1, P
   Eigen::VectorXd q_, u_, x_, y_, right_;
   double penalty_ = 1.0, split_ = 0.0, moved_ = 0.0;  ///< split_, moved_: squares
   int next_look_ = 0, look_after_ = 0;

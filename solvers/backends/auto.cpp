@@ -1,12 +1,7 @@
-#include "solvers/backends/auto.hpp"
-
 #include <algorithm>
 #include <utility>
 
-#include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/backends/interior_point.hpp"
-#include "solvers/backends/newton.hpp"
-#include "solvers/backends/newton_burst.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
@@ -88,8 +83,8 @@ class Auto final : public Solver {
   /// Of so few a sweep is as dear as a factorisation.
   static constexpr int few_iterations = 1000;
 
-  Way sweeps_{make_nesterov_pgs({.returns_best = false})};
-  Way burst_{make_newton_burst({.start_sweeps = 0})};
+  Way sweeps_{make_nesterov_pgs(/*returns_best=*/false)};
+  Way burst_{make_newton_burst(/*begins_with_sweeps=*/false)};
   Way proximal_{make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4})};
   Way interior_{make_interior_point()};
 };

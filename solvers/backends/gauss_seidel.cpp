@@ -1,5 +1,3 @@
-#include "solvers/backends/gauss_seidel.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solvers/backends/backends.hpp"
 #include "solvers/gauss_seidel/sweep_search.hpp"
 
 namespace ballast {
@@ -190,8 +189,8 @@ std::unique_ptr<Solver> make_gauss_seidel(const SweepVariant& variant) {
   return std::make_unique<GaussSeidel>(variant);
 }
 
-std::unique_ptr<Solver> make_nesterov_pgs(const NesterovSettings& settings) {
-  return std::make_unique<SweepSearch<Momentum>>(settings.returns_best);
+std::unique_ptr<Solver> make_nesterov_pgs(bool returns_best) {
+  return std::make_unique<SweepSearch<Momentum>>(returns_best);
 }
 
 std::unique_ptr<Solver> make_nncg() {

@@ -1,22 +1,204 @@
-#include "solvers/backends/interior_point.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "solvers/backends/newton.hpp"
-#include "solvers/parts/cone_step.hpp"
+#include "solvers/backends/backends.hpp"
+#include "solvers/parts/lorentz_cone.hpp"
+#include "solvers/parts/shifted_delassus.hpp"
+#include "solvers/parts/slip_shift.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
+using lorentz::Vector;
+
+/// A point inside the cones, one entry per row.
+struct ConePoint {
+  Eigen::VectorXd r;  ///< impulses [N s]
+  Eigen::VectorXd g;  ///< dual variable [m/s], which becomes u + s n
+};
+
+// One step with s held. Each contact is a pair in Lorentz's cone, x = (mu r_N, r_T) and z = (g_N /
+// mu, g_T); without friction a pair on the half-line, x = r_N, z = g_N, and r_T = 0. With S =
+// diag(mu, 1, 1), F the scaling (F x = F^-1 z = lambda) and the residual e = u + s n - g, a step
+// solves
+//
+//   (W + P) dr = -e + S F (lambda \ c),   P = S F^2 S,   dg = S (F (lambda \ c) - F^2 S dr)
+//
+// first with c = -lambda o lambda (predictor), then with c = sigma nu 1 - lambda o lambda
+// - (F dx) o (F^-1 dz) (corrector), nu the mean of x.z. o and \ are the Jordan product and its
+// inverse.
+class ConeStep {
+ public:
+  void prepare(ContactOperator& w) {
+    w_ = &w;
+    system_.prepare(w);
+    for (Eigen::VectorXd* x : {&right_, &dr_, &dg_}) x->resize(w.problem().row_count());
+    scaling_.resize(w.contact_count());
+    target_.resize(w.contact_count());
+  }
+  void use_team(WorkerTeam* team) { system_.use_team(team); }
+
+  /// Scales the cones at `point` and factors. False: the point is not inside by rounding, or the
+  /// matrix not definite; then advance() must not be called.
+  bool factor(const ConePoint& point) {
+    for (int c = 0; c < w_->contact_count(); ++c)
+      if (!scale_contact(point, c)) return false;
+    return system_.factor();
+  }
+
+  /// sum of x.z over the contacts that move [J], at the point of factor(): x.z = (F x).(F^-1 z) =
+  /// |lambda|^2.
+  double product() const {
+    double sum = 0.0;
+    for (int c = 0; c < w_->contact_count(); ++c)
+      if (moves(c)) sum += scaling_[c].lambda.squaredNorm();
+    return sum;
+  }
+
+  /// sum of x_0 over the contacts that move [N s].
+  double head_impulses(const Eigen::VectorXd& r) const {
+    double sum = 0.0;
+    for (int c = 0; c < w_->contact_count(); ++c)
+      if (moves(c)) sum += to_cone(r, c)[0];
+    return sum;
+  }
+
+  /// Contacts that move.
+  int cones() const {
+    return static_cast<int>(
+        std::count_if(w_->rho().begin(), w_->rho().end(), [](double rho) { return rho > 0.0; }));
+  }
+
+  /// Moves the point of factor() by predictor and corrector; `u` are the velocities that its
+  /// impulses give. False: the new point is not finite.
+  bool advance(const SlipShift& shift, const Eigen::VectorXd& u, ConePoint& point) {
+    const int moving = cones();
+    const double nu = moving > 0 ? product() / moving : 0.0;
+    // Predictor: straight to the solution, and how far along it the cones allow.
+    for (int c = 0; c < w_->contact_count(); ++c)
+      target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
+    solve_newton(shift, u, point);
+    const double predicted = longest(point, 1.0);
+    // Corrector: back to the middle as much as the predictor fell short, and its second-order term.
+    // Mehrotra's choice: a predictor that could go all the way leaves sigma = 0 and nothing is
+    // centred; one that was blocked at once gives sigma = 1.
+    const double sigma = std::pow(1.0 - predicted, 3.0);
+    for (int c = 0; c < w_->contact_count(); ++c) {
+      const Vector dx = scaling_[c].f * to_cone(dr_, c),
+                   dz = scaling_[c].f_inverse * to_dual(dg_, c);
+      target_[c] -= lorentz::product(dx, dz);
+      target_[c][0] += sigma * nu;
+    }
+    solve_newton(shift, u, point);
+    // Stopping short of the boundary: on it the next scaling would not exist.
+    const double length = longest(point, 0.99);
+    point.r += length * dr_;
+    point.g += length * dg_;
+    return point.r.allFinite() && point.g.allFinite();
+  }
+
+ private:
+  bool moves(int c) const { return w_->rho()[c] > 0.0; }
+  bool half_line(int c) const { return !(w_->friction(c) > 0.0); }
+
+  /// x = (mu r_N, r_T): in Lorentz's cone exactly where |r_T| <= mu r_N.
+  Vector to_cone(const Eigen::VectorXd& r, int c) const {
+    const Vector x = w_->at(r, c);
+    return half_line(c) ? Vector(x[0], 0.0, 0.0) : Vector(w_->friction(c) * x[0], x[1], x[2]);
+  }
+  /// z = (g_N / mu, g_T): in the same cone exactly where mu |g_T| <= g_N, and x.z = r.g.
+  Vector to_dual(const Eigen::VectorXd& g, int c) const {
+    const Vector z = w_->at(g, c);
+    return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(z[0] / w_->friction(c), z[1], z[2]);
+  }
+  /// S z: from the cone's rows to a velocity; its inverse maps to an impulse.
+  Vector from_dual(const Vector& z, int c) const {
+    return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(w_->friction(c) * z[0], z[1], z[2]);
+  }
+
+  /// The blocks P and P^-1 of one contact.
+  bool scale_contact(const ConePoint& point, int c) {
+    Eigen::Matrix3d &p = system_.shift[c], &inverse_p = system_.sigma[c];
+    // What may not move does not: a huge P allows no dr.
+    constexpr double nothing = 1e-20;
+    const double lambda_max = moves(c) ? 1.0 / w_->rho()[c] : 1.0;
+    inverse_p = nothing / lambda_max * Eigen::Matrix3d::Identity();
+    p = lambda_max / nothing * Eigen::Matrix3d::Identity();
+    if (!moves(c)) return true;
+    lorentz::Scaling& scaling = scaling_[c];
+    if (!lorentz::scale(to_cone(point.r, c), to_dual(point.g, c), half_line(c), scaling))
+      return false;
+    // F^2 takes x to z. It grows without bound where the impulse of an opening contact vanishes,
+    // and vanishes where the velocity of a sticking one does. The bounds keep W + P within what a
+    // factorisation in doubles can take.
+    constexpr double least_shift = 1e-12;
+    const double least = least_shift * lambda_max, most = lambda_max / least_shift;
+    const auto bounded = [=](double e) { return std::clamp(e, least, most); };
+    if (half_line(c)) {
+      p(0, 0) = bounded(scaling.eigenvalues[0]);
+      inverse_p(0, 0) = 1.0 / p(0, 0);
+      return true;
+    }
+    // P = S F^2 S and its inverse, both from the eigenvalues of F^2: neither is inverted from the
+    // other.
+    const Vector s(w_->friction(c), 1.0, 1.0), inverse = s.cwiseInverse();
+    p = s.asDiagonal() * scaling.of_square(bounded) * s.asDiagonal();
+    inverse_p = inverse.asDiagonal() * scaling.of_square([&](double e) {
+      return 1.0 / bounded(e);
+    }) * inverse.asDiagonal();
+    return true;
+  }
+
+  /// dr, dg for the complementarity residuals in target_.
+  void solve_newton(const SlipShift& shift, const Eigen::VectorXd& u, const ConePoint& point) {
+    // The right-hand side -e + S F (lambda \ c), zero where nothing moves.
+    for (int c = 0; c < w_->contact_count(); ++c) {
+      Vector b = Vector::Zero();
+      if (moves(c)) {
+        const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
+        b = w_->at(point.g, c) - shift.shifted(*w_, u, c) + from_dual(scaling_[c].f * pull, c);
+        if (half_line(c)) b[1] = b[2] = 0.0;
+      }
+      w_->put(right_, c, b);
+    }
+    // From lambda o (F dx + F^-1 dz) = c: dz = F (lambda \ c - F dx). Refined once, against the
+    // scaling's huge range.
+    system_.solve(right_, dr_, 1);
+    for (int c = 0; c < w_->contact_count(); ++c) {
+      Vector dr = w_->at(dr_, c);
+      if (half_line(c)) dr[1] = dr[2] = 0.0;
+      if (!moves(c)) dr.setZero();
+      w_->put(dr_, c, dr);
+      const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
+      const Vector dz = scaling_[c].f * (pull - scaling_[c].f * to_cone(dr_, c));
+      w_->put(dg_, c, moves(c) ? from_dual(dz, c) : Vector::Zero());
+    }
+  }
+
+  /// `part` of the longest step that stays in all cones, at most a whole one.
+  double longest(const ConePoint& point, double part) const {
+    double step = 1.0 / part;
+    for (int c = 0; c < w_->contact_count(); ++c)
+      if (moves(c)) {
+        step = lorentz::longest_step(to_cone(point.r, c), to_cone(dr_, c), step);
+        step = lorentz::longest_step(to_dual(point.g, c), to_dual(dg_, c), step);
+      }
+    return std::min(1.0, part * step);
+  }
+
+  ContactOperator* w_ = nullptr;
+  ShiftedDelassus system_;
+  std::vector<lorentz::Scaling> scaling_;
+  std::vector<Vector> target_;  ///< c above
+  Eigen::VectorXd right_, dr_, dg_;
+};
+
 // Judged and returned is P_K(r - rho g): open contacts have no impulse there, though the point's
 // own r lies inside the cones.
 class InteriorPoint final : public Solver {
  public:
-  explicit InteriorPoint(double polish_from) : polish_from_(polish_from) {}
-
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
     cone_step_.prepare(w_);
@@ -33,17 +215,8 @@ class InteriorPoint final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Course course(budget, std::move(start));
-    bool rest = false;  // proximal Newton goes the rest of the way
-    course.run([&](Impulses r, Budget left) {
-      left.tolerance = std::max(budget.tolerance, polish_from_ * velocity_scale());
-      Solved solved = approach(std::move(r), left);
-      // Near enough for the other, which is not yet what was asked.
-      if (solved.reason == StopReason::reached_tolerance && solved.own_residual > budget.aim())
-        solved.reason = StopReason::stalled;
-      rest = solved.reason == StopReason::stalled;
-      return solved;
-    });
-    if (!rest) return course.finish();
+    approach(course, std::max(budget.tolerance, polish_from * velocity_scale()));
+    if (course.over()) return course.finish();
     if (!is_polisher_ready_) polisher_->prepare(problem);
     is_polisher_ready_ = true;
     course.run(*polisher_, problem, budget.max_iterations);
@@ -51,33 +224,33 @@ class InteriorPoint final : public Solver {
   }
 
  private:
-  /// Interior-point steps with s-updates between them. Returns the best of the points judged.
-  Solved approach(Impulses r, const Budget& budget) {
-    Iteration iteration(budget, {1, 1.0});
-    double best_error = w_.begin_at(r, u_), stall_error = best_error;
-    iteration.evaluated(best_error, r);
-    begin(r);
-    Impulses best = r;
+  /// Interior-point steps with s-updates between them, until the best of the points judged is
+  /// `near`, or they stall.
+  void approach(Course& course, double near) {
+    Impulses r = course.best();
+    const double first = w_.begin_at(r, u_);
+    course.offer(r, first);
+    shift_.reset(w_);
+    shift_.follow(w_, u_);
+    point_.r = r;
     push_inside();
     before_ = point_;
     rounded_u_ = u_;
+    double halved = first;
     int steps = 0, stalled_steps = 0;  // with this s; without the best error halved
-    while (stalled_steps < patience && iteration.next()) {
+    while (!course.over() && stalled_steps < patience &&
+           course.error() > near * (1.0 - Iteration::margin)) {
+      course.spend(1);
       const bool stepped = step();
       if (stepped) {
         w_.velocity(point_.r, u_);
         round(r);
         w_.velocity(r, rounded_u_);
-        const double error = w_.error(r, rounded_u_);
-        if (error < best_error) {
-          best_error = error;
-          best = r;
-        }
+        course.offer(r, w_.error(r, rounded_u_));
       }
-      iteration.evaluated(best_error, best);
       ++stalled_steps;
-      if (best_error <= 0.5 * stall_error) {
-        stall_error = best_error;
+      if (course.error() <= 0.5 * halved) {
+        halved = course.error();
         stalled_steps = 0;
       }
       // The same s again, until the convex problem is solved well beyond what s has still to move.
@@ -86,25 +259,16 @@ class InteriorPoint final : public Solver {
           shift_.convex_error(w_, r, rounded_u_) > inner_part * still)
         continue;
       shift_.improve(w_, rounded_u_);
-      go_back();
+      point_ = before_;
+      w_.velocity(point_.r, u_);
       steps = 0;
     }
-    Solved solved = iteration.finish(std::move(best));
-    if (solved.reason == StopReason::numerical_failure) solved.reason = StopReason::stalled;
-    return solved;
   }
 
   /// rms of the problem's own velocity q [m/s].
   double velocity_scale() const {
     const double scale = q_.size() > 0 ? std::sqrt(q_.squaredNorm() / q_.size()) : 0.0;
     return scale > 0.0 ? scale : 1.0;
-  }
-
-  /// s and the point at `start`, whose velocities are u_.
-  void begin(const Impulses& start) {
-    shift_.reset(w_);
-    shift_.follow(w_, u_);
-    point_.r = start;
   }
 
   /// The point, and the velocities u_ that it gives, moved inside both cones by the problem's own
@@ -132,20 +296,12 @@ class InteriorPoint final : public Solver {
 
   bool step() {
     if (!cone_step_.factor(point_)) return false;
-    keep_for_next();
+    // A new s begins at the last iterate whose barrier was not yet below what s had still to move:
+    // nearer to the cones' sides it could not follow. Both sides are energies: the sum of x.z, and
+    // what s has to move times the sum of mu r_N.
+    const double moves = shift_.distance(w_, u_) * cone_step_.head_impulses(point_.r);
+    if (!(cone_step_.product() < moves)) before_ = point_;
     return cone_step_.advance(shift_, u_, point_);
-  }
-
-  /// A new s begins at the last iterate whose barrier was not yet below what s had still to move:
-  /// nearer to the cones' sides it could not follow.
-  void keep_for_next() {
-    // Both sides are energies: the sum of x.z, and what s has to move times the sum of mu r_N.
-    const double product = cone_step_.barrier() * cone_step_.moving_contacts();
-    if (!(product < shift_.distance(w_, u_) * cone_step_.head_impulses(point_.r))) before_ = point_;
-  }
-  void go_back() {
-    point_ = before_;
-    w_.velocity(point_.r, u_);
   }
 
   void round(Impulses& r) const {
@@ -156,11 +312,12 @@ class InteriorPoint final : public Solver {
     w_.project(r);
   }
 
+  /// The error from which on proximal Newton is the faster, in units of the rms of q.
+  static constexpr double polish_from = 1e-4;
   /// s is renewed when the convex problem is solved to this part of what s has to move.
   static constexpr double inner_part = 0.1;
   static constexpr int most_steps = 25;  ///< with one s
   static constexpr int patience = 40;    ///< steps without the best error halved
-  const double polish_from_;
   ContactOperator w_;
   ConeStep cone_step_;
   SlipShift shift_;
@@ -173,8 +330,6 @@ class InteriorPoint final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_interior_point(double polish_from) {
-  return std::make_unique<InteriorPoint>(polish_from);
-}
+std::unique_ptr<Solver> make_interior_point() { return std::make_unique<InteriorPoint>(); }
 
 }  // namespace ballast

@@ -1,5 +1,3 @@
-#include "solvers/backends/ipopt.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,9 +7,8 @@
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
 
-#include "platform/child_process.hpp"
 #include "platform/clock.hpp"
-#include "platform/pack.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/parts/cone_program.hpp"
 
 namespace ballast {
@@ -20,6 +17,37 @@ namespace {
 using Eigen::VectorXd;
 using Ipopt::Index;
 using Ipopt::Number;
+
+// Polar coordinates y: the normal entry stays, the tangential ones are d with x_T = mu x_N d, |d|
+// <=
+// 1. The cone is then a half-line times a disc, without the apex where no constraint has a
+// gradient. (Ipopt needs many times fewer steps, though 1/2 x.W x is no longer convex in y.)
+
+VectorXd from_polar(const ConeProgram& cones, const VectorXd& y) {
+  VectorXd x = y;
+  for (int k = 0; k < cones.contact_count(); ++k)
+    if (cones.has_friction(k))
+      x.segment<2>(cones.row_begin[k] + 1) *= cones.friction[k] * y[cones.row_begin[k]];
+  return x;
+}
+
+/// Near the request's start, with x_N >= 0.1 and |d| <= 0.9. Where x_T says nothing, d points
+/// halfway to the disc's edge, against the sliding: friction will most likely ask for that.
+VectorXd start_inside(const ConeProgram& cones, const ConeRequest& request) {
+  constexpr double floor = 0.1, longest = 0.9;
+  const VectorXd &x = request.start, u = cones.w * x + request.q;
+  VectorXd y(cones.row_count());
+  for (int k = 0; k < cones.contact_count(); ++k) {
+    const int at = cones.row_begin[k];
+    y[at] = std::max(floor, x[at]);
+    if (!cones.has_friction(k)) continue;
+    Eigen::Vector2d d = x.segment<2>(at + 1) / (cones.friction[k] * y[at]);
+    const Eigen::Vector2d sliding = u.segment<2>(at + 1);
+    if (!(x[at] > 0.0) && sliding.norm() > 0.0) d = -0.5 * sliding.normalized();
+    y.segment<2>(at + 1) = d * std::min(1.0, longest / std::max(longest, d.norm()));
+  }
+  return y;
+}
 
 /// Derivatives as a list (row, column, value); entries of the same place are added. Ipopt asks for
 /// the places once: every call lists the same ones in the same order.
@@ -71,12 +99,20 @@ class ConeNlp final : public Ipopt::TNLP {
     return true;
   }
   bool eval_f(Index n, const Number* y, bool, Number& value) override {
-    const VectorXd x = cones_.from_polar(take(y, n));
+    const VectorXd x = from_polar(cones_, take(y, n));
     value = 0.5 * x.dot(cones_.w * x) + q_.dot(x);
     return std::isfinite(value);
   }
   bool eval_grad_f(Index n, const Number* y, bool, Number* gradient) override {
-    return give(cones_.polar_gradient(take(y, n), velocity(take(y, n))), gradient);
+    // By the chain rule for x_T = mu x_N d: dx_T / dx_N = mu d and dx_T / dd = mu x_N.
+    const VectorXd at = take(y, n), u = velocity(at);
+    VectorXd slope = u;
+    for (const int k : with_friction_) {
+      const int row = cones_.row_begin[k];
+      slope[row] += cones_.friction[k] * at.segment<2>(row + 1).dot(u.segment<2>(row + 1));
+      slope.segment<2>(row + 1) *= cones_.friction[k] * at[row];
+    }
+    return give(slope, gradient);
   }
   bool eval_g(Index n, const Number* y, bool, Index m, Number* g) override {
     VectorXd values(m);
@@ -109,7 +145,7 @@ class ConeNlp final : public Ipopt::TNLP {
 
   int constraints() const { return static_cast<int>(with_friction_.size()); }
   int first_row(int i) const { return cones_.row_begin[with_friction_[i]]; }
-  VectorXd velocity(const VectorXd& y) const { return cones_.w * cones_.from_polar(y) + q_; }
+  VectorXd velocity(const VectorXd& y) const { return cones_.w * from_polar(cones_, y) + q_; }
 
   Slopes slopes(const VectorXd& y, int row) const {
     // x_N is n itself; an entry of x_T is mu n d and depends on n and its own d.
@@ -175,94 +211,57 @@ class ConeNlp final : public Ipopt::TNLP {
   std::vector<int> contact_;        ///< of each row
 };
 
-struct IpoptSettings {
-  double tolerance;
-  int max_iterations;
-  double max_seconds;
-};
-
-void set_options(Ipopt::OptionsList& options, const IpoptSettings& settings) {
-  options.SetIntegerValue("print_level", 0);
-  options.SetStringValue("sb", "yes");
-  options.SetStringValue("linear_solver", "mumps");
-  options.SetStringValue("nlp_scaling_method", "none");  // the program is scaled already
-  options.SetNumericValue("bound_relax_factor", 0.0);    // the cone is the cone
-  // No "acceptable" level: a round ends where the program is solved, or at a limit.
-  options.SetNumericValue("tol", settings.tolerance);
-  options.SetNumericValue("constr_viol_tol", 1e-10);
-  options.SetNumericValue("compl_inf_tol", settings.tolerance);
-  options.SetIntegerValue("acceptable_iter", 0);
-  options.SetIntegerValue("max_iter", settings.max_iterations);
-  // In time to hand out what there is; the parent kills at the limit itself.
-  if (settings.max_seconds < 1e6)
-    options.SetNumericValue("max_cpu_time", std::max(1e-3, 0.9 * settings.max_seconds));
-}
-
-struct IpoptAnswer {
-  VectorXd y;  ///< empty: the child gave no answer
-  int iterations = 1;
-  double seconds = 0.0;  ///< of Ipopt itself, in its process
-
-  template <typename Carrier>
-  void carry(Carrier& c) {
-    c.list(y);
-    c.number(iterations);
-    c.number(seconds);
-  }
-};
-
-/// The bytes of an IpoptAnswer; none where Ipopt did not start. Nothing is destroyed: the answer is
-/// sent after this function, and Ipopt's destructors may crash.
-std::string run_here(const ConeProgram& cones, const VectorXd& q, const VectorXd& start,
-                     const IpoptSettings& settings) {
-  ConeNlp* nlp = new ConeNlp(cones, q, start);
-  auto* held = new Ipopt::SmartPtr<Ipopt::TNLP>(nlp);
-  auto* application =
-      new Ipopt::SmartPtr<Ipopt::IpoptApplication>(new Ipopt::IpoptApplication(false));
-  set_options(*(*application)->Options(), settings);
-  if ((*application)->Initialize("") != Ipopt::Solve_Succeeded) return {};
-  const Stopwatch watch;
-  (*application)->OptimizeTNLP(*held);
-  IpoptAnswer answer{nlp->answer(), 1, watch.seconds()};
-  const Ipopt::SmartPtr<Ipopt::SolveStatistics> statistics = (*application)->Statistics();
-  if (IsValid(statistics)) answer.iterations = static_cast<int>(statistics->IterationCount());
-  Packer packer;
-  answer.carry(packer);
-  return packer.bytes();
-}
-
 class IpoptCone final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override { cones_.take(problem); }
 
+  /// Each solve is a child process: Debian's Ipopt 3.11 with MUMPS does not survive a second one in
+  /// the same process.
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     constexpr int patience = 12;
     return cones_.solve(problem, std::move(start), budget, patience,
                         [this](const ConeRequest& request, RoundAnswer& answer) {
-                          const IpoptAnswer ipopt = run(request);
-                          if (ipopt.y.size() > 0) answer.x = cones_.from_polar(ipopt.y);
-                          answer.iterations = ipopt.iterations;
-                          answer.seconds = ipopt.seconds;
+                          answer_apart(
+                              request.left.max_seconds,
+                              [&](RoundAnswer& called) { return call(request, called); }, answer);
                         });
   }
 
  private:
-  IpoptAnswer run(const ConeRequest& request) const {
-    const VectorXd u = cones_.w * request.start + request.q;
-    const VectorXd inside = cones_.to_polar(request.start, u, 0.1, 0.9);
-    const IpoptSettings settings{std::clamp(1e-2 * request.accuracy, 1e-13, 1e-6),
-                                 std::min(500, request.left.max_iterations),
-                                 request.left.max_seconds};
-    const auto work = [&] { return run_here(cones_, request.q, inside, settings); };
-    // A process that is a comparison's child already needs no other.
-    const std::string bytes =
-        is_expendable_process() ? work() : run_in_child(settings.max_seconds, work).answer;
-    IpoptAnswer answer;
-    if (bytes.empty()) return answer;
-    Unpacker unpacker(bytes, "ipopt: a child's answer");
-    answer.carry(unpacker);
-    unpacker.finish();
-    return answer;
+  static void set_options(Ipopt::OptionsList& options, const ConeRequest& request) {
+    options.SetIntegerValue("print_level", 0);
+    options.SetStringValue("sb", "yes");
+    options.SetStringValue("linear_solver", "mumps");
+    options.SetStringValue("nlp_scaling_method", "none");  // the program is scaled already
+    options.SetNumericValue("bound_relax_factor", 0.0);    // the cone is the cone
+    // No "acceptable" level: a round ends where the program is solved, or at a limit.
+    const double tolerance = std::clamp(1e-2 * request.accuracy, 1e-13, 1e-6);
+    options.SetNumericValue("tol", tolerance);
+    options.SetNumericValue("constr_viol_tol", 1e-10);
+    options.SetNumericValue("compl_inf_tol", tolerance);
+    options.SetIntegerValue("acceptable_iter", 0);
+    options.SetIntegerValue("max_iter", std::min(500, request.left.max_iterations));
+    // In time to hand out what there is; the parent kills at the limit itself.
+    if (request.left.max_seconds < 1e6)
+      options.SetNumericValue("max_cpu_time", std::max(1e-3, 0.9 * request.left.max_seconds));
+  }
+
+  /// False where Ipopt did not start. Nothing is destroyed: the answer is sent after this function,
+  /// and Ipopt's destructors may crash.
+  bool call(const ConeRequest& request, RoundAnswer& answer) const {
+    ConeNlp* nlp = new ConeNlp(cones_, request.q, start_inside(cones_, request));
+    auto* held = new Ipopt::SmartPtr<Ipopt::TNLP>(nlp);
+    auto* application =
+        new Ipopt::SmartPtr<Ipopt::IpoptApplication>(new Ipopt::IpoptApplication(false));
+    set_options(*(*application)->Options(), request);
+    if ((*application)->Initialize("") != Ipopt::Solve_Succeeded) return false;
+    const Stopwatch watch;
+    (*application)->OptimizeTNLP(*held);
+    answer.seconds = watch.seconds();
+    answer.x = from_polar(cones_, nlp->answer());
+    const Ipopt::SmartPtr<Ipopt::SolveStatistics> statistics = (*application)->Statistics();
+    if (IsValid(statistics)) answer.iterations = static_cast<int>(statistics->IterationCount());
+    return true;
   }
 
   ConeProgram cones_;

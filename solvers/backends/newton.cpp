@@ -1,27 +1,129 @@
-#include "solvers/backends/newton.hpp"
-
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
-#include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/parts/newton_step.hpp"
+#include "problems/algebra/root_mean_square.hpp"
+#include "solvers/backends/backends.hpp"
+#include "solvers/parts/newton_system.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
-/// The best iterate so far, by the judge's error.
-struct Best {
-  Impulses r;
-  double error;
-  void offer(const Impulses& candidate, double candidate_error) {
-    if (!(candidate_error < error)) return;
-    r = candidate;
-    error = candidate_error;
+/// The iterate (r, u = W r + q) of a Newton method. The residual is that of F(r, u + alpha (r -
+/// centre)) = 0.
+class NewtonStep {
+ public:
+  void prepare(const FrictionProblem& problem) {
+    w_.prepare(problem);
+    system_.prepare(w_);
   }
+  void use_team(WorkerTeam* team) { system_.use_team(team); }
+
+  /// Starts at `r`, which is also the centre; contacts that nothing moves lose their impulse, which
+  /// would stay in the answer.
+  void begin(ContactEquation equation, double rho_factor, const Impulses& r) {
+    equation_ = equation;
+    rho_factor_ = rho_factor;
+    r_ = r;
+    for (int c = 0; c < w_.contact_count(); ++c)
+      if (!(w_.rho()[c] > 0.0)) w_.put(r_, c, Eigen::Vector3d::Zero());
+    centre_ = r_;
+    w_.velocity(r_, u_);
+    alpha_.assign(w_.contact_count(), 0.0);
+  }
+
+  void set_rho_factor(double factor) { rho_factor_ = factor; }
+  /// alpha_c = weight / rho_c
+  void set_proximal(double weight) {
+    for (int c = 0; c < w_.contact_count(); ++c)
+      alpha_[c] = w_.rho()[c] > 0.0 ? weight / w_.rho()[c] : 0.0;
+  }
+  /// The centre moves to the iterate.
+  void centre() { centre_ = r_; }
+  /// The iterate goes (back) to `r`.
+  void restart(const Impulses& r) {
+    r_ = r;
+    w_.velocity(r_, u_);
+  }
+
+  /// One factorisation and a backtracking line search on residual(). False: singular, or no
+  /// descent; a step without descent is still taken where it changes the residual by less than a
+  /// tenth, so that flat places can be left, and taken whole with `halvings` = 0.
+  bool newton(int halvings) {
+    linear_.resize(w_.contact_count());
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      if (w_.rho()[c] > 0.0)
+        linear_[c] = linearise(equation_, w_.at(r_, c), proximal_velocity(r_, u_, c),
+                               w_.friction(c), rho_factor_ * w_.rho()[c]);
+      else  // nothing moves: no impulse
+        linear_[c] = {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(),
+                      Eigen::Matrix3d::Zero()};
+    }
+    if (!system_.solve(w_, linear_, alpha_, dr_)) return false;
+    // Backtracking along the step; u moves with r, as both are linear.
+    const double before = residual();
+    w_.multiply(dr_, du_);
+    // Halved until the residual has fallen by 1e-4 of what the linear model promises; the least
+    // one on the way is what is taken.
+    double t = 1.0, best_t = 0.0,
+           best = halvings > 0 ? before * 1.1 : std::numeric_limits<double>::max();
+    for (int k = 0; k <= halvings; ++k, t *= 0.5) {
+      r_trial_ = r_ + t * dr_;
+      u_trial_ = u_ + t * du_;
+      const double residual_there = residual_of(r_trial_, u_trial_);
+      if (residual_there < best) {
+        best = residual_there;
+        best_t = t;
+      }
+      if (residual_there <= (1.0 - 1e-4 * t) * before) break;
+    }
+    if (best_t == 0.0) return false;
+    // Velocities afresh: what the trials have rounded is not kept.
+    r_ += best_t * dr_;
+    w_.velocity(r_, u_);
+    return best < before;
+  }
+
+  /// rms over contacts of |F_c| / rho_c [m/s].
+  double residual() const { return residual_of(r_, u_); }
+  /// The judge's error of the iterate [m/s].
+  double error() const { return w_.error(r_, u_); }
+  const Impulses& impulses() const { return r_; }
+
+ private:
+  /// u + alpha (r - centre): the velocity that the law is asked of. At the centre it is u itself.
+  Eigen::Vector3d proximal_velocity(const Impulses& r, const Eigen::VectorXd& u, int c) const {
+    return w_.at(u, c) + alpha_[c] * (w_.at(r, c) - w_.at(centre_, c));
+  }
+
+  double residual_of(const Impulses& r, const Eigen::VectorXd& u) const {
+    RootMeanSquare mean;
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      if (!(w_.rho()[c] > 0.0)) continue;
+      const double rho = rho_factor_ * w_.rho()[c];
+      const Eigen::Vector3d missed =
+          linearise(equation_, w_.at(r, c), proximal_velocity(r, u, c), w_.friction(c), rho).f;
+      mean.add_square(missed.squaredNorm() / (rho * rho));
+    }
+    return mean.value();
+  }
+
+  ContactOperator w_;
+  NewtonSystem system_;
+  ContactEquation equation_ = ContactEquation::alart_curnier;
+  double rho_factor_ = 1.0;
+  std::vector<double> alpha_;
+  std::vector<ContactLinearisation> linear_;
+  Impulses r_, centre_, dr_, r_trial_;
+  Eigen::VectorXd u_, du_, u_trial_;
 };
+
+/// Nothing is left to do for who looks at the error after every step.
+bool is_over(const Course& course) {
+  return course.over() || course.idle() >= Iteration::stalled_after;
+}
 
 class Newton final : public Solver {
  public:
@@ -30,22 +132,19 @@ class Newton final : public Solver {
   void prepare(const FrictionProblem& problem) override { step_.prepare(problem); }
   void use_team(WorkerTeam* team) override { step_.use_team(team); }
 
-  Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
-    Iteration iteration(budget, {1, 1.0});
-    step_.begin(equation_, 1.0, std::move(r));
+  Solved solve(const FrictionProblem&, Impulses start, const Budget& budget) override {
+    Course course(budget, std::move(start));
+    step_.begin(equation_, 1.0, course.best());
     step_.set_proximal(smallest_weight);
-    Best best{step_.impulses(), step_.error()};
-    iteration.evaluated(best.error, best.r);
-    int failures = 0;
+    course.offer(step_.impulses(), step_.error());
     double weight = smallest_weight;
-    while (iteration.next()) {
+    for (int failures = 0; !is_over(course) && failures < most_failures;) {
+      course.spend(1);
       const double before = step_.residual();
       // where no shorter step descends, the whole one may leave the kink
       failures = step_.newton(failures % 2 ? 0 : most_halvings) ? 0 : failures + 1;
       step_.centre();
-      best.offer(step_.impulses(), step_.error());
-      iteration.evaluated(best.error, best.r);
-      if (failures >= 8) break;
+      course.offer(step_.impulses(), step_.error());
       // Less of the proximal term where Newton converges, more where it does not.
       if (step_.residual() < 0.5 * before)
         weight = std::max(smallest_weight, 0.1 * weight);
@@ -53,9 +152,7 @@ class Newton final : public Solver {
         weight = std::min(largest_weight, 10.0 * weight);
       step_.set_proximal(weight);
     }
-    Solved solved = iteration.finish(std::move(best.r));
-    if (failures >= 8 && solved.reason != StopReason::reached_tolerance)
-      solved.reason = StopReason::stalled;
+    Solved solved = course.finish();
     solved.own_residual = step_.residual();
     return solved;
   }
@@ -66,6 +163,7 @@ class Newton final : public Solver {
   /// without descent is taken for that and the weight grows.
   static constexpr double smallest_weight = 1e-7, largest_weight = 1e-3;
   static constexpr int most_halvings = 12;  ///< of a step
+  static constexpr int most_failures = 8;   ///< in a row
   ContactEquation equation_;
   NewtonStep step_;
 };
@@ -74,39 +172,35 @@ class ProximalNewton final : public Solver {
  public:
   explicit ProximalNewton(const ProximalNewtonSettings& settings)
       : settings_(settings),
-        start_(settings.accelerated ? make_nesterov_pgs({.returns_best = false})
-                                    : make_gauss_seidel()) {}
+        sweeps_(settings.accelerated ? make_nesterov_pgs(/*returns_best=*/false)
+                                     : make_gauss_seidel()) {}
 
   void prepare(const FrictionProblem& problem) override {
-    start_->prepare(problem);
+    sweeps_->prepare(problem);
     step_.prepare(problem);
   }
   void use_team(WorkerTeam* team) override {
-    start_->use_team(team);
+    sweeps_->use_team(team);
     step_.use_team(team);
   }
 
-  Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
-    Iteration iteration(budget, {1, 1.0});
-    step_.begin(ContactEquation::alart_curnier, settings_.rho_factors[0], std::move(r));
-    Best best{step_.impulses(), step_.error()};
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    Course course(budget, std::move(start));
+    step_.begin(ContactEquation::alart_curnier, settings_.rho_factors[0], course.best());
+    course.offer(step_.impulses(), step_.error());
     // The start is swept first, a warm one too: Newton converges from near by only, and of a warm
     // start hundreds of contacts have another status by now.
-    if (budget.max_iterations > 0 && settings_.start_sweeps > 0) {
-      step_.restart(
-          swept(problem, step_.impulses(), settings_.start_sweeps, budget.max_seconds, budget));
-      best.offer(step_.impulses(), step_.error());
-    }
-    iteration.evaluated(best.error, best.r);
-    double weight = settings_.first_weight, halved = best.error;
+    if (budget.max_iterations > 0 && settings_.start_sweeps > 0)
+      sweep(problem, settings_.start_sweeps, course);
+    double weight = settings_.first_weight, halved = course.error();
     int failures = 0, halved_at = 0;
-    while (failures < 30 && iteration.count() - halved_at <= patience * budget.max_iterations) {
-      const int steps = proximal_step(iteration, weight, best);
-      if (steps < 0) break;  // the budget ended
+    while (failures < 30 && course.iterations() - halved_at <= patience * budget.max_iterations) {
+      const int steps = proximal_step(weight, course);
+      if (steps < 0) break;  // the course is over
       // Patience counts from the last time that the best error was halved.
-      if (best.error < 0.5 * halved) {
-        halved = best.error;
-        halved_at = iteration.count();
+      if (course.error() < 0.5 * halved) {
+        halved = course.error();
+        halved_at = course.iterations();
       }
       // An easy step lowers alpha; a failed one raises it and tries another rho.
       if (steps > 0 && steps <= inner_steps) {
@@ -117,30 +211,27 @@ class ProximalNewton final : public Solver {
         weight = std::min(1e3, weight * 4.0);
         step_.set_rho_factor(settings_.rho_factors[failures % 3]);
         // sweeps mend locally what misled Newton: contacts that opened or began to slip
-        step_.restart(swept(problem, step_.impulses(), settings_.mending_sweeps,
-                            budget.max_seconds - iteration.seconds(), budget));
-        best.offer(step_.impulses(), step_.error());
+        sweep(problem, settings_.mending_sweeps, course);
       }
     }
-    Solved solved = iteration.finish(std::move(best.r));
-    if (solved.reason == StopReason::numerical_failure) solved.reason = StopReason::stalled;
+    Solved solved = course.finish();
     solved.own_residual = step_.residual();
     return solved;
   }
 
  private:
-  Impulses swept(const FrictionProblem& problem, Impulses r, int count, double seconds,
-                 const Budget& budget) {
-    const Budget sweeps{.tolerance = budget.tolerance,
-                        .max_iterations = count,
-                        .max_seconds = std::max(0.0, seconds),
-                        .fclib = budget.fclib};
-    return start_->solve(problem, std::move(r), sweeps).impulses;
+  /// So many sweeps from the iterate, which are not counted.
+  void sweep(const FrictionProblem& problem, int count, Course& course) {
+    Budget budget = course.rest();
+    budget.max_iterations = count;
+    budget.keep_history = false;
+    step_.restart(sweeps_->solve(problem, step_.impulses(), budget).impulses);
+    course.offer(step_.impulses(), step_.error());
   }
 
   /// One proximal step from the current iterate. Newton steps taken; one more than allowed: failed,
-  /// and the iterate is where the step began; -1: the budget ended.
-  int proximal_step(Iteration& iteration, double weight, Best& best) {
+  /// and the iterate is where the step began; -1: the course is over.
+  int proximal_step(double weight, Course& course) {
     // The centre is here. The inner Newton has to reduce the residual of the law itself at this
     // point.
     step_.centre();
@@ -149,10 +240,10 @@ class ProximalNewton final : public Solver {
     step_.set_proximal(weight);
     const Impulses centre = step_.impulses();
     for (int k = 1; k <= inner_steps; ++k) {
-      if (!iteration.next()) return -1;
+      if (is_over(course)) return -1;
+      course.spend(1);
       const bool descended = step_.newton(8);
-      best.offer(step_.impulses(), step_.error());
-      iteration.evaluated(best.error, best.r);
+      course.offer(step_.impulses(), step_.error());
       if (step_.residual() <= inner_reduction * begin) return k;
       if (!descended) break;
     }
@@ -166,7 +257,7 @@ class ProximalNewton final : public Solver {
   /// Part of the budget's iterations without halving the error, after which it gives up.
   static constexpr double patience = 0.375;
   ProximalNewtonSettings settings_;
-  std::unique_ptr<Solver> start_;
+  std::unique_ptr<Solver> sweeps_;
   NewtonStep step_;
 };
 

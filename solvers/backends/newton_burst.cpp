@@ -1,17 +1,134 @@
-#include "solvers/backends/newton_burst.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/backends/newton.hpp"
-#include "solvers/parts/regular_newton.hpp"
+#include "solvers/backends/backends.hpp"
+#include "solvers/parts/body_matrix.hpp"
+#include "solvers/parts/regular_contact.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
+
+/// Impulses and the body velocities that they give. Linear in each other: an iterate and a step of
+/// it are combined alike.
+struct NewtonIterate {
+  ContactColumns r;
+  Eigen::VectorXd x;
+};
+
+/// Newton's method on the regularised law of all contacts (regular_contact.hpp): every contact's
+/// status is guessed from the iterate, and the equations that belong to the statuses are solved
+/// exactly.
+class RegularNewton {
+ public:
+  void prepare(const FrictionProblem& problem) {
+    contacts_.prepare(problem);
+    matrix_.prepare(contacts_);
+    gain_.resize(contacts_.contact_count());
+    source_.resize(3, contacts_.contact_count());
+    status_.resize(contacts_.contact_count());
+  }
+  const UnitMassContacts& contacts() const { return contacts_; }
+  void use_team(WorkerTeam* team) { matrix_.use_team(team); }
+
+  /// The iterate with x from r.
+  NewtonIterate iterate(const Impulses& r) const {
+    NewtonIterate at;
+    contacts_.from_impulses(r, at.r);
+    contacts_.body_velocity(at.r, at.x);
+    return at;
+  }
+
+  /// Every impulse into its cone, which a Newton step may leave; x from r afresh. Returns the
+  /// judge's error [m/s].
+  double settle(NewtonIterate& at) const {
+    contacts_.project(at.r);
+    contacts_.body_velocity(at.r, at.x);
+    return contacts_.error(at.r, [&](int c) { return contacts_.velocity(at.x, c); });
+  }
+
+  /// From here on the law is regularised by `epsilon` around `centre`, and no status is known.
+  void set_centre(const ContactColumns& centre, double epsilon) {
+    centre_ = centre;
+    epsilon_ = epsilon;
+    has_status_ = false;
+  }
+
+  /// Natural map of the regularised law [m/s], rms over contacts; the law's own error where `at` is
+  /// the centre.
+  double residual(const NewtonIterate& at) const {
+    return contacts_.error(at.r, [&](int c) { return velocity(at, c); });
+  }
+
+  /// Every contact's status at `at`, and its law linearised for it. Returns how many contacts had
+  /// another status when they were last linearised around this centre; 0 the first time. A step is
+  /// exact for the statuses that it was made for; where many change it means little.
+  int linearise(const NewtonIterate& at) {
+    int changed = 0;
+    for (int c = 0; c < contacts_.contact_count(); ++c) {
+      const UnitMassContacts::Contact& k = contacts_[c];
+      RegularStep law;
+      if (k.lambda_max > 0.0)
+        law = regular_step(k, epsilon_, at.r.col(c), velocity(at, c));
+      else  // nothing moves: no impulse
+        law.source = -at.r.col(c);
+      changed += has_status_ && law.status != status_[c];
+      status_[c] = law.status;
+      source_.col(c) = law.source;
+      gain_[c] = law.gain;
+    }
+    has_status_ = true;
+    return changed;
+  }
+
+  /// One factorisation: the full step from where the law was linearised. It may raise the residual
+  /// a hundredfold where statuses change. False: the matrix is singular or the step not finite.
+  bool step(NewtonIterate& change) {
+    // With dr = source - gain G dx the bodies' dx = G^T dr becomes (1 + G^T gain G) dx = G^T
+    // source.
+    right_ = Eigen::VectorXd::Zero(contacts_.unknown_count());
+    for (int c = 0; c < contacts_.contact_count(); ++c) contacts_.push(right_, c, source_.col(c));
+    if (!matrix_.factor(gain_)) return false;
+    matrix_.solve_once(right_, change.x);
+    improve(change.x);
+    if (!change.x.allFinite()) return false;
+    change.r = source_;
+    for (int c = 0; c < contacts_.contact_count(); ++c)
+      if (status_[c] != ContactStatus::open)
+        change.r.col(c).noalias() -= gain_[c] * contacts_.relative(change.x, c);
+    return true;
+  }
+
+ private:
+  /// u + epsilon_c (r - centre)
+  Eigen::Vector3d velocity(const NewtonIterate& at, int c) const {
+    const double compliance = epsilon_ * contacts_[c].lambda_max;
+    return contacts_.velocity(at.x, c) + compliance * (at.r.col(c) - centre_.col(c));
+  }
+
+  /// (I + G^T gain G) x = right_, improved by its residual, once, where that is larger than 1e-10
+  /// of the right-hand side: there are no pivots.
+  void improve(Eigen::VectorXd& x) {
+    // What is left, by way of the contacts: cheaper than the matrix.
+    rest_ = right_ - x;
+    for (int c = 0; c < contacts_.contact_count(); ++c)
+      if (!gain_[c].isZero(0.0)) contacts_.push(rest_, c, -(gain_[c] * contacts_.relative(x, c)));
+    if (!(rest_.norm() > 1e-10 * right_.norm())) return;
+    matrix_.solve_once(rest_, rest_);
+    x += rest_;
+  }
+
+  UnitMassContacts contacts_;
+  BodyMatrix matrix_;
+  ContactColumns centre_, source_;
+  double epsilon_ = 1e-3;
+  std::vector<Eigen::Matrix3d> gain_;
+  std::vector<ContactStatus> status_;
+  bool has_status_ = false;
+  Eigen::VectorXd right_, rest_;
+};
 
 /// The compliance, as a part of lambda_max(W_cc).
 constexpr double first_epsilon = 3e-4, smallest_epsilon = 1e-8, largest_epsilon = 0.1;
@@ -22,11 +139,7 @@ double raised(double epsilon, double factor) { return std::min(largest_epsilon, 
 
 class NewtonBurst final : public Solver {
  public:
-  explicit NewtonBurst(const NewtonBurstSettings& settings)
-      : settings_(settings),
-        sweeps_(make_nesterov_pgs({.returns_best = false})),
-        walk_(make_proximal_newton(
-            {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}})) {}
+  explicit NewtonBurst(bool begins_with_sweeps) : begins_with_sweeps_(begins_with_sweeps) {}
 
   void prepare(const FrictionProblem& problem) override {
     if (!problem.has_dynamics)
@@ -36,7 +149,7 @@ class NewtonBurst final : public Solver {
     sweeps_->prepare(problem);
     is_ready_ = false;
     problem_ = &problem;
-    if (settings_.start_sweeps == 0) make_ready();
+    if (!begins_with_sweeps_) make_ready();
   }
 
   void use_team(WorkerTeam* team) override {
@@ -48,23 +161,19 @@ class NewtonBurst final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     problem_ = &problem;
     Course course(budget, std::move(start));
-    if (settings_.start_sweeps > 0)
+    if (begins_with_sweeps_) {
       course.run([&](Impulses first, Budget whole) {
-        whole.gives_up = slow_sweeps(settings_.start_sweeps, settings_.promised_sweeps, budget);
+        whole.gives_up = slow_sweeps(first_sweeps, promised_sweeps, budget);
         return sweeps_->solve(problem, std::move(first), whole);
       });
-    else
-      offer_start(course);
-    return by_newton(course);
-  }
-
- private:
-  /// From where the course has come to, if it is not over.
-  Solved by_newton(Course& course) {
+    } else {  // the start itself, without impulses that move nothing
+      NewtonIterate at = newton_.iterate(course.best());
+      offer(course, at, newton_.settle(at));
+    }
     if (course.over()) return course.finish();
     make_ready();
     // The error without any impulse says how large the problem's velocities are.
-    NewtonIterate at = newton_.iterate(Impulses::Zero(problem_->row_count()));
+    NewtonIterate at = newton_.iterate(Impulses::Zero(problem.row_count()));
     const double scale = newton_.settle(at), end = endgame_from * scale;
     at = newton_.iterate(course.best());
     double error = newton_.settle(at);
@@ -72,17 +181,12 @@ class NewtonBurst final : public Solver {
     if (course.over()) return course.finish();
     endgame(course, at, error);
     if (course.over()) return course.finish();
-    walk_->prepare(*problem_);
-    course.run(*walk_, *problem_, settings_.most_steps);
+    walk_->prepare(problem);
+    course.run(*walk_, problem, most_walk_steps);
     return course.finish();
   }
 
-  /// The start itself, without impulses that move nothing.
-  void offer_start(Course& course) {
-    NewtonIterate at = newton_.iterate(course.best());
-    offer(course, at, newton_.settle(at));
-  }
-
+ private:
   /// How a proximal step's Newton method ended.
   struct Inner {
     bool converged;
@@ -137,7 +241,7 @@ class NewtonBurst final : public Solver {
       offer(course, at, after);
       if (course.over()) return;
       NewtonIterate swept = at;
-      const double swept_error = burst(course, swept, settings_.burst);
+      const double swept_error = burst(course, swept, burst_sweeps);
       const bool is_undone = after < swept_error && after < error;
       if (!(after < swept_error)) {
         after = swept_error;
@@ -151,7 +255,7 @@ class NewtonBurst final : public Solver {
       undone = is_undone ? undone + 1 : 0;
       if (after > 2.0 * error && !course.over()) {
         at = before;
-        after = burst(course, at, settings_.burst);
+        after = burst(course, at, burst_sweeps);
       }
       error = after;
     }
@@ -160,11 +264,11 @@ class NewtonBurst final : public Solver {
   /// Proximal-point steps by Newton alone: sweeps after a converged step would undo its long waves.
   /// Ends where steps fail one after the other, gain little for long, or have taken their part.
   void endgame(Course& course, NewtonIterate& at, double& error) {
-    constexpr int most_failures = 4, most_slow_steps = 15;
+    constexpr int most_failures = 4, most_slow_steps = 15, most_steps = 60;
     double epsilon = first_epsilon, halved = error;
     int failures = 0, slow = 0, steps = 0;
     while (!course.over() && failures < most_failures && slow < most_slow_steps &&
-           steps < settings_.descent_steps) {
+           steps < most_steps) {
       const NewtonIterate before = at;
       const Inner inner = proximal_step(course, at, error, epsilon);
       steps += inner.steps;
@@ -195,7 +299,7 @@ class NewtonBurst final : public Solver {
   /// there. `at` is left wherever they ended.
   Inner proximal_step(Course& course, NewtonIterate& at, double error, double epsilon) {
     constexpr double enough = 0.3;
-    constexpr int most_stalled = 3;
+    constexpr int most_steps = 10, most_stalled = 3;
     const int many = newton_.contacts().contact_count() / 8;
     newton_.set_centre(at.r, epsilon);
     double residual = error, least = std::numeric_limits<double>::max();
@@ -206,8 +310,7 @@ class NewtonBurst final : public Solver {
         stalled = residual < 0.7 * least ? 0 : stalled + 1;
         least = std::min(least, residual);
       }
-      if (k >= settings_.inner_steps || stalled > most_stalled || (k > 1 && changed > many) ||
-          course.over())
+      if (k >= most_steps || stalled > most_stalled || (k > 1 && changed > many) || course.over())
         return {false, k};
       course.spend(1);
       if (!newton_.step(change_)) return {false, k};
@@ -234,11 +337,18 @@ class NewtonBurst final : public Solver {
     return least;
   }
 
-  NewtonBurstSettings settings_;
-  std::unique_ptr<Solver> sweeps_;
+  /// Before Newton's turn, at least. It comes where sweeps promise to need more than so many
+  /// others: in time about twenty Newton steps of some thousand contacts.
+  static constexpr int first_sweeps = 500, promised_sweeps = 6000;
+  static constexpr int burst_sweeps = 200;      ///< after a Newton step, at most
+  static constexpr int most_walk_steps = 1000;  ///< Newton steps
+  const bool begins_with_sweeps_;
+  std::unique_ptr<Solver> sweeps_ = make_nesterov_pgs(/*returns_best=*/false);
   RegularNewton newton_;
-  std::unique_ptr<Solver> walk_;  ///< proximal-point steps that may go through worse places
-  bool is_ready_ = false;         ///< newton_ is prepared for problem_
+  /// Proximal-point steps that may pass through worse places, which come out of jams.
+  std::unique_ptr<Solver> walk_ = make_proximal_newton(
+      {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}});
+  bool is_ready_ = false;  ///< newton_ is prepared for problem_
   const FrictionProblem* problem_ = nullptr;
   NewtonIterate change_, trial_, best_trial_;
   Impulses impulses_;
@@ -246,8 +356,8 @@ class NewtonBurst final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_newton_burst(const NewtonBurstSettings& settings) {
-  return std::make_unique<NewtonBurst>(settings);
+std::unique_ptr<Solver> make_newton_burst(bool begins_with_sweeps) {
+  return std::make_unique<NewtonBurst>(begins_with_sweeps);
 }
 
 }  // namespace ballast

@@ -1,5 +1,3 @@
-#include "solvers/backends/nlopt.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,6 +5,7 @@
 
 #include <nlopt.h>
 
+#include "solvers/backends/backends.hpp"
 #include "solvers/parts/cone_program.hpp"
 
 namespace ballast {
@@ -106,15 +105,9 @@ class Nlopt final : public Solver {
 
   /// Rows and columns `row` (ascending) of W.
   SparseRows chosen(const std::vector<int>& row) const {
-    std::vector<int> here(cones_.row_count(), -1);
-    for (std::size_t i = 0; i < row.size(); ++i) here[row[i]] = static_cast<int>(i);
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const int i : row)
-      for (SparseRows::InnerIterator entry(cones_.w, i); entry; ++entry)
-        if (here[entry.col()] >= 0) entries.emplace_back(here[i], here[entry.col()], entry.value());
-    SparseRows w(static_cast<Eigen::Index>(row.size()), static_cast<Eigen::Index>(row.size()));
-    w.setFromTriplets(entries.begin(), entries.end());
-    return w;
+    SparseRows pick(static_cast<Eigen::Index>(row.size()), cones_.row_count());
+    for (std::size_t i = 0; i < row.size(); ++i) pick.insert(static_cast<int>(i), row[i]) = 1.0;
+    return pick * cones_.w * SparseRows(pick.transpose());
   }
 
   /// Evaluations spent; `y` is the start and the answer.

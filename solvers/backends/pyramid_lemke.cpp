@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "problems/algebra/contact_error.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/seam/iteration.hpp"
 #include "solvers/seam/rounds.hpp"
 
@@ -137,18 +138,16 @@ namespace {
 // With mu = 0 only the first.
 class PyramidLemke final : public Solver {
  public:
-  explicit PyramidLemke(const PyramidLemkeSettings& settings) : settings_(settings) {}
-
   void prepare(const FrictionProblem& problem) override {
     moving_.take(problem);
     begin_.assign(1, 0);
     for (int k = 0; k < moving_.contact_count(); ++k)
-      begin_.push_back(begin_.back() + (has_friction(k) ? settings_.unknowns_per_contact() : 1));
-    if (begin_.back() > settings_.largest)
-      throw UnsupportedProblem(
-          "pyramid_lemke: " + std::to_string(begin_.back()) + " unknowns, at most " +
-          std::to_string(settings_.largest) + " (dense pivoting; " +
-          std::to_string(settings_.unknowns_per_contact()) + " per contact with friction)");
+      begin_.push_back(begin_.back() + (has_friction(k) ? unknowns_per_contact : 1));
+    if (begin_.back() > most_unknowns)
+      throw UnsupportedProblem("pyramid_lemke: " + std::to_string(begin_.back()) +
+                               " unknowns, at most " + std::to_string(most_unknowns) +
+                               " (dense pivoting; " + std::to_string(unknowns_per_contact) +
+                               " per contact with friction)");
     assemble();
   }
 
@@ -193,8 +192,8 @@ class PyramidLemke final : public Solver {
     Eigen::MatrixXd e = Eigen::MatrixXd::Zero(moving_.rows(k), unknowns);
     e(0, 0) = 1.0;
     if (unknowns > 1)
-      for (int j = 0; j < settings_.sides; ++j) {
-        const double angle = 2.0 * M_PI * j / settings_.sides;
+      for (int j = 0; j < sides; ++j) {
+        const double angle = 2.0 * M_PI * j / sides;
         e(1, 1 + j) = std::cos(angle);
         e(2, 1 + j) = std::sin(angle);
       }
@@ -227,8 +226,8 @@ class PyramidLemke final : public Solver {
             e[l];
       if (size == 1) continue;
       const int last = at + size - 1;
-      m_.block(at + 1, last, settings_.sides, 1).setOnes();
-      m_.block(last, at + 1, 1, settings_.sides).setConstant(-1.0);
+      m_.block(at + 1, last, sides, 1).setOnes();
+      m_.block(last, at + 1, 1, sides).setConstant(-1.0);
       m_(last, at) = moving_.friction[k];
     }
   }
@@ -254,7 +253,11 @@ class PyramidLemke final : public Solver {
     return largest;
   }
 
-  PyramidLemkeSettings settings_;
+  /// Directions of friction per contact; their hull is inside the circle.
+  static constexpr int sides = 8;
+  static constexpr int unknowns_per_contact = sides + 2;  ///< with friction; 1 without
+  static constexpr int most_unknowns = unknowns_per_contact * pyramid_lemke_limit.contacts;
+
   MovingContacts moving_;
   std::vector<int> begin_;  ///< unknowns of each contact
   Eigen::MatrixXd m_;
@@ -264,8 +267,6 @@ class PyramidLemke final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_pyramid_lemke(const PyramidLemkeSettings& settings) {
-  return std::make_unique<PyramidLemke>(settings);
-}
+std::unique_ptr<Solver> make_pyramid_lemke() { return std::make_unique<PyramidLemke>(); }
 
 }  // namespace ballast

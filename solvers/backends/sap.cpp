@@ -1,22 +1,25 @@
-#include "solvers/backends/sap.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "solvers/parts/newton_step.hpp"
-#include "solvers/parts/shifted_delassus.hpp"
+#include "solvers/backends/backends.hpp"
+#include "solvers/parts/newton_system.hpp"
 #include "solvers/parts/slip_shift.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
+//   min over v  1/2 (v - v_free).M (v - v_free) + sum_c epsilon_c / 2 |gamma_c|^2,
+//   gamma_c = P_K(r_c - u_c / epsilon_c),  u = H v + bias,  epsilon_c = regularisation
+//   lambda_max(W_cc)
+//
+// by Newton with an exact line search; then r := gamma, and again. Where only W is known the
+// velocities are those of impulses lambda, v = v_free + M^-1 H^T lambda, and Newton's unknowns are
+// these: W must then be symmetric.
 class Sap final : public Solver {
  public:
-  explicit Sap(const SapSettings& settings) : settings_(settings) {}
-
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
     is_stored_ = !problem.has_dynamics;
@@ -26,7 +29,7 @@ class Sap final : public Solver {
       linear_.resize(problem.contact_count());
       no_shift_in_r_.assign(problem.contact_count(), 0.0);
     } else {
-      system_.prepare(w_);
+      bodies_.prepare(problem);
       mass_ = sparse_mass(problem.dynamics);
     }
     hessian_.resize(problem.contact_count());
@@ -34,7 +37,7 @@ class Sap final : public Solver {
     no_shift_.reset(w_);
   }
 
-  void use_team(WorkerTeam* team) override { system_.use_team(team); }
+  void use_team(WorkerTeam* team) override { bodies_.use_team(team); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
@@ -54,12 +57,10 @@ class Sap final : public Solver {
       w_.velocity(gamma_, true_u_);
       iteration.evaluated(std::isfinite(decrement) ? w_.error(gamma_, true_u_) : decrement, gamma_);
       // Far from the end a proximal step need not be exact.
-      const double enough = settings_.proximal ? 1e-2 * proximal_energy() : 0.0;
-      const bool solved = decrement <= std::max(enough, least_energy_);
+      const bool solved = decrement <= std::max(1e-2 * proximal_energy(), least_energy_);
       if (!solved && ++newtons < most_newtons) continue;
       // What is left is the relaxation: Coulomb's law is not reached by going on.
-      done =
-          !settings_.proximal || no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.aim();
+      done = no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.aim();
       centre_ = gamma_;
       newtons = 0;
     }
@@ -72,7 +73,7 @@ class Sap final : public Solver {
   }
 
  private:
-  double epsilon(int c) const { return settings_.regularisation / w_.rho()[c]; }
+  double epsilon(int c) const { return regularisation / w_.rho()[c]; }
   Eigen::Vector3d pressed(int c, const Eigen::Vector3d& u) const {
     return w_.at(centre_, c) - u / epsilon(c);
   }
@@ -109,14 +110,14 @@ class Sap final : public Solver {
         hessian_[c] = project_cone_jacobian(pressed(c, w_.at(u_, c)), w_.friction(c)) / epsilon(c);
     }
     if (is_stored_) return newton_on_impulses(problem);
-    if (!system_.factor(hessian_, hessian_)) return std::numeric_limits<double>::quiet_NaN();
+    if (!bodies_.factor(hessian_)) return std::numeric_limits<double>::quiet_NaN();
     // The gradient M (v - v_free) - H^T gamma, and the Newton direction.
     contact_to_body_impulse(problem.dynamics, problem.row_begin, gamma_, gradient_);
     away_ = mass_ * (v_ - problem.dynamics.v_free);
     // A decrement so small beside the energy moves velocities by 1e-13 of themselves: rounding.
     least_energy_ = 1e-26 * std::abs(away_.dot(v_ - problem.dynamics.v_free));
     gradient_ = away_ - gradient_;
-    system_.solve_bodies(gradient_, dv_);
+    bodies_.solve_once(gradient_, dv_);
     dv_ = -dv_;
     const double decrement = -gradient_.dot(dv_);
     body_to_contact_velocity(problem.dynamics, problem.row_begin, dv_, du_);
@@ -195,10 +196,10 @@ class Sap final : public Solver {
     return sum;
   }
 
-  static constexpr int most_newtons = 50;  ///< for one problem
-  SapSettings settings_;
+  static constexpr int most_newtons = 50;         ///< for one problem
+  static constexpr double regularisation = 1e-3;  ///< Drake's sigma
   ContactOperator w_;
-  ShiftedDelassus system_;
+  BodyMatrix bodies_;  ///< M + H^T (P_K' / epsilon) H
   SlipShift no_shift_;
   SparseColumns mass_;
   std::vector<Eigen::Matrix3d> hessian_;
@@ -213,8 +214,6 @@ class Sap final : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_sap(const SapSettings& settings) {
-  return std::make_unique<Sap>(settings);
-}
+std::unique_ptr<Solver> make_sap() { return std::make_unique<Sap>(); }
 
 }  // namespace ballast

@@ -1,5 +1,3 @@
-#include "solvers/backends/siconos.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,9 +11,8 @@
 #include <siconos/numerics/SolverOptions.h>
 #include <siconos/numerics/SparseBlockMatrix.h>
 
-#include "platform/child_process.hpp"
 #include "platform/clock.hpp"
-#include "platform/pack.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/seam/rounds.hpp"
 
 extern "C" void numerics_set_verbose(int);  // in no header that C++ can read
@@ -24,7 +21,6 @@ namespace ballast {
 namespace {
 
 struct SiconosRecipe {
-  const char* name;
   int solver;
   double contact_visits;  ///< iterations x contacts of the first round; a next one has twice them
   void (*adjust)(SolverOptions&);
@@ -52,8 +48,7 @@ class BlockProblem {
       for (int i = 0; i < moving.rows(k); ++i) row_.push_back(3 * k + i);
     friction_ = moving.friction;
     q_.setZero(3 * contacts);
-    for (std::size_t i = 0; i < row_.size(); ++i)
-      q_[row_[i]] = moving.q[static_cast<Eigen::Index>(i)];
+    q_(row_) = moving.q;
     block_begin_.assign(1, 0);
     block_column_.clear();
     for (int k = 0; k < contacts; ++k) add_block_row(moving, k);
@@ -71,15 +66,10 @@ class BlockProblem {
 
   Eigen::VectorXd pad(const Eigen::VectorXd& x) const {
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(3 * contacts_);
-    for (std::size_t i = 0; i < row_.size(); ++i) padded[row_[i]] = x[static_cast<Eigen::Index>(i)];
+    padded(row_) = x;
     return padded;
   }
-  /// `padded` may carry more entries behind.
-  Eigen::VectorXd unpad(const Eigen::VectorXd& padded) const {
-    Eigen::VectorXd x(static_cast<Eigen::Index>(row_.size()));
-    for (std::size_t i = 0; i < row_.size(); ++i) x[static_cast<Eigen::Index>(i)] = padded[row_[i]];
-    return x;
-  }
+  Eigen::VectorXd unpad(const Eigen::VectorXd& padded) const { return padded(row_); }
   const Eigen::VectorXd& q() const { return q_; }
   int contacts() const { return contacts_; }
 
@@ -159,7 +149,11 @@ class Siconos final : public Solver {
         [&](const RoundRequest& request, RoundAnswer& answer) {
           const int most = is_dense_ ? recipe_.most_dense_iterations : chunk;
           const int limit = std::min({chunk, most, request.left.max_iterations});
-          const bool whole = run(request, tolerance, limit, answer);
+          const auto run = [&](RoundAnswer& called) {
+            call(request, tolerance, limit, called);
+            return true;
+          };
+          const bool whole = answer_apart(request.left.max_seconds, run, answer);
           answer.finished = !whole || answer.iterations < limit;
           // What dense steps have not brought home goes on by columns.
           if (is_dense_ && limit == recipe_.most_dense_iterations)
@@ -174,12 +168,6 @@ class Siconos final : public Solver {
   }
 
  private:
-  struct Answer {
-    Eigen::VectorXd r;
-    int iterations = 1;
-    double seconds = 0.0;
-  };
-
   /// Siconos' error is a norm over contacts divided by max(|q|, |r|, |u|).
   double first_tolerance(const Budget& budget) const {
     // Below the hair that reached() asks for: an answer within it would cost a whole round more.
@@ -196,37 +184,9 @@ class Siconos final : public Solver {
     return static_cast<int>(std::clamp(visits, 100.0, 1e6));
   }
 
-  /// One call of Siconos from the best iterate. False: no answer.
-  bool run(const RoundRequest& request, double tolerance, int limit, RoundAnswer& answer) {
-    const Eigen::VectorXd start = blocks_.pad(request.best);
-    Answer found;
-    // A comparison's child needs no process of its own for the call, and stays warm.
-    if (is_expendable_process()) {
-      found = call(start, tolerance, limit);
-    } else {
-      const ChildResult child = run_in_child(request.left.max_seconds, [&] {
-        const Answer called = call(start, tolerance, limit);
-        Packer packer;
-        packer.list(called.r);
-        packer.number(called.iterations);
-        packer.number(called.seconds);
-        return packer.bytes();
-      });
-      if (child.end != ChildEnd::complete) return false;
-      Unpacker unpacker(child.answer, "siconos: a child's answer");
-      unpacker.list(found.r);
-      unpacker.number(found.iterations);
-      unpacker.number(found.seconds);
-      unpacker.finish();
-    }
-    answer.iterations = found.iterations;
-    answer.seconds = found.seconds;
-    answer.x = blocks_.unpad(found.r);
-    return true;
-  }
-
-  /// The clock runs in fc3d_driver alone, as in a program of Siconos' own.
-  Answer call(const Eigen::VectorXd& start, double tolerance, int limit) {
+  /// One call of Siconos from the best iterate. The clock runs in fc3d_driver alone, as in a
+  /// program of Siconos' own.
+  void call(const RoundRequest& request, double tolerance, int limit, RoundAnswer& answer) {
     numerics_set_verbose(0);
     FrictionContactProblem* problem = blocks_.siconos(is_dense_);
     // The columns of a sparse W are kept in the matrix: made once, not timed.
@@ -235,16 +195,14 @@ class Siconos final : public Solver {
     recipe_.adjust(*options);
     options->dparam[SICONOS_DPARAM_TOL] = tolerance;
     options->iparam[SICONOS_IPARAM_MAX_ITER] = limit;
-    Answer answer;
-    answer.r = start;
-    Eigen::VectorXd u = blocks_.q();
-    NM_gemv(1.0, problem->M, answer.r.data(), 1.0, u.data());
+    Eigen::VectorXd r = blocks_.pad(request.best), u = blocks_.q();
+    NM_gemv(1.0, problem->M, r.data(), 1.0, u.data());
     const Stopwatch watch;
-    fc3d_driver(problem, answer.r.data(), u.data(), options);
+    fc3d_driver(problem, r.data(), u.data(), options);
     answer.seconds = watch.seconds();
     answer.iterations = options->iparam[SICONOS_IPARAM_ITER_DONE];
     solver_options_delete(options);
-    return answer;
+    answer.x = blocks_.unpad(r);
   }
 
   const SiconosRecipe& recipe_;
@@ -259,41 +217,31 @@ void use_hybrid_newton(SolverOptions& options) {
       SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_NSN_AND_PLI_NSN_LOOP;
 }
 
-const SiconosRecipe nsgs{"siconos_nsgs", SICONOS_FRICTION_3D_NSGS, 2e6, use_hybrid_newton, false};
-// Siconos' own measure of a sweep is what it moved: it goes on long after the error is small.
-const SiconosRecipe nsgs_full{"siconos_nsgs_full", SICONOS_FRICTION_3D_NSGS, 2e6,
-                              [](SolverOptions& options) {
-                                use_hybrid_newton(options);
-                                options.iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION] =
-                                    SICONOS_FRICTION_3D_NSGS_ERROR_EVALUATION_FULL;
-                              },
-                              false};
-const SiconosRecipe prox{"siconos_prox", SICONOS_FRICTION_3D_PROX, 1e5, [](SolverOptions&) {}};
-const SiconosRecipe admm{"siconos_admm", SICONOS_FRICTION_3D_ADMM, 2e6, [](SolverOptions& options) {
-                           options.iparam[SICONOS_FRICTION_3D_ADMM_IPARAM_RHO_STRATEGY] =
-                               SICONOS_FRICTION_3D_ADMM_RHO_STRATEGY_RESIDUAL_BALANCING;
-                         }};
-const SiconosRecipe nsn_ac{
-    "siconos_nsn_ac", SICONOS_FRICTION_3D_NSN_AC, 1e5, [](SolverOptions&) {}, true, 45, 200};
+/// By SiconosMethod.
+const SiconosRecipe recipes[] = {
+    {SICONOS_FRICTION_3D_NSGS, 2e6, use_hybrid_newton, false},
+    // Siconos' own measure of a sweep is what it moved: it goes on long after the error is small.
+    {SICONOS_FRICTION_3D_NSGS, 2e6,
+     [](SolverOptions& options) {
+       use_hybrid_newton(options);
+       options.iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION] =
+           SICONOS_FRICTION_3D_NSGS_ERROR_EVALUATION_FULL;
+     },
+     false},
+    {SICONOS_FRICTION_3D_PROX, 1e5, [](SolverOptions&) {}},
+    {SICONOS_FRICTION_3D_ADMM, 2e6,
+     [](SolverOptions& options) {
+       options.iparam[SICONOS_FRICTION_3D_ADMM_IPARAM_RHO_STRATEGY] =
+           SICONOS_FRICTION_3D_ADMM_RHO_STRATEGY_RESIDUAL_BALANCING;
+     }},
+    {SICONOS_FRICTION_3D_NSN_AC, 1e5, [](SolverOptions&) {}, true, 45, 200}};
 
 }  // namespace
 
 bool has_siconos() { return true; }
 
 std::unique_ptr<Solver> make_siconos(SiconosMethod method) {
-  switch (method) {
-    case SiconosMethod::nsgs:
-      return std::make_unique<Siconos>(nsgs);
-    case SiconosMethod::nsgs_full:
-      return std::make_unique<Siconos>(nsgs_full);
-    case SiconosMethod::prox:
-      return std::make_unique<Siconos>(prox);
-    case SiconosMethod::admm:
-      return std::make_unique<Siconos>(admm);
-    case SiconosMethod::nsn_ac:
-      return std::make_unique<Siconos>(nsn_ac);
-  }
-  return nullptr;
+  return std::make_unique<Siconos>(recipes[static_cast<int>(method)]);
 }
 
 }  // namespace ballast

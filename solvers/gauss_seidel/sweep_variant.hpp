@@ -10,8 +10,6 @@ enum class LocalRule {
   exact,       ///< the contact's own solution (one_contact.hpp)
   projection,  ///< r_c := P_K(r_c - rho_c (u_c + mu |u_T| n)), rho_c = 1 / lambda_max(W_cc): one
                ///< step of De Saxce, Feng 1998
-  newton       ///< Newton on Alart, Curnier 1991 for the contact alone; where it fails, the exact
-               ///< solution
 };
 
 struct SweepVariant {

@@ -156,7 +156,7 @@ bool BodyMatrix::solve(const std::vector<Eigen::Matrix3d>& gain, const Eigen::Ve
     if (rest_.norm() <= most_rest * b.norm()) return true;
   }
   if (!exchanging_.factor(matrix_)) return false;
-  exchanging_.solve(matrix_, b, x, 1);
+  exchanging_.solve(b, x);
   return x.allFinite();
 }
 

@@ -61,13 +61,6 @@ double ContactOperator::begin_at(Impulses& r, Eigen::VectorXd& u) {
   return error(r, u);
 }
 
-double ContactOperator::scaled_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
-  double sum = 0.0;
-  for (int c = 0; c < contact_count(); ++c)
-    if (rho_[c] > 0.0) sum += at(x, c).dot(at(y, c)) / rho_[c];
-  return sum;
-}
-
 double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const {
   RootMeanSquare mean;
   // The judge's measure: contacts that nothing moves are left out.
@@ -78,28 +71,6 @@ double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const
     mean.add(value);
   }
   return mean.value();
-}
-
-double gradient_step(ContactOperator& w) {
-  const auto divide = [&w](Eigen::VectorXd& x) {
-    for (int c = 0; c < w.contact_count(); ++c) w.put(x, c, w.rho()[c] * w.at(x, c));
-  };
-  const int rows = w.problem().row_count();
-  Eigen::VectorXd x(rows), y(rows);
-  for (int i = 0; i < rows; ++i)
-    x[i] = 1.0 + 0.5 * ((i * 7919) % 17) / 17.0 - (i % 3 == 1 ? 2.0 : 0.0);
-  divide(x);
-  double lambda = 0.0;
-  for (int k = 0; k < 30; ++k) {
-    const double norm = x.norm();
-    if (!(norm > 0.0)) break;
-    x /= norm;
-    w.multiply(x, y);
-    divide(y);
-    lambda = y.norm();
-    x.swap(y);
-  }
-  return lambda > 0.0 ? 1.0 / lambda : 1.0;
 }
 
 }  // namespace ballast

@@ -54,9 +54,6 @@ class ContactOperator {
   /// Where a method begins: r goes to the nearest point of its cones, and u to the velocities that
   /// it gives. Returns error(r, u).
   double begin_at(Impulses& r, Eigen::VectorXd& u);
-  /// sum_c x_c . y_c / rho_c: the product in which W's diagonal is about one. Contacts with rho = 0
-  /// are left out.
-  double scaled_dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const;
 
   /// The judge's scaled natural map, rms over contacts [m/s], of impulses r with the velocities u
   /// that they give.
@@ -71,10 +68,5 @@ class ContactOperator {
   std::vector<double> rho_;
   Eigen::VectorXd v_;
 };
-
-/// The step of a projected gradient along rho_c u_c: 1 / lambda_max(D^-1 W) with D_c = I / rho_c,
-/// by 30 products of a power iteration from a fixed start, which end some per cent below
-/// lambda_max; 1 where W is zero.
-double gradient_step(ContactOperator& w);
 
 }  // namespace ballast

@@ -40,25 +40,16 @@ void backward(const double* a, int rows, int own, const double* __restrict bound
 }  // namespace
 
 void FrontLu::analyse(const SparseColumns& a, const std::vector<int>& unknown_begin) {
-  if (pattern_.is(a) && graph_.unknown_begin == unknown_begin) return;
-  BlockGraph graph = block_graph(unknown_begin, a.outerIndexPtr(), a.innerIndexPtr());
-  if (tree_.fronts.empty() || !(graph == graph_)) {
-    tree_ = make_front_tree(graph, dissection_order(graph));
-    graph_ = std::move(graph);
-    make_room();
-  }
+  if (pattern_.is(a) && unknown_begin_ == unknown_begin) return;
+  const BlockGraph graph = block_graph(unknown_begin, a.outerIndexPtr(), a.innerIndexPtr());
+  tree_ = make_front_tree(graph, dissection_order(graph));
+  numbers_.resize(tree_.numbers);
+  boundaries_.resize(tree_.boundaries);
+  for (Eigen::VectorXd* x : {&work_, &below_, &largest_}) x->resize(a.rows());
+  list_runs();
   place_entries(a);
   pattern_.take(a);
-}
-
-void FrontLu::make_room() {
-  layout_ = make_front_layout(tree_);
-  numbers_.resize(layout_.numbers_begin.back());
-  boundaries_.resize(layout_.boundaries);
-  work_.resize(graph_.unknown_count());
-  below_.resize(graph_.unknown_count());
-  largest_.resize(graph_.unknown_count());
-  list_runs();
+  unknown_begin_ = unknown_begin;
 }
 
 /// Rows come in blocks, and neighbours often stay neighbours: runs are many rows long.
@@ -123,10 +114,10 @@ bool FrontLu::factor(const SparseColumns& a) {
       largest = std::max(largest, std::abs(a.valuePtr()[e]));
     largest_[tree_.place[j]] = largest;
   }
-  const int branches = static_cast<int>(layout_.branches.size());
+  const int branches = static_cast<int>(tree_.branches.size());
   std::atomic<bool> breaks_down{false};
   run_parts(team_, branches, [&](int branch) {
-    const auto& [first, end] = layout_.branches[branch];
+    const auto& [first, end] = tree_.branches[branch];
     for (int f = first; f < end; ++f)
       if (!factor_front(f, a.valuePtr(), false)) {
         breaks_down = true;
@@ -134,7 +125,7 @@ bool FrontLu::factor(const SparseColumns& a) {
       }
   });
   if (breaks_down) return false;
-  for (const int f : layout_.trunk)
+  for (const int f : tree_.trunk)
     if (!factor_front(f, a.valuePtr(), true)) return false;
   return true;
 }
@@ -142,32 +133,27 @@ bool FrontLu::factor(const SparseColumns& a) {
 /// `shares`: the team works on the columns of this one.
 bool FrontLu::factor_front(int number, const double* values, bool shares) {
   const Front& front = tree_.fronts[number];
-  double* boundary = boundaries_.data() + layout_.boundary_made[number];
+  double *numbers = numbers_.data() + front.numbers_at,
+         *boundary = boundaries_.data() + front.boundary_at;
+  const std::int64_t own = front.own, outside = front.boundary();
+  std::fill_n(numbers, own * (front.rows + outside), 0.0);
+  std::fill_n(boundary, outside * outside, 0.0);
   // The matrix's own entries, then what the children left, the last one first.
-  assemble(front, number, values, boundary);
-  for (int k = 0, child = number - 1; k < front.child_count; ++k, --child) {
-    while (tree_.fronts[child].parent != number) --child;
-    extend_add(child, boundaries_.data() + layout_.boundary_kept[child], front, boundary);
-  }
-  if (!eliminate(front, number, boundary, shares)) return false;
-  const std::int64_t size = static_cast<std::int64_t>(front.boundary()) * front.boundary();
-  std::copy_n(boundary, size, boundaries_.data() + layout_.boundary_kept[number]);
-  return true;
-}
-
-void FrontLu::assemble(const Front& front, int number, const double* values, double* boundary) {
-  double* numbers = numbers_.data() + layout_.numbers_begin[number];
-  std::fill_n(numbers, layout_.numbers_begin[number + 1] - layout_.numbers_begin[number], 0.0);
-  std::fill_n(boundary, static_cast<std::int64_t>(front.boundary()) * front.boundary(), 0.0);
   for (int e = entries_begin_[number]; e < entries_begin_[number + 1]; ++e)
     numbers[entries_[e].to] += values[entries_[e].from];
+  for (int k = 0, child = number - 1; k < front.child_count; ++k, --child) {
+    while (tree_.fronts[child].parent != number) --child;
+    extend_add(child, front, boundary);
+  }
+  return eliminate(front, boundary, shares);
 }
 
 /// The child's rows, which ascend, are first rows of the parent's own unknowns, then rows of its
 /// boundary; so are its columns. That makes four blocks, in three places.
-void FrontLu::extend_add(int child, const double* from, const Front& front, double* boundary) {
+void FrontLu::extend_add(int child, const Front& front, double* boundary) {
   const int own = front.own, rows = tree_.fronts[child].boundary();
-  double* columns = numbers_.data() + layout_.numbers_begin[tree_.fronts[child].parent];
+  const double* from = boundaries_.data() + tree_.fronts[child].boundary_at;
+  double* columns = numbers_.data() + front.numbers_at;
   double* rest = columns + static_cast<std::int64_t>(front.rows) * own;
   const Run *first = runs_.data() + runs_begin_[child],
             *end = runs_.data() + runs_begin_[child + 1];
@@ -194,11 +180,11 @@ void FrontLu::extend_add(int child, const double* from, const Front& front, doub
 ///
 /// A11 and A21 are `a`, A12 is `rest`. A22 is `boundary`: it holds what the children left, as the
 /// matrix's own entries there belong to fronts above.
-bool FrontLu::eliminate(const Front& front, int number, double* boundary, bool shares) {
+bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
   constexpr int strip = 48, most_columns = 96;
   constexpr double smallest_pivot = 1e-14;
   const int rows = front.rows, own = front.own, outside = front.boundary();
-  double* a = numbers_.data() + layout_.numbers_begin[number];
+  double* a = numbers_.data() + front.numbers_at;
   double* rest = a + static_cast<std::int64_t>(rows) * own;
   // Columns that are shared out come in pieces, however many share them.
   const auto by_columns = [&](int columns, const auto& task) {
@@ -237,7 +223,8 @@ bool FrontLu::eliminate(const Front& front, int number, double* boundary, bool s
 }
 
 void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  const int unknowns = graph_.unknown_count(), fronts = static_cast<int>(tree_.fronts.size());
+  const int unknowns = static_cast<int>(work_.size()),
+            fronts = static_cast<int>(tree_.fronts.size());
   for (int i = 0; i < unknowns; ++i) work_[tree_.place[i]] = b[i];
   // L y = b from the leaves up: a front solves its own rows, and takes their share from the rows of
   // its boundary, which belong to fronts above.
@@ -245,8 +232,8 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;
     std::fill_n(below_.data(), front.boundary(), 0.0);
-    forward(numbers_.data() + layout_.numbers_begin[f], front.rows, front.own,
-            work_.data() + front.first, below_.data());
+    forward(numbers_.data() + front.numbers_at, front.rows, front.own, work_.data() + front.first,
+            below_.data());
     for (int i = 0; i < front.boundary(); ++i) work_[place[i]] -= below_[i];
   }
   // U x = y from the roots down: a front's boundary is known when its turn comes.
@@ -254,7 +241,7 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;
     for (int i = 0; i < front.boundary(); ++i) below_[i] = work_[place[i]];
-    backward(numbers_.data() + layout_.numbers_begin[f], front.rows, front.own, below_.data(),
+    backward(numbers_.data() + front.numbers_at, front.rows, front.own, below_.data(),
              work_.data() + front.first);
   }
   x.resize(unknowns);

@@ -22,7 +22,7 @@ class FrontLu {
  public:
   /// Orders and analyses. `a` square, compressed, any pattern; `unknown_begin[k]` is the first
   /// unknown of block k, from 0 to the size of `a`. Where the pattern is the last one's, nothing is
-  /// done; where only the graph of the blocks is, no new order is looked for.
+  /// done.
   void analyse(const SparseColumns& a, const std::vector<int>& unknown_begin);
   /// `a` with the pattern of analyse(). False: a pivot is not finite, or below 1e-14 of the
   /// largest entry of its column in `a`; solve() must then not be called.
@@ -44,24 +44,21 @@ class FrontLu {
   struct Run {
     int from, to, count;
   };
-  void make_room();
   void list_runs();
   void place_entries(const SparseColumns& a);
   bool factor_front(int number, const double* values, bool shares);
-  void assemble(const Front& front, int number, const double* values, double* boundary);
-  void extend_add(int child, const double* from, const Front& front, double* boundary);
-  bool eliminate(const Front& front, int number, double* boundary, bool shares);
+  void extend_add(int child, const Front& front, double* boundary);
+  bool eliminate(const Front& front, double* boundary, bool shares);
 
   SparsePattern pattern_;
-  BlockGraph graph_;
+  std::vector<int> unknown_begin_;
   FrontTree tree_;
-  FrontLayout layout_;
-  std::vector<double> numbers_, boundaries_;  ///< as layout_ says
+  std::vector<double> numbers_, boundaries_;  ///< by front
   std::vector<Entry> entries_;                ///< by front
   std::vector<int> entries_begin_;            ///< fronts + 1
   std::vector<Run> runs_;                     ///< by front
   std::vector<int> runs_begin_;               ///< fronts + 1
-  std::vector<double> largest_;  ///< by place: the largest entry of the column in the matrix
+  Eigen::VectorXd largest_;  ///< by place: the largest entry of the column in the matrix
   Eigen::VectorXd work_, below_;
   WorkerTeam* team_ = nullptr;
 };

@@ -22,7 +22,6 @@ struct BlockGraph {
   int node_count() const { return static_cast<int>(unknown_begin.size()) - 1; }
   int unknown_count() const { return unknown_begin.back(); }
   int size(int node) const { return unknown_begin[node + 1] - unknown_begin[node]; }
-  bool operator==(const BlockGraph&) const = default;
 };
 
 /// The graph of a square matrix in columns (`outer`, `inner` as Eigen stores them) whose unknowns
@@ -39,50 +38,34 @@ struct Front {
   int rows_begin = 0;   ///< in FrontTree::places: the places of all its rows, ascending
   int parent = -1;      ///< -1: a root, whose boundary is empty
   int child_count = 0;  ///< its children are the last ones before it that have no parent yet
+  /// Where its numbers lie: its own columns (rows x own, column-major), in which L below and U
+  /// above the diagonal come to stand, then the rest of its own rows (own x boundary).
+  std::int64_t numbers_at = 0;
+  /// Where what it passes on lies (boundary x boundary, column-major).
+  std::int64_t boundary_at = 0;
   int boundary() const { return rows - own; }
 };
 
-/// All fronts, children before parents: exactly the order of a stack of boundaries.
+/// All fronts, children before parents. Branches are subtrees without a common front: different
+/// threads may eliminate them. The trunk is what stands above them, front by front.
+///
+///   trunk                      the largest fronts: their columns are shared out
+///     +-- branch, branch, ...  many fronts each
+///
+/// They follow from the tree alone, never from the number of threads. A small tree is one branch.
 struct FrontTree {
   std::vector<int> place;  ///< of every unknown
   std::vector<Front> fronts;
   std::vector<int> places;  ///< see Front::rows_begin
   /// Beside `places`: for a boundary row, its row in the parent's front; -1 for own rows.
   std::vector<int> row_in_parent;
+  std::vector<std::pair<int, int>> branches;  ///< fronts [first, second) of each
+  std::vector<int> trunk;                     ///< ascending: children before parents
+  std::int64_t numbers = 0, boundaries = 0;   ///< of all fronts
 };
 
 /// `order[k]` is the node to eliminate k-th; the tree may exchange nodes that do not see each
 /// other. Fronts that are nearly alike are joined: some zeros are stored for larger dense blocks.
 FrontTree make_front_tree(const BlockGraph& graph, const std::vector<int>& order);
-
-/// Branches are subtrees without a common front: different threads may eliminate them. The trunk is
-/// what stands above them, front by front.
-///
-///   trunk                      the largest fronts: their columns are shared out
-///     +-- branch, branch, ...  many fronts each
-///
-/// They follow from the tree alone, never from the number of threads.
-struct FrontLayout {
-  /// Fronts [first, second) of every branch.
-  std::vector<std::pair<int, int>> branches;
-  std::vector<int> trunk;  ///< ascending: children before parents
-  /// A front's numbers, fronts + 1: its own columns (rows x own, column-major), in which L below
-  /// and U above the diagonal come to stand, then the rest of its own rows (own x boundary).
-  std::vector<std::int64_t> numbers_begin;
-  /// A front's boundary (boundary x boundary, column-major) is made above those of its children,
-  /// and then moved down over them, where it waits for its parent:
-  ///
-  ///     | .. | child 1 | child 2 | own |    ->    | .. | own |
-  ///
-  /// Every branch has such a stack of its own, and the trunk one.
-  std::vector<std::int64_t> boundary_made, boundary_kept;  ///< by front
-  std::int64_t boundaries = 0;                             ///< numbers of all stacks
-};
-
-/// Multiplications and additions of one front's elimination.
-double operations_of(const Front& front);
-
-/// A small tree is one branch.
-FrontLayout make_front_layout(const FrontTree& tree);
 
 }  // namespace ballast

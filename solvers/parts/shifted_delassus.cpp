@@ -5,6 +5,8 @@ namespace ballast {
 void ShiftedDelassus::prepare(ContactOperator& w) {
   w_ = &w;
   const FrictionProblem& problem = w.problem();
+  shift.resize(problem.contact_count());
+  sigma.resize(problem.contact_count());
   dynamics_ = problem.has_dynamics;
   if (dynamics_) {
     h_ = sparse_h(problem);
@@ -13,17 +15,14 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
   stored_ = problem.delassus.w;
 }
 
-bool ShiftedDelassus::factor(const std::vector<Eigen::Matrix3d>& shift,
-                             const std::vector<Eigen::Matrix3d>& sigma) {
-  shift_ = shift;
-  sigma_ = sigma;
-  if (dynamics_) return bodies_.factor(sigma_);
+bool ShiftedDelassus::factor() {
+  if (dynamics_) return bodies_.factor(sigma);
   SparseColumns sum = stored_;
   const FrictionProblem& problem = w_->problem();
   for (int c = 0; c < problem.contact_count(); ++c)
     for (int j = 0; j < problem.contact_rows(c); ++j)
       for (int i = 0; i < problem.contact_rows(c); ++i)
-        sum.coeffRef(problem.row_begin[c] + i, problem.row_begin[c] + j) += shift_[c](i, j);
+        sum.coeffRef(problem.row_begin[c] + i, problem.row_begin[c] + j) += shift[c](i, j);
   sum.makeCompressed();
   sum_.analyse(sum, problem.row_begin);
   return sum_.factor(sum);
@@ -34,13 +33,13 @@ void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   // Woodbury: x = Sigma (b - H (M + H^T Sigma H)^-1 H^T Sigma b).
   const FrictionProblem& problem = w_->problem();
   scaled_.resize(b.size());
-  for (int c = 0; c < problem.contact_count(); ++c) w_->put(scaled_, c, sigma_[c] * w_->at(b, c));
+  for (int c = 0; c < problem.contact_count(); ++c) w_->put(scaled_, c, sigma[c] * w_->at(b, c));
   contact_to_body_impulse(problem.dynamics, problem.row_begin, scaled_, body_);
   bodies_.solve_once(body_, body_);
   contact_ = b;
   contact_.noalias() -= h_ * body_;
   x.resize(b.size());
-  for (int c = 0; c < problem.contact_count(); ++c) w_->put(x, c, sigma_[c] * w_->at(contact_, c));
+  for (int c = 0; c < problem.contact_count(); ++c) w_->put(x, c, sigma[c] * w_->at(contact_, c));
 }
 
 void ShiftedDelassus::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements) {
@@ -51,7 +50,7 @@ void ShiftedDelassus::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int re
     residual_.resize(b.size());
     w_->multiply(x, residual_);
     for (int c = 0; c < w_->contact_count(); ++c)
-      w_->put(residual_, c, w_->at(b, c) - w_->at(residual_, c) - shift_[c] * w_->at(x, c));
+      w_->put(residual_, c, w_->at(b, c) - w_->at(residual_, c) - shift[c] * w_->at(x, c));
     solve_once(residual_, correction_);
     x += correction_;
   }

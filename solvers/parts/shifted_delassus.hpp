@@ -18,16 +18,15 @@ class ShiftedDelassus {
   /// The constant parts. `w` must stay prepared for the same problem.
   void prepare(ContactOperator& w);
 
-  /// Factors with P_c = shift[c] [1/kg], 3 x 3 symmetric positive definite, and sigma[c] = P_c^-1
-  /// [kg], which the caller knows better than an inversion would; of a one-row contact only entries
-  /// 0,0 are read. False: not definite to working precision; solve() must then not be called.
-  bool factor(const std::vector<Eigen::Matrix3d>& shift, const std::vector<Eigen::Matrix3d>& sigma);
+  /// P_c [1/kg] of every contact, 3 x 3 symmetric positive definite, and P_c^-1 [kg], which the
+  /// caller knows better than an inversion would: set before factor(), and left until the last
+  /// solve(). Of a one-row contact only entries 0,0 are read.
+  std::vector<Eigen::Matrix3d> shift, sigma;
+  /// False: not definite to working precision; solve() must then not be called.
+  bool factor();
   /// x = (W + P)^-1 b, improved `refinements` times by the residual of the whole system. `x` must
   /// not be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
-  /// x = (M + H^T Sigma H)^-1 b, in the bodies' unknowns: dynamics form only. Sigma may here be
-  /// singular. `x` may be `b`.
-  void solve_bodies(const Eigen::VectorXd& b, Eigen::VectorXd& x) { bodies_.solve_once(b, x); }
   /// FrontLu::use_team
   void use_team(WorkerTeam* team) {
     bodies_.use_team(team);
@@ -39,11 +38,10 @@ class ShiftedDelassus {
 
   ContactOperator* w_ = nullptr;
   bool dynamics_ = false;
-  BodyMatrix bodies_;                           ///< dynamics form
-  SparseRows h_;                                ///< the same
-  SparseColumns stored_;                        ///< W
-  FrontLu sum_;                                 ///< W + P
-  std::vector<Eigen::Matrix3d> sigma_, shift_;  ///< P^-1, P
+  BodyMatrix bodies_;     ///< dynamics form
+  SparseRows h_;          ///< the same
+  SparseColumns stored_;  ///< W
+  FrontLu sum_;           ///< W + P
   Eigen::VectorXd scaled_, body_, contact_, residual_, correction_;
 };
 

@@ -4,63 +4,42 @@
 #include <vector>
 
 #include <cholmod.h>
-#include <umfpack.h>
+#include <Eigen/UmfPackSupport>
 
 namespace ballast {
 
 bool has_sparse_factors() { return true; }
 
 struct LuFactor::State {
-  void *symbolic = nullptr, *numeric = nullptr;
-  double control[UMFPACK_CONTROL], info[UMFPACK_INFO];
-  std::vector<int> index_work;
-  std::vector<double> work;
+  Eigen::UmfPackLU<SparseColumns> lu;
   SparsePattern pattern;
-
-  State() {
-    umfpack_di_defaults(control);
-    // Rows and columns are exchanged alike, and the diagonal's entry is the pivot where it is at
-    // least a thousandth of the largest in its column.
-    control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-    control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-    control[UMFPACK_SYM_PIVOT_TOLERANCE] = 1e-3;
-    control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
-  }
-  ~State() {
-    umfpack_di_free_numeric(&numeric);
-    umfpack_di_free_symbolic(&symbolic);
-  }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
 };
 
-LuFactor::LuFactor() : state_(new State, [](State* state) { delete state; }) {}
+LuFactor::LuFactor() : state_(new State, [](State* state) { delete state; }) {
+  // Rows and columns are exchanged alike, and the diagonal's entry is the pivot where it is at
+  // least a thousandth of the largest in its column. Each solution is refined once.
+  auto& control = state_->lu.umfpackControl();
+  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+  control[UMFPACK_SYM_PIVOT_TOLERANCE] = 1e-3;
+  control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;
+  control[UMFPACK_IRSTEP] = 1;
+}
 
 bool LuFactor::factor(const SparseColumns& a) {
-  State& s = *state_;
-  const int n = static_cast<int>(a.rows());
-  umfpack_di_free_numeric(&s.numeric);
-  if (!s.symbolic || !s.pattern.is(a)) {
-    umfpack_di_free_symbolic(&s.symbolic);
-    if (umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), &s.symbolic,
-                            s.control, s.info) != UMFPACK_OK)
+  if (!state_->pattern.is(a)) {
+    state_->pattern.take(a);
+    state_->lu.analyzePattern(a);
+    if (state_->lu.info() != Eigen::Success) {
+      state_->pattern = {};
       return false;
-    s.pattern.take(a);
-    s.index_work.resize(static_cast<size_t>(n));
-    s.work.resize(5 * static_cast<size_t>(n));
+    }
   }
-  return umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), s.symbolic,
-                            &s.numeric, s.control, s.info) == UMFPACK_OK;
+  state_->lu.factorize(a);
+  return state_->lu.info() == Eigen::Success;
 }
 
-void LuFactor::solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x,
-                     int refinements) {
-  State& s = *state_;
-  x.resize(b.size());
-  s.control[UMFPACK_IRSTEP] = refinements;
-  umfpack_di_wsolve(UMFPACK_A, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), x.data(),
-                    b.data(), s.numeric, s.control, s.info, s.index_work.data(), s.work.data());
-}
+void LuFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) { x = state_->lu.solve(b); }
 
 std::vector<int> dissection_order(const BlockGraph& graph) {
   // The graph as the pattern of a symmetric matrix's lower triangle.

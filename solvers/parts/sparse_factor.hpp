@@ -48,10 +48,9 @@ class LuFactor {
 
   /// `a` square, compressed, sorted. False: singular to working precision.
   bool factor(const SparseColumns& a);
-  /// x = A^-1 b with the matrix given to factor(), which must still live (`a`): UMFPACK refines
-  /// with it when `refinements` > 0. `x` must not be `b`.
-  void solve(const SparseColumns& a, const Eigen::VectorXd& b, Eigen::VectorXd& x,
-             int refinements = 0);
+  /// x = A^-1 b, improved once by its residual: the matrix given to factor() must still live. `x`
+  /// must not be `b`.
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
  private:
   struct State;

@@ -16,9 +16,7 @@ bool has_sparse_factors() { return false; }
 
 LuFactor::LuFactor() : state_(nullptr, nullptr) {}
 bool LuFactor::factor(const SparseColumns&) { decline(); }
-void LuFactor::solve(const SparseColumns&, const Eigen::VectorXd&, Eigen::VectorXd&, int) {
-  decline();
-}
+void LuFactor::solve(const Eigen::VectorXd&, Eigen::VectorXd&) { decline(); }
 
 std::vector<int> dissection_order(const BlockGraph&) { decline(); }
 void FrontLu::analyse(const SparseColumns&, const std::vector<int>&) { decline(); }

@@ -86,6 +86,7 @@ void Course::run(const Part& part) {
   if (!is_enough && !(error < error_)) return;
   is_enough_ = is_enough_ || is_enough;
   error_ = error;
+  best_at_ = iterations_;
   best_ = std::move(done.impulses);
 }
 
@@ -101,6 +102,7 @@ void Course::offer(const Impulses& r, double error) {
   const bool is_enough = budget_.fclib && !is_enough_ && budget_.fclib->reached(r, error);
   if (is_enough || ((error < error_ || error_ == unknown) && !is_enough_)) {
     error_ = error;
+    best_at_ = iterations_;
     best_ = r;
   }
   is_enough_ = is_enough_ || is_enough;

@@ -101,6 +101,7 @@ class Course {
   const Impulses& best() const { return best_; }
   double error() const { return error_; }  ///< of the best [m/s]; 1e300 before it is known
   int iterations() const { return iterations_; }
+  int idle() const { return iterations_ - best_at_; }  ///< iterations since the best was found
   /// The best is small enough to stop, or nothing is left of the budget.
   bool over() const;
   /// What is left, without Budget::gives_up, which counts from the beginning.
@@ -121,6 +122,7 @@ class Course {
   Stopwatch watch_;
   int iterations_ = 0;
   double error_, startup_ = 0.0;
+  int best_at_ = 0;         ///< iterations
   bool is_enough_ = false;  ///< the best satisfies what the budget asks for
   Impulses best_;
   std::vector<HistoryPoint> history_;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "platform/child_process.hpp"
+#include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "solvers/seam/iteration.hpp"
@@ -61,6 +63,27 @@ void MovingContacts::scatter(const FrictionProblem& problem, const Eigen::Vector
   r.setZero(problem.row_count());
   for (int k = 0; k < contact_count(); ++k)
     r.segment(problem.row_begin[contact[k]], rows(k)) = x.segment(row_begin[k], rows(k));
+}
+
+bool answer_apart(double max_seconds, const std::function<bool(RoundAnswer&)>& call,
+                  RoundAnswer& answer) {
+  if (is_expendable_process()) return call(answer);
+  const auto carry = [](auto& carrier, auto& carried) {
+    carrier.list(carried.x);
+    carrier.numbers(carried.iterations, carried.seconds);
+  };
+  const ChildResult child = run_in_child(max_seconds, [&] {
+    RoundAnswer there;
+    if (!call(there)) return std::string();
+    Packer packer;
+    carry(packer, there);
+    return packer.bytes();
+  });
+  if (child.answer.empty()) return false;
+  Unpacker unpacker(child.answer, "a child's answer");
+  carry(unpacker, answer);
+  unpacker.finish();
+  return true;
 }
 
 namespace {

@@ -45,6 +45,12 @@ struct RoundAnswer {
                           ///< counts as standing still
 };
 
+/// `call` in a child process (platform/child_process.hpp), as it may crash, hang or leak; here
+/// where this process is a comparison's child, which may be lost and stays warm. Of the answer x,
+/// iterations and seconds come back. False: there is none.
+bool answer_apart(double max_seconds, const std::function<bool(RoundAnswer&)>& call,
+                  RoundAnswer& answer);
+
 /// Rounds until the judge's error of the best iterate, which is what is returned, meets the budget;
 /// `stalled` when `patience` finished rounds in a row brought no tenth of improvement. The judge is
 /// asked after every round; its time is start-up.

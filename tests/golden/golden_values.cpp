@@ -70,8 +70,7 @@ bool is_own_code(const SolverEntry& entry) { return std::string(entry.needs.pack
 
 /// Own code that decides by libm's last bits, or not by the problem alone.
 bool is_through_libm(const SolverEntry& entry) {
-  // hypot in the contact's equation; sine and cosine for the sides of the pyramid
-  return std::ranges::count(std::array{"pgs_newton", "pyramid_lemke"}, std::string(entry.name)) > 0;
+  return entry.name == std::string("pyramid_lemke");  // sine and cosine for the sides
 }
 
 /// SuiteSparse orders the bodies, which is a matter of whole numbers; the factors are our own.

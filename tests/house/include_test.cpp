@@ -35,7 +35,7 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"CLI/", {"experiments/commands/"}},
     {"nlohmann/", {"experiments/", "tests/"}},
     {"cholmod.h", {"solvers/parts/sparse_factor"}},
-    {"umfpack.h", {"solvers/parts/sparse_factor"}},
+    {"Eigen/UmfPackSupport", {"solvers/parts/sparse_factor"}},
     {"klu.h", {"solvers/parts/sparse_factor"}},
     {"Ip", {"solvers/backends/ipopt"}},
     {"nlopt.h", {"solvers/backends/nlopt", "tests/solvers/backends/nlopt"}},

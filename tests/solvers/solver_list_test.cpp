@@ -3,7 +3,7 @@
 #include <set>
 
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/backends/admm.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/parts/sparse_factor.hpp"
 #include "tests/catch.hpp"
 

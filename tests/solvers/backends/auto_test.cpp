@@ -1,11 +1,8 @@
-#include "solvers/backends/auto.hpp"
-
 #include <utility>
 
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/pile_problems.hpp"
-#include "solvers/backends/gauss_seidel.hpp"
-#include "solvers/backends/newton.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 
@@ -35,7 +32,7 @@ TEST_CASE("where sweeps arrive, auto is sweeps with momentum, bit for bit", "[fa
     const FrictionProblem problem =
         make_pile({.contacts = 300, .redundancy = 0.2, .is_stored = is_stored, .seed = 4});
     const Budget budget{.tolerance = 1e-5, .max_iterations = 10000};
-    const SolverRun by_sweeps = solved(make_nesterov_pgs({.returns_best = false}), problem, budget);
+    const SolverRun by_sweeps = solved(make_nesterov_pgs(/*returns_best=*/false), problem, budget);
     const SolverRun run = solved(make_auto(), problem, budget);
     REQUIRE(by_sweeps.is_solved());
     CHECK(run.is_solved());

@@ -1,5 +1,3 @@
-#include "solvers/backends/gauss_seidel.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -7,6 +5,7 @@
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/pile_problems.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/gauss_seidel/any_sweep.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
@@ -41,7 +40,7 @@ FrictionProblem slender_pile(int contacts) {
 
 /// So many iterations of the backend, from no impulses: the last iterate, better or not.
 Impulses after(const FrictionProblem& problem, int iterations) {
-  const auto solver = make_nesterov_pgs({.returns_best = false});
+  const auto solver = make_nesterov_pgs(/*returns_best=*/false);
   solver->prepare(problem);
   Budget budget;
   budget.tolerance = 0.0;

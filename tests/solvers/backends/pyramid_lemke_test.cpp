@@ -4,6 +4,7 @@
 
 #include "platform/random.hpp"
 #include "problems/algebra/known_solutions.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 
@@ -41,38 +42,26 @@ Eigen::MatrixXd random_matrix(int rows, int columns, Random& random) {
 }  // namespace
 
 TEST_CASE("pyramid: along one of its directions it is Coulomb's law, between them less friction") {
-  const Budget budget;
-  for (const int sides : {4, 8})
-    for (const double turn : {0.0, 0.5}) {  // 0: along a direction, 1/2: half-way to the next
-      const double half = M_PI / sides;
-      const auto solver = make_pyramid_lemke({.sides = sides});
-      const SolverRun run =
-          SolverRunner().run(*solver, sliding_block(turn * 2.0 * half), {}, budget);
-      CAPTURE(sides, turn, run.error.natural_map_rms);
-      CHECK(run.solved.own_residual < 1e-12);
-      CHECK(run.is_solved() == (turn == 0.0));
-      // Opposite to the motion the hull of the directions reaches mu r_N cos(pi / sides).
-      const Eigen::Vector2d motion(std::cos(turn * 2.0 * half), std::sin(turn * 2.0 * half));
-      CHECK(-run.solved.impulses.tail<2>().dot(motion) ==
-            Approx(0.4 * 0.1 * std::cos(2.0 * turn * half)));
-    }
+  constexpr double half = M_PI / 8.0;
+  for (const double turn : {0.0, 0.5}) {  // 0: along a direction, 1/2: half-way to the next
+    const SolverRun run =
+        SolverRunner().run(*make_pyramid_lemke(), sliding_block(turn * 2.0 * half), {}, Budget{});
+    CAPTURE(turn, run.error.natural_map_rms);
+    CHECK(run.solved.own_residual < 1e-12);
+    CHECK(run.is_solved() == (turn == 0.0));
+    // Opposite to the motion the hull of the directions reaches mu r_N cos(pi / 8).
+    const Eigen::Vector2d motion(std::cos(turn * 2.0 * half), std::sin(turn * 2.0 * half));
+    CHECK(-run.solved.impulses.tail<2>().dot(motion) ==
+          Approx(0.4 * 0.1 * std::cos(2.0 * turn * half)));
+  }
 }
 
-TEST_CASE(
-    "pyramid: its own law is solved on rank-deficient problems, and more sides come nearer to the "
-    "cone") {
+TEST_CASE("pyramid: its own law is solved on rank-deficient problems") {
   const FrictionProblem deficient =
       make_known_solution({.bodies = 8, .contacts = 30, .friction_min = 0.3}).problem;
-  double last = 1e30;
-  for (const int sides : {4, 8, 16}) {
-    const auto solver = make_pyramid_lemke({.sides = sides});
-    const SolverRun run = SolverRunner().run(*solver, deficient, {}, Budget{});
-    CAPTURE(sides, run.solved.iterations, run.solved.own_residual, run.error.natural_map_rms);
-    CHECK(run.solved.own_residual < 1e-9);
-    CHECK(run.solved.reason == StopReason::stalled);
-    CHECK(run.error.natural_map_rms < last);
-    last = run.error.natural_map_rms;
-  }
+  const SolverRun run = SolverRunner().run(*make_pyramid_lemke(), deficient, {}, Budget{});
+  CHECK(run.solved.own_residual < 1e-9);
+  CHECK(run.solved.reason == StopReason::stalled);
 }
 
 TEST_CASE("pyramid: a problem too large is declined by name") {

@@ -1,7 +1,5 @@
-#include "solvers/backends/sap.hpp"
-
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/parts/contact_operator.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
@@ -15,26 +13,6 @@ FrictionProblem rank_deficient() {
 }
 
 }  // namespace
-
-TEST_CASE("the regularised problem's impulses are those of its own compliance", "[factors]") {
-  const FrictionProblem problem = rank_deficient();
-  const SapSettings settings{.regularisation = 1e-2, .proximal = false};
-  const SolverRun run = SolverRunner().run(*make_sap(settings), problem, {},
-                                           {.tolerance = 1e-9, .max_iterations = 200});
-  CHECK(run.solved.reason ==
-        StopReason::stalled);  // it has solved its problem, which is not Coulomb's
-  CHECK(run.solved.iterations < 60);
-  ContactOperator w;
-  w.prepare(problem);
-  const Impulses& r = run.solved.impulses;
-  Eigen::VectorXd u;
-  w.velocity(r, u);
-  for (int c = 0; c < w.contact_count(); ++c) {
-    const double epsilon = settings.regularisation / w.rho()[c];
-    const Eigen::Vector3d gamma = project_cone(-w.at(u, c) / epsilon, w.friction(c));
-    CHECK((w.at(r, c) - gamma).norm() <= 1e-5 * r.norm());
-  }
-}
 
 TEST_CASE(
     "proximal steps take the regularisation away: the convex law is met, Coulomb's is not "

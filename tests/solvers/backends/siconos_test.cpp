@@ -1,14 +1,13 @@
 // Siconos' own measure is asked of it as it stands, and a comparison's child calls it without
 // another process.
 
-#include "solvers/backends/siconos.hpp"
-
 #include "platform/child_process.hpp"
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/pile_problems.hpp"
 #include "problems/algebra/stress_problems.hpp"
+#include "solvers/backends/backends.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 

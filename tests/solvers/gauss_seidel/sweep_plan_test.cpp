@@ -10,7 +10,7 @@
 #include "platform/worker_team.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

@@ -5,7 +5,7 @@
 
 #include "platform/random.hpp"
 #include "problems/algebra/contact_error.hpp"
-#include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"
 #include "tests/solvers/gauss_seidel/grain_problem.hpp"
 

@@ -35,12 +35,6 @@ Eigen::MatrixXd dense_matrix(const FrictionProblem& problem,
   return oracle::dense_mass(problem) + h.transpose() * middle * h;
 }
 
-Eigen::VectorXd wavy_side(int rows) {
-  Eigen::VectorXd b(rows);
-  for (int i = 0; i < rows; ++i) b[i] = std::sin(1.7 * i + 0.3);
-  return b;
-}
-
 /// I + G^T K G.
 Eigen::MatrixXd dense_matrix(const UnitMassContacts& contacts,
                              const std::vector<Eigen::Matrix3d>& gain) {
@@ -78,7 +72,7 @@ TEST_CASE("the matrix of bodies is that of its definition, for one set of gains 
     BodyMatrix matrix;
     matrix.prepare(problem);
     std::vector<Eigen::Matrix3d> gain = some_gains(problem);
-    const Eigen::VectorXd b = wavy_side(problem.dynamics.dof_count());
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(problem.dynamics.dof_count(), -1.0, 2.0);
     for (const double factor : {1.0, 30.0}) {
       for (Eigen::Matrix3d& block : gain) block *= factor;
       const Eigen::VectorXd exact = dense_matrix(problem, gain).partialPivLu().solve(b);

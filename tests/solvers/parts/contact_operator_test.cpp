@@ -59,19 +59,3 @@ TEST_CASE("the operator's error is the judge's, inside and outside the cones") {
       if (op.rho()[c] == 0.0) CHECK(op.at(r, c).norm() == 0.0);
   }
 }
-
-TEST_CASE("the power iteration comes close to the largest eigenvalue, from below") {
-  const FrictionProblem problem = make_known_solution({.mass_ratio = 100.0}).problem;
-  ContactOperator op;
-  op.prepare(problem);
-  Eigen::VectorXd rho(problem.row_count());
-  for (int c = 0; c < problem.contact_count(); ++c)
-    rho.segment(problem.row_begin[c], problem.contact_rows(c)).setConstant(std::sqrt(op.rho()[c]));
-  const Eigen::MatrixXd scaled =
-      rho.asDiagonal() * oracle::dense_delassus(problem) * rho.asDiagonal();
-  const double exact =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues().maxCoeff();
-  const double estimate = 1.0 / gradient_step(op);
-  CHECK(estimate > 0.8 * exact);
-  CHECK(estimate < 1.2 * exact);
-}

@@ -10,12 +10,11 @@ namespace {
 
 /// The convex problem with s held, by projected gradients: slow and plain.
 void solve_convex(ContactOperator& w, const SlipShift& shift, Impulses& r, Eigen::VectorXd& u) {
-  const double step = gradient_step(w) / 1.2;
   for (int k = 0; k < 20000; ++k) {
     w.velocity(r, u);
     const Impulses before = r;
     for (int c = 0; c < w.contact_count(); ++c)
-      w.put(r, c, w.at(r, c) - step * w.rho()[c] * shift.shifted(w, u, c));
+      w.put(r, c, w.at(r, c) - 0.3 * w.rho()[c] * shift.shifted(w, u, c));
     w.project(r);
     if ((r - before).norm() <= 1e-15 * r.norm()) break;
   }

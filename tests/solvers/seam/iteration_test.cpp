@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/backends/gauss_seidel.hpp"
+#include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/unsolvable.hpp"
 

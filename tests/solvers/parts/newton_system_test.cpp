@@ -1,0 +1,117 @@
+#include "solvers/parts/newton_system.hpp"
+
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/pile_problems.hpp"
+#include "tests/catch.hpp"
+#include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/delassus_form.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// Blocks without a pattern, regular together with alpha; nothing presses this share of the
+/// contacts.
+std::vector<ContactLinearisation> some_blocks(const FrictionProblem& problem, double idle = 0.0) {
+  std::vector<ContactLinearisation> linear(problem.contact_count());
+  double next = 0.41;  // logistic map
+  const auto number = [&next] { return (next = 3.99 * next * (1.0 - next)) - 0.5; };
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    ContactLinearisation& l = linear[c];
+    for (double& x : l.f) x = number();
+    for (double& x : l.by_r.reshaped()) x = 0.3 * number();
+    for (double& x : l.by_u.reshaped()) x = 0.3 * number();
+    l.by_r.diagonal().array() += 1.0;
+    l.by_u.diagonal().array() += 1.0;
+    if (number() + 0.5 < idle) l.by_u.setZero();
+    if (problem.contact_rows(c) == 3) continue;
+    l.f.tail<2>().setZero();  // one row: padded
+    l.by_r = Eigen::Vector3d(l.by_r(0, 0), 1.0, 1.0).asDiagonal();
+    l.by_u = Eigen::Vector3d(l.by_u(0, 0), 0.0, 0.0).asDiagonal();
+  }
+  return linear;
+}
+
+/// (by_r + by_u (W + alpha)) dr + f, in dense matrices.
+double residual(const FrictionProblem& problem, const Eigen::MatrixXd& w,
+                const std::vector<ContactLinearisation>& linear, const std::vector<double>& alpha,
+                const Impulses& dr) {
+  const Eigen::VectorXd du = w * dr;
+  double sum = 0.0;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int begin = problem.row_begin[c], rows = problem.contact_rows(c);
+    const Eigen::VectorXd r = dr.segment(begin, rows), u = du.segment(begin, rows);
+    const Eigen::VectorXd left = linear[c].by_r.topLeftCorner(rows, rows) * r +
+                                 linear[c].by_u.topLeftCorner(rows, rows) * (u + alpha[c] * r) +
+                                 linear[c].f.head(rows);
+    sum += left.squaredNorm();
+  }
+  return std::sqrt(sum);
+}
+
+/// One set of blocks after another: the pattern stays. `w`: of the whole problem.
+void check_solves(const FrictionProblem& problem, const Eigen::MatrixXd& w,
+                  const std::vector<ContactLinearisation>& linear) {
+  ContactOperator op;
+  op.prepare(problem);
+  NewtonSystem system;
+  system.prepare(op);
+  for (const double weight : {1e-2, 1.0}) {
+    const std::vector<double> alpha(problem.contact_count(), weight);
+    Impulses dr;
+    REQUIRE(system.solve(op, linear, alpha, dr));
+    CHECK(residual(problem, w, linear, alpha, dr) <= 1e-10 * (1.0 + dr.norm()));
+    CHECK(dr.norm() > 0.0);
+  }
+}
+
+FrictionProblem stored_pile(int contacts, double redundancy) {
+  return make_pile({.contacts = contacts, .redundancy = redundancy, .is_stored = true});
+}
+
+}  // namespace
+
+TEST_CASE("a Newton system is solved in both forms, for one set of blocks after another",
+          "[factors]") {
+  for (const FrictionProblem& dynamics :
+       {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
+    const Eigen::MatrixXd w = oracle::dense_delassus(dynamics);
+    for (const FrictionProblem& problem : {dynamics, only_delassus(dynamics)})
+      check_solves(problem, w, some_blocks(dynamics));
+  }
+}
+
+TEST_CASE("Newton's system of a stored W: few rows, nearly full, sparse, one row, unsymmetric",
+          "[factors]") {
+  KnownSolutionSettings settings;
+  settings.frictionless_fraction = 0.4;
+  FrictionProblem unsymmetric = only_delassus(make_known_solution(settings).problem);
+  for (int i = 0; i < unsymmetric.delassus.w.nonZeros(); i += 3)
+    unsymmetric.delassus.w.valuePtr()[i] *= 1.05;
+  // Dense: few rows; dense: W is nearly full; sparse.
+  for (const FrictionProblem& problem :
+       {stored_pile(30, 0.5), stored_pile(150, 0.8), stored_pile(200, 0.0), unsymmetric})
+    for (const double idle : {0.0, 0.4, 1.0}) {
+      INFO("share of idle contacts " << idle);
+      check_solves(problem, Eigen::MatrixXd(problem.delassus.w), some_blocks(problem, idle));
+    }
+}
+
+TEST_CASE("a singular system is said to be so; a stored W does without alpha", "[factors]") {
+  const FrictionProblem dynamics = make_known_solution({.bodies = 6, .contacts = 3}).problem;
+  const Eigen::Matrix3d zero = Eigen::Matrix3d::Zero(), one = Eigen::Matrix3d::Identity();
+  for (const FrictionProblem& problem : {dynamics, only_delassus(dynamics)}) {
+    ContactOperator op;
+    op.prepare(problem);
+    NewtonSystem system;
+    system.prepare(op);
+    Impulses dr;
+    const auto solves = [&](const Eigen::Matrix3d& by_u, double alpha) {
+      const std::vector<ContactLinearisation> all(3, {Eigen::Vector3d::Ones(), zero, by_u});
+      return system.solve(op, all, std::vector<double>(3, alpha), dr);
+    };
+    // Sticking contacts: by_r = 0, and B = alpha by_u is singular for alpha = 0.
+    CHECK(solves(one, 0.0) == problem.has_delassus);
+    CHECK_FALSE(solves(zero, 0.1));
+  }
+}

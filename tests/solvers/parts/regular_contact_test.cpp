@@ -1,0 +1,97 @@
+#include "solvers/parts/regular_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "platform/random.hpp"
+#include "solvers/parts/contact_equation.hpp"
+#include "tests/catch.hpp"
+
+using namespace ballast;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+Vector3d random_vector(Random& random) {
+  return {random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
+}
+
+constexpr double epsilon = 1e-2;
+const UnitMassContacts::Contact contact{.half_line = false, .friction = 0.5, .lambda_max = 2.0};
+
+}  // namespace
+
+TEST_CASE("where u_N = 0 the step is Newton's on Alart and Curnier's function") {
+  // There mu r_N and mu z_N, the two radii of the disc, are the same. dr solves
+  //   F + by_r dr + by_u (du + epsilon_c dr) = 0.
+  Random random(7);
+  int slips = 0, sticks = 0;
+  for (int k = 0; k < 400; ++k) {
+    Vector3d r = random_vector(random), u = 4.0 * random_vector(random);
+    const Vector3d du = random_vector(random);
+    r[0] = std::abs(r[0]) + 0.1;
+    u[0] = 0.0;
+    const RegularStep step = regular_step(contact, epsilon, r, u);
+    const ContactLinearisation l =
+        linearise(ContactEquation::alart_curnier, r, u, contact.friction, 1.0 / contact.lambda_max);
+    const Vector3d dr = step.source - step.gain * du;
+    const Vector3d left = l.f + l.by_r * dr + l.by_u * (du + epsilon * contact.lambda_max * dr);
+    CHECK(left.norm() < 1e-12);
+    slips += step.status == ContactStatus::slip;
+    sticks += step.status == ContactStatus::stick;
+  }
+  CHECK(slips > 50);
+  CHECK(sticks > 10);
+}
+
+TEST_CASE("a slipping step ends at u_N = 0 and on the edge of the disc, which moves with r_N") {
+  Random random(11);
+  int slips = 0;
+  for (int k = 0; k < 200; ++k) {
+    Vector3d r = random_vector(random);
+    r[0] = std::abs(r[0]) + 0.1;
+    const Vector3d u = 4.0 * random_vector(random), du = random_vector(random);
+    const RegularStep step = regular_step(contact, epsilon, r, u);
+    if (step.status != ContactStatus::slip) continue;
+    ++slips;
+    const Vector3d dr = step.source - step.gain * du, after = r + dr;
+    const Vector3d z = r - u / contact.lambda_max;
+    const double compliance = epsilon * contact.lambda_max;
+    CHECK(std::abs(u[0] + du[0] + compliance * dr[0]) < 1e-12);
+    const double along = (z[1] * after[1] + z[2] * after[2]) / std::hypot(z[1], z[2]);
+    CHECK(along == Approx(contact.friction * after[0]).margin(1e-9));
+  }
+  CHECK(slips > 50);
+}
+
+TEST_CASE("an open contact loses its impulse, whatever the bodies do") {
+  const RegularStep step = regular_step(contact, epsilon, {0.1, 0.2, -0.1}, {1.0, 0.3, 0.0});
+  CHECK(step.status == ContactStatus::open);
+  CHECK(step.source == Vector3d(-0.1, -0.2, 0.1));
+  CHECK(step.gain.isZero(0.0));
+}
+
+TEST_CASE("a half-line has no tangential impulse, also where all is at rest") {
+  UnitMassContacts::Contact smooth = contact;
+  smooth.friction = 0.0;
+  smooth.half_line = true;
+  const RegularStep step = regular_step(smooth, epsilon, {1.0, 0.25, 0.5}, {-0.5, 0.0, 0.0});
+  CHECK(step.source == Vector3d(0.5 / (epsilon * smooth.lambda_max), -0.25, -0.5));
+  CHECK(step.gain.bottomRows<2>().isZero(0.0));
+  CHECK(step.gain(0, 0) == 1.0 / (epsilon * smooth.lambda_max));
+}
+
+TEST_CASE("a slipping contact that is pulled keeps a gain that is not negative") {
+  // r_N < 0: the disc is empty, and kappa is zero.
+  const RegularStep step = regular_step(contact, epsilon, {-0.1, 0.0, 0.1}, {-1.0, 2.0, 0.0});
+  CHECK(step.status == ContactStatus::slip);
+  const Matrix3d symmetric = 0.5 * (step.gain + step.gain.transpose());
+  CHECK(step.gain.block<2, 2>(1, 1).isZero(0.0));
+  CHECK(symmetric(0, 0) > 0.0);
+  // r_N large: kappa is held at one.
+  const RegularStep held = regular_step(contact, epsilon, {10.0, 0.0, 0.1}, {19.0, 2.0, 0.0});
+  REQUIRE(held.status == ContactStatus::slip);
+  CHECK(held.gain(2, 2) <= 1.0 / (epsilon * contact.lambda_max) * (1.0 + 1e-12));
+  CHECK(held.gain(2, 2) >= 0.0);
+}
